@@ -1,0 +1,78 @@
+"""What holds for the package as a whole: its version, its files, its dependencies, its wheel."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+import tomllib
+import zipfile
+from importlib import metadata
+from pathlib import Path
+
+import pytest
+
+import mudline
+from mudline.resources import grammar_file
+
+ROOT = Path(__file__).parents[1]
+GRAMMAR = sorted(path.name for path in (ROOT / "grammar").glob("*.lark"))
+LONGEST_FILE = 450
+
+
+@pytest.fixture(scope="module")
+def wheel_names(tmp_path_factory: pytest.TempPathFactory) -> set[str]:
+    folder = tmp_path_factory.mktemp("dist")
+    build = [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", str(folder)]
+    subprocess.run(build, cwd=ROOT, check=True, capture_output=True)
+    (wheel,) = folder.glob("*.whl")
+    with zipfile.ZipFile(wheel) as archive:
+        return set(archive.namelist())
+
+
+def test_version_is_that_of_the_metadata() -> None:
+    assert mudline.__version__ == metadata.version("mudline")
+
+
+def test_metadata_names_the_licence_by_its_spdx_name() -> None:
+    assert metadata.metadata("mudline")["License-Expression"] == "MIT"
+
+
+def test_package_is_typed() -> None:
+    assert (Path(mudline.__file__).parent / "py.typed").is_file()
+
+
+@pytest.mark.parametrize("name", GRAMMAR)
+def test_checkout_finds_its_grammar(name: str) -> None:
+    assert grammar_file(name).samefile(ROOT / "grammar" / name)
+
+
+def test_there_is_a_grammar() -> None:
+    assert "deck.lark" in GRAMMAR
+
+
+def test_wheel_holds_every_module(wheel_names: set[str]) -> None:
+    source = ROOT / "src"
+    modules = {path.relative_to(source).as_posix() for path in (source / "mudline").rglob("*.py")}
+    assert modules <= wheel_names
+
+
+def test_wheel_holds_the_grammar_and_the_marker_of_types(wheel_names: set[str]) -> None:
+    assert {f"mudline/grammar/{name}" for name in GRAMMAR} <= wheel_names
+    assert "mudline/py.typed" in wheel_names
+
+
+def test_dependencies_have_lower_bounds_only() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    extras = project["optional-dependencies"].values()
+    requirements = [*project["dependencies"], *(line for extra in extras for line in extra)]
+    others = [line for line in requirements if not line.startswith("mudline[")]
+    assert len(others) > 5
+    assert [line for line in others if not re.fullmatch(r"[a-z0-9-]+>=[0-9.]+", line)] == []
+
+
+def test_no_file_is_too_long_to_read() -> None:
+    files = [path for folder in ("src", "tests") for path in (ROOT / folder).rglob("*.py")]
+    lengths = {path.relative_to(ROOT).as_posix(): path.read_text(encoding="utf-8").count("\n") for path in files}
+    assert len(lengths) > 5
+    assert {name: length for name, length in lengths.items() if length > LONGEST_FILE} == {}
