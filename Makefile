@@ -1,0 +1,77 @@
+# Needs Python 3.11 or later, make and git; everything else goes into .venv.
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
+# An installation is as old as the files that say what it consists of.
+INSTALLATION := pyproject.toml src/mudline/__init__.py
+OUT := demo-output
+BENCHMARKS := $(sort $(wildcard tests/benchmarks/*.py))
+# More arguments for pytest: make test ARGS="-k curves"
+ARGS ?=
+
+.DEFAULT_GOAL := help
+.PHONY: help install demo test lint format typecheck bench build clean
+
+help: ## this list
+	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-10s %s\n", $$1, $$2 }' Makefile
+
+install: $(VENV)/.developer ## the project with every extra and the developer's tools, in .venv
+
+# The file pip is what a venv that was broken off half-way does not have.
+$(BIN)/pip:
+	@$(PYTHON) -c 'import sys; sys.version_info >= (3, 11) or sys.exit("mudline needs Python 3.11 or later: make PYTHON=python3.11")'
+	$(PYTHON) -m venv $(VENV)
+
+$(VENV)/.user: $(INSTALLATION) | $(BIN)/pip
+	$(PIP) install --editable .
+	@touch $@
+
+# Dependency groups are new in pip 25.1; Python 3.11 comes with an older one.
+$(VENV)/.developer: $(INSTALLATION) | $(BIN)/pip
+	$(PIP) install "pip>=25.1"
+	$(PIP) install --group dev --editable ".[all]"
+	@touch $(VENV)/.user $@
+
+# ------------------------------------------------------------------------------------------------------------- a look
+
+# run COMMAND: print it as a reader would type it, then run it.
+run = @printf '\n$$ %s\n' '$(1)'; PATH="$(CURDIR)/$(BIN):$$PATH"; $(1)
+
+demo: $(VENV)/.user ## a look at what mudline does, on samples/
+	@mkdir -p $(OUT)
+	$(call run,mudline lint samples/broken.keyxm); code=$$?; echo "exit code $$code: there are findings"; test $$code -eq 1
+	$(call run,mudline convert samples/legacy-flowline.keyxm -o $(OUT)/legacy-flowline.json)
+	$(call run,head -n 16 $(OUT)/legacy-flowline.json)
+	$(call run,mudline convert samples/legacy-flowline.keyxm -o $(OUT)/legacy-flowline.yaml)
+	$(call run,head -n 16 $(OUT)/legacy-flowline.yaml)
+	$(call run,mudline curves samples/scr-touchdown.keyxm)
+	$(call run,mudline evaluate samples/scr-touchdown.keyxm)
+
+# ----------------------------------------------------------------------------------------------------------- the work
+
+test: $(VENV)/.developer ## the whole test suite, with coverage
+	$(BIN)/python -m pytest --cov $(ARGS)
+
+lint: $(VENV)/.developer ## style, layout of the code, and the order of the layers
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/lint-imports --no-logo
+
+typecheck: $(VENV)/.developer ## mypy --strict on the code and the tests
+	$(BIN)/mypy
+
+format: $(VENV)/.developer ## put the code into its canonical layout
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+bench: $(VENV)/.developer ## run the benchmarks
+	@for script in $(BENCHMARKS); do echo "== $$script"; $(BIN)/python "$$script" || exit; done
+
+build: $(VENV)/.developer ## the source archive and the wheel, in dist/
+	$(BIN)/python -m hatchling build
+
+clean: ## remove everything that can be made again
+	rm -rf $(VENV) $(OUT) dist build htmlcov .coverage .coverage.* .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
+	find src tests -type d -name __pycache__ -prune -exec rm -rf {} +
