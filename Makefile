@@ -8,7 +8,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 INSTALLATION := pyproject.toml src/mudline/__init__.py
 OUT := demo-output
 BENCHMARKS := $(sort $(wildcard tests/benchmarks/*.py))
-# More arguments for pytest: make test ARGS="-k curves"
+# More arguments for pytest: make test ARGS="-k curves --no-cov"
 ARGS ?=
 
 .DEFAULT_GOAL := help
