@@ -41,7 +41,7 @@ run = @printf '\n$$ %s\n' '$(1)'; PATH="$(CURDIR)/$(BIN):$$PATH"; $(1)
 
 demo: $(VENV)/.user ## a look at what mudline does, on samples/
 	@mkdir -p $(OUT)
-	$(call run,mudline lint samples/broken.keyxm); code=$$?; echo "exit code $$code: there are findings"; test $$code -eq 1
+	$(call run,mudline lint samples/broken.keyxm); code=$$?; echo "(exit code $$code)"; test $$code -eq 1
 	$(call run,mudline convert samples/legacy-flowline.keyxm -o $(OUT)/legacy-flowline.json)
 	$(call run,head -n 16 $(OUT)/legacy-flowline.json)
 	$(call run,mudline convert samples/legacy-flowline.keyxm -o $(OUT)/legacy-flowline.yaml)
