@@ -1,0 +1,52 @@
+"""Stage `assembly`: element forces become nodal reactions.
+
+An element of length L and force f per unit length gives f L / 2 to each of its two nodes, also to one above the bed,
+along the normal of the bed at that node.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mudline.contact.arrays import FloatArray, IndexArray
+from mudline.contact.errors import ElementError
+from mudline.contact.inputs import ContactInput
+from mudline.contact.result import ContactResult
+
+
+class Assembly:
+    """Adds up the forces of `elements` (indices) at their nodes."""
+
+    def __init__(self, inputs: ContactInput, elements: IndexArray) -> None:
+        self._element_ids = inputs.element_ids[elements]
+        self._elements = elements
+        self._ends = inputs.element_nodes[elements].T
+        self._half_length = 0.5 * inputs.length[elements]
+
+    def apply(self, part: ContactResult, first_step: int) -> None:
+        """Write `normal_force` (steps, n) and `reaction` (steps, n, 3) of `part` from its `force` (steps, m).
+
+        Raises:
+            ElementError: an element's force or the sum at a node overflows.
+        """
+        load = np.take(part.force, self._elements, axis=1)
+        load *= self._half_length
+        self._check(load, first_step)
+        steps, nodes = part.normal_force.shape
+        row = nodes * np.arange(steps)[:, np.newaxis]
+        total = part.normal_force.reshape(-1)
+        for end in self._ends:
+            # bincount adds in the order of the elements, so a step's sum does not depend on the steps beside it.
+            total += np.bincount((row + end).reshape(-1), load.reshape(-1), len(total))
+        for end in self._ends:
+            self._check(part.normal_force[:, end], first_step)
+        np.multiply(part.normal_force[..., np.newaxis], part.normal, out=part.reaction)
+        part.reaction += 0.0  # a negative force times a zero component is -0, which is no reaction of its own
+
+    def _check(self, values: FloatArray, first_step: int) -> None:
+        """Refuse values (steps, elements) that overflowed."""
+        finite = np.isfinite(values)
+        if not finite.all():
+            step, column = (int(index) for index in np.argwhere(~finite)[0])
+            culprit, step = int(self._element_ids[column]), first_step + step
+            raise ElementError(f"element {culprit} at step {step}: the reaction at its nodes overflows", culprit, step)

@@ -1,0 +1,93 @@
+"""What an evaluation gives."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mudline.contact import floor
+from mudline.contact.arrays import BoolArray, FloatArray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ContactResult:
+    """Arrays over elements (m) and nodes (n); over (steps, m) and (steps, n) for a series of positions.
+
+    NaN stands for "none": `ratio` and `slope` of an element without diameter, and everything of elements and nodes
+    without a position.
+
+    Attributes:
+        depth: mean distance of the element's two nodes below the bed; negative above it.
+        ratio: embedment ratio, depth / diameter.
+        contact: depth > 0.
+        force: normal force per unit length, positive pushing out of the bed.
+        slope: d force / d ratio, per unit length.
+        stiffness: d force / d penetration, per unit length and length of penetration.
+        cut: where a pulling curve was cut; such an element is in contact with force, slope and stiffness 0.
+        gap: distance of the node above the bed, along its normal.
+        normal: (..., n, 3) unit normal of the bed at the node, out of the soil; may be a read-only view.
+        reaction: (..., n, 3) total force of the bed on the node.
+        normal_force: the reaction along the normal, positive pushing out of the bed.
+        evaluated: (m,) elements whose two nodes have positions.
+        present: (n,) nodes that have a position.
+    """
+
+    depth: FloatArray
+    ratio: FloatArray
+    contact: BoolArray
+    force: FloatArray
+    slope: FloatArray
+    stiffness: FloatArray
+    cut: BoolArray
+    gap: FloatArray
+    normal: FloatArray
+    reaction: FloatArray
+    normal_force: FloatArray
+    evaluated: BoolArray
+    present: BoolArray
+
+    def step(self, index: int) -> ContactResult:
+        """Return one step of a series, as views."""
+        return self._cut(index)
+
+    def steps(self, start: int, stop: int) -> ContactResult:
+        """Return the steps start <= step < stop of a series, as views."""
+        return self._cut(slice(start, stop))
+
+    def _cut(self, key: int | slice) -> ContactResult:
+        return ContactResult(
+            depth=self.depth[key],
+            ratio=self.ratio[key],
+            contact=self.contact[key],
+            force=self.force[key],
+            slope=self.slope[key],
+            stiffness=self.stiffness[key],
+            cut=self.cut[key],
+            gap=self.gap[key],
+            normal=self.normal[key],
+            reaction=self.reaction[key],
+            normal_force=self.normal_force[key],
+            evaluated=self.evaluated,
+            present=self.present,
+        )
+
+
+def blank_result(steps: int, evaluated: BoolArray, present: BoolArray) -> ContactResult:
+    """Return a series of results to be filled in: no force anywhere, depths, ratios and gaps not yet set."""
+    on_elements, on_nodes = (steps, len(evaluated)), (steps, len(present))
+    return ContactResult(
+        depth=np.empty(on_elements),
+        ratio=np.empty(on_elements),
+        contact=np.zeros(on_elements, np.bool_),
+        force=np.zeros(on_elements),
+        slope=np.zeros(on_elements),
+        stiffness=np.zeros(on_elements),
+        cut=np.zeros(on_elements, np.bool_),
+        gap=np.empty(on_nodes),
+        normal=floor.normals(on_nodes),
+        reaction=np.zeros((*on_nodes, 3)),
+        normal_force=np.zeros(on_nodes),
+        evaluated=evaluated,
+        present=present,
+    )

@@ -1,0 +1,226 @@
+"""Force-embedment curves: piecewise linear, with the end segments continued to infinity.
+
+The embedment ratio r is penetration / external diameter (dimensionless), the force f is per unit length, in whatever
+units the deck uses. With the points sorted by ratio and s_i = (F_(i+1) - F_i) / (r_(i+1) - r_i):
+
+* r_i <= r < r_(i+1):  f = F_i + s_i (r - r_i), slope s_i (at a point the segment to its right holds);
+* r < r_0:             the same with i = 0;
+* r >= r_n, the last:  f = F_n + s_(n-1) (r - r_n).
+
+The force is exact at every point and nothing is clamped.
+"""
+
+from __future__ import annotations
+
+from typing import NoReturn
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mudline.curves.arrays import FloatArray, IndexArray, real_numbers
+from mudline.curves.blocks import BLOCK, Work, blocks
+from mudline.curves.errors import QueryError
+from mudline.curves.points import checked_points, difference_quotient
+
+_COUNTED_POINTS = 16
+"""Up to this many points, counting the points passed is faster than a binary search."""
+
+_SHOWN_POINTS = 8
+
+
+class ForceCurve:
+    """A force-embedment curve: force per unit length over embedment ratio. Immutable.
+
+    Attributes:
+        name: what the curve is called, or None.
+        ratios: (n,) embedment ratios, strictly ascending, read-only.
+        forces: (n,) forces per unit length at the ratios, read-only.
+        slopes: (n - 1,) d force / d ratio of each segment, read-only.
+    """
+
+    __slots__ = ("_inner", "_tails", "forces", "name", "ratios", "slopes")
+
+    name: str | None
+    ratios: FloatArray
+    forces: FloatArray
+    slopes: FloatArray
+    _inner: FloatArray  # the points that can be passed: all but the first
+    _tails: FloatArray  # slope to the right of each point
+
+    def __init__(self, points: ArrayLike, name: str | None = None) -> None:
+        """Sort and check `points`: pairs (ratio, force) in any order; a repeated pair counts once.
+
+        Raises:
+            CurveError: the points do not make a curve; its `code` and `index` say why and which.
+            ValueError: `points` are no pairs of real numbers.
+        """
+        ratios, forces, slopes = checked_points(points)
+        tails = np.append(slopes, slopes[-1])
+        for array in (ratios, forces, slopes, tails):
+            array.setflags(write=False)
+        fields = {
+            "name": name,
+            "ratios": ratios,
+            "forces": forces,
+            "slopes": slopes,
+            "_inner": ratios[1:],
+            "_tails": tails,
+        }
+        for field, value in fields.items():
+            object.__setattr__(self, field, value)
+
+    def evaluate(
+        self, ratios: ArrayLike, *, out: tuple[FloatArray, FloatArray] | None = None
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return force and slope (d force / d ratio) at `ratios`, each of their shape.
+
+        `out=(force, slope)` receives the values in place: float64 arrays of the shape of `ratios`, which may be the
+        memory of `ratios` itself; after an error their content is undefined.
+
+        Raises:
+            QueryError: a ratio is NaN or infinite, or the force there overflows.
+            ValueError: `ratios` are no real numbers, or `out` does not fit.
+        """
+        query = real_numbers(ratios, "ratios")
+        force, slope = (np.empty(query.shape), np.empty(query.shape)) if out is None else _checked_out(out, query.shape)
+        work = Work(min(query.size, BLOCK))
+        done = 0
+        with np.errstate(all="ignore"), blocks(query, force, slope) as pieces:
+            for ratio, block_force, block_slope in pieces:
+                self._evaluate_block(ratio, block_force, block_slope, work.cut(len(ratio)), done)
+                done += len(ratio)
+        return force, slope
+
+    def segment(self, ratios: ArrayLike) -> IndexArray:
+        """Return which segment holds at `ratios`, from 0: the first also below, the last also beyond the points.
+
+        Raises:
+            QueryError: a ratio is NaN or infinite.
+        """
+        query = _finite(ratios)
+        found = np.empty(query.shape, np.intp)
+        work = Work(min(query.size, BLOCK))
+        with blocks(query, found) as pieces:
+            for ratio, block_found in pieces:
+                np.minimum(self._points_passed(ratio, work.cut(len(ratio))), len(self.slopes) - 1, out=block_found)
+        return found
+
+    def extrapolated(self, ratios: ArrayLike) -> NDArray[np.int8]:
+        """Return -1 where `ratios` lie below the first point, 1 beyond the last, 0 between them and at them.
+
+        Raises:
+            QueryError: a ratio is NaN or infinite.
+        """
+        query = _finite(ratios)
+        beyond = np.greater(query, self.ratios[-1]).astype(np.int8)
+        return np.asarray(beyond - np.less(query, self.ratios[0]))
+
+    def ratios_at_force(self, force: float) -> tuple[float, ...]:
+        """Return every ratio at which the curve, its continued ends included, has this force, ascending.
+
+        A flat stretch at this force is given by the points it joins. A ratio too large for a float64 is left out.
+        With the submerged weight per unit length as `force` these are the static embedments.
+
+        Raises:
+            ValueError: `force` is NaN or infinite.
+        """
+        if not np.isfinite(force):
+            raise ValueError(f"no ratio has the force {force}")
+        reached = self.ratios[self.forces == force]
+        low, high = self.forces[:-1], self.forces[1:]
+        crossed = ((low < force) & (force < high)) | ((high < force) & (force < low))
+        offset = difference_quotient(np.float64(force), low[crossed], self.slopes[crossed])
+        inside = np.clip(self.ratios[:-1][crossed] + offset, self.ratios[:-1][crossed], self.ratios[1:][crossed])
+        found = {*reached.tolist(), *inside.tolist(), *self._beyond_ends(force)}
+        return tuple(sorted(found))
+
+    def _beyond_ends(self, force: float) -> list[float]:
+        """The ratios of this force below the first and beyond the last point."""
+        found = []
+        for end, outward in ((0, -1.0), (-1, 1.0)):
+            rise = outward * self.slopes[end]
+            if (rise > 0.0 and force > self.forces[end]) or (rise < 0.0 and force < self.forces[end]):
+                offset = difference_quotient(np.float64(force), self.forces[end], self.slopes[end])
+                with np.errstate(over="ignore"):
+                    ratio = self.ratios[end] + offset
+                if np.isfinite(ratio):
+                    found.append(float(ratio))
+        return found
+
+    def _points_passed(self, ratio: FloatArray, work: Work) -> IndexArray:
+        """How many points after the first lie at or below each ratio: the index of the point to evaluate from."""
+        if len(self._inner) >= _COUNTED_POINTS:
+            return np.searchsorted(self._inner, ratio, side="right")
+        np.greater_equal(ratio, self._inner[0], out=work.count.view(np.bool_))
+        for point in self._inner[1:]:
+            np.greater_equal(ratio, point, out=work.flag)
+            np.add(work.count, work.flag.view(np.uint8), out=work.count)
+        work.index[...] = work.count
+        return work.index
+
+    def _evaluate_block(self, ratio: FloatArray, force: FloatArray, slope: FloatArray, work: Work, start: int) -> None:
+        point = self._points_passed(ratio, work)
+        np.take(self.ratios, point, out=work.offset, mode="clip")
+        np.subtract(ratio, work.offset, out=work.offset)
+        np.take(self._tails, point, out=slope, mode="clip")
+        np.multiply(work.offset, slope, out=work.offset)
+        np.take(self.forces, point, out=force, mode="clip")
+        np.add(force, work.offset, out=force)
+        if not np.isfinite(force, out=work.flag).all():
+            self._mend(ratio, force, point, np.flatnonzero(~work.flag), start)
+
+    def _mend(self, ratio: FloatArray, force: FloatArray, point: IndexArray, where: IndexArray, start: int) -> None:
+        """Evaluate again where an intermediate value overflowed: added in two halves the force may well be finite."""
+        at = point[where]
+        half = self._tails[at] * (0.5 * ratio[where] - 0.5 * self.ratios[at])
+        force[where] = self.forces[at] + half + half
+        bad = where[~np.isfinite(force[where])]
+        if bad.size:
+            _refuse(ratio, int(bad[0]), start)
+
+    def __setattr__(self, name: str, value: object) -> NoReturn:
+        raise AttributeError(f"a ForceCurve does not change: cannot set {name}")
+
+    def __delattr__(self, name: str) -> NoReturn:
+        raise AttributeError(f"a ForceCurve does not change: cannot delete {name}")
+
+    def __reduce__(self) -> tuple[type[ForceCurve], tuple[FloatArray, str | None]]:
+        return type(self), (np.column_stack((self.ratios, self.forces)), self.name)
+
+    def __eq__(self, other: object) -> bool:
+        """Same name and same points."""
+        if not isinstance(other, ForceCurve):
+            return NotImplemented
+        same_points = np.array_equal(self.ratios, other.ratios) and np.array_equal(self.forces, other.forces)
+        return self.name == other.name and same_points
+
+    def __hash__(self) -> int:
+        return hash((self.name, self.ratios.tobytes(), self.forces.tobytes()))
+
+    def __repr__(self) -> str:
+        count = len(self.ratios)
+        pairs = list(zip(self.ratios.tolist(), self.forces.tolist(), strict=True))
+        shown = repr(pairs) if count <= _SHOWN_POINTS else f"<{count} points from {pairs[0]} to {pairs[-1]}>"
+        return f"ForceCurve({shown}, name={self.name!r})"
+
+
+def _finite(ratios: ArrayLike) -> FloatArray:
+    with np.errstate(over="ignore"):
+        query = real_numbers(ratios, "ratios").astype(np.float64, copy=False)
+    bad = np.flatnonzero(~np.isfinite(query))
+    if bad.size:
+        _refuse(query.reshape(-1), int(bad[0]), 0)
+    return query
+
+
+def _refuse(ratio: FloatArray, index: int, start: int) -> NoReturn:
+    value = float(ratio[index])
+    why = "the force there overflows" if np.isfinite(value) else "it is not finite"
+    raise QueryError(start + index, value, f"no force at ratio {value!r} (index {start + index}): {why}")
+
+
+def _checked_out(out: tuple[FloatArray, FloatArray], shape: tuple[int, ...]) -> tuple[FloatArray, FloatArray]:
+    for array in out:
+        if array.shape != shape or array.dtype != np.float64:
+            raise ValueError(f"out must be float64 of shape {shape}, not {array.dtype} of shape {array.shape}")
+    return out

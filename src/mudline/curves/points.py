@@ -1,0 +1,104 @@
+"""From points in any order to sorted, checked points and the slopes between them."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mudline.curves.arrays import FloatArray, IndexArray, real_numbers
+from mudline.curves.errors import CurveError
+
+_SMALLEST_NORMAL = np.finfo(np.float64).tiny
+
+
+class CurvePoints(NamedTuple):
+    """Sorted points without repeats, and the slopes between them.
+
+    ratios: (n,) strictly ascending, n >= 2; forces: (n,); slopes: (n - 1,). All finite; a slope is 0 or normal.
+    """
+
+    ratios: FloatArray
+    forces: FloatArray
+    slopes: FloatArray
+
+
+def checked_points(points: ArrayLike) -> CurvePoints:
+    """Sort and check `points`: pairs (ratio, force) in any order; a repeated pair counts once.
+
+    Raises:
+        CurveError: the points do not make a curve.
+        ValueError: they are no pairs of real numbers.
+    """
+    given = _pairs(points)
+    order = np.argsort(given[:, 0], kind="stable")
+    order = order[_first_of_each_ratio(given, order)]
+    if len(order) < 2:
+        raise CurveError("CRV001", -1, f"a curve needs two distinct points or more, not {len(order)}")
+    ratios, forces = given[order, 0], given[order, 1]
+    return CurvePoints(ratios, forces, _slopes(ratios, forces, order))
+
+
+def _pairs(points: ArrayLike) -> FloatArray:
+    """The points as an (n, 2) float64 array, every number finite, no negative zeros."""
+    given = real_numbers(points, "points")
+    if given.size == 0:
+        return np.empty((0, 2))
+    if given.ndim != 2 or given.shape[1] != 2:
+        raise ValueError(f"points must be pairs (ratio, force), not an array of shape {given.shape}")
+    with np.errstate(over="ignore"):
+        pairs = given.astype(np.float64) + 0.0
+    bad = np.flatnonzero(~np.isfinite(pairs).all(axis=1))
+    if bad.size:
+        index = int(bad[0])
+        ratio, force = pairs[index].tolist()
+        raise CurveError("SYN002", index, f"point {index + 1} is not finite: ({ratio!r}, {force!r})")
+    return pairs
+
+
+def _first_of_each_ratio(given: FloatArray, order: IndexArray) -> NDArray[np.bool_]:
+    """Mask over the sorted points that drops repeats.
+
+    Raises:
+        CurveError: CRV003, one ratio with two forces.
+    """
+    ratios, forces = given[order, 0], given[order, 1]
+    repeats = ratios[1:] == ratios[:-1]
+    clashes = np.flatnonzero(repeats & (forces[1:] != forces[:-1]))
+    if clashes.size:
+        first, later = order[clashes[0]], order[clashes[0] + 1]
+        values = f"{given[first, 1].item()!r} (point {first + 1}) and {given[later, 1].item()!r} (point {later + 1})"
+        raise CurveError("CRV003", int(later), f"two forces at ratio {given[first, 0].item()!r}: {values}")
+    return np.concatenate((np.ones(min(len(order), 1), np.bool_), ~repeats))
+
+
+def _slopes(ratios: FloatArray, forces: FloatArray, order: IndexArray) -> FloatArray:
+    """Slope of each segment.
+
+    Raises:
+        CurveError: CRV011, a width or a slope overflows, or a slope is not zero but too small to be a normal number.
+    """
+    with np.errstate(over="ignore"):
+        widths = np.diff(ratios)
+    slopes = difference_quotient(forces[1:], forces[:-1], widths)
+    subnormal = (forces[1:] != forces[:-1]) & (np.abs(slopes) < _SMALLEST_NORMAL)
+    bad = np.flatnonzero(~np.isfinite(widths) | ~np.isfinite(slopes) | subnormal)
+    if bad.size:
+        segment = int(bad[0])
+        ends = order[segment : segment + 2]
+        what = "width" if not np.isfinite(widths[segment]) else "slope"
+        fault = "is too small" if what == "slope" and subnormal[segment] else "is too large"
+        message = f"the {what} between points {ends[0] + 1} and {ends[1] + 1} {fault} for a float64"
+        raise CurveError("CRV011", int(ends.max()), message)
+    return slopes
+
+
+def difference_quotient(
+    upper: FloatArray | np.float64, lower: FloatArray | np.float64, divisor: FloatArray | np.float64
+) -> FloatArray:
+    """(upper - lower) / divisor, also where only the difference overflows."""
+    with np.errstate(all="ignore"):
+        plain = (upper - lower) / divisor
+        halved = (0.5 * upper - 0.5 * lower) / divisor * 2.0
+    return np.where(np.isinf(plain), halved, plain)
