@@ -127,12 +127,17 @@ class ForceCurve:
         if not np.isfinite(force):
             raise ValueError(f"no ratio has the force {force}")
         reached = self.ratios[self.forces == force]
-        low, high = self.forces[:-1], self.forces[1:]
-        crossed = ((low < force) & (force < high)) | ((high < force) & (force < low))
-        offset = difference_quotient(np.float64(force), low[crossed], self.slopes[crossed])
-        inside = np.clip(self.ratios[:-1][crossed] + offset, self.ratios[:-1][crossed], self.ratios[1:][crossed])
-        found = {*reached.tolist(), *inside.tolist(), *self._beyond_ends(force)}
+        found = {*reached.tolist(), *self._inside(force).tolist(), *self._beyond_ends(force)}
         return tuple(sorted(found))
+
+    def _inside(self, force: float) -> FloatArray:
+        """The ratios of this force between points, each reckoned from the point that is nearer in force."""
+        low, high = self.forces[:-1], self.forces[1:]
+        segment = np.flatnonzero(((low < force) & (force < high)) | ((high < force) & (force < low)))
+        middle = 0.5 * low[segment] + 0.5 * high[segment]
+        near = segment + ((force > middle) == (high[segment] > low[segment]))
+        offset = difference_quotient(np.float64(force), self.forces[near], self.slopes[segment])
+        return np.clip(self.ratios[near] + offset, self.ratios[segment], self.ratios[segment + 1])
 
     def _beyond_ends(self, force: float) -> list[float]:
         """The ratios of this force below the first and beyond the last point."""

@@ -1,0 +1,106 @@
+"""Blocks with their equations replaced by numbers: the same types, nothing behind this knows equations."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from mudline.codes import SYN002
+from mudline.deck.model import Deck
+from mudline.deck.parameters import NoValue, Parameters, Value, whole_fault
+from mudline.diagnostics import Problem, Where
+from mudline.keywords.model import ListRow, Part, Rows, Slot, layout
+from mudline.keywords.table import Table
+from mudline.keywords.values import Equation, Kind
+
+
+def evaluated(deck: Deck) -> tuple[Deck, list[Problem]]:
+    """The deck with every equation of `$MODEL` evaluated; one without a value becomes NaN and a problem."""
+    parameters = Parameters(deck)
+    evaluator = _Evaluator(parameters)
+    sections = []
+    for i, section in enumerate(deck.sections):
+        blocks = list(section.blocks)
+        if section.name == "MODEL":
+            for j, block in enumerate(section.blocks):
+                blocks[j] = evaluator.part(block, Where(i, j))
+        sections.append(type(section)(section.name, blocks, section.comments, section.lines))
+    ready = Deck(deck.file, deck.source, deck.units, deck.preamble, sections, deck.comments, deck.problems, deck.origin)
+    return ready, parameters.problems + evaluator.problems
+
+
+class _Evaluator:
+    def __init__(self, parameters: Parameters) -> None:
+        self.parameters = parameters
+        self.problems: list[Problem] = []
+
+    def part(self, part: Any, where: Where) -> Any:
+        """A part without equations; the same object if it has none."""
+        changed: dict[str, object] = {}
+        for slot in layout(type(part)).slots:
+            value = getattr(part, slot.name)
+            inner = where._replace(path=(*where.path, slot.json))
+            new = self._value(value, slot, inner)
+            if new is not value:
+                changed[slot.name] = new
+        return part.model_copy(update=changed) if changed else part
+
+    def _value(self, value: object, slot: Slot, where: Where) -> object:
+        if isinstance(value, Equation):
+            return self._number(value, slot.kind or Kind.REAL, slot.label, where)
+        if isinstance(value, Table):
+            return self._table(value, slot, where) if value.equations else value
+        if isinstance(value, ListRow):
+            return self._list_row(value, where)
+        if isinstance(value, Part):
+            return self.part(value, where)
+        if isinstance(value, list) and value and isinstance(value[0], Part):
+            new = [self.part(item, where._replace(path=(*where.path, i))) for i, item in enumerate(value)]
+            return new if any(a is not b for a, b in zip(new, value, strict=True)) else value
+        return value
+
+    def _list_row(self, row: ListRow, where: Where) -> ListRow:
+        """Its fields have the index as path, as JSON holds them in a list."""
+        changed: dict[str, object] = {}
+        for index, slot in enumerate(layout(type(row)).columns):
+            value = getattr(row, slot.name)
+            if isinstance(value, Equation):
+                place = where._replace(path=(*where.path, index))
+                changed[slot.name] = self._number(value, slot.kind or Kind.REAL, slot.label, place)
+        return row.model_copy(update=changed) if changed else row
+
+    def _number(self, equation: Equation, kind: Kind, label: str, where: Where) -> Value | None:
+        """The value of an equation; without one NaN, or None where a whole number belongs."""
+        whole = kind in (Kind.WHOLE, Kind.IDENT)
+        nothing = None if whole else math.nan
+        try:
+            value = self.parameters.evaluate(equation, where)
+        except NoValue as reason:
+            if reason.problem:
+                self.problems.append(reason.problem)
+            return nothing
+        if isinstance(value, str):
+            if kind is Kind.REAL_OR_NAME:
+                return value
+            message = f"{equation} gives the text {value!r}: {label} needs a number"
+            self.problems.append(Problem(SYN002, message, None, None, where))
+            return nothing
+        if not whole:
+            return value
+        if value.is_integer():
+            return int(value)
+        self.problems.append(whole_fault(equation, value, label, where))
+        return None
+
+    def _table(self, table: Table, slot: Slot, where: Where) -> Table:
+        assert isinstance(slot.about, Rows)
+        columns = slot.about.columns()
+        values = table.values.copy()
+        words = dict(table.words)
+        for (row, column), word in table.words.items():
+            if isinstance(word, Equation):
+                place = where._replace(path=(*where.path, row, column))
+                number = self._number(word, columns[column].kind, columns[column].label, place)
+                values[row, column] = math.nan if number is None else number
+                del words[row, column]
+        return Table(values, table.lengths, words)

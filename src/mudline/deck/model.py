@@ -1,0 +1,124 @@
+"""A deck: sections and blocks as models, and where each of them stands in the file that was read."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple, Protocol, Self
+
+from mudline.diagnostics import Code, DeckError, Diagnostic, Problem, Severity, Where
+from mudline.keywords.model import Block, Comment, Part
+from mudline.keywords.values import Text
+
+
+class Opaque(Part):
+    """A block without a model: its lines are kept as they are, without their ends."""
+
+    keyword: Text
+    lines: list[Text]
+
+
+@dataclass(slots=True)
+class Section:
+    """A `$SECTION`; `lines` are stray ones before its first keyword."""
+
+    name: str
+    blocks: list[Block | Opaque] = field(default_factory=list)
+    comments: list[Comment] = field(default_factory=list)
+    lines: list[str] = field(default_factory=list)
+
+
+class Range(NamedTuple):
+    """Lines and columns from 1, the end exclusive."""
+
+    line: int
+    column: int
+    end_line: int
+    end_column: int
+
+
+START = Range(1, 1, 1, 1)
+
+
+class Origin(Protocol):
+    """What a deck was read from: tells where a problem is."""
+
+    def place(self, problem: Problem) -> Range:
+        """Lines and columns of a problem."""
+
+    def damaged(self, where: Where) -> bool:
+        """Whether something at this place could not be read."""
+
+    def lost(self, section: int, block: int) -> int:
+        """How many lines of a block could not be used at all."""
+
+    def written(self, where: Where) -> bool:
+        """Whether exactly this value stands in the file."""
+
+
+class Nowhere:
+    """The origin of a deck that was made by a program."""
+
+    def place(self, problem: Problem) -> Range:
+        """Always the start."""
+        return START
+
+    def damaged(self, where: Where) -> bool:
+        """Nothing is."""
+        return False
+
+    def lost(self, section: int, block: int) -> int:
+        """Nothing is."""
+        return 0
+
+    def written(self, where: Where) -> bool:
+        """Everything is."""
+        return True
+
+
+@dataclass
+class Deck:
+    """The models of one file. `file` is the name for messages, `source` the file's own name.
+
+    `units` is "metric", "imperial" or "user". `problems` holds what was noticed while reading.
+    """
+
+    file: str
+    source: str = ""
+    units: str = "user"
+    preamble: list[str] = field(default_factory=list)
+    sections: list[Section] = field(default_factory=list)
+    comments: list[Comment] = field(default_factory=list)
+    problems: list[Problem] = field(default_factory=list, compare=False)
+    origin: Origin = field(default_factory=Nowhere, compare=False, repr=False)
+
+    def blocks(self, keyword: str, section: str = "MODEL") -> Iterator[tuple[Where, Any]]:
+        """The modelled blocks of a keyword in all sections of a name, in the order of the file.
+
+        The caller knows the class that the keyword has; it is not imported for a deck that lacks the keyword.
+        """
+        for i, found in enumerate(self.sections):
+            if found.name == section:
+                for j, block in enumerate(found.blocks):
+                    if block.keyword == keyword and isinstance(block, Block):
+                        yield Where(i, j), block
+
+    def keywords(self, section: str = "MODEL") -> set[str]:
+        """Names of the keywords in the sections of a name."""
+        return {block.keyword for found in self.sections if found.name == section for block in found.blocks}
+
+    def diagnose(self, problems: Sequence[Problem]) -> list[Diagnostic]:
+        """Problems as diagnostics, in the order of the file."""
+        return sorted((self._diagnostic(problem) for problem in problems), key=lambda found: found.sort_key)
+
+    def _diagnostic(self, problem: Problem) -> Diagnostic:
+        code: Code = problem.code
+        place = self.origin.place(problem)
+        return Diagnostic(self.file, code.code, code.slug, problem.weight, problem.message, *place)
+
+    def require(self) -> Self:
+        """The deck itself; raises DeckError when something in it could not be read."""
+        errors = [problem for problem in self.problems if problem.weight is Severity.ERROR]
+        if errors:
+            raise DeckError(self.diagnose(errors))
+        return self

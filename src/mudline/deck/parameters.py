@@ -1,0 +1,191 @@
+"""The parameters of a deck, and the value of an equation that uses them."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, cast
+
+from mudline.codes import REF013, REF014, SYN002, SYN006, SYN017
+from mudline.diagnostics import Code, Problem, Severity, Where
+from mudline.expression import Expression, ExpressionError, UndefinedName, UnknownFunction, evaluate, parse
+from mudline.keywords.text import shown, suggestion
+from mudline.keywords.values import Equation
+from mudline.syntax.rows import read_number
+
+if TYPE_CHECKING:
+    from mudline.deck.model import Deck
+    from mudline.keywords.library.parameters import Parameter
+
+Value = float | str
+_ITEM = re.compile(r"""[,\s]*(?:([^\s,:;"=]+)[:;])?(=\[(?:[^\[\]]|\[[^\[\]]*\])*\]|"[^"]*"|[^\s,]+)""")
+
+
+def folded(name: str) -> str:
+    """A name as names compare: without case, blanks inside count."""
+    return name.strip(" \t").casefold()
+
+
+@dataclass(slots=True)
+class Definition:
+    """A parameter: the name as written, its value or equation, and where it stands."""
+
+    name: str
+    value: Value | Equation
+    where: Where
+    expression: Expression | None = None
+
+
+class NoValue(Exception):
+    """An equation without a value; `problem` is None when it has been told elsewhere."""
+
+    def __init__(self, problem: Problem | None = None) -> None:
+        self.problem = problem
+        super().__init__(problem.message if problem else "")
+
+
+@dataclass
+class Parameters:
+    """All parameters of a deck, evaluated when asked for; names compare without case, the last definition holds."""
+
+    deck: Deck
+    definitions: dict[str, Definition] = field(default_factory=dict)
+    values: dict[str, Value] = field(default_factory=dict)
+    problems: list[Problem] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        for where, block in self.deck.blocks("PARAMETERS", "PREPROCESSOR"):
+            for index, parameter in enumerate(block.parameters):
+                self._define(parameter, where._replace(path=("parameters", index, "value")))
+        for name in self.definitions:
+            self._resolve(name)
+
+    def number(self, value: object) -> float | None:
+        """A field as a number: evaluated if it is an equation; None when it has no numeric value."""
+        if isinstance(value, Equation):
+            try:
+                value = self.evaluate(value, Where())
+            except NoValue:
+                return None
+        return float(value) if isinstance(value, int | float) else None
+
+    def evaluate(self, equation: Equation, where: Where) -> Value:
+        """The value of an equation; raises NoValue with the problem, placed at `where`."""
+        expression = self._parse(equation, where)
+        for name, _, _ in expression.name_spans:
+            if folded(name) in self.definitions and folded(name) not in self.values:
+                raise NoValue
+        return self._value(expression, where)
+
+    def _define(self, parameter: Parameter, where: Where) -> None:
+        value = cast("Value | None", parameter.value)
+        name = cast("str | None", parameter.name)
+        if name is None or value is None:
+            return
+        if isinstance(value, str) and not isinstance(value, Equation) and value.startswith("/"):
+            self._define_list(name, value, where)
+            return
+        self._add(name, value, where)
+
+    def _define_list(self, prefix: str, text: str, where: Where) -> None:
+        """`/a:1 b:2 3/`: named items and counted ones."""
+        counter = 0
+        inside = text[1:].removesuffix("/")
+        at = 0
+        while at < len(inside) and (match := _ITEM.match(inside, at)):
+            at = match.end()
+            label = match[1]
+            if not label:
+                counter += 1
+                label = str(counter)
+            self._add(f"{prefix}_{label}", match[2], where)
+        if inside[at:].strip(" ,\t"):
+            message = f"{shown(inside[at:])} is no item of a list: write name:value or a value"
+            self.problems.append(Problem(SYN006, message, None, None, where))
+
+    def _add(self, name: str, value: Value, where: Where) -> None:
+        """A text becomes an equation or a number where it reads as one; quotes around it are dropped."""
+        if isinstance(value, str):
+            number = read_number(value)
+            value = Equation.match(value) or (value.removeprefix('"').removesuffix('"') if number is None else number)
+        self.definitions[folded(name)] = Definition(name, value, where)
+
+    def _resolve(self, name: str) -> None:
+        """Evaluate a parameter and, before it, those that it uses; an explicit stack, as chains may be long."""
+        stack = [name]
+        open_names: set[str] = set()
+        while stack:
+            current = stack[-1]
+            definition = self.definitions[current]
+            if current in self.values or definition.name == "":
+                stack.pop()
+                continue
+            waiting = self._waiting(current, definition)
+            cyclic = open_names.intersection(waiting)
+            if waiting and not cyclic:
+                open_names.add(current)
+                stack += waiting
+                continue
+            stack.pop()
+            open_names.discard(current)
+            if cyclic:
+                chain = " -> ".join(self.definitions[n].name for n in [*sorted(cyclic), current])
+                message = f"parameter {definition.name} is defined through itself ({chain})"
+                self._fail(definition, Problem(REF014, message, None, None, definition.where))
+
+    def _waiting(self, name: str, definition: Definition) -> list[str]:
+        """Evaluate a definition, or name the parameters that have to be evaluated before."""
+        if not isinstance(definition.value, Equation):
+            self.values[name] = definition.value
+            return []
+        try:
+            expression = self._parse(definition.value, definition.where)
+            used = [folded(other) for other in expression.names if folded(other) in self.definitions]
+            if any(self.definitions[other].name == "" for other in used):
+                raise NoValue
+            waiting = [other for other in used if other not in self.values]
+            if not waiting:
+                self.values[name] = self._value(expression, definition.where)
+        except NoValue as reason:
+            self._fail(definition, reason.problem)
+            return []
+        return waiting
+
+    def _fail(self, definition: Definition, problem: Problem | None) -> None:
+        """Mark a definition as without value; it keeps its place, so that its users are not told of it again."""
+        definition.name = ""
+        if problem:
+            self.problems.append(problem)
+
+    def _parse(self, equation: Equation, where: Where) -> Expression:
+        try:
+            return parse(equation.expression)
+        except ExpressionError as error:
+            raise NoValue(_problem(SYN017, equation, error, where)) from error
+
+    def _value(self, expression: Expression, where: Where) -> Value:
+        equation = Equation(f"=[{expression.text}]")
+        try:
+            return evaluate(expression, lambda name: self.values[folded(name)])
+        except UndefinedName as error:
+            word = expression.text[error.start : error.end]
+            known = [definition.name for definition in self.definitions.values() if definition.name]
+            message = f"parameter {word} is not defined{suggestion(word, known)}: define it in *PARAMETERS"
+            raise NoValue(Problem(REF013, message, None, None, where)) from error
+        except UnknownFunction as error:
+            problem = _problem(SYN017, equation, error, where)
+            message = f"{problem.message}; the equation is not evaluated"
+            raise NoValue(Problem(SYN017, message, None, Severity.WARNING, where)) from error
+        except ExpressionError as error:
+            raise NoValue(_problem(SYN017, equation, error, where)) from error
+
+
+def _problem(code: Code, equation: Equation, error: ExpressionError, where: Where) -> Problem:
+    piece = equation.expression[error.start : error.end]
+    at = f" at {shown(piece)}" if piece and shown(piece)[1:-1] not in error.message else ""
+    return Problem(code, f"{shown(equation)}: {error.message}{at}", None, None, where)
+
+
+def whole_fault(equation: Equation, value: Value, label: str, where: Where) -> Problem:
+    """An equation in a field of whole numbers that gives something else."""
+    return Problem(SYN002, f"{equation} gives {value!r}: {label} needs a whole number", None, None, where)

@@ -1,0 +1,122 @@
+"""What every room may say about a deck: codes, problems with a place, and finished diagnostics.
+
+A *problem* is what a room notices: a code, a sentence and where it is, in whatever terms the room has (a span of the
+text, or a path into the values). A *diagnostic* is the public form of the same thing: file, line, column, rule.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import NamedTuple
+
+
+class Severity(StrEnum):
+    """How bad a finding is; the order of the members is the order of badness."""
+
+    INFO = "info"
+    WARNING = "warning"
+    ERROR = "error"
+
+    @property
+    def rank(self) -> int:
+        """0 for info, 1 for warning, 2 for error."""
+        return _RANKS[self]
+
+
+_RANKS = {Severity.INFO: 0, Severity.WARNING: 1, Severity.ERROR: 2}
+
+
+class Span(NamedTuple):
+    """A half-open range of code points of a source text."""
+
+    start: int
+    end: int
+
+
+
+class Where(NamedTuple):
+    """A place among the values of a deck: section, block in it, and the path inside the block; -1 stands for none."""
+
+    section: int = -1
+    block: int = -1
+    path: tuple[str | int, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Code:
+    """The name of a kind of finding: code, slug, and the severity it has unless something says otherwise."""
+
+    code: str
+    slug: str
+    severity: Severity
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """Something noticed in a deck, at a span of its text or among its values.
+
+    `severity` None means the severity of the code.
+    """
+
+    code: Code
+    message: str
+    span: Span | None = None
+    severity: Severity | None = None
+    where: Where | None = None
+
+    @property
+    def weight(self) -> Severity:
+        """The severity that holds."""
+        return self.severity or self.code.severity
+
+
+@dataclass(frozen=True, slots=True)
+class Edit:
+    """Replace the text from `start` to `end` (line, column; from 1, end exclusive) by `text`."""
+
+    start: tuple[int, int]
+    end: tuple[int, int]
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Fix:
+    """Edits that clear a finding; `applicability` is "safe" or "unsafe"."""
+
+    applicability: str
+    message: str
+    edits: tuple[Edit, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostic:
+    """A finding with its place in the file; lines and columns count from 1, the end is exclusive."""
+
+    file: str
+    code: str
+    slug: str
+    severity: Severity
+    message: str
+    line: int
+    column: int
+    end_line: int
+    end_column: int
+    fix: Fix | None = None
+
+    @property
+    def sort_key(self) -> tuple[str, int, int, str, str]:
+        """Order of findings in every output."""
+        return (self.file, self.line, self.column, self.code, self.message)
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.line}:{self.column}: {self.code} {self.message}"
+
+
+class DeckError(ValueError):
+    """A deck that cannot be read or resolved; `diagnostics` says why, each with its place."""
+
+    def __init__(self, diagnostics: Sequence[Diagnostic]) -> None:
+        self.diagnostics = tuple(diagnostics)
+        super().__init__("\n".join(str(diagnostic) for diagnostic in self.diagnostics))

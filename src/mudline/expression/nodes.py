@@ -1,0 +1,157 @@
+"""The parts of an equation, as the grammar arranges them; every part knows where it stands in the text."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from mudline.diagnostics import Span
+
+
+@dataclass(frozen=True, slots=True)
+class Number:
+    """A number; infinite where the text names one beyond the range of a double."""
+
+    span: Span
+    value: float
+
+
+@dataclass(frozen=True, slots=True)
+class Text:
+    """Text in double quotes; the value is without them."""
+
+    span: Span
+    value: str
+
+
+@dataclass(frozen=True, slots=True)
+class Name:
+    """A parameter, or a constant such as pi, as written."""
+
+    span: Span
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """A part in brackets; the span holds the brackets."""
+
+    span: Span
+    inner: Node
+
+
+@dataclass(frozen=True, slots=True)
+class Prefix:
+    """A sign or `not` before its operand."""
+
+    span: Span
+    operator: str
+    operand: Node
+
+
+@dataclass(frozen=True, slots=True)
+class Power:
+    """A base raised to an exponent."""
+
+    span: Span
+    base: Node
+    exponent: Node
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """Two parts compared; the operator is one of < <= > >= = <>."""
+
+    span: Span
+    operator: str
+    left: Node
+    right: Node
+
+
+@dataclass(frozen=True, slots=True)
+class Chain:
+    """Operands joined from left to right by + and -, or by * and /: one operator less than operands."""
+
+    span: Span
+    operators: tuple[str, ...]
+    operands: tuple[Node, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Logical:
+    """Operands joined by `and`, or by `or`."""
+
+    span: Span
+    operator: str
+    operands: tuple[Node, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Call:
+    """A function with its arguments; the name is as written."""
+
+    span: Span
+    name: str
+    name_span: Span
+    arguments: tuple[Node, ...]
+
+
+Node = Number | Text | Name | Group | Prefix | Power | Comparison | Chain | Logical | Call
+
+NESTING = (Group, Prefix, Power, Call)
+"""The parts that count as a level of nesting."""
+
+
+def children(node: Node) -> tuple[Node, ...]:
+    """The parts directly inside a part, in the order of the text."""
+    match node:
+        case Group(inner=only) | Prefix(operand=only):
+            return (only,)
+        case Power(base=first, exponent=second) | Comparison(left=first, right=second):
+            return (first, second)
+        case Chain(operands=several) | Logical(operands=several) | Call(arguments=several):
+            return several
+        case _:
+            return ()
+
+
+def walk(root: Node) -> Iterator[tuple[Node, int]]:
+    """Every part in the order of the text, a whole before what is in it, with the number of levels it is nested."""
+    waiting = [(root, 0)]
+    while waiting:
+        node, outside = waiting.pop()
+        depth = outside + isinstance(node, NESTING)
+        yield node, depth
+        waiting.extend((child, depth) for child in reversed(children(node)))
+
+
+class NameSpan(NamedTuple):
+    """One use of a parameter: its name as written, and the half-open range of code points where it stands."""
+
+    name: str
+    start: int
+    end: int
+
+
+@dataclass(frozen=True, slots=True)
+class Expression:
+    """An equation that has been read.
+
+    Attributes:
+        text: what stands between `=[` and `]`.
+        name_spans: every use of a name that is not a function, in the order of the text; constants such as `pi` are
+            among them, as a parameter may bear that name.
+        functions: the functions called, as written, each spelling once, in the order of the text.
+        root: the whole as a tree of parts.
+    """
+
+    text: str
+    name_spans: tuple[NameSpan, ...] = field(compare=False)
+    functions: tuple[str, ...] = field(compare=False)
+    root: Node = field(repr=False, compare=False)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of `name_spans`, each spelling once, in the order of first use."""
+        return tuple(dict.fromkeys(use.name for use in self.name_spans))

@@ -1,0 +1,111 @@
+"""Reading an equation: the grammar, the limits, and what is said of a text that does not fit."""
+
+from __future__ import annotations
+
+from collections.abc import Set as AbstractSet
+from functools import cache
+from typing import Any, cast
+
+from lark import Lark, Token, UnexpectedCharacters, UnexpectedInput, UnexpectedToken
+
+from mudline.expression.builder import Builder
+from mudline.expression.errors import ExpressionError, shorten
+from mudline.expression.nodes import Call, Expression, Name, NameSpan, Node, walk
+from mudline.resources import grammar_file
+
+LONGEST = 10_000
+"""The longest equation that is read, in code points."""
+
+DEEPEST = 100
+"""The most levels of brackets, calls, signs, `not` and powers inside one another."""
+
+
+@cache
+def _grammar() -> Lark:
+    return Lark(
+        grammar_file("expression.lark").read_text(encoding="utf-8"), parser="lalr", lexer="basic", transformer=Builder()
+    )
+
+
+def parse(text: str) -> Expression:
+    """Read an equation: `text` is what stands between `=[` and `]`.
+
+    Raises:
+        ExpressionError: the text is no equation, is longer than 10 000 code points, or is nested more than 100 deep.
+    """
+    if len(text) > LONGEST:
+        raise ExpressionError(f"the equation is longer than {LONGEST} characters", LONGEST, len(text))
+    if not text.strip():
+        raise ExpressionError("the equation is empty", 0, len(text))
+    return _expression(text, _root(text))
+
+
+def _root(text: str) -> Node:
+    try:
+        return cast("Node", _grammar().parse(text))
+    except UnexpectedToken as error:
+        raise _unexpected_token(text, error.token, _accepted(error)) from None
+    except UnexpectedCharacters as error:
+        raise _unexpected_character(text, cast("int", error.pos_in_stream), _accepted(error)) from None
+
+
+def _accepted(error: UnexpectedInput) -> AbstractSet[str]:
+    """The names of the tokens that could have stood where the reading failed."""
+    parser: Any = error.interactive_parser  # has no types
+    return frozenset(parser.accepts())
+
+
+def _unexpected_token(text: str, token: Token, accepted: AbstractSet[str]) -> ExpressionError:
+    if token.type == "$END":
+        return ExpressionError(f"the equation ends too early, expected {_expected(accepted)}", len(text), len(text))
+    message = f"found {_found(token)}, expected {_expected(accepted)}"
+    if token.type == "COMPARE" and "AND" in accepted and "NUMBER" not in accepted:
+        message = f"found a second comparison '{token}', expected AND or OR between two comparisons"
+    return ExpressionError(message, cast("int", token.start_pos), cast("int", token.end_pos))
+
+
+def _unexpected_character(text: str, place: int, accepted: AbstractSet[str]) -> ExpressionError:
+    if text[place] == '"':
+        return ExpressionError("text opens with a quotation mark and does not close", place, len(text))
+    return ExpressionError(f"found {text[place]!r}, expected {_expected(accepted)}", place, place + 1)
+
+
+def _expression(text: str, root: Node) -> Expression:
+    names: list[NameSpan] = []
+    functions: dict[str, None] = {}
+    for node, depth in walk(root):
+        if depth > DEEPEST:
+            raise ExpressionError(f"the equation is nested more than {DEEPEST} levels deep", *node.span)
+        if isinstance(node, Name):
+            names.append(NameSpan(node.name, *node.span))
+        elif isinstance(node, Call):
+            functions[node.name] = None
+    return Expression(text, tuple(names), tuple(functions), root)
+
+
+def _found(token: Token) -> str:
+    """A token in plain words."""
+    match token.type:
+        case "NUMBER":
+            return f"the number {shorten(token)}"
+        case "NAME":
+            return f"the name '{shorten(token)}'"
+        case "TEXT":
+            return "text in quotation marks"
+        case "AND" | "OR" | "NOT":
+            return token.upper()
+        case _:
+            return f"'{token}'"
+
+
+def _expected(accepted: AbstractSet[str]) -> str:
+    """What may stand next, in plain words, from the names of the tokens that may."""
+    if "NUMBER" in accepted:
+        choices = ["a number", "a name", "'('"]
+    else:
+        choices = ["'('"] if accepted == {"LPAR"} else ["an operator"]
+    if "COMMA" in accepted:
+        choices.append("','")
+    if "RPAR" in accepted:
+        choices.append("')'")
+    return " or ".join(filter(None, [", ".join(choices[:-1]), choices[-1]]))

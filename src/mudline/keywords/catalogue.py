@@ -1,0 +1,193 @@
+"""Every section and keyword that is known, and which module declares it; modules are imported when a deck needs them."""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib import import_module
+from typing import cast
+
+from mudline.keywords.model import Block
+
+_LIBRARY = "mudline.keywords.library"
+
+SECTIONS = (
+    "PREPROCESSOR",
+    "MODEL",
+    "LOAD CASE",
+    "MODES",
+    "MODES POSTPROCESSING",
+    "DATABASE POSTPROCESSING",
+    "TIMETRACE POSTPROCESSING",
+    "SUMMARY POSTPROCESSING",
+    "SUMMARY COLLATE",
+    "SPECTRAL POSTPROCESSING",
+    "CODE CHECKING",
+    "HISTOGRAM",
+    "LIFETIME",
+    "LIFEFREQUENCY",
+    "CLEAR",
+    "ANALYSIS",
+    "POSTPROCESSING",
+)
+
+_MODULES = {
+    ("ANALYSIS", "UNITS"): "units",
+    ("PREPROCESSOR", "PARAMETERS"): "parameters",
+    ("MODEL", "OCEAN"): "ocean",
+    ("MODEL", "NODE"): "node",
+    ("MODEL", "ELEMENT"): "element",
+    ("MODEL", "ELEMENT SETS"): "element_sets",
+    ("MODEL", "GEOMETRIC SETS"): "geometric_sets",
+    ("MODEL", "SEABED PROPERTIES"): "seabed_properties",
+    ("MODEL", "SEABED STIFFNESS"): "seabed_stiffness",
+    ("MODEL", "EMBEDMENT"): "embedment",
+    ("MODEL", "ELASTIC SURFACE"): "elastic_surface",
+    ("MODEL", "RIGID SURFACE"): "rigid_surface",
+}
+
+_POST = ("DATABASE POSTPROCESSING", "POSTPROCESSING")
+_ANY: tuple[str, ...] = ()
+
+_OPAQUE: dict[str, tuple[str, ...]] = {
+    "VARIATION": ("PREPROCESSOR",),
+    "COMBINATIONS": ("PREPROCESSOR",),
+    "EXCEL VARIATIONS": ("PREPROCESSOR",),
+    **dict.fromkeys(
+        (
+            "NODE,CURVILINEAR",
+            "CABLE",
+            "LINES",
+            "LINE LOCATIONS",
+            "LINE SECTION GROUPS",
+            "LINE PATHS",
+            "LINE PATH SECTIONS",
+            "HYDRODYNAMIC SETS",
+            "PROPERTIES",
+            "PIP SECTION",
+            "PIP CONNECTION",
+            "VESSEL",
+            "VESSEL,INTEGRATED",
+            "SEABED PROFILE",
+            "SEABED PLANES",
+            "SEABED CONTACT",
+            "SEABED SUCTION",
+            "SEABED UNLOADING",
+            "SEABED FRICTION",
+            "SEABED TRENCH",
+            "P-Y",
+            "T-Z",
+            "TENSIONER",
+        ),
+        ("MODEL",),
+    ),
+    **dict.fromkeys(
+        (
+            "RESTART",
+            "TIME",
+            "TIME,DISCONNECT",
+            "BOUNDARY",
+            "LOAD",
+            "CURRENT",
+            "WAVE",
+            "WAVE-REGULAR",
+            "WAVE-STOKES",
+            "OFFSET",
+            "NON LINEAR STATIC",
+            "DIRECTORY",
+            "TOP TENSION",
+            "DRILLING MUD",
+            "DRIFT-OFF LIMITS",
+        ),
+        ("LOAD CASE",),
+    ),
+    "FRICTION": ("LOAD CASE", "MODES"),
+    "ANALYSIS TYPE": ("LOAD CASE", "ANALYSIS"),
+    "ELEMENT SET": _POST,
+    "STANDARD OUTPUT": _POST,
+    "TIMETRACE": _POST,
+    "SNAPSHOT": _POST,
+    "STATISTICS": _POST,
+    "SPECTRUM": _POST,
+    "OUTPUT FILES": _POST,
+    "DATABASE": _POST,
+    "IDENTIFY": ("SUMMARY COLLATE",),
+    "COLLATE": ("SUMMARY COLLATE",),
+    "PLOT": ("SUMMARY COLLATE",),
+    **dict.fromkeys(
+        (
+            "RAO",
+            "NO FRICTION",
+            "GUIDE",
+            "COATINGS",
+            "COLLATE PLOT AXES",
+            "MASS",
+            "INTERNAL FLUID",
+            "WIND",
+            "DAMPING",
+            "AUXILIARY",
+            "POINT BUOY",
+            "DAMPER",
+            "SPRING ELEMENT",
+            "NODE SPRING",
+            "FLEX JOINTS",
+            "HINGE",
+            "FORCE-STRAIN",
+            "MOMENT-CURVATURE",
+            "TORQUE-TWIST",
+            "DRAG CHAIN",
+            "DRAG LIFT",
+            "WINCH",
+            "TAPER",
+            "POISSON",
+            "MOONPOOL",
+            "FLOATING BODY",
+            "PIP STIFFNESS",
+            "EQUIVALENT",
+            "PLASTIC HARDENING",
+            "WAVE-JONSWAP",
+            "WAVE-PIERSON MOSKOWITZ",
+            "WAVE-DEAN",
+            "WAVE-USER DEFINED",
+            "DRIFT",
+            "TEMPERATURE",
+            "TOLERANCE",
+            "TITLE",
+        ),
+        _ANY,
+    ),
+}
+"""Keywords that are recognised and kept as they are; no sections: known to exist, section not confirmed."""
+
+_ALSO_OPAQUE_IN = {"ELEMENT SETS": ("CLEAR", *_POST)}
+
+
+def block_class(section: str, keyword: str) -> type[Block] | None:
+    """The declaration of a keyword in a section, or None when it is kept as it is."""
+    module = _MODULES.get((section, keyword))
+    return load(module) if module else None
+
+
+@cache
+def load(module: str) -> type[Block]:
+    """The block class that a module of the library declares as BLOCK."""
+    return cast("type[Block]", import_module(f"{_LIBRARY}.{module}").BLOCK)
+
+
+def modules() -> list[str]:
+    """Names of all library modules, in the order of the catalogue."""
+    return list(_MODULES.values())
+
+
+@cache
+def sections_of(keyword: str) -> tuple[str, ...] | None:
+    """The sections where a keyword belongs; () when not confirmed, None for an unknown keyword."""
+    modelled = tuple(section for section, name in _MODULES if name == keyword)
+    if modelled:
+        return modelled + _ALSO_OPAQUE_IN.get(keyword, ())
+    return _OPAQUE.get(keyword)
+
+
+@cache
+def keywords() -> tuple[str, ...]:
+    """Every known keyword."""
+    return tuple(sorted({name for _, name in _MODULES} | set(_OPAQUE)))

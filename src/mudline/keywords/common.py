@@ -1,0 +1,49 @@
+"""Fields that several keywords share."""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar
+
+from mudline.keywords.model import Block, Row, about, rows
+from mudline.keywords.table import Table
+from mudline.keywords.values import Real
+
+CHARACTERISTIC_LENGTH = "10 ft or 3.048 m"
+POINTS = "points of the curve in any order; at least two"
+
+
+class CurvePoint(Row):
+    """A point of a force-embedment curve."""
+
+    ratio: Annotated[Real, about("embedment ratio: mean depth of the element's nodes over external diameter", unit="-")]
+    force: Annotated[
+        Real,
+        about("seabed force at that ratio", unit="F/L", inferred="the force is per unit length, as the linear stiffness"),
+    ]
+
+
+class ProfilePoint(Row):
+    """A point of an inline profile."""
+
+    y: Annotated[Real, about("horizontal coordinate Y", unit="L")]
+    elevation: Annotated[Real, about("elevation of the bed there", unit="L")]
+
+
+class Surface(Block):
+    """A legacy surface: a line of properties, then a slope or a profile."""
+
+    properties: Annotated[Row, about("properties of the surface")]
+    slope: Annotated[
+        Real | None,
+        about("slope of the bed about the origin", unit="deg", default="flat", inferred="a line of one value is a slope"),
+    ] = None
+    profile: Annotated[
+        Table | None, rows(ProfilePoint, "arbitrary profile: Y and elevation, a line of two values a point")
+    ] = None
+
+    example: ClassVar[str]
+
+    @classmethod
+    def row_slot(cls, number: int, fields: int, given: dict[str, object], siblings: list[dict[str, object]]) -> str:
+        """The first line holds the properties; then one value is a slope, two are a point of the profile."""
+        return "properties" if number == 0 else "slope" if fields == 1 else "profile"

@@ -1,0 +1,139 @@
+"""Level two: the rule of a keyword over the lines of level one, compiled when first needed, with recovery from bad lines."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from functools import cache
+from typing import NamedTuple, cast
+
+from lark import Lark, Token, Tree, UnexpectedToken
+from lark.lexer import Lexer
+from lark.load_grammar import Grammar, load_grammar
+from lark.parsers.lalr_interactive_parser import InteractiveParser
+
+from mudline.diagnostics import Span
+from mudline.resources import grammar_file
+
+END = "$END"
+ROW = "ROW"
+
+
+class Content(NamedTuple):
+    """A line of a block, or a run of rows: the terminal it is, its place, and its position among the block's leaves."""
+
+    terminal: str
+    span: Span
+    position: int
+
+
+@dataclass(slots=True)
+class Node:
+    """A rule with the contents and rules below it."""
+
+    rule: str
+    children: list[Node | Content]
+
+
+class Mismatch(NamedTuple):
+    """A line that does not fit; `found` None is the end of the block. `missing`: the line that was left out instead."""
+
+    found: Content | None
+    expected: tuple[str, ...]
+    missing: str
+
+
+class _Given(Lexer):
+    """The tokens come ready made."""
+
+    def __init__(self, _configuration: object) -> None:
+        pass
+
+    def lex(self, data: Iterable[Token]) -> Iterator[Token]:
+        yield from data
+
+
+@cache
+def _grammar() -> Grammar:
+    path = grammar_file("blocks.lark")
+    text = path.read_text(encoding="utf-8")
+    terminals = sorted(set(_terminals(text)))
+    grammar, _ = load_grammar(f"{text}\n%declare {' '.join(terminals)}\n", str(path), [], global_keep_all_tokens=True)
+    return cast("Grammar", grammar)
+
+
+def _terminals(text: str) -> Iterator[str]:
+    for line in text.splitlines():
+        rule = line.partition("//")[0]
+        for word in rule.replace("(", " ").replace(")", " ").replace("|", " ").split():
+            name = word.rstrip("*+?")
+            if name.isupper():
+                yield name
+
+
+@cache
+def _parser(rule: str) -> Lark:
+    return Lark(_grammar(), start=rule, parser="lalr", lexer=_Given, maybe_placeholders=False)
+
+
+def terminal_of(key: str) -> str:
+    """The terminal of a setting line by its first key."""
+    return "K_" + "".join(letter if letter.isalnum() else "_" for letter in key)
+
+
+def parse(rule: str, contents: list[Content]) -> tuple[Node, list[Mismatch]]:
+    """The tree of a block under its rule.
+
+    A line that does not fit is left out, unless putting in a missing line before it makes it fit; each is reported.
+    """
+    parser = _parser(rule).parse_interactive()
+    mismatches: list[Mismatch] = []
+    for index, content in enumerate(contents):
+        token = Token(content.terminal, "", start_pos=index)
+        try:
+            parser.feed_token(token)
+        except UnexpectedToken:
+            mismatches.append(_recover(parser, token, content))
+    try:
+        tree = parser.feed_eof()
+    except UnexpectedToken:
+        tree, missing = _complete(parser)
+        mismatches.append(missing)
+    return _node(tree, contents), mismatches
+
+
+def _recover(parser: InteractiveParser, token: Token, content: Content) -> Mismatch:
+    """Feed the missing line before a token that does not fit, or drop the token."""
+    expected = tuple(sorted(parser.accepts()))
+    for missing in expected:
+        trial = parser.copy()
+        if missing == END:
+            continue
+        trial.feed_token(Token(missing, ""))
+        if token.type in trial.accepts():
+            parser.feed_token(Token(missing, ""))
+            parser.feed_token(token)
+            return Mismatch(content, expected, missing)
+    return Mismatch(content, expected, "")
+
+
+def _complete(parser: InteractiveParser) -> tuple[Tree[Token], Mismatch]:
+    """Feed the mandatory lines that the end of a block lacks."""
+    expected = tuple(sorted(parser.accepts()))
+    first = expected[0]
+    missing = first
+    while END not in parser.accepts():
+        parser.feed_token(Token(missing, ""))
+        missing = min(parser.accepts())
+    return parser.feed_eof(), Mismatch(None, expected, first)
+
+
+def _node(tree: Tree[Token], contents: list[Content]) -> Node:
+    """Our own tree; a line that was put in has no content."""
+    children: list[Node | Content] = []
+    for child in tree.children:
+        if isinstance(child, Tree):
+            children.append(_node(child, contents))
+        elif child.start_pos is not None:
+            children.append(contents[child.start_pos])
+    return Node(str(tree.data), children)

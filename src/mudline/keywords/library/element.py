@@ -1,0 +1,63 @@
+"""`*ELEMENT`: elements by their two nodes, or stepped from a master."""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar, Literal
+
+from mudline.keywords.model import Block, ListRow, Record, Row, about, rows, setting
+from mudline.keywords.table import Table
+from mudline.keywords.values import Ident, Real, Whole
+
+_AXIS = "component {} of the vector that orients the local {} axis of the undeformed element"
+
+
+class ElementRow(Row):
+    """Columns of the table of elements."""
+
+    element: Annotated[Whole, about("element number")]
+    node1: Annotated[Ident, about("first node")]
+    node2: Annotated[Ident, about("second node")]
+    v1: Annotated[Real | None, about(_AXIS.format(1, "y"), unit="-")] = None
+    v2: Annotated[Real | None, about(_AXIS.format(2, "y"), unit="-")] = None
+    v3: Annotated[Real | None, about(_AXIS.format(3, "y"), unit="-")] = None
+    w1: Annotated[Real | None, about(_AXIS.format(1, "z"), unit="-")] = None
+    w2: Annotated[Real | None, about(_AXIS.format(2, "z"), unit="-")] = None
+    w3: Annotated[Real | None, about(_AXIS.format(3, "z"), unit="-")] = None
+
+
+class ElementPattern(ListRow):
+    """Master, number of elements with it, and the step of element and node numbers."""
+
+    master: Annotated[Whole, about("existing element whose pattern is repeated")]
+    count: Annotated[Whole, about("number of elements, the master included", at_least=1)]
+    increment: Annotated[Whole | None, about("step of element and node numbers", default="1")] = None
+
+
+class ElementRows(Record):
+    """Elements by their nodes."""
+
+    rule: ClassVar[str] = "element_rows"
+    elements: Annotated[Table, rows(ElementRow, "elements: number and two nodes")]
+
+
+class ElementGenerate(Record):
+    """Elements stepped from a master."""
+
+    rule: ClassVar[str] = "element_generate"
+    generate: Annotated[ElementPattern, setting("GEN", "elements stepped from a master defined before")]
+
+
+class Elements(Block):
+    """Elements."""
+
+    rule: ClassVar[str] = "element"
+    names: ClassVar[tuple[str, ...]] = ("ELEMENT",)
+    summary: ClassVar[str] = "Elements by number and their two nodes."
+    tabular: ClassVar[bool] = True
+    example: ClassVar[str] = "*ELEMENT\n 1, 1, 2\n GEN=1, 10\n"
+
+    keyword: Literal["ELEMENT"] = "ELEMENT"
+    entries: list[ElementRows | ElementGenerate] = []
+
+
+BLOCK = Elements

@@ -1,0 +1,60 @@
+"""`*ELEMENT SETS`: named groups of elements."""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar, Literal
+
+from mudline.keywords.model import Block, ListRow, Record, about, setting
+from mudline.keywords.values import Ident, Name, Whole
+
+
+class ElementRange(ListRow):
+    """First and last element, and the step between them."""
+
+    start: Annotated[Whole, about("first element")]
+    end: Annotated[Whole, about("last element")]
+    increment: Annotated[Whole | None, about("step", default="1")] = None
+
+
+class SetList(Record):
+    """Elements by number or label; the language allows 20 on a line."""
+
+    rule: ClassVar[str] = "set_list"
+    elements: Annotated[list[Ident], about("element numbers or {labels}")]
+
+
+class SetGenerate(Record):
+    """A range of element numbers."""
+
+    rule: ClassVar[str] = "set_generate"
+    generate: Annotated[ElementRange, setting("GEN", "range of element numbers")]
+
+
+class SetSubset(Record):
+    """All elements of another set."""
+
+    rule: ClassVar[str] = "set_subset"
+    subset: Annotated[Name, setting("SUBSET", "another set, all of whose elements belong to this one too")]
+
+
+class ElementSet(Record):
+    """A set."""
+
+    rule: ClassVar[str] = "element_set"
+    name: Annotated[Name, setting("SET", "set name: up to 256 characters, case does not count, blanks do")]
+    members: list[SetList | SetGenerate | SetSubset] = []
+
+
+class ElementSets(Block):
+    """Element sets."""
+
+    rule: ClassVar[str] = "element_sets"
+    names: ClassVar[tuple[str, ...]] = ("ELEMENT SETS",)
+    summary: ClassVar[str] = "Named groups of elements; ALL is predefined."
+    example: ClassVar[str] = "*ELEMENT SETS\n SET=Riser\n 1, 2, 3\n GEN=10, 20, 2\n SET=Everything\n SUBSET=Riser\n"
+
+    keyword: Literal["ELEMENT SETS"] = "ELEMENT SETS"
+    sets: list[ElementSet] = []
+
+
+BLOCK = ElementSets

@@ -1,0 +1,39 @@
+"""`*EMBEDMENT`: force-embedment curves by element set (superseded, still legal)."""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field
+
+from mudline.keywords.common import POINTS, CurvePoint
+from mudline.keywords.model import Block, Record, rows, setting
+from mudline.keywords.table import Table
+from mudline.keywords.values import Name
+
+
+class EmbedmentCurve(Record):
+    """A curve and the set that it holds for."""
+
+    rule: ClassVar[str] = "embedment_curve"
+    set_name: Annotated[
+        Name | None,
+        setting("SET", "element set of the curve", default="ALL", inferred="points before any SET= line mean ALL"),
+    ] = Field(default=None, alias="set")
+    points: Annotated[Table, rows(CurvePoint, POINTS)]
+
+
+class Embedment(Block):
+    """Force-embedment curves by set."""
+
+    rule: ClassVar[str] = "embedment"
+    names: ClassVar[tuple[str, ...]] = ("EMBEDMENT",)
+    summary: ClassVar[str] = "Force-embedment curves of an elastic seabed, by element set (superseded by *SEABED STIFFNESS)."
+    tabular: ClassVar[bool] = True
+    example: ClassVar[str] = "*EMBEDMENT\n SET=Flowline\n 0.0, 0.0\n 0.1, 1200.0\n 0.5, 10000.0\n"
+
+    keyword: Literal["EMBEDMENT"] = "EMBEDMENT"
+    curves: list[EmbedmentCurve] = []
+
+
+BLOCK = Embedment

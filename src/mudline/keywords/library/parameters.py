@@ -1,0 +1,39 @@
+"""`*PARAMETERS`: named values that equations use."""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar, Literal
+
+from mudline.keywords.model import Block, Record, about
+from mudline.keywords.values import Name, RealOrName
+
+
+class Parameter(Record):
+    """One line: a name with its value, or a prefix with a list between slashes."""
+
+    rule: ClassVar[str] = "parameter"
+    name: Annotated[Name, about("parameter name, or the prefix of a list of parameters")]
+    value: Annotated[
+        RealOrName,
+        about(
+            "number, equation, text, or a list between slashes: /a:1 b:2 3/ gives name_a, name_b and name_1",
+            inferred="unnamed items are counted by themselves; names and values may be joined by a colon or a semicolon",
+        ),
+    ]
+
+
+class Parameters(Block):
+    """Named values."""
+
+    rule: ClassVar[str] = "parameters"
+    names: ClassVar[tuple[str, ...]] = ("PARAMETERS",)
+    sections: ClassVar[tuple[str, ...]] = ("PREPROCESSOR",)
+    summary: ClassVar[str] = "Named values for equations, and for the variations of a deck."
+    slashes: ClassVar[bool] = True
+    example: ClassVar[str] = "*PARAMETERS\n depth, 500.0\n vessel x, =[depth+5]\n Point, /X:11, Y:22, Z:=[Point_X+10]/\n"
+
+    keyword: Literal["PARAMETERS"] = "PARAMETERS"
+    parameters: list[Parameter] = []
+
+
+BLOCK = Parameters

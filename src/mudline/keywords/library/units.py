@@ -1,0 +1,23 @@
+"""`*UNITS`: the unit system of decks whose suffix does not tell it."""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar, Literal
+
+from mudline.keywords.model import Block, setting
+
+
+class Units(Block):
+    """The unit system."""
+
+    rule: ClassVar[str] = "units"
+    names: ClassVar[tuple[str, ...]] = ("UNITS",)
+    sections: ClassVar[tuple[str, ...]] = ("ANALYSIS",)
+    summary: ClassVar[str] = "The unit system of a deck (sister dialect)."
+    example: ClassVar[str] = "*UNITS\n UNITS=METRIC\n"
+
+    keyword: Literal["UNITS"] = "UNITS"
+    units: Annotated[Literal["METRIC", "IMPERIAL"], setting("UNITS", "unit system of all values in the deck")]
+
+
+BLOCK = Units

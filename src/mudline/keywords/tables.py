@@ -1,0 +1,122 @@
+"""Runs of rows to one table."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from mudline.codes import SYN002, SYN003, SYN016
+from mudline.diagnostics import Problem, Span
+from mudline.keywords.model import Rows, Slot
+from mudline.keywords.places import Path
+from mudline.keywords.table import Column, Table, from_rows
+from mudline.keywords.text import decimal_comma, decimal_comma_problem, number_fault
+from mudline.keywords.values import Equation, Kind, Label
+from mudline.syntax.fields import split
+from mudline.syntax.rows import Rows as RawRows
+from mudline.syntax.rows import line_spans, read_rows, row_fields
+
+if TYPE_CHECKING:
+    from mudline.keywords.builder import Builder
+
+MOST_FAULTS = 1000
+"""Faults told one by one; more of them in one table are counted."""
+
+
+class TableBuilder:
+    """Collects the runs of one table."""
+
+    def __init__(self, builder: Builder, slot: Slot, path: Path) -> None:
+        assert isinstance(slot.about, Rows)
+        self.builder = builder
+        self.columns: list[Column] = slot.about.columns()
+        self.path = path
+        self.parts: list[Table] = []
+        self.count = 0
+
+    def add(self, span: Span) -> int:
+        """Read one run; returns its number of rows."""
+        text = self.builder.text
+        raw = read_rows(text, span, len(self.columns))
+        self.builder.places.runs.setdefault(self.path, []).append((self.count, span))
+        table, faults = from_rows(raw, self.columns)
+        if faults:
+            self._report(span, raw, table, faults)
+        self.parts.append(table)
+        self.count += len(table)
+        return len(table)
+
+    def finish(self) -> Table:
+        """All rows in one table."""
+        if len(self.parts) == 1:
+            return self.parts[0]
+        width = max((part.values.shape[1] for part in self.parts), default=len(self.columns))
+        values = np.full((self.count, width), np.nan)
+        words: dict[tuple[int, int], Equation | Label | None] = {}
+        start = 0
+        for part in self.parts:
+            values[start : start + len(part), : part.values.shape[1]] = part.values
+            words |= {(row + start, column): word for (row, column), word in part.words.items()}
+            start += len(part)
+        lengths = [part.lengths for part in self.parts] or [np.zeros(0, dtype=np.intp)]
+        return Table(values, np.concatenate(lengths), words)
+
+    def _report(self, span: Span, raw: RawRows, table: Table, faults: dict[tuple[int, int], str]) -> None:
+        lines = list(line_spans(self.builder.text, span))
+        short = {row for row, column in faults if column < 0}
+        told = 0
+        broken: set[int] = set()
+        for (row, column), fault in sorted(faults.items()):
+            if row in short and column >= 0 and (row, column) in raw.words and not raw.words[row, column]:
+                continue
+            if self._label(table, raw, lines[row], row, column):
+                continue
+            told += 1
+            if told > MOST_FAULTS:
+                continue
+            if row not in broken and self._brackets(lines[row]):
+                broken.add(row)
+            if row not in broken:
+                self._fault(lines[row], row, column, fault, raw)
+        if told > MOST_FAULTS:
+            message = f"{told - MOST_FAULTS} more faulty rows or fields in this table"
+            self.builder.damage(self.path[:-1], Problem(SYN002, message, lines[-1]))
+
+    def _label(self, table: Table, raw: RawRows, line: Span, row: int, column: int) -> bool:
+        """A word where a node number belongs is taken for a label whose braces were forgotten."""
+        word = raw.words.get((row, column), "")
+        if column < 0 or self.columns[column].kind is not Kind.IDENT or not word[:1].isalpha():
+            return False
+        label = Label.match("{" + word + "}")
+        if label is None:
+            return False
+        table.words[row, column] = label
+        place = row_fields(self.builder.text, line, len(self.columns))[column].span
+        message = f"{word!r} is no number: is it the label {label}? Labels stand in braces"
+        self.builder.problems.append(Problem(SYN016, message, place))
+        return True
+
+    def _brackets(self, line: Span) -> bool:
+        """Whether the fault of a row is an unclosed bracket, which is then told instead."""
+        _, problems = split(self.builder.text, line)
+        for problem in problems:
+            self.builder.damage(self.path[:-1], problem)
+        return bool(problems)
+
+    def _fault(self, line: Span, row: int, column: int, fault: str, raw: RawRows) -> None:
+        text = self.builder.text
+        self.builder.lost += column == 0
+        if column < 0:
+            fields, _ = split(text, line)
+            if decimal_comma(fields, len(self.columns)):
+                self.builder.problems.append(decimal_comma_problem(fields[:2]))
+            wanted = ", ".join(column.label for column in self.columns if column.required)
+            place = Span(fields[0].span.start, fields[-1].span.end)
+            self.builder.damage(self.path[:-1], Problem(SYN003, f"{fault} (`{wanted}`)", place))
+            return
+        place = row_fields(text, line, len(self.columns))[column].span
+        word = raw.words.get((row, column))
+        if word:
+            fault = number_fault(word, self.columns[column].label)
+        self.builder.damage(self.path[:-1], Problem(SYN003 if word == "" else SYN002, fault, place))

@@ -1,0 +1,171 @@
+"""Splitting a line into fields: commas part them, brackets, braces, quotes and slash lists hold together."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from mudline.codes import SYN003, SYN006
+from mudline.diagnostics import Problem, Span
+
+MOST_FIELDS = 100_000
+"""Fields read from one line; more is refused, so that a stray file cannot fill the memory."""
+
+_KEY = re.compile(r"[ \t]*([A-Za-z][\w \t-]*)=")
+_BLANKS = re.compile(r"[ \t]+")
+_SPECIAL = re.compile(r'[\["{/]')
+_NESTING = re.compile(r'[\[\]"/]')
+_CLOSERS = {"[": "]", "{": "}", '"': '"', "/": "/"}
+
+
+class Field(NamedTuple):
+    """The text of a field without outer blanks, and where it is."""
+
+    text: str
+    span: Span
+
+
+@dataclass(slots=True)
+class Group:
+    """Fields that belong together: the positional ones of a line (key ""), or a KEY with its values."""
+
+    key: str
+    span: Span
+    fields: list[Field] = field(default_factory=list)
+
+
+class Line(NamedTuple):
+    """A line cut into groups, with what was wrong in it."""
+
+    span: Span
+    groups: list[Group]
+    problems: list[Problem]
+
+
+def trimmed(text: str, start: int, end: int) -> Span:
+    """The span without blanks, tabs and line ends on both sides; an empty one stands at `start`."""
+    piece = text[start:end]
+    inner = piece.strip(" \t\r\n")
+    if not inner:
+        return Span(start, start)
+    left = start + len(piece) - len(piece.lstrip(" \t\r\n"))
+    return Span(left, left + len(inner))
+
+
+def canonical_key(key: str) -> str:
+    """A KEY in upper case with single blanks."""
+    return _BLANKS.sub(" ", key.strip(" \t")).upper()
+
+
+def read_line(text: str, span: Span, *, slashes: bool = False) -> Line:
+    """Cut one line of `text` into groups of fields. `slashes`: `/.../` is one field."""
+    body = trimmed(text, *span)
+    groups = [Group("", body)]
+    fields, problems = split(text, body, slashes=slashes)
+    for field_ in fields:
+        match = _KEY.match(field_.text)
+        if match is None:
+            groups[-1].fields.append(field_)
+            continue
+        start, end = field_.span
+        groups.append(Group(canonical_key(match[1]), Span(start, end)))
+        groups[-1].fields.append(_field(text, Span(start + match.end(), end)))
+    for group in groups[1:]:
+        group.span = Span(group.span.start, group.fields[-1].span.end)
+    return Line(body, groups if groups[0].fields else groups[1:], problems)
+
+
+def first_key(text: str, span: Span) -> str:
+    """The KEY that a line begins with, or ""."""
+    match = _KEY.match(text, span.start, span.end)
+    return canonical_key(match[1]) if match else ""
+
+
+def _field(text: str, piece: Span) -> Field:
+    span = trimmed(text, *piece)
+    return Field(text[span.start : span.end], span)
+
+
+def split(text: str, span: Span, *, slashes: bool = False) -> tuple[list[Field], list[Problem]]:
+    """The fields between the top-level commas of a line, and what was wrong with its brackets."""
+    body = trimmed(text, *span)
+    if text.count(",", body.start, body.end) >= MOST_FIELDS:
+        message = f"more than {MOST_FIELDS} fields on one line: is this a deck?"
+        return [], [Problem(SYN003, message, Span(body.start, body.start + 1))]
+    commas = _commas(text, body)
+    problems: list[Problem] = []
+    if _SPECIAL.search(text, body.start, body.end):
+        commas = _outside(commas, _protected(text, body, slashes, problems))
+    edges = [body.start - 1, *commas, body.end]
+    spans = zip(edges[:-1], edges[1:], strict=True)
+    return [_field(text, Span(left + 1, right)) for left, right in spans], problems
+
+
+def _commas(text: str, body: Span) -> list[int]:
+    found: list[int] = []
+    at = text.find(",", body.start, body.end)
+    while at >= 0:
+        found.append(at)
+        at = text.find(",", at + 1, body.end)
+    return found
+
+
+def _outside(commas: list[int], protected: list[Span]) -> list[int]:
+    kept: list[int] = []
+    spans = iter(protected)
+    span = next(spans, None)
+    for comma in commas:
+        while span is not None and span.end <= comma:
+            span = next(spans, None)
+        if span is None or comma < span.start:
+            kept.append(comma)
+    return kept
+
+
+def _protected(text: str, body: Span, slashes: bool, problems: list[Problem]) -> list[Span]:
+    """Spans of equations, labels, strings and slash lists; an unclosed one reaches to the end of the line."""
+    spans: list[Span] = []
+    at = body.start
+    while match := _SPECIAL.search(text, at, body.end):
+        at = match.end()
+        opener, start = match[0], match.start()
+        if (opener == "[" and text[start - 1 : start] != "=") or (opener == "/" and not slashes):
+            continue
+        end = _close(text, start, body.end)
+        if end < 0:
+            what = "=[" if opener == "[" else opener
+            message = f"{what} is not closed: {_CLOSERS[opener]} is missing before the end of the line"
+            problems.append(Problem(SYN006, message, Span(start, start + 1)))
+            end = body.end
+        spans.append(Span(start, end))
+        at = end
+    return spans
+
+
+def _close(text: str, start: int, end: int) -> int:
+    """Offset behind the mark that closes the one at `start`, or -1.
+
+    Strings and braces hold anything; square brackets nest; a slash list may hold equations and strings.
+    """
+    opener = text[start]
+    if opener in '"{':
+        at = text.find(_CLOSERS[opener], start + 1, end)
+        return at + 1 if at >= 0 else -1
+    depth = 0
+    at = start + 1
+    while match := _NESTING.search(text, at, end):
+        at, mark = match.end(), match[0]
+        if mark == '"':
+            closing = text.find('"', at, end)
+            at = closing + 1 if closing >= 0 else at
+        elif mark == "/":
+            if opener == "/" and depth == 0:
+                return at
+        elif mark == "[":
+            depth += 1
+        elif depth:
+            depth -= 1
+        elif opener == "[":
+            return at
+    return -1

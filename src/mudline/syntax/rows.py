@@ -1,0 +1,166 @@
+"""Runs of rows to arrays: the slow reader defines the meaning, the fast one answers the same to the last bit or declines."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic_core import from_json
+
+from mudline.diagnostics import Span
+from mudline.syntax.fields import Field, split
+
+_NUMBER = re.compile(r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eEdD][-+]?[0-9]+)?")
+_WORD = re.compile(r"[^ \t\r\n]+")
+_SPECIAL = re.compile(r'[\["{]')
+_PLAIN = b"0123456789+-.eE, \t\r\n"
+_LOST_SIGN = re.compile(rb"-0(?![.0-9eE])")
+_PIECE = 128 * 1024
+_LONGEST_BLANK_SEPARATED = 10_000
+_DIGITS = 400
+"""Longer numbers are refused by `read_number`: nobody writes them, and reading one takes time square in its length."""
+
+
+class Rows(NamedTuple):
+    """A run of rows. `values` (rows, columns) holds NaN where `words` has a text that is no number ("" for an empty field).
+
+    `lengths` (rows,) counts the fields of each row, also those beyond the last column, which are not kept.
+    """
+
+    values: NDArray[np.float64]
+    lengths: NDArray[np.intp]
+    words: dict[tuple[int, int], str]
+
+    def same(self, other: Rows) -> bool:
+        """Equal to the last bit, NaN and the sign of zero included."""
+        return (
+            self.values.shape == other.values.shape
+            and self.values.tobytes() == other.values.tobytes()
+            and bool(np.array_equal(self.lengths, other.lengths))
+            and self.words == other.words
+        )
+
+
+def read_number(text: str) -> float | None:
+    """The finite double that a field spells, or None. Fortran's D exponent is read as E."""
+    if len(text) > _DIGITS or not _NUMBER.fullmatch(text):
+        return None
+    try:
+        value = float(text)
+    except ValueError:
+        value = float(text.upper().replace("D", "E"))
+    return value if math.isfinite(value) else None
+
+
+def read_rows(text: str, span: Span, columns: int) -> Rows:
+    """Read the lines of a run into at most `columns` columns. `text` must have LF or CRLF line ends."""
+    return read_rows_fast(text, span, columns) or read_rows_slow(text, span, columns)
+
+
+def read_rows_slow(text: str, span: Span, columns: int) -> Rows:
+    """The meaning of a table, field by field."""
+    values: list[list[float]] = []
+    lengths: list[int] = []
+    words: dict[tuple[int, int], str] = {}
+    for index, line in enumerate(line_spans(text, span)):
+        row_words, length = _row_words(text[line.start : line.end], columns)
+        lengths.append(length)
+        row = [math.nan] * columns
+        for column, word in enumerate(row_words):
+            value = read_number(word)
+            if value is None:
+                words[index, column] = word
+            else:
+                row[column] = value
+        values.append(row)
+    array = np.array(values, dtype=np.float64).reshape(len(values), columns)
+    width = min(max(lengths, default=0), columns)
+    return Rows(np.ascontiguousarray(array[:, :width]), np.array(lengths, dtype=np.intp), words)
+
+
+def read_rows_fast(text: str, span: Span, columns: int) -> Rows | None:
+    """The same rows where every field is a plain JSON number and all rows have one length; None otherwise."""
+    body = text[span.start : span.end]
+    if not body.isascii():
+        return None
+    data = body.encode("ascii")
+    if data.translate(None, _PLAIN) or _LOST_SIGN.search(data):
+        return None
+    pieces: list[NDArray[np.float64]] = []
+    for piece in _pieces(data):
+        if len(piece) > 2 * _PIECE:
+            return None
+        try:
+            array = np.array(from_json(b"[[" + piece.replace(b"\n", b"],[") + b"]]"), dtype=np.float64)
+        except (ValueError, OverflowError):
+            return None
+        if array.ndim != 2 or not np.isfinite(array).all():
+            return None
+        pieces.append(array)
+    widths = {piece.shape[1] for piece in pieces}
+    if len(widths) != 1 or not 0 < (width := widths.pop()) <= columns:
+        return None
+    values = pieces[0] if len(pieces) == 1 else np.concatenate(pieces)
+    return Rows(values, np.full(len(values), width, dtype=np.intp), {})
+
+
+def _pieces(data: bytes) -> Iterator[bytes]:
+    """Parts of about 128 kB that end with a line: one list for all of a long run would take ten times its size."""
+    start, end = 0, len(data.rstrip(b"\r\n"))
+    while start < end:
+        stop = data.find(b"\n", min(start + _PIECE, end), end)
+        stop = end if stop < 0 else stop
+        yield data[start:stop]
+        start = stop + 1
+
+
+def line_spans(text: str, span: Span) -> Iterator[Span]:
+    """The lines of a run, without their ends."""
+    start = span.start
+    while start < span.end:
+        stop = text.find("\n", start, span.end)
+        stop = span.end if stop < 0 else stop
+        yield Span(start, stop)
+        start = stop + 1
+
+
+def row_fields(text: str, line: Span, columns: int) -> list[Field]:
+    """The first `columns` fields of one row, with their places."""
+    body = text[line.start : line.end]
+    fields: list[Field] = []
+    at = 0
+    for word in _row_words(body, columns)[0]:
+        at = body.index(word, at)
+        fields.append(Field(word, Span(line.start + at, line.start + at + len(word))))
+        comma = body.find(",", at + len(word))
+        at = comma + 1 if comma >= 0 else at + len(word)
+    return fields
+
+
+def _row_words(body: str, columns: int) -> tuple[list[str], int]:
+    """The first `columns` fields of a row, and how many it has: parted by commas, or by blanks where all is numbers.
+
+    Empty fields behind the last column, as trailing commas leave them, do not count.
+    """
+    if _SPECIAL.search(body):
+        fields, _ = split(body, Span(0, len(body)))
+        return [field.text for field in fields[:columns]], len(fields)
+    if "," not in body and blank_separated(body):
+        words = _WORD.findall(body)
+        return words[:columns], len(words)
+    pieces = body.split(",", columns)
+    beyond = pieces.pop().strip(", \t\r") if len(pieces) > columns else ""
+    length = body.count(",") + 1 if beyond else len(pieces)
+    return [piece.strip(" \t\r") for piece in pieces], length
+
+
+def blank_separated(body: str) -> bool:
+    """Whether a line without commas is several numbers parted by blanks."""
+    if len(body) > _LONGEST_BLANK_SEPARATED:
+        return False
+    words = _WORD.findall(body)
+    return len(words) > 1 and all(_NUMBER.fullmatch(word) for word in words)

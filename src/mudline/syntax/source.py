@@ -1,0 +1,123 @@
+"""The text of one file: decoding, line ends, and the way back to the same bytes."""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from mudline.codes import SYN012
+from mudline.diagnostics import Problem, Severity, Span
+
+_BOM = b"\xef\xbb\xbf"
+_LINE_END = re.compile(r"\r\n|\r|\n")
+_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f]")
+_LONE_CR = re.compile(r"\r(?!\n)")
+_NOT_UTF8 = "{} is not UTF-8; the file is read as {}: save it as UTF-8"
+_BINARY_SHARE = 0.1
+_SAMPLE = 65536
+
+
+@dataclass(frozen=True)
+class Source:
+    """A file's text without byte-order mark; `to_bytes` gives back the bytes that were read.
+
+    `readable` is False for content that is no text of a deck (UTF-16, binary data): it is kept, but not parsed.
+    """
+
+    name: str
+    text: str
+    encoding: str = "utf-8"
+    bom: bool = False
+    readable: bool = True
+    problems: tuple[Problem, ...] = field(default=(), compare=False)
+
+    @classmethod
+    def from_bytes(cls, data: bytes, name: str) -> Source:
+        """Decode as UTF-8, else the whole file as CP1252, else as Latin-1; UTF-16 and binary data are refused."""
+        bom = data.startswith(_BOM)
+        body = data[len(_BOM) :] if bom else data
+        refusal = _refusal(body)
+        if refusal:
+            problem = Problem(SYN012, refusal, Span(0, 0), Severity.ERROR)
+            return cls(name, body.decode("latin-1"), "latin-1", bom, readable=False, problems=(problem,))
+        text, encoding, problems = _decode(body)
+        return cls(name, text, encoding, bom, problems=(*problems, *_control_characters(text)))
+
+    def to_bytes(self, text: str | None = None) -> bytes:
+        """The bytes of `text` (default: the text as read) in the file's own encoding, with its mark if it had one.
+
+        Raises UnicodeEncodeError when a changed text holds a character that the encoding lacks.
+        """
+        body = (self.text if text is None else text).encode(self.encoding)
+        return _BOM + body if self.bom else body
+
+    @cached_property
+    def unified(self) -> str:
+        """A copy of equal length in which a lone CR is a LF, so that every line ends with LF."""
+        return _LONE_CR.sub("\n", self.text) if "\r" in self.text else self.text
+
+    @cached_property
+    def line_starts(self) -> list[int]:
+        """Offset of the first character of every line; CR, CRLF and LF each end one."""
+        return [0, *(match.end() for match in _LINE_END.finditer(self.text))]
+
+    def position(self, offset: int) -> tuple[int, int]:
+        """Line and column of an offset, both from 1, in code points."""
+        line = bisect_right(self.line_starts, offset)
+        return line, offset - self.line_starts[line - 1] + 1
+
+    def offset(self, line: int, column: int) -> int:
+        """Offset of a line and column, both from 1."""
+        return self.line_starts[line - 1] + column - 1
+
+    def line(self, number: int) -> str:
+        """The text of a line (from 1) without its end."""
+        start = self.line_starts[number - 1]
+        end = self.line_starts[number] if number < len(self.line_starts) else len(self.text)
+        return self.text[start:end].rstrip("\r\n")
+
+
+def _refusal(body: bytes) -> str:
+    """Why these bytes are not read at all, or nothing."""
+    if body.startswith((b"\xff\xfe", b"\xfe\xff")) or _looks_like_utf16(body[:_SAMPLE]):
+        return "the file is UTF-16, which no deck reader takes: save it as UTF-8"
+    sample = body[:_SAMPLE]
+    strange = len(sample) - len(sample.translate(None, bytes({*range(9), 11, *range(14, 26), *range(27, 32), 127})))
+    if strange > _BINARY_SHARE * len(sample):
+        return f"the file looks like binary data ({strange} control characters in its first {len(sample)} bytes)"
+    return ""
+
+
+def _looks_like_utf16(sample: bytes) -> bool:
+    even, odd = sample[0::2].count(0), sample[1::2].count(0)
+    half = len(sample) // 2
+    return half > 1 and max(even, odd) > 0.4 * half and min(even, odd) <= 0.05 * half
+
+
+def _decode(body: bytes) -> tuple[str, str, list[Problem]]:
+    try:
+        return body.decode("utf-8"), "utf-8", []
+    except UnicodeDecodeError as error:
+        start = error.start
+    for encoding, shown in (("cp1252", "CP1252"), ("latin-1", "Latin-1")):
+        try:
+            text = body.decode(encoding)
+        except UnicodeDecodeError:
+            continue
+        message = _NOT_UTF8.format(f"byte 0x{body[start]:02X}", shown)
+        return text, encoding, [Problem(SYN012, message, Span(start, start + 1))]
+    raise AssertionError("Latin-1 decodes every byte")
+
+
+def _control_characters(text: str) -> list[Problem]:
+    """One finding for all control characters, at the first."""
+    first = _CONTROL.search(text)
+    if first is None:
+        return []
+    count = sum(1 for _ in _CONTROL.finditer(text))
+    more = f" (and {count - 1} more control characters)" if count > 1 else ""
+    what = "NUL" if first.group() == "\0" else "end-of-file mark (Ctrl-Z)" if first.group() == "\x1a" else "control"
+    message = f"{what} character U+{ord(first.group()):04X}{more}: remove it"
+    return [Problem(SYN012, message, Span(*first.span()))]

@@ -1,0 +1,126 @@
+"""The lossless tree of level one: leaves are spans of the text, laid end to end they are the text."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from enum import Enum
+from functools import cache
+from typing import NamedTuple, cast
+
+from lark import Lark, Token, Tree
+
+from mudline.diagnostics import Span
+from mudline.resources import grammar_file
+from mudline.syntax.source import Source
+
+_BLANKS = re.compile(r"[ \t]+")
+_COMMA = re.compile(r" *, *")
+
+
+class Kind(Enum):
+    """What a leaf is, by its look alone."""
+
+    SECTION = "SECTION"
+    KEYWORD = "KEYWORD"
+    RUN = "RUN"
+    SETTING = "SETTING"
+    UNDECIDED = "UNDECIDED"
+    COMMENT = "COMMENT"
+    BLANK = "BLANK"
+    TEXT = "TEXT"
+
+
+class Leaf(NamedTuple):
+    """One line, or a run of numeric or blank lines, with its line ends."""
+
+    kind: Kind
+    span: Span
+
+
+@dataclass(slots=True)
+class RawBlock:
+    """A `*KEYWORD` line and what follows it; `name` is in upper case with single blanks."""
+
+    head: Leaf
+    name: str
+    leaves: list[Leaf] = field(default_factory=list)
+
+
+@dataclass(slots=True)
+class RawSection:
+    """A `$SECTION` line and its blocks; the preamble has no head and the name ""."""
+
+    head: Leaf | None
+    name: str
+    leaves: list[Leaf] = field(default_factory=list)
+    blocks: list[RawBlock] = field(default_factory=list)
+
+
+@dataclass(frozen=True, slots=True)
+class SyntaxTree:
+    """A whole file: what stands before the first section, then the sections."""
+
+    source: Source
+    preamble: RawSection
+    sections: tuple[RawSection, ...]
+
+    def leaves(self) -> Iterator[Leaf]:
+        """Every leaf, in the order of the text."""
+        for section in (self.preamble, *self.sections):
+            if section.head:
+                yield section.head
+            yield from section.leaves
+            for block in section.blocks:
+                yield block.head
+                yield from block.leaves
+
+
+@cache
+def _parser() -> Lark:
+    grammar = grammar_file("deck.lark").read_text(encoding="utf-8")
+    return Lark(grammar, parser="lalr", lexer="basic", maybe_placeholders=False)
+
+
+def canonical_name(line: str) -> str:
+    """The name that a `$` or `*` line gives: upper case, single blanks, none around a comma."""
+    name = _BLANKS.sub(" ", line.strip(" \t\r\n")[1:].strip(" \t"))
+    return _COMMA.sub(",", name).upper()
+
+
+def parse(source: Source) -> SyntaxTree:
+    """The tree of a source. Never fails: content that is no text becomes one leaf before any section."""
+    if not source.readable:
+        leaf = Leaf(Kind.TEXT, Span(0, len(source.text)))
+        return SyntaxTree(source, RawSection(None, "", [leaf] if source.text else []), ())
+    tree = cast("Tree[Token]", _parser().parse(source.unified))
+    sections = [_section(cast("Tree[Token]", child)) for child in tree.children]
+    return SyntaxTree(source, sections[0], tuple(sections[1:]))
+
+
+def _section(tree: Tree[Token]) -> RawSection:
+    section = RawSection(None, "")
+    for child in tree.children:
+        if isinstance(child, Tree):
+            section.blocks.append(_block(child))
+            continue
+        leaf = _leaf(child)
+        if leaf.kind is Kind.SECTION:
+            section.head, section.name = leaf, canonical_name(child)
+        else:
+            section.leaves.append(leaf)
+    return section
+
+
+def _block(tree: Tree[Token]) -> RawBlock:
+    head, *rest = cast("list[Token]", tree.children)
+    return RawBlock(_leaf(head), canonical_name(head), [_leaf(token) for token in rest])
+
+
+def _leaf(token: Token) -> Leaf:
+    start = cast("int", token.start_pos)
+    return Leaf(_KINDS[token.type], Span(start, start + len(token)))
+
+
+_KINDS = {kind.value: kind for kind in Kind}

@@ -1,0 +1,124 @@
+"""The curve as an object, and the arrays it takes and gives."""
+
+from __future__ import annotations
+
+import copy
+import pickle
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mudline.curves import ForceCurve
+
+POINTS = [(0.3, 4500.0), (0.0, 0.0), (0.1, 2000.0)]
+
+
+def test_points_are_sorted_and_repeats_merged() -> None:
+    curve = ForceCurve([*POINTS, (0.1, 2000.0), (0.0, -0.0)], name="clay")
+    assert curve.name == "clay"
+    assert curve.ratios.tolist() == [0.0, 0.1, 0.3]
+    assert curve.forces.tolist() == [0.0, 2000.0, 4500.0]
+    assert curve.slopes == pytest.approx([20000.0, 12500.0], rel=1e-15)
+    assert not np.signbit(curve.forces).any()
+
+
+def test_points_may_be_an_array_of_any_real_kind() -> None:
+    whole = np.array([[0, 0], [2, 8]])
+    for kind in (np.int32, np.float32, np.float64, np.longdouble):
+        assert ForceCurve(whole.astype(kind)) == ForceCurve([(0, 0), (2, 8)])
+
+
+def test_a_curve_does_not_change() -> None:
+    given = np.array(POINTS)
+    curve = ForceCurve(given)
+    given[:] = 7.0
+    assert curve == ForceCurve(POINTS)
+    for array in (curve.ratios, curve.forces, curve.slopes):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 1.0
+    with pytest.raises(AttributeError, match="cannot set name"):
+        curve.name = "mud"
+    with pytest.raises(AttributeError, match="cannot delete name"):
+        del curve.name
+
+
+def test_equality_and_hash_are_those_of_name_and_points() -> None:
+    curve = ForceCurve(POINTS, name="clay")
+    same = ForceCurve(sorted(POINTS), name="clay")
+    assert curve == same
+    assert hash(curve) == hash(same)
+    assert curve != ForceCurve(POINTS, name="sand")
+    assert curve != ForceCurve(POINTS[:2], name="clay")
+    assert curve != "clay"
+    assert len({curve, same, ForceCurve(POINTS)}) == 2
+
+
+def test_copies_and_pickles_are_equal() -> None:
+    curve = ForceCurve(POINTS, name="clay")
+    for twin in (copy.copy(curve), copy.deepcopy(curve), pickle.loads(pickle.dumps(curve))):  # noqa: S301 - our own bytes
+        assert twin == curve
+        assert twin.evaluate(0.2) == curve.evaluate(0.2)
+
+
+def test_repr() -> None:
+    assert repr(ForceCurve([(1, 2), (0, 1)], name="a")) == "ForceCurve([(0.0, 1.0), (1.0, 2.0)], name='a')"
+    many = ForceCurve([(ratio, ratio) for ratio in range(9)])
+    assert repr(many) == "ForceCurve(<9 points from (0.0, 0.0) to (8.0, 8.0)>, name=None)"
+
+
+@pytest.mark.parametrize("shape", [(), (0,), (1,), (0, 3), (2, 3, 4), (3, 7000)])
+def test_results_have_the_shape_of_the_query(shape: tuple[int, ...]) -> None:
+    curve = ForceCurve(POINTS)
+    query = np.random.default_rng(1).uniform(-1.0, 1.0, shape)
+    force, slope = curve.evaluate(query)
+    assert force.shape == slope.shape == shape
+    assert curve.segment(query).shape == curve.extrapolated(query).shape == shape
+    assert np.array_equal(force.ravel(), curve.evaluate(np.ravel(query))[0])
+
+
+@pytest.mark.parametrize("points", [POINTS, [(0.01 * index, float(index % 7)) for index in range(50)]])
+def test_layout_and_number_type_of_the_query_do_not_matter(points: list[tuple[float, float]]) -> None:
+    curve = ForceCurve(points)
+    query = np.random.default_rng(2).uniform(-1.0, 1.0, (300, 400)).astype(np.float32).astype(np.float64)
+    expected = np.array([curve.evaluate(row) for row in query])
+    for view in (query, np.asfortranarray(query), query.astype(np.float32), query.astype(">f8")):
+        force, slope = curve.evaluate(view)
+        assert np.array_equal(force, expected[:, 0])
+        assert np.array_equal(slope, expected[:, 1])
+        assert np.array_equal(curve.segment(view), curve.segment(query))
+    assert np.array_equal(curve.evaluate(query[::3, ::-2].T)[0], expected[::3, 0, ::-2].T)
+    assert np.array_equal(curve.evaluate(np.array([[0], [1]]))[0], curve.evaluate([[0.0], [1.0]])[0])
+
+
+def test_out_is_written_in_place_and_returned() -> None:
+    curve = ForceCurve(POINTS)
+    query = np.random.default_rng(3).uniform(-1.0, 1.0, (40, 1000))
+    expected = curve.evaluate(query)
+    both = np.empty((40, 1000, 2))
+    out = (both[..., 0], both[..., 1])
+    returned = curve.evaluate(query, out=out)
+    assert returned[0] is out[0]
+    assert returned[1] is out[1]
+    assert np.array_equal(both, np.stack(expected, axis=-1))
+
+
+def test_out_may_be_the_memory_of_the_query() -> None:
+    curve = ForceCurve(POINTS)
+    memory = np.random.default_rng(4).uniform(-1.0, 1.0, 50_001)
+    expected = curve.evaluate(memory[:-1])
+    slope = np.empty(50_000)
+    curve.evaluate(memory[:-1], out=(memory[1:], slope))
+    assert np.array_equal(memory[1:], expected[0])
+    assert np.array_equal(slope, expected[1])
+    again = np.random.default_rng(4).uniform(-1.0, 1.0, 50_001)[:-1]
+    curve.evaluate(again, out=(slope, again))
+    assert np.array_equal(slope, expected[0])
+    assert np.array_equal(again, expected[1])
+
+
+def test_a_memory_mapped_query(tmp_path: Path) -> None:
+    query = np.random.default_rng(5).uniform(-1.0, 1.0, 40_000)
+    np.save(tmp_path / "ratios.npy", query)
+    mapped = np.load(tmp_path / "ratios.npy", mmap_mode="r")
+    assert np.array_equal(ForceCurve(POINTS).evaluate(mapped)[0], ForceCurve(POINTS).evaluate(query)[0])

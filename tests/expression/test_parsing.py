@@ -1,0 +1,145 @@
+"""What is read as an equation, where its parts stand, and what is said of everything else."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+
+from mudline.expression import DEEPEST, LONGEST, Expression, ExpressionError, NameSpan, parse
+
+
+def test_text_names_and_functions_are_kept_as_written() -> None:
+    expression = parse("if(Gravity<10, Depth, Depth*LengthFactor) + MAX(depth, Max(1, 2))")
+    assert expression.text == "if(Gravity<10, Depth, Depth*LengthFactor) + MAX(depth, Max(1, 2))"
+    assert expression.names == ("Gravity", "Depth", "LengthFactor", "depth")
+    assert expression.functions == ("if", "MAX", "Max")
+    assert expression.name_spans[:2] == (NameSpan("Gravity", 3, 10), NameSpan("Depth", 15, 20))
+
+
+def test_every_use_of_a_name_has_its_place() -> None:
+    text = "Größe*2 - (Größe + b_1.x)^-b_1.x"
+    spans = parse(text).name_spans
+    assert [use.name for use in spans] == ["Größe", "Größe", "b_1.x", "b_1.x"]
+    assert [text[use.start : use.end] for use in spans] == [use.name for use in spans]
+
+
+@pytest.mark.parametrize(
+    ("text", "names"),
+    [
+        ("Water Depth", ("Water Depth",)),
+        ("Water Depth 2 + Vessel Offset", ("Water Depth 2", "Vessel Offset")),
+        ("a AND b", ("a", "b")),
+        ("a b Or not c d", ("a b", "c d")),
+        ("android or nothing", ("android", "nothing")),
+        ("and_1 + or.2 + notch", ("and_1", "or.2", "notch")),
+        ("sea and_x", ("sea and_x",)),
+        ("_under + тяга + 深さ", ("_under", "тяга", "深さ")),
+        ("e\u0301tage", ("e\u0301tage",)),
+        ("2*pi*r", ("pi", "r")),
+        ("  x\t", ("x",)),
+    ],
+)
+def test_names(text: str, names: tuple[str, ...]) -> None:
+    assert parse(text).names == names
+
+
+def test_an_expression_is_a_value() -> None:
+    assert parse("a + 1") == parse("a + 1")
+    assert parse("a + 1") != parse("a+1")
+    assert len({parse("a"), parse("a"), parse("b")}) == 2
+    assert repr(parse("a")) == "Expression(text='a', name_spans=(NameSpan(name='a', start=0, end=1),), functions=())"
+    with pytest.raises(AttributeError):
+        parse("a").text = "b"  # type: ignore[misc]  # the point of the test
+
+
+VALUE = "a number, a name or '('"
+
+
+@pytest.mark.parametrize(
+    ("text", "start", "end", "message"),
+    [
+        ("", 0, 0, "the equation is empty"),
+        (" \t", 0, 2, "the equation is empty"),
+        ("1 +", 3, 3, f"the equation ends too early, expected {VALUE}"),
+        ("(1", 2, 2, "the equation ends too early, expected an operator or ')'"),
+        ("max(1 ", 6, 6, "the equation ends too early, expected an operator, ',' or ')'"),
+        ("pi(", 3, 3, "the equation ends too early, expected a number, a name, '(' or ')'"),
+        ("1)", 1, 2, "found ')', expected an operator"),
+        ("max(1,)", 6, 7, f"found ')', expected {VALUE}"),
+        ("()", 1, 2, f"found ')', expected {VALUE}"),
+        ("1,5", 1, 2, "found ',', expected an operator"),
+        ("2 3.5", 2, 5, "found the number 3.5, expected an operator"),
+        ("2x", 1, 2, "found the name 'x', expected an operator"),
+        ("a  b", 3, 4, "found the name 'b', expected an operator"),
+        ('a "b"', 2, 5, "found text in quotation marks, expected an operator"),
+        ("2*not x", 2, 5, f"found NOT, expected {VALUE}"),
+        ("a and or b", 9, 10, "found the name 'b', expected '('"),
+        ("2 * / 3", 4, 5, f"found '/', expected {VALUE}"),
+        ("= 3", 0, 1, f"found '=', expected {VALUE}"),
+        ("0 < x < 2", 6, 7, "found a second comparison '<', expected AND or OR between two comparisons"),
+        ("10 % 3", 3, 4, "found '%', expected an operator"),
+        ("[a]", 0, 1, f"found '[', expected {VALUE}"),
+        ("a+\x07", 2, 3, f"found '\\x07', expected {VALUE}"),
+        ("a+\ud800", 2, 3, f"found '\\ud800', expected {VALUE}"),
+        ("1+٣", 2, 3, f"found '٣', expected {VALUE}"),
+        ('a + "b', 4, 6, "text opens with a quotation mark and does not close"),
+        ("1 " + "2" * 50, 2, 52, "found the number " + "2" * 40 + "..., expected an operator"),
+    ],
+)
+def test_faults(text: str, start: int, end: int, message: str) -> None:
+    with pytest.raises(ExpressionError) as caught:
+        parse(text)
+    assert (caught.value.start, caught.value.end, str(caught.value)) == (start, end, message)
+    assert caught.value.span == (start, end)
+
+
+def nested(levels: int) -> list[str]:
+    """Equations with that many levels of one kind inside one another."""
+    return [
+        "(" * levels + "1" + ")" * levels,
+        "-" * levels + "1",
+        "+-" * (levels // 2) + "-" * (levels % 2) + "1",
+        "not " * levels + "1",
+        "2^" * levels + "2",
+        "2^-" * (levels // 2) + "(" * (levels % 2) + "2" + ")" * (levels % 2),
+        "if(1," * levels + "1" + ",0)" * levels,
+        "1+(2*" * levels + "3" + ")" * levels,
+    ]
+
+
+@pytest.mark.parametrize("text", nested(DEEPEST))
+def test_nesting_up_to_the_limit_is_read(text: str) -> None:
+    assert isinstance(parse(text), Expression)
+
+
+@pytest.mark.parametrize("text", nested(DEEPEST + 1) + nested(1500))
+def test_deeper_nesting_is_refused(text: str) -> None:
+    with pytest.raises(ExpressionError, match=r"nested more than 100|longer than 10000") as caught:
+        parse(text)
+    assert 0 < caught.value.start < caught.value.end <= len(text)
+
+
+def test_the_fault_of_deep_nesting_is_its_first_bracket_too_many() -> None:
+    with pytest.raises(ExpressionError) as caught:
+        parse("(" * 3000 + "1" + ")" * 3000)
+    assert caught.value.span == (100, 5901)
+
+
+def test_length_limit() -> None:
+    assert parse("1".ljust(LONGEST)).names == ()
+    with pytest.raises(ExpressionError, match="longer than 10000 characters") as caught:
+        parse("1".ljust(LONGEST + 3))
+    assert caught.value.span == (LONGEST, LONGEST + 3)
+
+
+def test_an_unclosed_tower_of_brackets_is_an_error_of_its_end() -> None:
+    with pytest.raises(ExpressionError, match="ends too early"):
+        parse("(" * LONGEST)
+
+
+def test_importing_does_not_build_the_grammar() -> None:
+    program = "from mudline.expression import parsing; print(parsing._grammar.cache_info().currsize)"
+    run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert run.stdout == "0\n"
