@@ -209,6 +209,7 @@ TOO_LARGE = "the result is too large"
         ("round(1, 0.5)", "round(1, 0.5)", "round(1, 0.5) has no value"),
         ("round(1, 1e9)", "round(1, 1e9)", "round(1, 1e+09) has no value"),
         ("2 * Sqrt(1, 2)", "Sqrt(1, 2)", "sqrt wants 1 argument, found 2"),
+        ("ln(8, 2)", "ln(8, 2)", "ln wants 1 argument, found 2"),
         ("min()", "min()", "min wants at least 1 argument, found 0"),
         ("atan2(1)", "atan2(1)", "atan2 wants 2 arguments, found 1"),
         ("pi(1)", "pi(1)", "pi wants 0 arguments, found 1"),
