@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 import pickle
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from mudline.curves import CurveError, ForceCurve, QueryError
 
@@ -84,14 +85,17 @@ def test_a_force_that_overflows_is_named_whatever_block_it_is_in(count: int) -> 
 
 
 def test_a_query_of_another_kind() -> None:
-    for bad in (["a"], [1j], [None], [Fraction(1, 2)]):
+    queries: list[ArrayLike] = [["a"], [1j], np.array([None]), np.array([Fraction(1, 2)])]
+    for bad in queries:
         with pytest.raises(ValueError, match="ratios must be real numbers"):
             LINE.evaluate(bad)
 
 
 def test_an_out_that_does_not_fit() -> None:
     good = np.empty(3)
-    for bad in (np.empty(2), np.empty((3, 1)), np.empty(3, np.float32)):
+    single: NDArray[Any] = np.empty(3, np.float32)
+    misfits: list[NDArray[np.float64]] = [np.empty(2), np.empty((3, 1)), single]
+    for bad in misfits:
         for out in ((good, bad), (bad, good)):
             with pytest.raises(ValueError, match=r"out must be float64 of shape \(3,\)"):
                 LINE.evaluate([0.0, 1.0, 2.0], out=out)

@@ -41,7 +41,9 @@ class Assembly:
         for end in self._ends:
             self._check(part.normal_force[:, end], first_step)
         np.multiply(part.normal_force[..., np.newaxis], part.normal, out=part.reaction)
-        part.reaction += 0.0  # a negative force times a zero component is -0, which is no reaction of its own
+        np.add(
+            part.reaction, 0.0, out=part.reaction
+        )  # a negative force times a zero component is -0, which is no reaction of its own
 
     def _check(self, values: FloatArray, first_step: int) -> None:
         """Refuse values (steps, elements) that overflowed."""

@@ -89,8 +89,8 @@ class ContactInput:
         return np.flatnonzero(self.law == kind)
 
     def _check_elements(self, nodes: int) -> None:
-        pointed = ((self.element_nodes >= 0) & (self.element_nodes < nodes)).all(axis=1)
-        self._require(pointed, "has a node that is not there")
+        inside = (self.element_nodes >= 0) & (self.element_nodes < nodes)
+        self._require(inside[:, 0] & inside[:, 1], "has a node that is not there")
         self._require(np.isfinite(self.length) & (self.length >= 0.0), "has no usable length")
         usable = np.isfinite(self.diameter) & (self.diameter > 0.0)
         self._require(usable | np.isnan(self.diameter), "has a diameter that is not positive and finite")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -32,10 +34,11 @@ class Work:
 
 def blocks(source: NDArray[np.generic], *targets: NDArray[np.generic]) -> np.nditer:
     """Iterate over `source` (read as float64) and `targets` in flat order, BLOCK at a time, whatever their layout."""
+    access: list[list[Literal["readonly", "writeonly"]]] = [["readonly"], *(["writeonly"] for _ in targets)]
     return np.nditer(
         [source, *targets],
         flags=["external_loop", "buffered", "zerosize_ok", "copy_if_overlap"],
-        op_flags=[["readonly"], *[["writeonly"] for _ in targets]],
+        op_flags=access,
         op_dtypes=[np.dtype(np.float64), *[target.dtype for target in targets]],
         order="C",
         casting="same_kind",
