@@ -34,7 +34,8 @@ class Work:
 
 def blocks(source: NDArray[np.generic], *targets: NDArray[np.generic]) -> np.nditer:
     """Iterate over `source` (read as float64) and `targets` in flat order, BLOCK at a time, whatever their layout."""
-    access: list[list[Literal["readonly", "writeonly"]]] = [["readonly"], *(["writeonly"] for _ in targets)]
+    access: list[list[Literal["readonly", "writeonly"]]] = [["readonly"]]
+    access += [["writeonly"] for _ in targets]
     return np.nditer(
         [source, *targets],
         flags=["external_loop", "buffered", "zerosize_ok", "copy_if_overlap"],

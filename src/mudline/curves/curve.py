@@ -137,8 +137,8 @@ class ForceCurve:
         middle = 0.5 * low[segment] + 0.5 * high[segment]
         near = segment + ((force > middle) == (high[segment] > low[segment]))
         offset = difference_quotient(np.float64(force), self.forces[near], self.slopes[segment])
-        ratio = self.ratios[near] + offset
-        return np.minimum(np.maximum(ratio, self.ratios[segment]), self.ratios[segment + 1])
+        ratio: FloatArray = np.clip(self.ratios[near] + offset, self.ratios[segment], self.ratios[segment + 1])
+        return ratio
 
     def _beyond_ends(self, force: float) -> list[float]:
         """The ratios of this force below the first and beyond the last point."""
