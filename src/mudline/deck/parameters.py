@@ -51,6 +51,7 @@ class Parameters:
     deck: Deck
     definitions: dict[str, Definition] = field(default_factory=dict)
     values: dict[str, Value] = field(default_factory=dict)
+    failed: set[str] = field(default_factory=set)
     problems: list[Problem] = field(default_factory=list)
 
     def __post_init__(self) -> None:
@@ -73,7 +74,7 @@ class Parameters:
         """The value of an equation; raises NoValue with the problem, placed at `where`."""
         expression = self._parse(equation, where)
         for name, _, _ in expression.name_spans:
-            if folded(name) in self.definitions and folded(name) not in self.values:
+            if folded(name) in self.failed:
                 raise NoValue
         return self._value(expression, where)
 
@@ -117,7 +118,7 @@ class Parameters:
         while stack:
             current = stack[-1]
             definition = self.definitions[current]
-            if current in self.values or definition.name == "":
+            if current in self.values or current in self.failed:
                 stack.pop()
                 continue
             waiting = self._waiting(current, definition)
@@ -131,7 +132,7 @@ class Parameters:
             if cyclic:
                 chain = " -> ".join(self.definitions[n].name for n in [*sorted(cyclic), current])
                 message = f"parameter {definition.name} is defined through itself ({chain})"
-                self._fail(definition, Problem(REF014, message, None, None, definition.where))
+                self._fail(current, Problem(REF014, message, None, None, definition.where))
 
     def _waiting(self, name: str, definition: Definition) -> list[str]:
         """Evaluate a definition, or name the parameters that have to be evaluated before."""
@@ -141,19 +142,19 @@ class Parameters:
         try:
             expression = self._parse(definition.value, definition.where)
             used = [folded(other) for other in expression.names if folded(other) in self.definitions]
-            if any(self.definitions[other].name == "" for other in used):
+            if self.failed.intersection(used):
                 raise NoValue
             waiting = [other for other in used if other not in self.values]
             if not waiting:
                 self.values[name] = self._value(expression, definition.where)
         except NoValue as reason:
-            self._fail(definition, reason.problem)
+            self._fail(name, reason.problem)
             return []
         return waiting
 
-    def _fail(self, definition: Definition, problem: Problem | None) -> None:
-        """Mark a definition as without value; it keeps its place, so that its users are not told of it again."""
-        definition.name = ""
+    def _fail(self, name: str, problem: Problem | None) -> None:
+        """A parameter without value: told once, not again for each of its users."""
+        self.failed.add(name)
         if problem:
             self.problems.append(problem)
 
@@ -169,7 +170,7 @@ class Parameters:
             return evaluate(expression, lambda name: self.values[folded(name)])
         except UndefinedName as error:
             word = expression.text[error.start : error.end]
-            known = [definition.name for definition in self.definitions.values() if definition.name]
+            known = [definition.name for definition in self.definitions.values()]
             message = f"parameter {word} is not defined{suggestion(word, known)}: define it in *PARAMETERS"
             raise NoValue(Problem(REF013, message, None, None, where)) from error
         except UnknownFunction as error:

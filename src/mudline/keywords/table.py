@@ -166,6 +166,7 @@ def from_rows(raw: RawRows, columns: Sequence[Column]) -> tuple[Table, dict[tupl
     fewest = _fewest(columns)
     for row in np.flatnonzero((raw.lengths < fewest) | (raw.lengths > len(columns))).tolist():
         faults[row, -1] = f"{raw.lengths[row]} fields, expected {_count(columns)}"
+        raw.values[row, 1:] = math.nan  # the row still defines its number
     table = Table(raw.values, lengths, words)
     return table, faults | _not_whole(table, columns)
 

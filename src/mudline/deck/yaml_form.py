@@ -1,0 +1,130 @@
+"""A deck to YAML 1.2 and back. A long table is a block of rows, as a nested list would take a minute to read."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+import yaml
+
+from mudline.codes import DOC001
+from mudline.deck.document import DocumentPath, from_document, to_document
+from mudline.deck.model import START, Deck, Range
+from mudline.deck.node_places import node_places
+from mudline.deck.yaml_core import CoreDumper, CoreLoader, scalar
+from mudline.diagnostics import DeckError, Diagnostic
+from mudline.keywords.writer import joined
+
+SHORT_TABLE = 20
+"""Tables up to this many rows are lists; longer ones a block of text, a row a line."""
+
+
+def to_yaml(deck: Deck) -> str:
+    """The deck as YAML text."""
+    return yaml.dump(_node(to_document(deck)), Dumper=_Dumper, sort_keys=False, allow_unicode=True, width=2**30)
+
+
+class _Literal(str):
+    """Text that is written as a literal block."""
+
+    __slots__ = ()
+
+
+class _Flow(list[Any]):
+    """A list that is written on one line."""
+
+
+class _Dumper(CoreDumper):
+    """Literal blocks, rows on one line, the shortest numbers that read back."""
+
+
+_Dumper.add_representer(
+    _Literal, lambda dumper, text: dumper.represent_scalar("tag:yaml.org,2002:str", str(text), style="|")
+)
+_Dumper.add_representer(
+    _Flow, lambda dumper, row: dumper.represent_sequence("tag:yaml.org,2002:seq", row, flow_style=True)
+)
+_Dumper.add_representer(
+    float, lambda dumper, value: dumper.represent_scalar("tag:yaml.org,2002:float", repr(value))
+)
+_Dumper.add_representer(type(None), lambda dumper, _: dumper.represent_scalar("tag:yaml.org,2002:null", "null"))
+
+
+def _node(value: Any) -> Any:
+    """The document with its tables and rows marked for the dumper."""
+    if isinstance(value, dict):
+        return {key: _node(item) for key, item in value.items()}
+    if not isinstance(value, list) or not value:
+        return value
+    if isinstance(value[0], list) and len(value) > SHORT_TABLE:
+        return _Literal("".join(f"{joined(row)}\n" for row in value))
+    if isinstance(value[0], str):
+        return value
+    if isinstance(value[0], dict | list):
+        return [_node(item) for item in value]
+    return _Flow(value)
+
+
+def from_yaml(text: str, file: str = "<yaml>") -> Deck:
+    """The deck of a YAML text; raises DeckError for what is no YAML, has a key twice or an alias, or breaks the schema."""
+    try:
+        root = yaml.compose(text, Loader=CoreLoader)
+    except yaml.MarkedYAMLError as error:
+        mark = error.problem_mark or error.context_mark
+        place = Range(mark.line + 1, mark.column + 1, mark.line + 1, mark.column + 1) if mark else START
+        raise _refusal(file, f"no YAML: {error.problem}", place) from error
+    except (yaml.YAMLError, RecursionError) as error:
+        raise _refusal(file, f"no YAML: {str(error) or 'nested too deeply'}", START) from error
+    document = None if root is None else _Reader(file).value(root)
+
+    @cache
+    def found() -> dict[DocumentPath, Range]:
+        return {} if root is None else node_places(root)
+
+    def locate(path: DocumentPath) -> Range:
+        known = found()
+        return next((known[path[:n]] for n in range(len(path), -1, -1) if path[:n] in known), START)
+
+    return from_document(document, file, locate)
+
+
+class _Reader:
+    """Nodes to values."""
+
+    def __init__(self, file: str) -> None:
+        self.file = file
+        self.seen: set[int] = set()
+
+    def value(self, node: yaml.Node) -> Any:
+        """The value of a node and all below it."""
+        if id(node) in self.seen:
+            raise self._error(node, "an alias (*name) is not used in a deck: write the value out")
+        self.seen.add(id(node))
+        if isinstance(node, yaml.MappingNode):
+            return self._mapping(node)
+        if isinstance(node, yaml.SequenceNode):
+            return [self.value(item) for item in node.value]
+        assert isinstance(node, yaml.ScalarNode)
+        try:
+            return scalar(node)
+        except ValueError as error:
+            raise self._error(node, str(error)) from error
+
+    def _mapping(self, node: yaml.MappingNode) -> dict[str, Any]:
+        values: dict[str, Any] = {}
+        for key_node, value_node in node.value:
+            key = self.value(key_node)
+            if not isinstance(key, str):
+                raise self._error(key_node, f"a key must be a text, found {key!r}")
+            if key in values:
+                raise self._error(key_node, f"the key {key!r} stands twice in one mapping")
+            values[key] = self.value(value_node)
+        return values
+
+    def _error(self, node: yaml.Node, message: str) -> DeckError:
+        mark = node.start_mark
+        return _refusal(self.file, message, Range(mark.line + 1, mark.column + 1, mark.line + 1, mark.column + 1))
+
+
+def _refusal(file: str, message: str, place: Range) -> DeckError:
+    return DeckError([Diagnostic(file, DOC001.code, DOC001.slug, DOC001.severity, message, *place)])

@@ -1,0 +1,108 @@
+"""A model to the lines of its keyword, comments where they stood."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+from mudline.keywords.model import Block, Part, Record, Rows, Setting, Slot, layout
+from mudline.keywords.table import Cell, Table
+
+
+def block_lines(block: Block) -> Iterator[str]:
+    """The lines of a block, from its `*KEYWORD` on, without line ends."""
+    yield f"*{block.keyword}"
+    yield from _with_comments(block, list(_items(block)))
+
+
+def _record_lines(record: Record) -> Iterator[str]:
+    """The opening setting of a record, if its first field is one, then its items."""
+    items = list(_items(record))
+    if _opens(record) and items:
+        yield from items.pop(0)
+    yield from _with_comments(record, items)
+
+
+def _opens(record: Record) -> bool:
+    found = layout(type(record))
+    first = next((slot for slot in found.slots if getattr(record, slot.name) is not None), None)
+    return first is not None and isinstance(first.about, Setting)
+
+
+def _with_comments(record: Record, items: list[list[str]]) -> Iterator[str]:
+    comments = sorted(record.comments, key=lambda comment: comment.before)
+    at = 0
+    for index, lines in enumerate(items):
+        while at < len(comments) and comments[at].before <= index:
+            yield f"C{comments[at].text}"
+            at += 1
+        yield from lines
+    yield from (f"C{comment.text}" for comment in comments[at:])
+
+
+def _items(record: Record) -> Iterator[list[str]]:
+    """The items of a record in the order of its fields: a line each, or the lines of a record below it."""
+    found = layout(type(record))
+    plain = [slot for slot in found.columns if not slot.row]
+    own_row = plain if len(plain) == len(found.columns) else []
+    pending: str = ""
+    for slot in found.slots:
+        value = getattr(record, slot.name)
+        setting = slot.about if isinstance(slot.about, Setting) else None
+        if pending and not (setting and setting.inline):
+            yield [pending]
+            pending = ""
+        if slot in own_row:
+            if slot is own_row[0]:
+                yield [" " + _row(record, own_row)]
+        elif value is None:
+            continue
+        elif setting:
+            text = f"{setting.key}={_value(value)}"
+            pending = f"{pending}, {text}" if pending and setting.inline else f" {text}"
+        elif isinstance(slot.about, Rows):
+            yield from ([line] for line in table_lines(value, slot))
+        elif slot.record:
+            yield from (list(_record_lines(child)) for child in value)
+        else:
+            yield [f" {_value(value)}"]
+    if pending:
+        yield [pending]
+
+
+def table_lines(table: Table, slot: Slot) -> Iterator[str]:
+    """The rows of a table, one a line."""
+    assert isinstance(slot.about, Rows)
+    for row in table.rows(slot.about.columns()):
+        yield " " + joined(row)
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, Part):
+        return _row(value, layout(type(value)).columns)
+    if isinstance(value, list):
+        return joined(value)
+    return field_text(value)
+
+
+def _row(part: Part, columns: list[Slot]) -> str:
+    given = [slot.name in part.model_fields_set for slot in columns]
+    length = max((index + 1 for index, here in enumerate(given) if here), default=0)
+    values = [getattr(part, slot.name) for slot in columns[:length]]
+    if len(values) == 1 and isinstance(values[0], list):
+        values = values[0]
+    return joined(values)
+
+
+def joined(values: list[Cell]) -> str:
+    """Fields of a line; a line of one empty field is a comma, as an empty line would be no line."""
+    text = ", ".join(field_text(value) for value in values).rstrip(" ")
+    return text or ","
+
+
+def field_text(value: Cell) -> str:
+    """A field: the shortest number that reads back to the same double, text as it is, nothing for an empty field."""
+    if value is None or (isinstance(value, float) and math.isnan(value)):
+        return ""
+    return repr(value) if isinstance(value, float | int) else str(value)

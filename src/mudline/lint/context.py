@@ -1,0 +1,35 @@
+"""What a rule sees."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+from mudline.deck.model import Deck
+from mudline.diagnostics import Code, Problem
+from mudline.scene.build import resolve
+from mudline.scene.model import Scene
+
+
+@dataclass
+class LintContext:
+    """A deck as it is written (equations and all) and its scene (evaluated and resolved, as far as that goes)."""
+
+    deck: Deck
+
+    @cached_property
+    def scene(self) -> Scene:
+        """The scene of the deck."""
+        return resolve(self.deck)
+
+    @cached_property
+    def _told(self) -> dict[str, list[Problem]]:
+        told: dict[str, list[Problem]] = {}
+        for problem in [*self.deck.problems, *self.scene.problems]:
+            told.setdefault(problem.code.code, []).append(problem)
+        return told
+
+    def told(self, code: Code) -> Iterator[Problem]:
+        """What reading and resolving the deck noticed under a code."""
+        yield from self._told.get(code.code, ())

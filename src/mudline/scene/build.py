@@ -1,0 +1,32 @@
+"""From a deck to a scene, step by step."""
+
+from __future__ import annotations
+
+from mudline.deck.evaluation import evaluated
+from mudline.deck.model import Deck
+from mudline.scene.context import Context
+from mudline.scene.elements import read_elements
+from mudline.scene.force_curves import read_curves
+from mudline.scene.laws import check_diameters, read_laws
+from mudline.scene.model import Scene
+from mudline.scene.nodes import read_nodes
+from mudline.scene.ranges import check_ranges
+from mudline.scene.sections import read_sections
+from mudline.scene.sets import read_sets
+
+
+def resolve(deck: Deck) -> Scene:
+    """The scene of a deck, as far as it can be resolved; what went wrong is in its `problems`."""
+    ready, problems = evaluated(deck)
+    context = Context(ready, list(problems))
+    nodes = read_nodes(context)
+    elements = read_elements(context, nodes)
+    count = len(elements.numbered)
+    sets = read_sets(context, elements.numbered)
+    sections = read_sections(context, sets, count)
+    named, by_set = read_curves(context)
+    laws = read_laws(context, sets, named, by_set, count)
+    check_diameters(context, laws, sections, elements.numbered)
+    check_ranges(context)
+    return Scene(ready, nodes, elements, sets, sections, laws, context.problems)
+
