@@ -40,7 +40,8 @@ class Assembly:
             total += np.bincount((row + end).reshape(-1), load.reshape(-1), len(total))
         for end in self._ends:
             self._check(part.normal_force[:, end], first_step)
-        np.multiply(part.normal_force[..., np.newaxis], part.normal, out=part.reaction)
+        for axis in range(3):
+            np.multiply(part.normal_force, part.normal[..., axis], out=part.reaction[..., axis])
         np.add(
             part.reaction, 0.0, out=part.reaction
         )  # a negative force times a zero component is -0, which is no reaction of its own
