@@ -6,6 +6,7 @@ from mudline.deck.evaluation import evaluated
 from mudline.deck.model import Deck
 from mudline.scene.context import Context
 from mudline.scene.elements import read_elements
+from mudline.scene.external import ExternalElements
 from mudline.scene.force_curves import read_curves
 from mudline.scene.laws import check_diameters, read_laws
 from mudline.scene.model import Scene
@@ -15,15 +16,20 @@ from mudline.scene.sections import read_sections
 from mudline.scene.sets import read_sets
 
 
-def resolve(deck: Deck) -> Scene:
-    """The scene of a deck, as far as it can be resolved; what went wrong is in its `problems`."""
+def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:
+    """The scene of a deck, as far as it can be resolved; what went wrong is in its `problems`.
+
+    `external` adds elements that the deck does not show, or replaces its own.
+    """
     ready, problems = evaluated(deck)
     context = Context(ready, list(problems))
-    nodes = read_nodes(context)
-    elements = read_elements(context, nodes)
+    if external is not None:
+        context.definers = []
+    nodes = read_nodes(context, external)
+    elements = read_elements(context, nodes, external)
     count = len(elements.numbered)
-    sets = read_sets(context, elements.numbered)
-    sections = read_sections(context, sets, count)
+    sets = read_sets(context, elements.numbered, external)
+    sections = read_sections(context, sets, elements.numbered, external)
     named, by_set = read_curves(context)
     laws = read_laws(context, sets, named, by_set, count)
     check_diameters(context, laws, sections, elements.numbered)

@@ -12,6 +12,7 @@ from mudline.diagnostics import Where
 from mudline.keywords.table import Table
 from mudline.keywords.text import shown
 from mudline.scene.context import Context
+from mudline.scene.external import ExternalElements
 from mudline.scene.numbering import MOST_GENERATED, Batch, Floats, Gathered, Indices, Numbered
 
 if TYPE_CHECKING:
@@ -27,8 +28,8 @@ class ElementTable:
     length: Floats
 
 
-def read_elements(context: Context, nodes: Numbered) -> ElementTable:
-    """The elements of the model."""
+def read_elements(context: Context, nodes: Numbered, external: ExternalElements | None = None) -> ElementTable:
+    """The elements of the model, then those of a file, which replace them."""
     gathered = Gathered()
     for where, block in context.deck.blocks("ELEMENT"):
         for index, entry in enumerate(cast("Elements", block).entries):
@@ -37,11 +38,18 @@ def read_elements(context: Context, nodes: Numbered) -> ElementTable:
                 _table(context, gathered, cast("ElementRows", entry).elements, place)
             else:
                 _generate(context, gathered, cast("ElementGenerate", entry).generate, place)
+    own = sum(len(batch.ids) for batch in gathered.batches)
+    if external is not None:
+        gathered.add(Batch(external.ids, external.nodes.astype(np.float64), Where()))
     elements = gathered.settle(2)
-    for row in elements.repeats.tolist():
+    for row in elements.repeats[elements.repeats < own].tolist():
         number = elements.id_of_row(row)
         context.tell(REF007, f"element {number} is defined twice: the later definition holds", elements.where_row(row))
-    return ElementTable(elements, *_join(context, elements, nodes))
+    indices, length = _join(context, elements, nodes)
+    if external is not None:
+        at = elements.indices(external.ids)
+        length[at] = np.where(np.isnan(external.length), length[at], external.length)
+    return ElementTable(elements, indices, length)
 
 
 def _table(context: Context, gathered: Gathered, table: Table, where: Where) -> None:
@@ -91,7 +99,7 @@ def _join(context: Context, elements: Numbered, nodes: Numbered) -> tuple[Indice
             continue
         told.add(where)
         message = f"element {elements.ids[index]} ends at node {numbers[index, end]}, which is not defined"
-        generated = where.path[-1] == "generate"
+        generated = where.path[-1:] == ("generate",)
         place = where if generated else where._replace(path=(*where.path, end + 1))
         context.tell_missing(REF006, message, place, "NODE")
     length = np.full(len(elements), np.nan)

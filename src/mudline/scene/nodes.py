@@ -9,14 +9,18 @@ import numpy as np
 from mudline.codes import REF006, REF007, REF010
 from mudline.diagnostics import Where
 from mudline.scene.context import Context
+from mudline.scene.external import ExternalElements
 from mudline.scene.numbering import MOST_GENERATED, Batch, Floats, Gathered, Numbered
 
 if TYPE_CHECKING:
     from mudline.keywords.library.node import NodeGenerate, NodeRange, NodeRows, Nodes
 
 
-def read_nodes(context: Context) -> Numbered:
-    """The nodes of the model with their coordinates (n, 3); NaN where a coordinate could not be read."""
+def read_nodes(context: Context, external: ExternalElements | None = None) -> Numbered:
+    """The nodes of the model with their coordinates (n, 3); NaN where a coordinate could not be read.
+
+    Nodes that only `external` elements name have no coordinates.
+    """
     gathered = Gathered()
     for where, block in context.deck.blocks("NODE"):
         for index, entry in enumerate(cast("Nodes", block).entries):
@@ -25,6 +29,11 @@ def read_nodes(context: Context) -> Numbered:
                 _table(gathered, cast("NodeRows", entry), place)
             else:
                 _generate(context, gathered, cast("NodeGenerate", entry).generate, place)
+    if external is not None:
+        known = gathered.settle(3)
+        extra = np.unique(external.nodes)
+        extra = extra[known.indices(extra) < 0]
+        gathered.add(Batch(extra, np.full((len(extra), 3), np.nan), Where()))
     nodes = gathered.settle(3)
     for row in nodes.repeats.tolist():
         number = nodes.id_of_row(row)

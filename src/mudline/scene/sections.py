@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from mudline.diagnostics import Where
 from mudline.scene.context import Context
-from mudline.scene.numbering import Floats, Indices
+from mudline.scene.external import ExternalElements
+from mudline.scene.numbering import Floats, Indices, Numbered
 from mudline.scene.sets import Sets
 
 if TYPE_CHECKING:
@@ -34,26 +35,24 @@ class Section:
 
 @dataclass(frozen=True, slots=True)
 class SectionTable:
-    """Sections in the order of the file; `of_element` (m,) is the one that each element has, -1 for none."""
+    """Sections in the order of the file; `of_element` (m,) is the one that each element has, -1 for none.
+
+    `diameter` (m,) is the external diameter, NaN where there is none; `faulty` (m,) marks elements whose section could
+    not be read: nothing more is said about them.
+    """
 
     sections: tuple[Section, ...]
     of_element: Indices
-
-    @property
-    def diameter(self) -> Floats:
-        """External diameter of each element (m,), NaN where there is none."""
-        return np.array([*(section.diameter for section in self.sections), math.nan])[self.of_element]
-
-    @property
-    def faulty(self) -> NDArray[np.bool_]:
-        """Elements (m,) whose section could not be read: nothing more is said about it."""
-        return np.array([*(section.faulty for section in self.sections), False])[self.of_element]
+    diameter: Floats
+    faulty: NDArray[np.bool_]
 
 
-def read_sections(context: Context, sets: Sets, count: int) -> SectionTable:
-    """The sections, and the one of each of `count` elements: the later entry wins."""
+def read_sections(
+    context: Context, sets: Sets, elements: Numbered, external: ExternalElements | None = None
+) -> SectionTable:
+    """The sections, and the one of each element: the later entry wins, a diameter from a file over all."""
     sections: list[Section] = []
-    of_element = np.full(count, -1, dtype=np.intp)
+    of_element = np.full(len(elements), -1, dtype=np.intp)
     for where, block in context.deck.blocks("GEOMETRIC SETS"):
         for index, entry in enumerate(cast("GeometricSets", block).sets):
             place = where._replace(path=("sets", index))
@@ -61,7 +60,14 @@ def read_sections(context: Context, sets: Sets, count: int) -> SectionTable:
             if found is not None:
                 of_element[found.elements] = len(sections)
             sections.append(_section(context, entry, place))
-    return SectionTable(tuple(sections), of_element)
+    diameter = np.array([*(section.diameter for section in sections), math.nan])[of_element]
+    faulty = np.array([*(section.faulty for section in sections), False])[of_element]
+    if external is not None:
+        at = elements.indices(external.ids)
+        given = ~np.isnan(external.diameter)
+        diameter[at[given]] = external.diameter[given]
+        faulty[at[given]] = False
+    return SectionTable(tuple(sections), of_element, diameter, faulty)
 
 
 def _section(context: Context, entry: GeometricSet, where: Where) -> Section:

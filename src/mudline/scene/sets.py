@@ -12,6 +12,7 @@ from mudline.deck.parameters import folded
 from mudline.diagnostics import Severity, Where
 from mudline.keywords.text import shown, suggestion
 from mudline.scene.context import Context
+from mudline.scene.external import ExternalElements
 from mudline.scene.numbering import Indices, Numbered
 
 if TYPE_CHECKING:
@@ -52,10 +53,13 @@ class Sets:
         return found
 
 
-def read_sets(context: Context, elements: Numbered) -> Sets:
-    """Every set of the model."""
-    reader = _Reader(context, elements)
-    return reader.read()
+def read_sets(context: Context, elements: Numbered, external: ExternalElements | None = None) -> Sets:
+    """Every set of the model; a file of elements adds to them, or defines more."""
+    sets = _Reader(context, elements).read()
+    for name, ids in (external.sets if external else {}).items():
+        known = sets.named.setdefault(folded(name), NamedSet(name, np.zeros(0, dtype=np.intp), None))
+        known.elements = np.union1d(known.elements, elements.indices(ids))
+    return sets
 
 
 class _Reader:
