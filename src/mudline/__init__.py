@@ -1,3 +1,56 @@
-"""mudline: read, check, convert and evaluate the seabed contact of riser and pipeline decks."""
+"""mudline: read, check, convert and evaluate the seabed contact of riser and pipeline decks.
+
+deck = mudline.read("scr.keyxm")
+for finding in mudline.lint("scr.keyxm"):
+    print(finding)
+scene = deck.scene()
+result = scene.contact().evaluate(positions)
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from mudline.api import Deck, from_json, from_yaml, lint, read
+    from mudline.curves import ForceCurve
+    from mudline.diagnostics import DeckError, Diagnostic, Severity
 
 __version__ = "0.1.0"
+
+__all__ = [
+    "Deck",
+    "DeckError",
+    "Diagnostic",
+    "ForceCurve",
+    "Severity",
+    "__version__",
+    "from_json",
+    "from_yaml",
+    "lint",
+    "read",
+]
+
+_HOMES = {
+    "Deck": "api",
+    "DeckError": "diagnostics",
+    "Diagnostic": "diagnostics",
+    "ForceCurve": "curves",
+    "Severity": "diagnostics",
+    "from_json": "api",
+    "from_yaml": "api",
+    "lint": "api",
+    "read": "api",
+}
+
+
+def __getattr__(name: str) -> object:
+    """Public names are imported when they are first used: the command line asks for the version alone."""
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"mudline.{_HOMES[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    return __all__

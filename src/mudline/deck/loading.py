@@ -50,3 +50,18 @@ def _read(form: str, text: str, name: str) -> Deck:
     from mudline.deck.yaml_form import from_yaml
 
     return from_yaml(text, name)
+
+
+def dump(deck: Deck, form: str) -> str:
+    """The text of a deck in a form."""
+    if form == "json":
+        from mudline.deck.json_form import to_json
+
+        return to_json(deck)
+    if form == "yaml":
+        from mudline.deck.yaml_form import to_yaml
+
+        return to_yaml(deck)
+    from mudline.deck.keyword_form import to_keyword
+
+    return to_keyword(deck)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import zipfile
 from dataclasses import dataclass
 from pathlib import Path
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -152,13 +153,12 @@ def _from_npz(path: Path, nodes: Numbered) -> Positions:
     present[where] = True
     if int(present.sum()) != len(given):
         raise data_error(path.as_posix(), "a node stands twice in the array node")
-    return Positions(_spread(values, where, len(nodes)), present, time, _spread(velocities, where, len(nodes)))
+    moving = None if velocities is None else _spread(velocities, where, len(nodes))
+    return Positions(_spread(values, where, len(nodes)), present, time, moving)
 
 
-def _spread(values: NDArray[np.floating] | None, where: NDArray[np.intp], count: int) -> NDArray[np.floating] | None:
+def _spread(values: NDArray[np.floating], where: NDArray[np.intp], count: int) -> NDArray[np.floating]:
     """Rows of some nodes among rows of all."""
-    if values is None:
-        return None
     spread = np.full((len(values), count, 3), np.nan)
     spread[:, where] = values
     return spread
@@ -204,4 +204,4 @@ def _wrong_shape(path: Path, name: str, found: tuple[int, ...], expected: str) -
 def _real(path: Path, array: NDArray[np.generic], name: str) -> NDArray[np.floating]:
     if array.dtype.kind not in "fiu":
         raise data_error(path.as_posix(), f"{name} holds {array.dtype}, expected numbers")
-    return array if array.dtype.kind == "f" else array.astype(np.float64)
+    return cast("NDArray[np.floating]", array if array.dtype.kind == "f" else array.astype(np.float64))

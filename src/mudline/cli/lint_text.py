@@ -1,0 +1,20 @@
+"""Findings on the terminal."""
+
+from __future__ import annotations
+
+from mudline.cli.console import console
+from mudline.diagnostics import Diagnostic
+from mudline.lint.output.text import findings, summary
+from mudline.syntax.source import Source
+
+
+def print_findings(found: list[Diagnostic], source: Source, color: str) -> None:
+    """The findings of one file, each with its source line."""
+    printer = console(color)
+    for text in findings(found, source):
+        printer.print(text)
+
+
+def print_summary(found: list[Diagnostic], files: int, color: str) -> None:
+    """How many findings there are."""
+    console(color).print(summary(found, files))

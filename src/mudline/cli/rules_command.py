@@ -1,0 +1,58 @@
+"""`mudline rules`."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import click
+
+from mudline.cli import options
+from mudline.cli.exits import DONE
+from mudline.cli.lazy import printing
+from mudline.cli.options import View
+from mudline.lint.registry import Rule, rules
+from mudline.lint.selection import UnknownRule, select
+
+
+@click.command("rules")
+@click.argument("code", required=False)
+@options.output_format("text", "json")
+@options.common
+def command(*, code: str | None, output_format: str, view: View) -> int:
+    """List the rules, or explain those that CODE (a code, a prefix or a slug) names."""
+    try:
+        chosen = select([code]) if code else rules()
+    except UnknownRule as error:
+        raise click.UsageError(str(error)) from error
+    if output_format == "json":
+        click.echo(json.dumps([_object(rule) for rule in chosen], indent=1, ensure_ascii=False))
+    elif code and len(chosen) == 1:
+        click.echo(_page(chosen[0]), nl=False)
+    else:
+        printing("rules").print_rules(chosen, view.color)
+    return DONE
+
+
+def _object(rule: Rule) -> dict[str, Any]:
+    return {
+        "code": rule.code.code,
+        "slug": rule.code.slug,
+        "severity": rule.code.severity.value,
+        "title": rule.title,
+        "why": rule.why,
+        "bad": rule.bad,
+        "good": rule.good,
+    }
+
+
+def _page(rule: Rule) -> str:
+    head = f"{rule.code.code} {rule.code.slug} ({rule.code.severity})"
+    bad, good = (_indented(deck) for deck in (rule.bad, rule.good))
+    line, column = rule.place
+    place = f"line {line}, column {column}"
+    return f"{head}\n\n{rule.title}\n\n{rule.why}\n\nBad (found at {place}):\n\n{bad}\nGood:\n\n{good}"
+
+
+def _indented(deck: str) -> str:
+    return "".join(f"    {line}\n" for line in deck.splitlines())

@@ -1,0 +1,93 @@
+"""What a deck holds, in figures."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from mudline.contact import LawKind
+from mudline.deck.model import Opaque
+from mudline.scene.model import Scene
+
+_MOST_DIAMETERS = 10
+
+
+def summarise(scene: Scene) -> dict[str, Any]:
+    """Sections, keywords, counts, sets, curves, diameters and laws of a deck."""
+    deck = scene.deck
+    return {
+        "file": deck.file,
+        "units": deck.units,
+        "sections": [
+            {
+                "name": section.name,
+                "keywords": [{"keyword": b.keyword, "read": not isinstance(b, Opaque)} for b in section.blocks],
+            }
+            for section in deck.sections
+        ],
+        "nodes": len(scene.node_ids),
+        "elements": len(scene.element_ids),
+        "length": _total_length(scene),
+        "sets": _sets(scene),
+        "curves": _curves(scene),
+        "diameters": _diameters(scene),
+        "laws": _laws(scene),
+        "seabed": sorted(name.lower() for name in scene.laws.types),
+    }
+
+
+def _total_length(scene: Scene) -> float | None:
+    known = scene.length[np.isfinite(scene.length)]
+    return float(known.sum()) if known.size else None
+
+
+def _sets(scene: Scene) -> list[dict[str, Any]]:
+    rows = []
+    for entry in scene.set_table.named.values():
+        length = scene.length[entry.elements]
+        total = float(length.sum()) if length.size and np.isfinite(length).all() else None
+        rows.append({"name": entry.name, "elements": len(entry.elements), "length": total, "open": entry.open})
+    return rows
+
+
+def _curves(scene: Scene) -> list[dict[str, Any]]:
+    rows = []
+    for index, entry in enumerate(scene.laws.curves):
+        follows = np.array([grant.curve == index for grant in scene.laws.grants] + [False])[scene.laws.of_element]
+        curve = entry.curve
+        rows.append(
+            {
+                "name": entry.name,
+                "keyword": "EMBEDMENT" if entry.embedment else "SEABED STIFFNESS",
+                "points": len(entry.points),
+                "ratios": None if curve is None else [float(curve.ratios[0]), float(curve.ratios[-1])],
+                "forces": None if curve is None else [float(curve.forces.min()), float(curve.forces.max())],
+                "elements": int(follows.sum()),
+            }
+        )
+    return rows
+
+
+def _diameters(scene: Scene) -> list[dict[str, Any]]:
+    known = scene.diameter[~np.isnan(scene.diameter)]
+    values, counts = np.unique(known, return_counts=True)
+    rows = [
+        {"diameter": value, "elements": count}
+        for value, count in zip(values[:_MOST_DIAMETERS].tolist(), counts.tolist(), strict=False)
+    ]
+    missing = len(scene.diameter) - len(known)
+    return [*rows, {"diameter": None, "elements": missing}] if missing else rows
+
+
+def _laws(scene: Scene) -> list[dict[str, Any]]:
+    """Laws with the number of their elements; linear ones by stiffness."""
+    rows: list[dict[str, Any]] = []
+    for index, grant in enumerate(scene.laws.grants):
+        count = int((scene.laws.of_element == index).sum())
+        if count:
+            law = scene.law_name(grant)
+            stiffness = grant.stiffness if grant.kind is LawKind.LINEAR else None
+            rows.append({"law": law, "set": grant.set_.name, "elements": count, "stiffness": stiffness})
+    free = int((scene.laws.of_element < 0).sum())
+    return [*rows, {"law": "none", "set": None, "elements": free, "stiffness": None}] if free else rows
