@@ -13,12 +13,20 @@ from mudline.lint.registry import Rule
 
 def lint_deck(deck: Deck, chosen: Sequence[Rule]) -> list[Diagnostic]:
     """All findings of the chosen rules, in the order of the file."""
-    context = LintContext(deck)
-    return deck.diagnose([problem for rule in chosen for problem in rule.check(context)])
+    return lint_context(LintContext(deck), chosen)
+
+
+def lint_context(context: LintContext, chosen: Sequence[Rule]) -> list[Diagnostic]:
+    """The same for a deck whose scene is needed for more than the findings."""
+    return context.deck.diagnose([problem for rule in chosen for problem in rule.check(context)])
 
 
 def lint_bytes(data: bytes, name: str, chosen: Sequence[Rule], *, units: str | None = None) -> list[Diagnostic]:
-    """All findings in a file's content; a JSON or YAML file that holds no deck gives the reasons."""
+    """All findings in a file's content, in its order; `name` tells its form and stands in the findings.
+
+    Never raises for content: a JSON or YAML file that holds no deck gives the reasons (DOC001, DOC002), whatever rules
+    are chosen, as nothing else can be said of it.
+    """
     try:
         deck = load_bytes(data, name, units=units)
     except DeckError as error:

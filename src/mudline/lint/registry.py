@@ -14,8 +14,10 @@ from mudline.lint.context import LintContext
 
 Check = Callable[[LintContext], Iterable[Problem]]
 
-_MODULES = ("syntax_lines", "syntax_fields", "syntax_words", "references", "curves", "seabed", "legacy")
-_HEADINGS = re.compile(r"^(Bad|Good|Finds|File):[ \t]*(.*)$", re.MULTILINE)
+MODULES = ("syntax_lines", "syntax_fields", "syntax_words", "references", "curves", "seabed", "legacy")
+"""The modules of `mudline.lint.rules`."""
+
+_HEADINGS = re.compile(r"^(Bad|Good|Finds|File|Bytes|Cut):[ \t]*(.*)$", re.MULTILINE)
 _RULES: dict[str, Rule] = {}
 
 
@@ -23,8 +25,9 @@ _RULES: dict[str, Rule] = {}
 class Rule:
     """A rule: its code, the function that finds, and what its docstring says.
 
-    `title` is the first sentence, `why` the text behind it, `bad` a deck that it finds something in at `place` (line and
-    column), `good` the same deck mended; `file` is the name that the examples are read under.
+    `title` is the first sentence, `why` the text behind it, `bad` a deck that it finds something in at `place` (line
+    and column), `good` the same deck mended; `file` is the name that the examples are read under. `encoding` is that of
+    the bad deck's bytes. A rule that is `off` runs only where it is selected.
     """
 
     code: Code
@@ -35,53 +38,90 @@ class Rule:
     good: str
     place: tuple[int, int]
     file: str
+    encoding: str
+    off: bool
+
+    @property
+    def bad_bytes(self) -> bytes:
+        """The bad deck as a file."""
+        return self.bad.encode(self.encoding)
+
+    @property
+    def good_bytes(self) -> bytes:
+        """The good deck as a file."""
+        return self.good.encode()
+
+    @property
+    def remark(self) -> str:
+        """What the text of the bad deck does not show about its file, or ""."""
+        if self.encoding != "utf-8":
+            return f"saved as {self.encoding.upper()}"
+        return "" if self.bad.endswith("\n") else "the file ends behind the last character, without a line end"
 
 
-def rule(code: Code) -> Callable[[Check], Check]:
-    """Register a function as the rule of a code. Its docstring holds `Bad:`, `Good:` and `Finds: line:column`."""
+def rule(code: Code, *, off: bool = False) -> Callable[[Check], Check]:
+    """Register a function as the rule of a code; `off` keeps it from running unless it is selected.
+
+    Its docstring begins with the title, a sentence on a line of its own; the text behind it says why. Then come a bad
+    and a good deck, indented below `Bad:` and `Good:`, and `Finds: line:column`, the place of the one finding in the
+    bad deck. `File: name` (default deck.keyxm) is the name of both decks. `Bytes: encoding` saves the bad deck in
+    another encoding than UTF-8; `Cut: yes` leaves out its last line end.
+
+    Raises ValueError for a docstring that lacks a part, and for a code or slug that another rule has.
+    """
 
     def register(check: Check) -> Check:
-        _RULES[code.code] = _described(code, check)
+        described = _described(code, check, off=off)
+        if any(code.code == known.code.code or code.slug == known.code.slug for known in _RULES.values()):
+            raise ValueError(f"there is a rule {code.code} or {code.slug} already")
+        _RULES[code.code] = described
         return check
 
     return register
 
 
-def _described(code: Code, check: Check) -> Rule:
-    text = inspect.getdoc(check) or ""
-    parts = _HEADINGS.split(text)
+def _described(code: Code, check: Check, *, off: bool) -> Rule:
+    parts = _HEADINGS.split(inspect.getdoc(check) or "")
     title, _, why = parts[0].strip().partition("\n")
-    found = {name: (line + body) if name in ("Finds", "File") else body for name, line, body in _triples(parts[1:])}
-    line, column = (int(number) for number in found["Finds"].strip().split(":"))
-    file = found.get("File", "deck.keyxm").strip()
-    bad, good = (_example(found[name]) for name in ("Bad", "Good"))
-    return Rule(code, check, title.strip(), why.strip(), bad, good, (line, column), file)
-
-
-def _triples(parts: list[str]) -> Iterable[tuple[str, str, str]]:
-    return zip(parts[0::3], parts[1::3], parts[2::3], strict=True)
+    found = {name: (line, body) for name, line, body in zip(parts[1::3], parts[2::3], parts[3::3], strict=True)}
+    lacking = [name for name in ("Bad", "Good", "Finds") if name not in found]
+    if lacking or not title or not why.strip():
+        raise ValueError(f"the docstring of {code.code} lacks {', '.join(lacking) or 'a title or a reason'}")
+    words = {name: line.strip() for name, (line, _) in found.items()}
+    bad, good = (_example(found[name][1]) for name in ("Bad", "Good"))
+    line, column = (int(number) for number in words["Finds"].split(":"))
+    return Rule(
+        code=code,
+        check=check,
+        title=title.strip(),
+        why=why.strip(),
+        bad=bad.removesuffix("\n") if "Cut" in words else bad,
+        good=good,
+        place=(line, column),
+        file=words.get("File", "deck.keyxm"),
+        encoding=words.get("Bytes", "utf-8"),
+        off=off,
+    )
 
 
 def _example(body: str) -> str:
     """The indented lines of an example, without their indentation."""
-    lines = body.strip("\n").rstrip().splitlines()
+    lines = body.strip("\n").rstrip().split("\n")
     return "".join(f"{line.removeprefix('    ')}\n" for line in lines)
 
 
 @cache
 def rules() -> tuple[Rule, ...]:
     """All rules, by code."""
-    for module in _MODULES:
+    for module in MODULES:
         import_module(f"mudline.lint.rules.{module}")
     return tuple(_RULES[code] for code in sorted(_RULES))
 
 
 def find(word: str) -> list[Rule]:
-    """The rules that a code, a prefix of a code or a slug names."""
+    """The rules that a code, a prefix of a code or a slug names, in any case."""
     wanted = word.strip()
     exact = [found for found in rules() if wanted.upper() == found.code.code or wanted.lower() == found.code.slug]
-    if exact or not wanted.isalnum() or not wanted:
+    if exact or not wanted.isalnum():
         return exact
     return [found for found in rules() if found.code.code.startswith(wanted.upper())]
-
-

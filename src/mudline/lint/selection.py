@@ -8,16 +8,19 @@ from difflib import get_close_matches
 from mudline.lint.registry import Rule, find, rules
 
 
-class UnknownRule(ValueError):
+class UnknownRule(ValueError):  # noqa: N818 - the name of the fault, as callers catch it
     """A word that names no rule."""
 
 
 def select(chosen: Iterable[str] = (), ignored: Iterable[str] = (), also: Iterable[str] = ()) -> tuple[Rule, ...]:
-    """The rules that codes, prefixes or slugs choose (none: all), and `also`, without those ignored.
+    """The rules that codes, prefixes of codes or slugs choose, and `also`, without those ignored; by code.
+
+    Nothing chosen means all rules but those that are off. A rule that is off runs when a word in `chosen` or `also`
+    names it, were it by a prefix. What is ignored is left out, whatever else names it.
 
     Raises UnknownRule, with a suggestion, for a word that names none.
     """
-    wanted = _named(chosen) or {rule.code.code for rule in rules()}
+    wanted = _named(chosen) or {rule.code.code for rule in rules() if not rule.off}
     wanted = (wanted | _named(also)) - _named(ignored)
     return tuple(rule for rule in rules() if rule.code.code in wanted)
 
@@ -27,9 +30,13 @@ def _named(words: Iterable[str]) -> set[str]:
     for word in words:
         named = find(word)
         if not named:
-            known = [name for rule in rules() for name in (rule.code.code, rule.code.slug)]
-            near = get_close_matches(word.upper(), known, 1) or get_close_matches(word.lower(), known, 1)
-            hint = f": did you mean {near[0]}?" if near else ": `mudline rules` lists all rules"
-            raise UnknownRule(f"{word!r} names no rule{hint}")
+            raise UnknownRule(f"{word!r} names no rule{_hint(word)}")
         found |= {rule.code.code for rule in named}
     return found
+
+
+def _hint(word: str) -> str:
+    codes = [rule.code.code for rule in rules()]
+    slugs = [rule.code.slug for rule in rules()]
+    near = get_close_matches(word.lower(), slugs, 1) or get_close_matches(word.upper(), codes, 1)
+    return f": did you mean {near[0]}?" if near else ": `mudline rules` lists all rules"

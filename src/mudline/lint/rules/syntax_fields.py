@@ -1,0 +1,198 @@
+"""Fields: numbers, brackets, labels and equations."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from mudline.codes import SYN002, SYN003, SYN006, SYN015, SYN016, SYN017
+from mudline.diagnostics import Problem
+from mudline.lint.context import LintContext
+from mudline.lint.registry import rule
+
+
+@rule(SYN002)
+def bad_number(context: LintContext) -> Iterator[Problem]:
+    """A field that needs a number holds none.
+
+    A letter O for a zero, two decimal points or a value that a spreadsheet wrote as NaN are easily overlooked, and
+    programs differ in what they make of them: some stop, some read the digits up to the first strange character. Values
+    that are infinite or too large for double precision are no numbers either. Correct the field; an equation is written
+    `=[...]`.
+
+    Bad:
+        $MODEL
+        *OCEAN
+         5O0.0, 1025.0, 9.81
+
+    Good:
+        $MODEL
+        *OCEAN
+         500.0, 1025.0, 9.81
+
+    Finds: 3:2
+    """
+    yield from context.told(SYN002)
+
+
+@rule(SYN003)
+def wrong_field_count(context: LintContext) -> Iterator[Problem]:
+    """The line has too few or too many fields.
+
+    The place of a value on its line says what it is, so one comma too many or a value left out gives every later value
+    another meaning. The message shows the format of the line. A field that may be empty is still set off by its comma.
+
+    Bad:
+        $MODEL
+        *SEABED STIFFNESS
+         CURVE=Soft clay
+         0.0, 0.0
+         0.1
+         0.5, 10000.0
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=Soft clay
+
+    Good:
+        $MODEL
+        *SEABED STIFFNESS
+         CURVE=Soft clay
+         0.0, 0.0
+         0.1, 1200.0
+         0.5, 10000.0
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=Soft clay
+
+    Finds: 5:2
+    """
+    yield from context.told(SYN003)
+
+
+@rule(SYN006)
+def unbalanced_bracket(context: LintContext) -> Iterator[Problem]:
+    """A bracket, brace, slash list or quotation mark is opened and not closed on its line.
+
+    Commas between `=[` and `]`, in `{...}`, `/.../` and `"..."` part no fields. An opened one therefore swallows the
+    rest of the line, and the values behind it are lost. Close it on the same line: nothing continues on the next.
+
+    Bad:
+        $PREPROCESSOR
+        *PARAMETERS
+         depth, 500.0
+         vessel_x, =[depth + 5.0
+        $MODEL
+        *OCEAN
+         =[depth], 1025.0, 9.81
+
+    Good:
+        $PREPROCESSOR
+        *PARAMETERS
+         depth, 500.0
+         vessel_x, =[depth + 5.0]
+        $MODEL
+        *OCEAN
+         =[depth], 1025.0, 9.81
+
+    Finds: 4:13
+    """
+    yield from context.told(SYN006)
+
+
+@rule(SYN015)
+def decimal_comma(context: LintContext) -> Iterator[Problem]:
+    """A comma may have been meant as a decimal point.
+
+    A comma parts fields, so `0,1` is the two numbers 0 and 1. A line of whole numbers, twice as many as it should have,
+    or two numbers where one belongs, was probably written with decimal commas, as a spreadsheet does in many countries.
+    Write decimal points, and look at the other lines from the same source: one whose last fields may be left out reads
+    without an error and with other values.
+
+    Bad:
+        $MODEL
+        *SEABED STIFFNESS
+         CURVE=Soft clay
+         0.0, 0.0
+         0,1, 1200,0
+         0.5, 10000.0
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=Soft clay
+
+    Good:
+        $MODEL
+        *SEABED STIFFNESS
+         CURVE=Soft clay
+         0.0, 0.0
+         0.1, 1200.0
+         0.5, 10000.0
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=Soft clay
+
+    Finds: 5:2
+    """
+    yield from context.told(SYN015)
+
+
+@rule(SYN016)
+def label_without_braces(context: LintContext) -> Iterator[Problem]:
+    """Text stands where the number or the {label} of a node or element belongs.
+
+    Nodes and elements that the lines facility makes have labels with blanks in them, and a label stands in braces
+    wherever a number could stand. The text is read as if it had them; other programs may stop here, or read on with
+    nothing. Put the braces around it.
+
+    Bad:
+        $MODEL
+        *LINES
+         LINE=Flowline
+        *ELEMENT SETS
+         SET=Tie-in
+         Seabed End
+
+    Good:
+        $MODEL
+        *LINES
+         LINE=Flowline
+        *ELEMENT SETS
+         SET=Tie-in
+         {Seabed End}
+
+    Finds: 6:2
+    """
+    yield from context.told(SYN016)
+
+
+@rule(SYN017)
+def expression_error(context: LintContext) -> Iterator[Problem]:
+    """The equation cannot be read or has no value.
+
+    An operand or a bracket is missing, a number is divided by zero, a function gets the wrong number of arguments: the
+    field then has no value, and neither has anything that depends on it. Correct the equation at the place that the
+    message names. A function that is not known here may be known elsewhere; that is a warning only.
+
+    Bad:
+        $PREPROCESSOR
+        *PARAMETERS
+         surveyed, 118.5
+         tide, 1.5
+        $MODEL
+        *OCEAN
+         =[surveyed + tide *], 1025.0, 9.81
+
+    Good:
+        $PREPROCESSOR
+        *PARAMETERS
+         surveyed, 118.5
+         tide, 1.5
+        $MODEL
+        *OCEAN
+         =[surveyed + tide], 1025.0, 9.81
+
+    Finds: 7:2
+    """
+    yield from context.told(SYN017)

@@ -1,0 +1,195 @@
+"""Lines: what kind they are, and whether they stand where they belong."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from mudline.codes import SYN001, SYN007, SYN008, SYN011, SYN012, SYN013, SYN014
+from mudline.diagnostics import Problem
+from mudline.lint.context import LintContext
+from mudline.lint.registry import rule
+
+
+@rule(SYN001)
+def unreadable_line(context: LintContext) -> Iterator[Problem]:
+    """The line fits none of the line formats of its keyword.
+
+    The lines of a keyword come in a fixed order: a setting such as SET= opens a group, and only certain settings and
+    rows of numbers may follow it. A line that fits nowhere is left out, so whatever it was meant to define is missing
+    from the model. The message says which lines were expected: often a KEY= was forgotten in front of a number, or a
+    line stands one place too early or too late.
+
+    Bad:
+        $MODEL
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         50000.0
+
+    Good:
+        $MODEL
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=50000.0
+
+    Finds: 5:2
+    """
+    yield from context.told(SYN001)
+
+
+@rule(SYN007)
+def keyword_outside_section(context: LintContext) -> Iterator[Problem]:
+    """A keyword stands before the first $SECTION.
+
+    What a keyword means depends on its section, and before the first one it has no meaning: the whole block is not
+    read. The section line may have been lost when decks were put together. Put the line that the message names, for
+    most keywords `$MODEL`, in front of it.
+
+    Bad:
+        *OCEAN
+         500.0, 1025.0, 9.81
+
+    Good:
+        $MODEL
+        *OCEAN
+         500.0, 1025.0, 9.81
+
+    Finds: 1:1
+    """
+    yield from context.told(SYN007)
+
+
+@rule(SYN008)
+def keyword_in_wrong_section(context: LintContext) -> Iterator[Problem]:
+    """The keyword does not belong in this section.
+
+    The model is described once, in `$MODEL`, and a load case says what acts on it. A block in the wrong section is not
+    read as what it looks like: a restraint in `$MODEL` restrains nothing, a seabed in `$LOAD CASE` carries nothing.
+    Move the block to a section that the message names; a missing `$LOAD CASE` line above it is the usual cause.
+
+    Bad:
+        $MODEL
+        *OCEAN
+         500.0, 1025.0, 9.81
+        *BOUNDARY
+         TYPE=CONSTANT
+         1, 1
+         1, 2
+
+    Good:
+        $MODEL
+        *OCEAN
+         500.0, 1025.0, 9.81
+        $LOAD CASE
+        *BOUNDARY
+         TYPE=CONSTANT
+         1, 1
+         1, 2
+
+    Finds: 4:1
+    """
+    yield from context.told(SYN008)
+
+
+@rule(SYN011)
+def data_outside_keyword(context: LintContext) -> Iterator[Problem]:
+    """A data line stands under no keyword.
+
+    Lines before the first section, or between a `$SECTION` and its first keyword, belong to nothing and are not read.
+    Title lines at the top of a deck are common and do no harm, but numbers there are numbers that the model lacks. Turn
+    a title into a comment (C and a blank), and put data under their keyword.
+
+    Bad:
+        Flowline on soft clay, as laid
+        $MODEL
+        *OCEAN
+         120.0, 1025.0, 9.81
+
+    Good:
+        C Flowline on soft clay, as laid
+        $MODEL
+        *OCEAN
+         120.0, 1025.0, 9.81
+
+    Finds: 1:1
+    """
+    yield from context.told(SYN011)
+
+
+@rule(SYN012)
+def bad_encoding(context: LintContext) -> Iterator[Problem]:
+    """The file holds bytes that are not UTF-8 text, or control characters.
+
+    Letters beyond the English alphabet, in a set name for instance, are saved as different bytes by different editors.
+    A file that is not UTF-8 is read as CP1252, and as Latin-1 if that cannot be: a guess, after which a set's name may
+    not match the same name in another file. Control characters, such as the Ctrl-Z that old systems put at the end of a
+    file, are seen by nobody and spoil the line that they stand in. UTF-16 and binary data are not read at all. Save the
+    file as UTF-8, and remove the characters that the message names.
+
+    Bad:
+        $MODEL
+        C Flowline Ø 323.9 mm on soft clay
+        *OCEAN
+         120.0, 1025.0, 9.81
+
+    Good:
+        $MODEL
+        C Flowline Ø 323.9 mm on soft clay
+        *OCEAN
+         120.0, 1025.0, 9.81
+
+    Bytes: cp1252
+    Finds: 2:12
+    """
+    yield from context.told(SYN012)
+
+
+@rule(SYN013)
+def ambiguous_comment(context: LintContext) -> Iterator[Problem]:
+    """The line begins with a C in column 1 and a letter: comment or data?
+
+    A C in column 1 makes a comment. Written before a blank there is no doubt, but `CURVE=` or `COMPRESSION CHECK=` in
+    column 1 is data to one reader and a comment to another. Here a line counts as data if it begins with a key that its
+    keyword knows; any other is taken for a comment, which is our reading and not a documented rule. A misspelt `CURV=`
+    drops a whole curve in this way. Put a blank behind the C of a comment, and in front of data.
+
+    Bad:
+        $MODEL
+        *OCEAN
+        Carried over from the survey report
+         120.0, 1025.0, 9.81
+
+    Good:
+        $MODEL
+        *OCEAN
+        C Carried over from the survey report
+         120.0, 1025.0, 9.81
+
+    Finds: 3:1
+    """
+    yield from context.told(SYN013)
+
+
+@rule(SYN014)
+def truncated_file(context: LintContext) -> Iterator[Problem]:
+    """The file ends in the middle of something.
+
+    A copy that was broken off, or a full disk, cuts a deck anywhere: inside a number (`1.0E`), inside an equation, or
+    before a line that the last keyword must have. Everything behind the cut is missing as well, and a deck may look
+    complete without it. Fetch the file again, or write what is missing, and end the last line with a line end.
+
+    Bad:
+        $MODEL
+        *OCEAN
+         120.0, 1025.0, 9.81, 1.3E-
+
+    Good:
+        $MODEL
+        *OCEAN
+         120.0, 1025.0, 9.81, 1.3E-6
+
+    Cut: yes
+    Finds: 3:23
+    """
+    yield from context.told(SYN014)

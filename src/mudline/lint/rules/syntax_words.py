@@ -1,0 +1,114 @@
+"""Words: the names of sections, keywords, settings and choices."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from mudline.codes import SYN004, SYN005, SYN009, SYN010
+from mudline.diagnostics import Problem
+from mudline.lint.context import LintContext
+from mudline.lint.registry import rule
+
+
+@rule(SYN004)
+def unknown_setting(context: LintContext) -> Iterator[Problem]:
+    """The keyword has no such KEY=.
+
+    A setting that is misspelt is not read, and the default or nothing at all holds in its place: a seabed without its
+    stiffness carries nothing. The message lists the keys of the keyword and suggests the nearest.
+
+    Bad:
+        $MODEL
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFNESS=50000.0
+
+    Good:
+        $MODEL
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=50000.0
+
+    Finds: 5:2
+    """
+    yield from context.told(SYN004)
+
+
+@rule(SYN005)
+def bad_choice(context: LintContext) -> Iterator[Problem]:
+    """The setting takes one of a few words, and this is none of them.
+
+    A choice decides how the lines below it are read and which law holds, so it cannot be guessed. The message lists the
+    words and suggests the nearest. Upper or lower case does not matter.
+
+    Bad:
+        $MODEL
+        *SEABED PROPERTIES
+         TYPE=ELSTIC
+         SET=ALL
+         STIFFNESS=50000.0
+
+    Good:
+        $MODEL
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=50000.0
+
+    Finds: 3:7
+    """
+    yield from context.told(SYN005)
+
+
+@rule(SYN009)
+def unknown_keyword(context: LintContext) -> Iterator[Problem]:
+    """The keyword is not known.
+
+    There are more keywords than are known here, so this is a note: the block is kept as it is and not checked. A name
+    that differs from a known one by a letter or two is a warning, as a misspelt keyword takes its whole block out of
+    the model. Correct the name, or ignore this rule where the keyword is right.
+
+    Bad:
+        $MODEL
+        *OCAEN
+         500.0, 1025.0, 9.81
+
+    Good:
+        $MODEL
+        *OCEAN
+         500.0, 1025.0, 9.81
+
+    Finds: 2:1
+    """
+    yield from context.told(SYN009)
+
+
+@rule(SYN010)
+def unknown_section(context: LintContext) -> Iterator[Problem]:
+    """The section is not known.
+
+    All that stands in it is kept as it is and not checked. This is a note, as there are sections that are not known
+    here; a name that differs from a known one by a letter or two is a warning, as everything in a misspelt section is
+    missing from the analysis. Correct the name.
+
+    Bad:
+        $MODEL
+        *OCEAN
+         500.0, 1025.0, 9.81
+        $LOADCASE
+        *ANALYSIS TYPE
+         TYPE=STATIC
+
+    Good:
+        $MODEL
+        *OCEAN
+         500.0, 1025.0, 9.81
+        $LOAD CASE
+        *ANALYSIS TYPE
+         TYPE=STATIC
+
+    Finds: 4:1
+    """
+    yield from context.told(SYN010)
