@@ -1,0 +1,79 @@
+"""docs/rules/, from the docstrings of the rules."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from mudline.lint.engine import lint_bytes
+from mudline.lint.registry import Rule
+from tests.docs.marking import MADE, marked
+
+_INDEX = """{made}
+
+# Rules
+
+What `mudline lint` looks for. A code or a slug names one rule on the command line, the beginning of a code all rules
+that begin so: `--select SYN`, `--ignore CRV002`, `--ignore unsorted-points`. `mudline rules CODE` prints a page.
+
+An *error* is a deck that is illegal or has no meaning. A *warning* is a likely mistake, or a place where the meaning is
+a choice of ours. An *info* is something to know.
+
+| code | slug | severity | finds |
+| --- | --- | --- | --- |
+{rows}
+
+Four more codes are no rules and cannot be left out; they say why a file could not be used: DOC001
+(`unreadable-document`) and DOC002 (`schema-error`) for decks in JSON and YAML, DAT001 (`bad-data-file`) for files of
+positions and elements, RUN001 (`cannot-evaluate`) for a deck that `mudline evaluate` can do nothing with.
+"""
+
+_PAGE = """{made}
+
+# {code} {slug}
+
+{title}
+
+Severity: {severity}. [All rules](README.md).
+
+{why}
+
+Bad:
+
+```text
+{bad}```
+
+```text
+{says}
+```
+
+Good:
+
+```text
+{good}```
+"""
+
+
+def rule_index(rules: Iterable[Rule]) -> str:
+    """docs/rules/README.md."""
+    return _INDEX.format(made=MADE, rows="\n".join(_row(rule) for rule in rules))
+
+
+def _row(rule: Rule) -> str:
+    code = rule.code
+    return f"| [{code.code}]({code.code}.md) | `{code.slug}` | {code.severity} | {marked(rule.title)} |"
+
+
+def rule_page(rule: Rule) -> str:
+    """docs/rules/CODE.md."""
+    found = lint_bytes(rule.bad.encode(), rule.file, [rule])
+    return _PAGE.format(
+        made=MADE,
+        code=rule.code.code,
+        slug=rule.code.slug,
+        severity=rule.code.severity,
+        title=marked(rule.title),
+        why=marked(rule.why),
+        bad=rule.bad,
+        says="\n".join(str(finding) for finding in found),
+        good=rule.good,
+    )
