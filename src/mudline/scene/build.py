@@ -8,7 +8,8 @@ from mudline.scene.context import Context
 from mudline.scene.elements import read_elements
 from mudline.scene.external import ExternalElements
 from mudline.scene.force_curves import read_curves
-from mudline.scene.laws import check_diameters, read_laws
+from mudline.scene.law_checks import check_diameters, check_laws
+from mudline.scene.laws import read_laws
 from mudline.scene.model import Scene
 from mudline.scene.nodes import read_nodes
 from mudline.scene.ranges import check_ranges
@@ -22,7 +23,7 @@ def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:
     `external` adds elements that the deck does not show, or replaces its own.
     """
     ready, problems = evaluated(deck)
-    context = Context(ready, list(problems))
+    context = Context(ready, deck, list(problems))
     if external is not None:
         context.definers = []
     nodes = read_nodes(context, external)
@@ -32,7 +33,7 @@ def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:
     sections = read_sections(context, sets, elements.numbered, external)
     named, by_set = read_curves(context)
     laws = read_laws(context, sets, named, by_set, count)
+    check_laws(context, laws)
     check_diameters(context, laws, sections, elements.numbered)
     check_ranges(context)
     return Scene(ready, nodes, elements, sets, sections, laws, context.problems)
-

@@ -3,54 +3,181 @@
 from __future__ import annotations
 
 import re
+import sys
+from bisect import bisect_left
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
+from difflib import get_close_matches
 from functools import cached_property
+from typing import Any, cast
 
+from mudline.codes import SYN001, SYN004, SYN016
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Code, Problem, Severity, Where
+from mudline.keywords import catalogue
+from mudline.keywords.model import ListRow
+from mudline.scene.numbering import LARGEST
+from mudline.syntax.tree import canonical_name
 
 MOST_TOLD = 1000
-"""Findings of one code told one by one; the rest is counted."""
+"""Findings of one code told one by one; the rest is left out."""
 
-DEFINERS = ("LINES", "LINE LOCATIONS", "LINE PATHS", "LINE PATH SECTIONS", "LINE SECTION GROUPS", "CABLE", "NODE,CURVILINEAR")
+DEFINERS = (
+    "LINES",
+    "LINE LOCATIONS",
+    "LINE PATHS",
+    "LINE PATH SECTIONS",
+    "LINE SECTION GROUPS",
+    "CABLE",
+    "NODE,CURVILINEAR",
+)
 """Blocks without a model that make nodes, elements or sets."""
 
+_MADE_BY_DEFINERS = ("NODE", "ELEMENT", "ELEMENT SETS")
 _NAMING = re.compile(r"\b(LINE|SECTION|NAME|ADDITIONAL)[ \t]*=[ \t]*([^=\r\n]*?)(?=,[^,=]*=|$)", re.IGNORECASE)
+_NEAR = 0.75
+_LONGEST_MISSPELT = 256
+_MOST_COMPARED = 200_000
+
+
+def _nearest(word: str, known: Collection[str]) -> str:
+    """The known word that is spelt nearly as `word`, or ""."""
+    return next(iter(get_close_matches(word, known, 1, _NEAR)), "")
 
 
 @dataclass
 class Context:
-    """The evaluated deck and what was noticed in it."""
+    """The evaluated deck, the deck as written, and what was noticed.
+
+    `unread` holds keywords of which something that defines nodes, elements, sets or curves could not be used;
+    `doubtful` the first and last number of what a GEN= with a fault may have been meant to define.
+    """
 
     deck: Deck
+    written: Deck
     problems: list[Problem] = field(default_factory=list)
-    told: dict[str, int] = field(default_factory=dict)
+    unread: set[str] = field(default_factory=set)
+    doubtful: dict[str, list[tuple[int, int]]] = field(default_factory=dict)
+    _told: dict[str, int] = field(default_factory=dict)
+    _compared: int = 0
+
+    def __post_init__(self) -> None:
+        for i, section in enumerate(self.deck.sections):
+            for j, block in enumerate(section.blocks):
+                if self.deck.origin.lost(i, j):
+                    self.unread.add(block.keyword)
 
     def tell(self, code: Code, message: str, where: Where, severity: Severity | None = None) -> None:
         """Note a problem."""
-        count = self.told[code.code] = self.told.get(code.code, 0) + 1
+        count = self._told[code.code] = self._told.get(code.code, 0) + 1
         if count <= MOST_TOLD:
             self.problems.append(Problem(code, message, None, severity, where))
         elif count == MOST_TOLD + 1:
-            self.problems.append(Problem(code, "and more of the same: only the first are listed", None, severity, where))
+            message = f"and more of the same: the first {MOST_TOLD} are listed"
+            self.problems.append(Problem(code, message, None, severity, where))
 
-    def tell_missing(self, code: Code, message: str, where: Where, keyword: str) -> None:
-        """Note a name that nothing defines: an error, or a warning where something unread could define it."""
-        if supplier := self.supplier(keyword):
+    def tell_missing(self, code: Code, message: str, where: Where, keyword: str, number: int | None = None) -> None:
+        """Note a name or number that nothing defines: an error, or a warning where something unread could define it."""
+        if self._told.get(code.code, 0) > MOST_TOLD:
+            return
+        if supplier := self.supplier(keyword, number):
             self.tell(code, f"{message}; {supplier}", where, Severity.WARNING)
         else:
             self.tell(code, message, where)
 
-    def supplier(self, keyword: str) -> str:
-        """What could define a name that is missing, in words, or ""."""
-        if self.definers:
+    def supplier(self, keyword: str, number: int | None = None) -> str:
+        """What could define a thing of a keyword that is missing, in words, or ""; `number` None stands for any."""
+        if self.definers and keyword in _MADE_BY_DEFINERS:
             return f"*{self.definers[0]}, which is not read, may define it"
         if self.restart:
             return "the deck that *RESTART continues may define it"
-        if keyword in self.incomplete:
-            return f"a line of *{keyword} that could not be read may define it"
-        return ""
+        if keyword in self.unread:
+            return f"a line of *{keyword} that could not be used may define it"
+        if any(number is None or low <= number <= high for low, high in self.doubtful.get(keyword, ())):
+            return f"a GEN= of *{keyword} that could not be used may define it"
+        place = self.astray(keyword)
+        return f"{place} may define it" if place else ""
+
+    def astray(self, keyword: str) -> str:
+        """A keyword that stands where it is not read, or is misspelt, in words; "" when there is none."""
+        return next((place for name, place in self._astray if name == keyword), "")
+
+    def near(self, word: str, known: Collection[str]) -> str:
+        """` (did you mean X?)` for a known name that is spelt nearly as `word`, or "".
+
+        Comparing takes time: a deck with very many unknown names gets suggestions for the first of them only.
+        """
+        self._compared += len(known)
+        if len(word) > _LONGEST_MISSPELT or self._compared > _MOST_COMPARED:
+            return ""
+        names = {folded(name): name for name in known if len(name) <= _LONGEST_MISSPELT}
+        found = _nearest(folded(word), names)
+        return f" (did you mean {names[found]}?)" if found else ""
+
+    def disturbed(self, where: Where) -> bool:
+        """Whether something at this place, or a line below it, could not be used."""
+        if self.deck.origin.damaged(where):
+            return True
+        if not self._lost_lines:
+            return False
+        lines = self._lines(where)
+        return bisect_left(self._lost_lines, lines.start) < bisect_left(self._lost_lines, lines.stop)
+
+    def _lines(self, where: Where) -> range:
+        """The lines from a place to the next item of its list, or to the next block."""
+        *outer, last = where.path or ("",)
+        following = Where(where.section, where.block + 1)
+        if isinstance(last, int) and last + 1 < len(self._items(where._replace(path=tuple(outer)))):
+            following = where._replace(path=(*outer, last + 1))
+        elif following.block == len(self.deck.sections[where.section].blocks):
+            following = Where(where.section + 1)
+        end = sys.maxsize if following.section == len(self.deck.sections) else self._line(following)
+        return range(self._line(where), end)
+
+    def _line(self, where: Where) -> int:
+        return self.deck.origin.place(Problem(SYN001, "", where=where)).line
+
+    @cached_property
+    def _lost_lines(self) -> list[int]:
+        """Lines that could not be used at all."""
+        problems = [problem for problem in self.deck.problems if problem.code in (SYN001, SYN004)]
+        return sorted(self.deck.origin.place(problem).line for problem in problems)
+
+    def lost_behind(self, where: Where, keyword: str) -> bool:
+        """Whether a line of a keyword that stands behind a place could not be used."""
+        line = self._line(where)
+        blocks = (self._lines(block) for block, _ in self.deck.blocks(keyword))
+        return any(lost > line and lost in lines for lines in blocks for lost in self._lost_lines)
+
+    def lacks_value(self, where: Where, key: str) -> bool:
+        """Whether the setting `key` of a record was written without a value that could be read."""
+        origin = self.deck.origin
+        return origin.damaged(where) and origin.written(where._replace(path=(*where.path, key)))
+
+    def generator(self, given: ListRow, where: Where) -> tuple[int, int, int] | None:
+        """The three values of a GEN=, the last one 1 unless given; None when one of them is not known."""
+        names = list(type(given).model_fields)
+        values = [getattr(given, name) for name in names]
+        if values[2] is None and getattr(self._as_written(where), names[2]) is None:
+            values[2] = 1
+        usable = all(isinstance(value, int) and abs(value) <= LARGEST for value in values)
+        return (values[0], values[1], values[2]) if usable and not self.deck.origin.damaged(where) else None
+
+    def _items(self, where: Where) -> list[object]:
+        return cast("list[object]", self._as_written(where))
+
+    def _as_written(self, where: Where) -> object:
+        """A part of the deck before its equations were evaluated."""
+        found: Any = self.written.sections[where.section].blocks[where.block]
+        for step in where.path:
+            found = found[step] if isinstance(step, int) else getattr(found, step)
+        return cast("object", found)
+
+    def doubted(self, where: Where) -> bool:
+        """Whether the label at this place was guessed from a word without braces, which has been told."""
+        place = self.deck.origin.place(Problem(SYN016, "", where=where))
+        return (place.line, place.column) in self._guessed_labels
 
     @cached_property
     def definers(self) -> list[str]:
@@ -64,14 +191,26 @@ class Context:
         return "RESTART" in self.deck.keywords("LOAD CASE")
 
     @cached_property
-    def incomplete(self) -> set[str]:
-        """Keywords of which a line that could define something was not usable."""
-        return {
-            block.keyword
-            for i, section in enumerate(self.deck.sections)
-            for j, block in enumerate(section.blocks)
-            if self.deck.origin.lost(i, j)
-        }
+    def _guessed_labels(self) -> set[tuple[int, int]]:
+        problems = [problem for problem in self.deck.problems if problem.code is SYN016]
+        return {(place.line, place.column) for place in map(self.deck.origin.place, problems)}
+
+    @cached_property
+    def _astray(self) -> list[tuple[str, str]]:
+        """Keywords that stand where they are not read: outside any section, in a wrong one, or misspelt."""
+        outside = [canonical_name(line) for line in self.deck.preamble if line.lstrip(" \t").startswith("*")]
+        found = [(name, f"the *{name} before the first section") for name in outside]
+        for section in self.deck.sections:
+            for block in section.blocks:
+                found += self._meant(section.name, block.keyword) if isinstance(block, Opaque) else ()
+        return found
+
+    def _meant(self, section: str, keyword: str) -> Iterator[tuple[str, str]]:
+        sections = catalogue.sections_of(keyword)
+        if sections is None and section == "MODEL":
+            yield _nearest(keyword, catalogue.keywords()), f"*{keyword}, which is not known,"
+        elif sections and section not in sections:
+            yield keyword, f"the *{keyword} in ${section}, where it does not belong,"
 
     @cached_property
     def harvested(self) -> dict[str, str]:

@@ -7,16 +7,26 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from mudline.codes import REF005, REF006, REF007, REF010
-from mudline.diagnostics import Where
+from mudline.codes import REF005, REF006, REF010
+from mudline.diagnostics import Severity, Where
 from mudline.keywords.table import Table
 from mudline.keywords.text import shown
-from mudline.scene.context import Context
+from mudline.scene.context import MOST_TOLD, Context
 from mudline.scene.external import ExternalElements
-from mudline.scene.numbering import MOST_GENERATED, Batch, Floats, Gathered, Indices, Numbered
+from mudline.scene.numbering import (
+    LARGEST,
+    MOST_GENERATED,
+    Batch,
+    Floats,
+    Gathered,
+    Indices,
+    Numbered,
+    whole_numbers,
+)
+from mudline.scene.repeats import tell_repeats
 
 if TYPE_CHECKING:
-    from mudline.keywords.library.element import ElementGenerate, ElementPattern, ElementRows, Elements
+    from mudline.keywords.library.element import ElementPattern, ElementRows, Elements
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,76 +45,104 @@ def read_elements(context: Context, nodes: Numbered, external: ExternalElements 
         for index, entry in enumerate(cast("Elements", block).entries):
             place = where._replace(path=("entries", index))
             if hasattr(entry, "elements"):
-                _table(context, gathered, cast("ElementRows", entry).elements, place)
+                _table(context, gathered, cast("ElementRows", entry), place)
             else:
-                _generate(context, gathered, cast("ElementGenerate", entry).generate, place)
+                _generate(context, gathered, entry.generate, place)
     own = sum(len(batch.ids) for batch in gathered.batches)
     if external is not None:
         gathered.add(Batch(external.ids, external.nodes.astype(np.float64), Where()))
     elements = gathered.settle(2)
-    for row in elements.repeats[elements.repeats < own].tolist():
-        number = elements.id_of_row(row)
-        context.tell(REF007, f"element {number} is defined twice: the later definition holds", elements.where_row(row))
-    indices, length = _join(context, elements, nodes)
+    tell_repeats(context, elements, elements.repeats[elements.repeats < own], "element")
+    indices = _join(context, elements, nodes)
+    length = _lengths(indices, nodes.values)
     if external is not None:
         at = elements.indices(external.ids)
         length[at] = np.where(np.isnan(external.length), length[at], external.length)
     return ElementTable(elements, indices, length)
 
 
-def _table(context: Context, gathered: Gathered, table: Table, where: Where) -> None:
-    numbers = table.column(0)
+def _table(context: Context, gathered: Gathered, entry: ElementRows, where: Where) -> None:
+    table = entry.elements
+    numbers, known = whole_numbers(table.column(0))
     ends = np.column_stack([table.column(1), table.column(2)])
-    for (row, column), word in table.words.items():
-        if column in (1, 2) and word is not None and not context.definers:
-            message = f"node {shown(word)} is a label, and nothing in this deck makes labelled nodes"
-            place = where._replace(path=(*where.path, "elements", row, column))
-            context.tell_missing(REF006, message, place, "NODE")
-    known = ~np.isnan(numbers)
+    _labels(context, table, where)
     if known.all():
-        gathered.add(Batch(numbers.astype(np.int64), ends, where, "elements"))
+        gathered.add(Batch(numbers, ends, where, "elements"))
         return
-    for row in np.flatnonzero(known).tolist():
-        place = where._replace(path=(*where.path, "elements", row))
-        gathered.add(Batch(numbers[row : row + 1].astype(np.int64), ends[row : row + 1], place))
+    context.unread.add("ELEMENT")
+    rows = np.flatnonzero(known)
+    gathered.add(Batch(numbers[rows], ends[rows], where, "elements", rows))
+
+
+def _labels(context: Context, table: Table, where: Where) -> None:
+    """Labelled nodes come from blocks that are not read; without such a block a label names nothing."""
+    labels = [(row, column, word) for (row, column), word in table.words.items() if word and 0 < column < 3]
+    if context.definers:
+        return
+    for row, column, word in labels[: MOST_TOLD + 1]:
+        place = where._replace(path=(*where.path, "elements", row, column))
+        if not context.doubted(place):
+            message = f"node {shown(word)} is a label, and nothing in this deck makes labelled nodes: give a number"
+            context.tell_missing(REF006, message, place, "NODE")
 
 
 def _generate(context: Context, gathered: Gathered, given: ElementPattern, where: Where) -> None:
     place = where._replace(path=(*where.path, "generate"))
-    master, count, step = given.master, given.count, 1 if given.increment is None else given.increment
-    if not (isinstance(master, int) and isinstance(count, int) and isinstance(step, int)):
+    numbers = context.generator(given, place)
+    if numbers is None:
+        context.unread.add("ELEMENT")
         return
-    if count < 1 or step < 1 or count > MOST_GENERATED:
-        message = f"GEN={master}, {count}, {step}: count must be 1 to {MOST_GENERATED}, increment at least 1"
-        context.tell(REF010, message, place, REF007.severity)
+    master, count, step = numbers
+    if fault := _pattern_fault(gathered, master, count, step):
+        context.tell(REF010, fault, place, Severity.ERROR)
+        context.doubtful.setdefault("ELEMENT", []).append((master, LARGEST))
         return
     ends = gathered.find(master)
     if ends is None:
-        message = f"GEN= repeats an element that exists: element {master} is not defined before this line"
-        context.tell_missing(REF005, message, where._replace(path=(*where.path, "generate", 0)), "ELEMENT")
+        message = (
+            f"GEN= repeats an element that exists: element {master} is not defined before this line; define it there"
+        )
+        context.tell_missing(REF005, message, place._replace(path=(*place.path, 0)), "ELEMENT", master)
         ends = np.full(2, np.nan)
     steps = np.arange(1, count, dtype=np.int64) * step
     gathered.add(Batch(master + steps, ends + steps[:, np.newaxis], place))
 
 
-def _join(context: Context, elements: Numbered, nodes: Numbered) -> tuple[Indices, Floats]:
-    """Node indices and lengths; each end that names an undefined node is told, a generator's once."""
-    given = ~np.isnan(elements.values)
+def _pattern_fault(gathered: Gathered, master: int, count: int, step: int) -> str:
+    if count < 1 or step < 1:
+        return f"GEN={master}, {count}, {step}: the number of elements and the increment must be at least 1"
+    if count - 1 > MOST_GENERATED - gathered.generated:
+        return f"GEN={master}, {count}, {step}: a deck must not generate more than {MOST_GENERATED} elements"
+    if abs(master) + (count - 1) * step > LARGEST:
+        return (
+            f"GEN={master}, {count}, {step}: no element may have the number {master + (count - 1) * step}: correct it"
+        )
+    return ""
+
+
+def _join(context: Context, elements: Numbered, nodes: Numbered) -> Indices:
+    """Node indices; each end that names an undefined node is told, a generator's once."""
+    given = np.abs(elements.values) <= 2 * LARGEST
     numbers = np.where(given, elements.values, 0).astype(np.int64)
     indices = np.where(given, nodes.indices(numbers), -1)
-    told: set[Where] = set()
-    for index, end in np.argwhere(given & (indices < 0)).tolist():
+    lost = np.argwhere(given & (indices < 0))
+    batches = elements.batches_of(elements.rows[lost[:, 0]])
+    generators = np.array([not batch.table for batch in elements.batches], dtype=bool)[batches]
+    _, firsts = np.unique(np.where(generators, batches, -1 - np.arange(len(lost))), return_index=True)
+    for index, end in lost[np.sort(firsts)[: MOST_TOLD + 1]].tolist():
         where = elements.where(index)
-        if where in told:
-            continue
-        told.add(where)
-        message = f"element {elements.ids[index]} ends at node {numbers[index, end]}, which is not defined"
-        generated = where.path[-1:] == ("generate",)
+        message = f"element {elements.ids[index]} ends at node {numbers[index, end]}, which is not defined: define it"
+        generated = not elements.batches[elements.batches_of(int(elements.rows[index]))].table
         place = where if generated else where._replace(path=(*where.path, end + 1))
-        context.tell_missing(REF006, message, place, "NODE")
-    length = np.full(len(elements), np.nan)
-    known = (indices >= 0).all(axis=1)
+        context.tell_missing(REF006, message, place, "NODE", int(numbers[index, end]))
+    return indices
+
+
+def _lengths(ends: Indices, coordinates: Floats) -> Floats:
+    """Distances between the nodes, NaN where one is not known."""
+    length = np.full(len(ends), np.nan)
+    known = (ends >= 0).all(axis=1)
     with np.errstate(over="ignore", invalid="ignore"):
-        ends = nodes.values[indices[known]]
-        length[known] = np.sqrt(((ends[:, 1] - ends[:, 0]) ** 2).sum(axis=1))
-    return indices, length
+        span = np.subtract(coordinates[ends[known, 1]], coordinates[ends[known, 0]])
+        length[known] = np.sqrt((span**2).sum(axis=1))
+    return length

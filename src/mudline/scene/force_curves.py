@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
@@ -11,22 +11,25 @@ from mudline.codes import CRV001, CRV003, CRV011
 from mudline.curves import CurveError, ForceCurve
 from mudline.diagnostics import Where
 from mudline.keywords.table import Table
-from mudline.scene.context import Context
-from mudline.scene.numbering import Floats, Indices
+from mudline.keywords.text import shown
+from mudline.scene.context import MOST_TOLD, Context
+from mudline.scene.numbering import Floats, Indices, Mask
 
 if TYPE_CHECKING:
     from mudline.keywords.library.embedment import Embedment
     from mudline.keywords.library.seabed_stiffness import SeabedStiffness
 
-_CODES = {code.code: code for code in (CRV001, CRV003, CRV011)}
+_CODES = {code.code: code for code in (CRV001, CRV011)}
+_NOWHERE = np.zeros(0, dtype=np.intp)
 
 
 @dataclass(frozen=True, slots=True)
 class SceneCurve:
     """A curve of the deck: its name (that of its set for `*EMBEDMENT`), its points as given, where it stands.
 
-    `points` (n, 2) leaves out rows that could not be read; `rows` (n,) are their places in the table. `curve` is None
-    when no curve can be made of them.
+    `points` (n, 2) leaves out rows that could not be read; `rows` (n,) are their places in the table. `curve` is made
+    of those that fit together, None when they make no curve; `whole` says that these are all. `named` says that the
+    name, or the set, could be read.
     """
 
     name: str
@@ -34,59 +37,83 @@ class SceneCurve:
     rows: Indices
     where: Where
     curve: ForceCurve | None
+    whole: bool
     embedment: bool
+    named: bool
 
-    def point(self, index: int, column: int = 0) -> Where:
+    def point(self, index: int) -> Where:
         """Where a point of `points` stands."""
-        return self.where._replace(path=(*self.where.path, "points", int(self.rows[index]), column))
+        return self.where._replace(path=(*self.where.path, "points", int(self.rows[index])))
+
+    @property
+    def usable(self) -> bool:
+        """Whether the curve is what the deck says."""
+        return self.curve is not None and self.whole
+
+    @property
+    def title(self) -> Where:
+        """Where its name stands: the value of CURVE= or SET=."""
+        return self.where._replace(path=(*self.where.path, "set" if self.embedment else "name"))
 
 
 def read_curves(context: Context) -> tuple[list[SceneCurve], list[SceneCurve]]:
     """The curves of `*SEABED STIFFNESS` and those of `*EMBEDMENT`, in the order of the file."""
     named = [
-        _curve(context, str(entry.name), entry.points, where._replace(path=("curves", index)), embedment=False)
+        _curve(context, entry.name, entry.points, where._replace(path=("curves", index)), embedment=False)
         for where, block in context.deck.blocks("SEABED STIFFNESS")
         for index, entry in enumerate(cast("SeabedStiffness", block).curves)
     ]
     by_set = [
-        _curve(context, entry.set_name or "ALL", entry.points, where._replace(path=("curves", index)), embedment=True)
+        _curve(context, _set_name(context, entry.set_name, place), entry.points, place, embedment=True)
         for where, block in context.deck.blocks("EMBEDMENT")
         for index, entry in enumerate(cast("Embedment", block).curves)
+        for place in (where._replace(path=("curves", index)),)
     ]
     return named, by_set
 
 
-def _curve(context: Context, name: str, table: Table, where: Where, *, embedment: bool) -> SceneCurve:
+def _set_name(context: Context, name: str | None, where: Where) -> str | None:
+    """Points before any SET= hold for ALL; a SET= that could not be read names nothing."""
+    return None if name is None and context.lacks_value(where, "set") else name or "ALL"
+
+
+def _curve(context: Context, name: str | None, table: Table, where: Where, *, embedment: bool) -> SceneCurve:
+    if name is None and not embedment:
+        context.unread.add("SEABED STIFFNESS")
     points = np.column_stack([table.column(0), table.column(1)])
     rows = np.flatnonzero(~np.isnan(points).any(axis=1) & (table.lengths == 2))
     points = points[rows]
-    curve: ForceCurve | None = None
-    clashing = _clashing(points)
-    keep = np.setdiff1d(np.arange(len(points)), clashing)
-    scene_curve = SceneCurve(name, points, rows, where, None, embedment)
-    for index in clashing.tolist():
+    clashing, _ = clashes_and_repeats(points)
+    unread = len(rows) < len(table) or context.disturbed(where)
+    whole = not unread and not clashing.size
+    found = SceneCurve(name or "", points, rows, where, None, whole, embedment, name is not None)
+    for index in clashing[: MOST_TOLD + 1].tolist():
         ratio, force = points[index].tolist()
-        message = f"a second force at ratio {ratio!r} ({force!r}): the slope there would be infinite"
-        context.tell(CRV003, message, scene_curve.point(index))
+        message = f"a second force at ratio {ratio!r} ({force!r}): the slope there would be infinite; remove one"
+        context.tell(CRV003, message, found.point(index))
+    keep = np.setdiff1d(np.arange(len(points)), clashing, assume_unique=True)
     try:
-        curve = ForceCurve(points[keep], name)
+        curve = ForceCurve(points[keep], found.name)
     except CurveError as error:
-        unread = len(rows) < len(table) or context.deck.origin.damaged(where)
-        if error.code != CRV001.code:
-            context.tell(_CODES[error.code], str(error), scene_curve.point(int(keep[error.index])))
-        elif not unread and not clashing.size:
-            count = len(np.unique(points, axis=0))
-            message = f"curve {name!r} has {count} distinct point{'s' * (count != 1)}: at least two are needed"
+        if error.index >= 0:  # the message counts points, which holds only when none is left out
+            fault = str(error) if len(keep) == len(table) else "the slope to this point cannot be held by a float64"
+            context.tell(_CODES[error.code], f"{fault}: correct the point", found.point(int(keep[error.index])))
+        elif whole:
+            count = min(len(points), 1)
+            message = f"curve {shown(found.name)} has {count or 'no'} distinct point: it needs at least two"
             context.tell(CRV001, message, where)
-    return SceneCurve(name, points, rows, where, curve, embedment)
+        return found
+    return replace(found, curve=curve)
 
 
-def _clashing(points: Floats) -> Indices:
-    """Indices of points whose ratio an earlier point has with another force."""
+def clashes_and_repeats(points: Floats) -> tuple[Indices, Indices]:
+    """Indices of points at the ratio of an earlier one: those with another force than the first there, and the same."""
     if len(points) < 2:
-        return np.zeros(0, dtype=np.intp)
+        return _NOWHERE, _NOWHERE
     order = np.argsort(points[:, 0], kind="stable")
     ratios, forces = points[order].T
-    starts = np.flatnonzero(np.concatenate([[True], ratios[1:] != ratios[:-1]]))
-    first_force = np.repeat(forces[starts], np.diff([*starts, len(ratios)]))
-    return np.sort(order[forces != first_force])
+    begins: Mask = np.append(True, ratios[1:] != ratios[:-1])
+    starts = np.flatnonzero(begins)
+    first_force = np.repeat(forces[starts], np.diff(np.append(starts, len(ratios))))
+    other = forces != first_force
+    return np.sort(order[other]), np.sort(order[~other & ~begins])

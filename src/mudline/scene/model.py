@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal
@@ -14,10 +13,15 @@ from mudline.codes import REF007
 from mudline.contact.inputs import ContactInput, LawKind
 from mudline.contact.model import ContactModel
 from mudline.deck.model import Deck
+from mudline.deck.parameters import folded
 from mudline.diagnostics import DeckError, Problem, Severity
+from mudline.scene.context import Context
 from mudline.scene.elements import ElementTable
+from mudline.scene.force_curves import SceneCurve
 from mudline.scene.laws import Grant, LawTable
+from mudline.scene.left_out import left_out
 from mudline.scene.numbering import Floats, Ids, Indices, Numbered
+from mudline.scene.refusals import refusals
 from mudline.scene.sections import SectionTable
 from mudline.scene.sets import Sets
 
@@ -44,8 +48,13 @@ class Scene:
     problems: list[Problem]
 
     @property
+    def context(self) -> Context:
+        """What was noticed on the way, and what could not be read."""
+        return self.set_table.context
+
+    @property
     def units(self) -> str:
-        """ "metric", "imperial" or "user"."""
+        """The unit system: "metric", "imperial" or "user"."""
         return self.deck.units
 
     @property
@@ -85,8 +94,16 @@ class Scene:
 
     @cached_property
     def curves(self) -> dict[str, ForceCurve]:
-        """The force-embedment curves by name; one of `*EMBEDMENT` has the name of its set. The later one holds."""
-        return {entry.name: entry.curve for entry in self.laws.curves if entry.curve is not None}
+        """The force-embedment curves by name; one of `*EMBEDMENT` has the name of its set.
+
+        Of two curves of one name the later one holds, a named one before that of a set.
+        """
+        held: dict[str, SceneCurve] = {}
+        for entry in self.laws.curves:
+            before = held.get(folded(entry.name))
+            if entry.named and (before is None or before.embedment or not entry.embedment):
+                held[folded(entry.name)] = entry
+        return {entry.name: entry.curve for entry in held.values() if entry.curve is not None}
 
     def grant(self, element: int) -> Grant | None:
         """What gives the element of an index its law."""
@@ -102,7 +119,7 @@ class Scene:
     @cached_property
     def law_names(self) -> list[str]:
         """`curve:NAME`, `linear`, `rigid` or `none` for each element."""
-        names = [self._law_name(grant) for grant in self.laws.grants] + ["none"]
+        names = [self.law_name(grant) for grant in self.laws.grants] + ["none"]
         return [names[index] for index in self.laws.of_element.tolist()]
 
     @cached_property
@@ -111,8 +128,9 @@ class Scene:
         names = [None if grant.kind is LawKind.NONE else grant.set_.name for grant in self.laws.grants]
         return [[*names, None][index] for index in self.laws.of_element.tolist()]
 
-    def _law_name(self, grant: Grant) -> str:
-        if grant.kind is LawKind.CURVE:
+    def law_name(self, grant: Grant) -> str:
+        """Name of the law that a grant gives."""
+        if grant.kind is LawKind.CURVE and grant.curve >= 0:
             return f"curve:{self.laws.curves[grant.curve].name}"
         return grant.kind.name.lower()
 
@@ -130,14 +148,15 @@ class Scene:
     def contact(self, tension: Literal["keep", "cut"] = "keep") -> ContactModel:
         """The evaluator of this scene, with only the stages it needs.
 
-        Raises DeckError for errors on which a result depends; ElementError (a ValueError) for an element that lacks
-        what its law needs.
+        Raises DeckError for errors on which a result depends, and where a law, a node or a length is not known.
         """
         return ContactModel(self.contact_input(tension))
 
     def contact_input(self, tension: Literal["keep", "cut"] = "keep") -> ContactInput:
-        """The arrays that the evaluator is made from."""
+        """The arrays that the evaluator is made from; raises DeckError as `contact` does."""
         self.require()
+        if problems := list(refusals(self)):
+            raise DeckError(self.deck.diagnose(problems))
         usable = [index for index, entry in enumerate(self.laws.curves) if entry.curve is not None]
         number = {index: position for position, index in enumerate(usable)}
         curve_of_grant = np.array([*(number.get(grant.curve, -1) for grant in self.laws.grants), -1], dtype=np.intp)
@@ -147,48 +166,12 @@ class Scene:
             coordinates=self.coordinates,
             element_ids=self.element_ids,
             element_nodes=self.element_nodes,
-            length=self.length,
+            length=np.where(np.isfinite(self.length), self.length, 0.0),  # what is not finite has no spring
             diameter=self.diameter,
             law=self.law,
             curve_index=curve_of_grant[self.laws.of_element],
             curves=tuple(entry.curve for entry in self.laws.curves if entry.curve is not None),
             linear_stiffness=stiffness[self.laws.of_element],
             tension=tension,
-            left_out=self._left_out(),
+            left_out=left_out(self.deck),
         )
-
-    def _left_out(self) -> dict[str, str]:
-        """What the deck asks for and this version does not evaluate, by stage of the plan."""
-        asked: dict[str, Counter[str]] = {}
-        for keyword, stage in _LATER.items():
-            if keyword in self.deck.keywords():
-                asked.setdefault(stage, Counter())[f"*{keyword}"] += 1
-        for _, block in self.deck.blocks("SEABED PROPERTIES"):
-            for entry in block.sets:
-                for name, stage in (("friction", "friction"), ("lateral", "friction"), ("suction", "suction")):
-                    if getattr(entry, name) is not None:
-                        asked.setdefault(stage, Counter())[f"{name.upper()}="] += 1
-        for keyword in ("ELASTIC SURFACE", "RIGID SURFACE"):
-            for _, block in self.deck.blocks(keyword):
-                if block.slope is not None or block.profile is not None:
-                    asked.setdefault("floor", Counter())[f"the slope or profile of *{keyword}"] += 1
-                row = block.properties
-                for stage, names in (("friction", ("longitudinal", "transverse", "lateral")), ("suction", ("suction_stiffness",))):
-                    if any(getattr(row, name, None) for name in names):
-                        asked.setdefault(stage, Counter())[f"the {stage} of *{keyword}"] += 1
-        return {
-            stage: f"not evaluated in this version: {', '.join(f'{what} ({n} times)' if n > 1 else what for what, n in c.items())}"
-            for stage, c in asked.items()
-        }
-
-
-_LATER = {
-    "SEABED PROFILE": "floor",
-    "SEABED PLANES": "floor",
-    "SEABED CONTACT": "normal law",
-    "SEABED UNLOADING": "normal law",
-    "SEABED SUCTION": "suction",
-    "SEABED FRICTION": "friction",
-    "SEABED TRENCH": "trench",
-}
-"""Keywords that this version keeps and does not evaluate, and the stage that they belong to."""

@@ -41,10 +41,14 @@ def _number(context: Context, value: float, slot: Slot, where: Where) -> None:
     if math.isnan(value) or (low is None and above is None):
         return
     if low is not None and value < low:
-        context.tell(SBD010, f"{slot.label} is {value!r}: it must not be {_below(low)}", where)
+        context.tell(SBD010, f"{_name(slot)} is {value!r}: it must not be less than {low:g}", where)
     elif above is not None and value <= above:
-        context.tell(SBD010, f"{slot.label} is {value!r}: it must be greater than {above:g}", where)
+        context.tell(SBD010, f"{_name(slot)} is {value!r}: it must be greater than {above:g}", where)
 
 
-def _below(low: float) -> str:
-    return "negative" if low == 0 else f"less than {low:g}"
+def _name(slot: Slot) -> str:
+    """The field in words: `FRICTION=`, `water depth`, `external diameter Do`."""
+    meaning = slot.about.meaning
+    if slot.key:
+        return slot.label
+    return meaning if slot.label.lower() in meaning.lower().split() else f"{meaning} {slot.label}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, cast
 
@@ -10,7 +11,7 @@ import numpy as np
 from mudline.codes import REF001, REF005, REF008, REF009, REF010
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Severity, Where
-from mudline.keywords.text import shown, suggestion
+from mudline.keywords.text import shown
 from mudline.scene.context import Context
 from mudline.scene.external import ExternalElements
 from mudline.scene.numbering import Indices, Numbered
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from mudline.keywords.library.element_sets import ElementRange, ElementSet, ElementSets, SetList
 
 ALL = "all"
+_NOTHING = np.zeros(0, dtype=np.intp)
 
 
 @dataclass(slots=True)
@@ -36,19 +38,23 @@ class NamedSet:
 
 @dataclass(slots=True)
 class Sets:
-    """All sets by folded name; ALL is there, unless the deck's elements are not known."""
+    """All sets by folded name; ALL is always there."""
 
     context: Context
     elements: Numbered
     named: dict[str, NamedSet] = field(default_factory=dict)
 
-    def find(self, name: str | None, where: Where) -> NamedSet | None:
-        """The set that a SET= names (None means ALL); None, and a problem, when there is no such set."""
-        key = ALL if name is None else folded(name)
-        found = self.named.get(key)
+    @property
+    def everything(self) -> NamedSet:
+        """The predefined set ALL."""
+        return self.named[ALL]
+
+    def find(self, name: str, where: Where) -> NamedSet | None:
+        """The set that a SET= names; None, and a problem, when there is no such set."""
+        found = self.named.get(folded(name))
         if found is None:
-            known = [entry.name for entry in self.named.values()]
-            message = f"set {shown(str(name))} is not defined{suggestion(str(name), known)}: define it in *ELEMENT SETS"
+            hint = self.context.near(name, [entry.name for entry in self.named.values()])
+            message = f"set {shown(name)} is not defined{hint}: define it in *ELEMENT SETS"
             self.context.tell_missing(REF001, message, where, "ELEMENT SETS")
         return found
 
@@ -57,12 +63,14 @@ def read_sets(context: Context, elements: Numbered, external: ExternalElements |
     """Every set of the model; a file of elements adds to them, or defines more."""
     sets = _Reader(context, elements).read()
     for name, ids in (external.sets if external else {}).items():
-        known = sets.named.setdefault(folded(name), NamedSet(name, np.zeros(0, dtype=np.intp), None))
+        known = sets.named.setdefault(folded(name), NamedSet(name, _NOTHING, None))
         known.elements = np.union1d(known.elements, elements.indices(ids))
     return sets
 
 
 class _Reader:
+    """Collects the definitions of each name, then expands them, subsets first."""
+
     def __init__(self, context: Context, elements: Numbered) -> None:
         self.context = context
         self.elements = elements
@@ -71,120 +79,159 @@ class _Reader:
 
     def read(self) -> Sets:
         named = self.sets.named
+        context = self.context
         everything = np.arange(len(self.elements), dtype=np.intp)
-        named[ALL] = NamedSet("ALL", everything, None, open=bool(self.context.definers or self.context.restart))
-        for key, name in self.context.harvested.items():
-            named.setdefault(key, NamedSet(name, np.zeros(0, dtype=np.intp), None, open=True))
-        for where, block in self.context.deck.blocks("ELEMENT SETS"):
+        named[ALL] = NamedSet("ALL", everything, None, open=bool(context.definers or context.restart))
+        for where, block in context.deck.blocks("ELEMENT SETS"):
             for index, entry in enumerate(cast("ElementSets", block).sets):
                 self._collect(entry, where._replace(path=("sets", index)))
-        for key in self.definitions:
-            named.pop(key, None)
+        for key, name in context.harvested.items():
+            if key not in self.definitions:
+                named.setdefault(key, NamedSet(name, _NOTHING, None, open=True))
         for key in self.definitions:
             self._expand(key)
         return self.sets
 
     def _collect(self, entry: ElementSet, where: Where) -> None:
-        if not isinstance(entry.name, str):
+        name = cast("str | None", entry.name)
+        if name is None:
+            self.context.unread.add("ELEMENT SETS")
             return
-        key = folded(entry.name)
+        key = folded(name)
         if key == ALL:
-            message = "set ALL is predefined: every element belongs to it; choose another name"
+            message = "set ALL is predefined and holds every element: choose another name"
             self.context.tell(REF009, message, where._replace(path=(*where.path, "name")))
         else:
             self.definitions.setdefault(key, []).append((entry, where))
 
     def _expand(self, key: str) -> None:
         """Expand a set and, before it, its subsets; an explicit stack, as chains may be long."""
-        stack = [key]
-        open_keys: list[str] = []
-        while stack:
-            current = stack[-1]
-            if current in self.sets.named and current not in open_keys:
-                stack.pop()
-                continue
-            if current in open_keys:
-                stack.pop()
-                open_keys.remove(current)
+        waiting = [key]
+        unfinished: set[str] = set()
+        while waiting:
+            current = waiting[-1]
+            if current in self.sets.named:
+                waiting.pop()
+            elif current in unfinished:
+                waiting.pop()
+                unfinished.remove(current)
                 self._settle(current)
-                continue
-            open_keys.append(current)
-            for name, where in self._subsets(current):
-                other = folded(name)
-                if other in open_keys:
-                    message = f"set {shown(name)} contains itself through SUBSET={name}"
-                    self.context.tell(REF008, message, where)
-                elif other in self.definitions:
-                    stack.append(other)
-                elif other not in self.sets.named:
-                    known = [entry.name for entries in self.definitions.values() for entry, _ in entries]
-                    message = f"SUBSET={name} names no set{suggestion(name, known)}"
-                    self.context.tell_missing(REF008, message, where, "ELEMENT SETS")
+            else:
+                unfinished.add(current)
+                waiting += self._needed(current, unfinished)
 
-    def _subsets(self, key: str) -> list[tuple[str, Where]]:
-        return [
-            (member.subset, where._replace(path=(*where.path, "members", index, "subset")))
-            for entry, where in self.definitions[key]
-            for index, member in enumerate(entry.members)
-            if hasattr(member, "subset") and isinstance(member.subset, str)
-        ]
+    def _needed(self, key: str, unfinished: set[str]) -> Iterator[str]:
+        """The subsets that are to be expanded before a set; those that cannot be are told."""
+        for name, where in self._subsets(key):
+            other = folded(name)
+            if other in unfinished:
+                message = f"set {shown(name)} contains itself: SUBSET= leads back to it; remove one of these lines"
+                self.context.tell(REF008, message, where)
+            elif other in self.definitions:
+                yield other
+            elif other not in self.sets.named:
+                known = [self.definitions[known][0][0].name for known in self.definitions]
+                message = (
+                    f"SUBSET= names no set: {shown(name)} is not defined{self.context.near(name, known)}; define it"
+                )
+                self.context.tell_missing(REF008, message, where, "ELEMENT SETS")
+
+    def _subsets(self, key: str) -> Iterator[tuple[str, Where]]:
+        for entry, where in self.definitions[key]:
+            for index, member in enumerate(entry.members):
+                if hasattr(member, "subset") and cast("str | None", member.subset) is not None:
+                    yield member.subset, where._replace(path=(*where.path, "members", index, "subset"))
 
     def _settle(self, key: str) -> None:
         """The union of all members of all definitions of a name."""
         first, place = self.definitions[key][0]
         parts: list[Indices] = []
-        uncertain = False
+        unsure = False
+        members = 0
         for entry, where in self.definitions[key]:
+            unsure |= self.context.disturbed(where)
+            members += len(entry.members)
             for index, member in enumerate(entry.members):
                 inner = where._replace(path=(*where.path, "members", index))
                 if hasattr(member, "elements"):
-                    found, labelled = self._listed(member, inner)
-                    uncertain |= labelled
-                    parts.append(found)
+                    found, whole = self._listed(cast("SetList", member), inner)
                 elif hasattr(member, "generate"):
-                    parts.append(self._range(member.generate, inner))
-                elif (other := self.sets.named.get(folded(member.subset))) is not None:
-                    uncertain |= other.open
-                    parts.append(other.elements)
-        elements = np.unique(np.concatenate(parts)) if parts else np.zeros(0, dtype=np.intp)
-        uncertain |= any(self._unsure(where) for _, where in self.definitions[key])
-        self.sets.named[key] = NamedSet(first.name, elements, place, uncertain)
-        if not elements.size and not uncertain and not self._has_members(key):
-            self.context.tell(REF010, f"set {shown(first.name)} has no element", place)
+                    found, whole = self._range(member.generate, inner)
+                else:
+                    found, whole = self._subset(member.subset)
+                parts.append(found)
+                unsure |= not whole
+        self.sets.named[key] = NamedSet(first.name, _union(parts), place, unsure)
+        if not members and not unsure:  # of what is listed and does not exist, enough is said where it stands
+            self.context.tell(REF010, f"set {shown(first.name)} has no element: give it some, or remove it", place)
 
-    def _has_members(self, key: str) -> bool:
-        """Whether anything was listed: what is listed and undefined has been told already."""
-        return any(entry.members for entry, _ in self.definitions[key])
-
-    def _unsure(self, where: Where) -> bool:
-        return bool(self.context.definers) or self.context.deck.origin.damaged(where)
+    def _subset(self, name: str | None) -> tuple[Indices, bool]:
+        found = None if name is None else self.sets.named.get(folded(name))
+        return (_NOTHING, False) if found is None else (found.elements, not found.open)
 
     def _listed(self, member: SetList, where: Where) -> tuple[Indices, bool]:
-        numbers = [number for number in member.elements if isinstance(number, int)]
-        labelled = len(numbers) < len(member.elements)
-        indices = self.elements.indices(np.array(numbers, dtype=np.int64))
+        """Indices of the elements of a list, and whether these are all."""
+        positions = [position for position, element in enumerate(member.elements) if isinstance(element, int)]
+        numbers = np.array([member.elements[position] for position in positions], dtype=np.int64)
+        indices = self.elements.indices(numbers)
         for missing in np.flatnonzero(indices < 0).tolist():
-            number = numbers[missing]
-            path = (*where.path, "elements", member.elements.index(number))
-            message = f"element {number} is not defined"
-            self.context.tell_missing(REF005, message, where._replace(path=path), "ELEMENT")
-        return indices[indices >= 0], labelled
+            place = where._replace(path=(*where.path, "elements", positions[missing]))
+            number = int(numbers[missing])
+            self.context.tell_missing(
+                REF005, f"element {number} is not defined: define it in *ELEMENT", place, "ELEMENT", number
+            )
+        for position, element in enumerate(member.elements):
+            if isinstance(element, str):
+                self._label(element, where._replace(path=(*where.path, "elements", position)))
+        found = indices[indices >= 0]
+        whole = len(found) == len(member.elements)
+        return found, whole and not self.context.disturbed(where._replace(path=(*where.path, "elements")))
 
-    def _range(self, given: ElementRange, where: Where) -> Indices:
+    def _label(self, label: str, where: Where) -> None:
+        if not self.context.definers and not self.context.doubted(where):
+            message = (
+                f"element {shown(label)} is a label, and nothing in this deck makes labelled elements: give a number"
+            )
+            self.context.tell_missing(REF005, message, where, "ELEMENT")
+
+    def _range(self, given: ElementRange, where: Where) -> tuple[Indices, bool]:
         """Elements of a range, without building it: it may be as long as a slip of the pen makes it."""
         place = where._replace(path=(*where.path, "generate"))
-        start, end, step = given.start, given.end, 1 if given.increment is None else given.increment
-        if not (isinstance(start, int) and isinstance(end, int) and isinstance(step, int)):
-            return np.zeros(0, dtype=np.intp)
+        numbers = self.context.generator(given, place)
+        if numbers is None:
+            return _NOTHING, False
+        start, end, step = numbers
+        written = f"GEN={start}, {end}, {step}"
         if end < start or step < 1:
-            message = f"GEN={start}, {end}, {step} holds nothing: the end comes before the start"
-            message = message if step >= 1 else f"GEN={start}, {end}, {step}: the increment must be at least 1"
-            self.context.tell(REF010, message, place, Severity.ERROR)
-            return np.zeros(0, dtype=np.intp)
-        ids = self.elements.ids
-        found = np.flatnonzero((ids >= start) & (ids <= end) & ((ids - start) % step == 0))
+            why = "the increment must be at least 1" if step < 1 else "the end must not come before the start"
+            self.context.tell(REF010, f"{written} holds nothing: {why}", place, Severity.ERROR)
+            return _NOTHING, False
+        found = self.elements.between(start, end, step)
         wanted = (end - start) // step + 1
-        if len(found) < wanted and not self.context.supplier("ELEMENT"):
-            message = f"GEN={start}, {end}, {step}: {wanted - len(found)} of its {wanted} elements are not defined"
+        lacking = wanted - len(found)
+        if lacking and not self.context.supplier("ELEMENT"):
+            message = f"{written}: {lacking} of its {wanted} elements are not defined: correct it, or define them"
             self.context.tell(REF005, message, place, Severity.WARNING if len(found) else None)
-        return found
+        return found, not lacking
+
+
+def _union(parts: list[Indices]) -> Indices:
+    """Indices in ascending order, each once. Sets that hold the same elements share an array."""
+    largest = max(parts, key=len, default=_NOTHING)
+    rest = [part for part in parts if part is not largest and len(part)]
+    if not rest and (np.diff(largest) > 0).all():
+        return largest
+    merged = np.unique(np.concatenate(parts))
+    return largest if np.array_equal(merged, largest) else merged
+
+
+def later_wins(holders: Sequence[NamedSet | None], count: int) -> Indices:
+    """For each of `count` elements the index of the last holder that has it, -1 where none has.
+
+    A set that holds several things counts with the last of them only: sets named very often cost no more for it.
+    """
+    winner = np.full(count, -1, dtype=np.intp)
+    last = {id(holder.elements): index for index, holder in enumerate(holders) if holder is not None}
+    for index in sorted(last.values()):
+        winner[cast("NamedSet", holders[index]).elements] = index
+    return winner

@@ -1,0 +1,7 @@
+"""Force-embedment curves."""
+
+from __future__ import annotations
+
+from mudline.lint.rules.curves import points, shape
+
+__all__ = ["points", "shape"]

@@ -1,0 +1,178 @@
+"""Curves and the places that name them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, cast
+
+from mudline.codes import REF002
+from mudline.contact.inputs import LawKind
+from mudline.deck.model import Opaque
+from mudline.deck.parameters import folded
+from mudline.diagnostics import Code, Problem, Severity
+from mudline.keywords.text import shown
+from mudline.keywords.values import Equation
+from mudline.lint.context import LintContext
+from mudline.lint.registry import rule
+
+if TYPE_CHECKING:
+    from mudline.keywords.library.seabed_properties import SeabedProperties
+
+REF003 = Code("REF003", "unused-curve", Severity.WARNING)
+REF004 = Code("REF004", "duplicate-curve", Severity.WARNING)
+
+
+@rule(REF002)
+def undefined_curve(context: LintContext) -> Iterator[Problem]:
+    """A STIFFNESS= names a curve that the deck does not define.
+
+    The elements of the set have no seabed then. A STIFFNESS= that is no number is taken for the name of a curve, so a
+    slip in a number is told here too. Define the curve in *SEABED STIFFNESS, or correct the name.
+
+    Bad:
+        $MODEL
+        *SEABED STIFFNESS
+         CURVE=Soft Clay
+         0.0, 0.0
+         0.1, 1200.0
+         0.5, 4200.0
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=Softclay
+
+    Good:
+        $MODEL
+        *SEABED STIFFNESS
+         CURVE=Soft Clay
+         0.0, 0.0
+         0.1, 1200.0
+         0.5, 4200.0
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=Soft Clay
+
+    Finds: 10:12
+    """
+    yield from context.told(REF002)
+
+
+@rule(REF003)
+def unused_curve(context: LintContext) -> Iterator[Problem]:
+    """No STIFFNESS= uses the curve.
+
+    It was measured or calculated for something, so perhaps the elements that it was meant for follow another law. Name
+    it in a STIFFNESS= of *SEABED PROPERTIES, or remove it. Nothing is said of a deck whose STIFFNESS= is an equation:
+    its parameters choose the curve.
+
+    Bad:
+        $MODEL
+        *SEABED STIFFNESS
+         CURVE=Soft Clay
+         0.0, 0.0
+         0.1, 1200.0
+         CURVE=Backfill
+         0.0, 0.0
+         0.1, 300.0
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=Soft Clay
+
+    Good:
+        $MODEL
+        *SEABED STIFFNESS
+         CURVE=Soft Clay
+         0.0, 0.0
+         0.1, 1200.0
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=Soft Clay
+
+    Finds: 6:8
+    """
+    if _chosen_elsewhere(context):
+        return
+    scene = context.scene
+    names = {folded(curve.name) for curve in scene.laws.curves if not curve.embedment}
+    unknown = scene.laws.referenced - names
+    told: set[str] = set()
+    for curve in scene.laws.curves:
+        name = folded(curve.name)
+        if curve.embedment or not curve.named or name in scene.laws.referenced or name in told:
+            continue
+        if not scene.context.near(name, unknown):  # else the name is misspelt where it is used, which has been told
+            told.add(name)
+            message = f"curve {shown(curve.name)} is not used: name it in a STIFFNESS=, or remove it"
+            yield Problem(REF003, message, where=curve.title)
+
+
+def _chosen_elsewhere(context: LintContext) -> bool:
+    """Whether something that is not read, or not fixed, may use curves."""
+    scene = context.scene
+    if any(isinstance(stiffness, Equation) for stiffness in _stiffnesses(context)):
+        return True
+    if any(grant.kind is LawKind.NONE and grant.unknown for grant in scene.laws.grants):
+        return True  # a set whose STIFFNESS= could not be read
+    if scene.context.astray("SEABED PROPERTIES") or (scene.context.restart and not scene.laws.referenced):
+        return True
+    return any(
+        "SEABED PROPERTIES" in line.upper()
+        for section in scene.deck.sections
+        for block in section.blocks
+        if isinstance(block, Opaque) and block.keyword == "VARIATION"
+        for line in block.lines
+    )
+
+
+def _stiffnesses(context: LintContext) -> Iterator[object]:
+    for _, block in context.deck.blocks("SEABED PROPERTIES"):
+        for entry in cast("SeabedProperties", block).sets:
+            yield entry.stiffness
+
+
+@rule(REF004)
+def duplicate_curve(context: LintContext) -> Iterator[Problem]:
+    """Two curves have one name, or one set has two curves in *EMBEDMENT.
+
+    The later one is taken (inferred: the language does not say what happens), so the points of the earlier one count
+    for nothing. Case does not count in names. Choose another name, or remove one of the curves.
+
+    Bad:
+        $MODEL
+        *SEABED STIFFNESS
+         CURVE=Clay
+         0.0, 0.0
+         0.1, 1200.0
+         CURVE=CLAY
+         0.0, 0.0
+         0.1, 2500.0
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=Clay
+
+    Good:
+        $MODEL
+        *SEABED STIFFNESS
+         CURVE=Clay
+         0.0, 0.0
+         0.1, 1200.0
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=Clay
+
+    Finds: 6:8
+    """
+    known: set[tuple[bool, str]] = set()
+    for curve in context.scene.laws.curves:
+        key = (curve.embedment, folded(curve.name))
+        if key in known and curve.named:
+            what = "set {} has a curve already" if curve.embedment else "there is a curve {} already"
+            what = what.format(shown(curve.name))
+            message = f"{what}: the later one is taken (inferred); keep one of them"
+            yield Problem(REF004, message, where=curve.title)
+        known.add(key)

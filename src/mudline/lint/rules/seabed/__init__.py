@@ -1,0 +1,7 @@
+"""The seabed: its type, what carries the elements, the values of its fields."""
+
+from __future__ import annotations
+
+from mudline.lint.rules.seabed import restraint, types, values
+
+__all__ = ["restraint", "types", "values"]

@@ -1,0 +1,101 @@
+"""Values that elements need, and values out of range."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from mudline.codes import SBD009, SBD010
+from mudline.diagnostics import Problem
+from mudline.lint.context import LintContext
+from mudline.lint.registry import rule
+
+
+@rule(SBD009)
+def missing_diameter(context: LintContext) -> Iterator[Problem]:
+    """Elements follow a force-embedment curve and have no external diameter.
+
+    The embedment ratio is a depth divided by the external diameter: without one there is no ratio, and no force. The
+    diameter is Do of *GEOMETRIC SETS, or for OPTION=FLEXIBLE without Do the drag diameter Dd, and it must not be 0.
+    Give the elements a section, or put them into a set that has one.
+
+    Bad:
+        $MODEL
+        *NODE
+         1, -0.05, 0.0
+         5, -0.05, 40.0
+         GEN=1, 5
+        *ELEMENT
+         1, 1, 2
+         GEN=1, 4
+        *ELEMENT SETS
+         SET=Flowline
+         GEN=1, 3
+        *GEOMETRIC SETS
+         OPTION=RIGID
+         SET=Flowline
+         207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
+        *SEABED STIFFNESS
+         CURVE=Clay
+         0.0, 0.0
+         0.5, 4200.0
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=Clay
+
+    Good:
+        $MODEL
+        *NODE
+         1, -0.05, 0.0
+         5, -0.05, 40.0
+         GEN=1, 5
+        *ELEMENT
+         1, 1, 2
+         GEN=1, 4
+        *ELEMENT SETS
+         SET=Flowline
+         GEN=1, 4
+        *GEOMETRIC SETS
+         OPTION=RIGID
+         SET=Flowline
+         207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
+        *SEABED STIFFNESS
+         CURVE=Clay
+         0.0, 0.0
+         0.5, 4200.0
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=Clay
+
+    Finds: 23:12
+    """
+    yield from context.told(SBD009)
+
+
+@rule(SBD010)
+def negative_property(context: LintContext) -> Iterator[Problem]:
+    """A stiffness, a friction coefficient, a length or a diameter is negative, or zero where it divides.
+
+    Such a value has no physical meaning: a sign was typed by mistake, or the value stands in the wrong field. Correct
+    it. Values of equations are looked at too.
+
+    Bad:
+        $MODEL
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=50000.0
+         FRICTION=-0.3, 0.6
+
+    Good:
+        $MODEL
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=50000.0
+         FRICTION=0.3, 0.6
+
+    Finds: 6:11
+    """
+    yield from context.told(SBD010)
