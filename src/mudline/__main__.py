@@ -6,6 +6,7 @@ import sys
 from collections.abc import Sequence
 
 from mudline import __version__
+from mudline.cli.exits import INTERRUPTED
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -14,9 +15,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if given == ["--version"]:
         sys.stdout.write(f"mudline {__version__}\n")
         return 0
-    from mudline.cli.main import run
+    try:
+        from mudline.cli.main import run
 
-    return run(given)
+        return run(given)
+    except KeyboardInterrupt:
+        return INTERRUPTED
 
 
 if __name__ == "__main__":

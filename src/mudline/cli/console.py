@@ -7,17 +7,20 @@ import sys
 
 from rich.console import Console
 
-_WIDE = 200
+_WIDE = 10_000
+EXCERPT_WIDTH = 120
+"""Columns of a source line that are shown where no terminal sets a limit."""
 
 
 def console(color: str) -> Console:
     """A console on standard output for "auto", "always" or "never" colours."""
     terminal = sys.stdout.isatty()
-    plain = color == "never" or (color == "auto" and (not terminal or "NO_COLOR" in os.environ))
+    plain = color == "never" or (color == "auto" and (not terminal or bool(os.environ.get("NO_COLOR"))))
     return Console(
         file=sys.stdout,
         force_terminal=True if color == "always" else None,
         color_system=None if plain else "standard" if color == "always" else "auto",
+        no_color=plain,
         width=None if terminal else _WIDE,
         markup=False,
         highlight=False,

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
+from pathlib import Path, PurePath
 
 import click
 
 from mudline.cli import options
 from mudline.cli.exits import DONE
 from mudline.cli.guard import refuses_bad_decks
-from mudline.cli.inputs import load
+from mudline.cli.inputs import STDIN, SUFFIXES, load
 from mudline.cli.options import View
+from mudline.cli.streams import emit
 from mudline.cli.terminal import tell
-from mudline.cli.writing import write
+from mudline.cli.writing import write_text
 from mudline.deck.loading import FORMS, dump, form_of
 from mudline.deck.sorting import sort_curves
 
@@ -26,6 +26,7 @@ from mudline.deck.sorting import sort_curves
     "--to", "target", type=click.Choice(FORMS), help="Form to write, instead of what the suffix of OUT tells."
 )
 @click.option("--sorted", "in_order", is_flag=True, help="Write curves with their points sorted by ratio.")
+@options.stdin_name
 @options.units
 @options.common
 @refuses_bad_decks
@@ -36,6 +37,7 @@ def command(
     source: str | None,
     target: str | None,
     in_order: bool,
+    stdin_name: str,
     units: str | None,
     view: View,
 ) -> int:
@@ -43,19 +45,27 @@ def command(
 
     Nothing is lost but blank lines and the spelling of numbers.
     """
-    to_file = output is not None and output != "-"
-    if not to_file and target is None:
-        raise click.UsageError("say what to write: -o OUT with a suffix, or --to")
-    read = load(deck, form=source, units=units).require()
+    form = target or _form_of_output(output)
+    read = load(deck, form=source, units=units, stdin_name=stdin_name).require()
     if in_order:
         for name in sort_curves(read):
             tell(f"curve {name} keeps its order: a ratio in it is an equation")
-    text = dump(read, target or form_of(output or ""))
-    if not to_file:
-        sys.stdout.write(text)
+    text = dump(read, form)
+    if output is None or output == STDIN:
+        emit([text])
         return DONE
-    path = Path(output or "")
-    write(path, text.encode("utf-8"))
+    path = Path(output)
+    write_text(path, [text])
     if not view.quiet:
         tell(f"{read.file} -> {path.as_posix()}")
     return DONE
+
+
+def _form_of_output(output: str | None) -> str:
+    if output is None or output == STDIN:
+        raise click.UsageError("say what to write: -o OUT with a suffix, or --to")
+    form, suffix = form_of(output), PurePath(output).suffix.lower()
+    if form == "keyword" and suffix not in SUFFIXES:
+        known = ", ".join(sorted(SUFFIXES | {".json", ".yaml"}))
+        raise click.UsageError(f"{output}: its suffix tells no form (known: {known}): say --to keyword, json or yaml")
+    return form

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import csv
 import json
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -16,9 +14,12 @@ from mudline.cli.guard import refuses_bad_decks
 from mudline.cli.inputs import load
 from mudline.cli.lazy import drawing, printing
 from mudline.cli.options import View
+from mudline.cli.streams import emit
 from mudline.cli.terminal import tell
-from mudline.cli.writing import write
-from mudline.results.curves import curve_rows
+from mudline.cli.writing import writing
+from mudline.lint.output.visible import visible
+from mudline.results.csv_lines import csv_lines
+from mudline.results.curves import curve_rows, point_table, static_table, value_table
 from mudline.scene.build import resolve
 from mudline.scene.model import Scene
 
@@ -36,6 +37,7 @@ from mudline.scene.model import Scene
 )
 @click.option("--plot", "picture", metavar="FILE.png|svg", help="Draw the curves (needs the extra mudline[plot]).")
 @options.output_format("text", "json", "csv")
+@options.stdin_name
 @options.units
 @options.common
 @refuses_bad_decks
@@ -46,45 +48,47 @@ def command(
     weight: float | None,
     picture: str | None,
     output_format: str,
+    stdin_name: str,
     units: str | None,
     view: View,
 ) -> int:
-    """Show each force-embedment curve sorted, with the slope of every segment and the stiffness it gives."""
-    scene = resolve(load(deck, units=units)).require()
+    """Show each force-embedment curve sorted, with the slope of every segment and the stiffness it gives.
+
+    CSV holds one table: the points, or what --at or --weight ask for.
+    """
+    if output_format == "csv" and ratios and weight is not None:
+        raise click.UsageError("CSV holds one table: give --at or --weight, not both")
+    if picture and _picture_form(picture) not in {"png", "svg"}:
+        raise click.UsageError(f"{picture}: a plot is a .png or a .svg")
+    scene = resolve(load(deck, units=units, stdin_name=stdin_name)).require()
     try:
         rows = curve_rows(scene, ratios, weight)
     except ValueError as error:
         raise click.UsageError(str(error)) from error
+    if picture and not _plot(scene, rows, picture):
+        return FOUND
     if output_format == "json":
-        click.echo(json.dumps(rows, indent=1, ensure_ascii=False, allow_nan=False))
+        emit([json.dumps(rows, indent=1, ensure_ascii=False, allow_nan=False), "\n"])
     elif output_format == "csv":
-        _csv(rows)
-    elif not rows:
-        tell(f"{scene.deck.file} has no force-embedment curve")
+        emit(csv_lines(value_table(rows) if ratios else point_table(rows) if weight is None else static_table(rows)))
+    elif rows:
+        printing("curves").print_curves(scene, rows, view)
     else:
-        printing("curves").print_curves(scene, rows, view.color)
-    if picture:
-        return _plot(scene, rows, Path(picture))
+        tell(f"{scene.deck.file} has no force-embedment curve")
     return DONE
 
 
-def _csv(rows: list[dict[str, Any]]) -> None:
-    """The points and the segments behind them; with --at or --weight nothing more, as a table has one kind of row."""
-    writer = csv.writer(sys.stdout, lineterminator="\n")
-    writer.writerow(("curve", "ratio", "force", "slope"))
-    for row in rows:
-        slopes = [repr(segment["slope"]) for segment in row["segments"]]
-        for (ratio, force), slope in zip(row["points"], [*slopes, ""], strict=True):
-            writer.writerow((row["name"], repr(ratio), repr(force), slope))
+def _picture_form(picture: str) -> str:
+    return Path(picture).suffix.lower().removeprefix(".")
 
 
-def _plot(scene: Scene, rows: list[dict[str, Any]], path: Path) -> int:
+def _plot(scene: Scene, rows: list[dict[str, Any]], picture: str) -> bool:
     try:
         draw = drawing("curve").draw
     except ImportError:
         tell("--plot needs matplotlib: pip install mudline[plot]")
-        return FOUND
-    if path.suffix.lower() not in {".png", ".svg"}:
-        raise click.UsageError(f"{path}: a plot is a .png or a .svg")
-    write(path, draw(rows, scene.units, path.suffix.lower().removeprefix(".")))
-    return DONE
+        return False
+    named = [{**row, "name": visible(row["name"])} for row in rows]
+    with writing(Path(picture)) as stream:
+        draw(named, scene.units, _picture_form(picture), stream)
+    return True

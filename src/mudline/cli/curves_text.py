@@ -4,35 +4,53 @@ from __future__ import annotations
 
 from typing import Any
 
+from rich.console import Console
+
 from mudline.cli.console import console
-from mudline.cli.tables import table
+from mudline.cli.options import View
+from mudline.cli.tables import print_table
 from mudline.cli.terminal import tell
 from mudline.results.curves import diameters, used_curves
 from mudline.results.numbers import shown
+from mudline.results.units import headed, unit_names
 from mudline.scene.model import Scene
 
+_MOST_DIAMETERS = 3
+_GOES_ON = "Below its first and above its last point a curve goes on with the slope of its end segment."
 
-def print_curves(scene: Scene, rows: list[dict[str, Any]], color: str) -> None:
+
+def print_curves(scene: Scene, rows: list[dict[str, Any]], view: View) -> None:
     """A table of segments for each curve, with what was asked of it."""
-    printer = console(color)
+    printer = console(view.color)
+    names = unit_names(scene.units)
+    force, slope = headed("force", names.line_force), headed("slope", names.line_force)
+    stiffness = headed("stiffness", names.stiffness)
     for (index, entry, _), row in zip(used_curves(scene), rows, strict=True):
         sizes = diameters(scene, index)
+        drawn = sizes if view.verbose or len(sizes) <= _MOST_DIAMETERS else [sizes[0], sizes[-1]]
         columns = (
-            "from ratio",
-            "to ratio",
-            "from force",
-            "to force",
-            "slope",
-            *(f"stiffness D={shown(d)}" for d in sizes),
+            "from\nratio",
+            "to\nratio",
+            headed("from\nforce", names.line_force),
+            headed("to\nforce", names.line_force),
+            slope,
+            *(headed(f"stiffness\nD={shown(size)}", names.stiffness) for size in drawn),
         )
-        printer.print(table(_title(row, sizes, embedment=entry.embedment), columns, _segments(row, sizes)))
+        note = "" if drawn == sizes else f"{len(sizes)} diameters follow this curve: -v shows all"
+        print_table(printer, _title(row, sizes, embedment=entry.embedment), columns, _segments(row, drawn), note=note)
         if row["at"]:
-            columns = ("ratio", "force", "slope", "segment", "extrapolated")
-            printer.print(table("At", columns, [_at(value) for value in row["at"]]))
-        for static in row.get("static", []):
-            printer.print(table("Static embedment", *_static(static)))
-        if "static" in row and not row["static"]:
-            tell(f"curve {row['name']} never carries this weight")
+            columns = ("ratio", force, slope, "segment", "extrapolated")
+            print_table(printer, f"{row['name']} at", columns, [_at(value) for value in row["at"]])
+        if "static" in row:
+            columns = (
+                "ratio",
+                headed("diameter", names.length),
+                headed("depth", names.length),
+                stiffness,
+                "extrapolated",
+            )
+            _print_static(printer, row, columns)
+    printer.print(_GOES_ON, style="dim")
 
 
 def _title(row: dict[str, Any], sizes: list[float], *, embedment: bool) -> str:
@@ -42,7 +60,6 @@ def _title(row: dict[str, Any], sizes: list[float], *, embedment: bool) -> str:
 
 
 def _segments(row: dict[str, Any], sizes: list[float]) -> list[tuple[str, ...]]:
-    """A row a segment; the end slopes hold outside as well."""
     forces = [force for _, force in row["points"]]
     return [
         (
@@ -62,11 +79,15 @@ def _at(value: dict[str, Any]) -> tuple[str, ...]:
     return (*numbers, str(value["segment"]), value["extrapolated"] or "")
 
 
-def _static(static: dict[str, Any]) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
-    columns = ("ratio", "diameter", "depth", "stiffness", "extrapolated")
-    ratio, outside = shown(static["ratio"]), str(static["extrapolated"] or "")
-    rows: list[tuple[str, ...]] = [
-        (ratio, shown(each["diameter"]), shown(each["depth"]), shown(each["stiffness"]), outside)
-        for each in static["stiffness"]
-    ]
-    return columns, rows or [(ratio, "", "", "", outside)]
+def _print_static(printer: Console, row: dict[str, Any], columns: tuple[str, ...]) -> None:
+    if not row["static"]:
+        tell(f"curve {row['name']} never carries this weight")
+        return
+    rows: list[tuple[str, ...]] = []
+    for static in row["static"]:
+        ratio, outside = shown(static["ratio"]), static["extrapolated"] or ""
+        rows += [
+            (ratio, shown(each["diameter"]), shown(each["depth"]), shown(each["stiffness"]), outside)
+            for each in static["stiffness"]
+        ] or [(ratio, "", "", "", outside)]
+    print_table(printer, f"{row['name']}: static embedment", columns, rows)

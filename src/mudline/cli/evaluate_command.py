@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import sys
 from pathlib import Path
 from typing import cast
 
@@ -12,19 +11,20 @@ import click
 from mudline.cli import options
 from mudline.cli.exits import DONE
 from mudline.cli.guard import refuses_bad_decks
-from mudline.cli.inputs import load, reason
+from mudline.cli.inputs import load
 from mudline.cli.lazy import printing
 from mudline.cli.options import View
-from mudline.cli.terminal import tell
-from mudline.cli.writing import write
-from mudline.results.evaluation import Evaluation, Tension, evaluate_scene
-from mudline.results.formats import csv_text, json_text, npz_bytes, plan_rows
+from mudline.cli.streams import emit
+from mudline.cli.terminal import reason, tell
+from mudline.cli.writing import write_text, writing
+from mudline.contact import LawKind
+from mudline.results.csv_lines import csv_lines
+from mudline.results.evaluation import Evaluation, Prepared, Tension, evaluate_scene, prepare
+from mudline.results.formats import csv_text, json_text, plan_rows, write_npz
 from mudline.scene.build import resolve
 from mudline.scene.external import ExternalElements, read_external
 from mudline.scene.model import Scene
 from mudline.scene.positions import Positions, read_positions
-
-_MOST_ROWS = 40
 
 
 @click.command("evaluate")
@@ -50,6 +50,7 @@ _MOST_ROWS = 40
     help="Which rows text and CSV on standard output show.",
 )
 @options.output_format("text", "json", "csv")
+@options.stdin_name
 @options.units
 @options.common
 @refuses_bad_decks
@@ -63,6 +64,7 @@ def command(
     plan_only: bool,
     table: str,
     output_format: str,
+    stdin_name: str,
     units: str | None,
     view: View,
 ) -> int:
@@ -71,22 +73,24 @@ def command(
     Forces are per unit length, in the deck's units; reactions are the total force of the bed on a node.
     """
     suffix = _output_suffix(output)
-    scene = resolve(load(deck, units=units), _read_elements(elements) if elements else None)
-    if plan_only:
-        return _plan(scene.require(), output_format, view, cast("Tension", tension))
+    loaded = load(deck, units=units, stdin_name=stdin_name)
+    scene = resolve(loaded, _read_elements(elements) if elements else None).require()
     given = _read_positions(positions, scene) if positions else None
-    evaluation = evaluate_scene(scene, given, cast("Tension", tension))
+    pull = cast("Tension", tension)
+    if plan_only:
+        _plan(prepare(scene, given, pull), output_format, view)
+        return DONE
+    evaluation = evaluate_scene(scene, given, pull)
     if not view.quiet:
         _notes(evaluation, given)
     if output:
         _write(evaluation, Path(output), suffix, quiet=view.quiet)
     elif output_format == "json":
-        sys.stdout.writelines(json_text(evaluation))
+        emit(json_text(evaluation))
     elif output_format == "csv":
-        sys.stdout.writelines(csv_text(evaluation, table))
+        emit(csv_text(evaluation, table))
     else:
-        most = None if view.verbose else _MOST_ROWS
-        printing("evaluate").print_evaluation(evaluation, table, view.color, most)
+        printing("evaluate").print_evaluation(evaluation, table, view)
     return DONE
 
 
@@ -103,46 +107,53 @@ def _read_elements(path: str) -> ExternalElements:
     try:
         return read_external(Path(path))
     except OSError as error:
-        raise click.UsageError(f"{path}: {reason(error)}") from error
+        raise click.ClickException(f"{path}: {reason(error)}") from error
 
 
 def _read_positions(path: str, scene: Scene) -> Positions:
-    scene.require()
     try:
         return read_positions(Path(path), scene.nodes)
     except OSError as error:
-        raise click.UsageError(f"{path}: {reason(error)}") from error
+        raise click.ClickException(f"{path}: {reason(error)}") from error
 
 
 def _notes(evaluation: Evaluation, given: Positions | None) -> None:
     """What a reader of the results should know."""
     if given is not None and given.missing:
-        tell(f"no positions for {given.missing} nodes: {evaluation.skipped} elements are left out")
+        nodes, left_out = _count(given.missing, "node"), _count(evaluation.skipped, "element")
+        tell(f"no positions for {nodes}: {left_out} left out")
     if evaluation.lengths_from_positions:
-        tell(f"the lengths of {evaluation.lengths_from_positions} elements come from the first positions")
-    for stage in evaluation.model.plan:
-        if "not evaluated in this version" in stage.why:
-            tell(f"{stage.stage}: {stage.why}")
+        tell(f"the length of {_count(evaluation.lengths_from_positions, 'element')} comes from the first positions")
+    if rigid := int((evaluation.scene.law == LawKind.RIGID).sum()):
+        tell(f"{_count(rigid, 'element')} on a rigid bed: a constraint, whose reaction is not evaluated")
+    for stage, why in evaluation.model.input.left_out.items():
+        tell(f"{stage}: {why}")
 
 
-def _plan(scene: Scene, form: str, view: View, tension: Tension) -> int:
-    plan = scene.contact(tension).plan
+def _count(number: int, thing: str) -> str:
+    return f"{number} {thing}{'s' * (number != 1)}"
+
+
+def _plan(prepared: Prepared, form: str, view: View) -> None:
+    rows = plan_rows(prepared.model.plan)
     if form == "json":
-        click.echo(json.dumps({"units": scene.units, "plan": plan_rows(plan)}, indent=1))
-        return DONE
-    printing("evaluate").print_plan(plan, view.color)
-    return DONE
+        emit([json.dumps({"units": prepared.scene.units, "plan": rows}, indent=1, ensure_ascii=False), "\n"])
+    elif form == "csv":
+        emit(csv_lines([("stage", "active", "why"), *(row.values() for row in rows)]))
+    else:
+        printing("evaluate").print_plan(prepared.model.plan, view)
 
 
 def _write(evaluation: Evaluation, path: Path, suffix: str, *, quiet: bool) -> None:
     if suffix == ".npz":
-        write(path, npz_bytes(evaluation))
+        with writing(path) as stream:
+            write_npz(evaluation, stream)
     elif suffix == ".json":
-        write(path, "".join(json_text(evaluation)).encode())
+        write_text(path, json_text(evaluation))
     else:
-        write(path, "".join(csv_text(evaluation, "elements")).encode())
+        write_text(path, csv_text(evaluation, "elements"))
         nodes = path.with_name(f"{path.stem}-nodes{path.suffix}")
-        write(nodes, "".join(csv_text(evaluation, "nodes")).encode())
+        write_text(nodes, csv_text(evaluation, "nodes"))
         if not quiet:
             tell(f"nodes -> {nodes.as_posix()}")
     if not quiet:

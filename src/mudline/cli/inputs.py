@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
+from pathlib import Path, PurePath
 
 import click
 
 from mudline.cli.exits import WRONG_USAGE
+from mudline.cli.terminal import reason, tell
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import Deck
 
@@ -23,16 +25,20 @@ class Input:
     """A file by the name that it is reported under; `path` None is standard input."""
 
     name: str
-    path: Path | None
+    path: str | None
 
     def read(self) -> bytes:
         """The content; raises OSError."""
-        return sys.stdin.buffer.read() if self.path is None else self.path.read_bytes()
+        if self.path is not None:
+            return Path(self.path).read_bytes()
+        if sys.stdin is None:
+            raise OSError(errno.EBADF, "standard input is closed")
+        return sys.stdin.buffer.read()
 
 
 @dataclass(slots=True)
 class Inputs:
-    """The files found, and whether something could not be found or read."""
+    """The files found, each once, and whether something could not be found or read."""
 
     files: list[Input] = field(default_factory=list)
     code: int = 0
@@ -49,7 +55,7 @@ class Inputs:
 
     def fail(self, message: str) -> None:
         """Tell of a path that cannot be read."""
-        click.echo(f"mudline: {message}", err=True)
+        tell(message)
         self.code = WRONG_USAGE
 
 
@@ -57,40 +63,43 @@ def collect(paths: Sequence[str], stdin_name: str = "<stdin>") -> Inputs:
     """Files as given; directories searched for decks, in sorted order; `-` for standard input."""
     found = Inputs()
     for given in paths:
-        path = Path(given)
-        if given == STDIN:
-            found.files.append(Input(stdin_name, None))
-        elif path.is_dir():
-            _directory(given, path, found)
-        elif path.exists():
-            found.files.append(Input(given.replace(os.sep, "/"), path))
+        if os.path.isdir(given):  # noqa: PTH112 - Path raises for a name that is too long or may not be looked at
+            _directory(given, found)
         else:
-            found.fail(f"{given}: no such file or directory")
+            found.files.append(_single(given, stdin_name))
+    found.files = list(dict.fromkeys(found.files))
     return found
 
 
-def _directory(given: str, path: Path, found: Inputs) -> None:
-    decks = sorted(file for file in path.rglob("*") if file.suffix.lower() in SUFFIXES and file.is_file())
-    if not decks:
+def _single(given: str, stdin_name: str) -> Input:
+    return Input(stdin_name, None) if given == STDIN else Input(_slashed(given), given)
+
+
+def _slashed(path: str) -> str:
+    return path.replace(os.sep, "/")
+
+
+def _directory(given: str, found: Inputs) -> None:
+    unreadable: list[OSError] = []
+    walk = os.walk(given, onerror=unreadable.append)
+    paths = [PurePath(folder, name) for folder, _, names in walk for name in names]
+    decks = sorted(path for path in paths if path.suffix.lower() in SUFFIXES and os.path.isfile(path))  # noqa: PTH113 - as above
+    for error in unreadable:
+        found.fail(f"{_slashed(str(error.filename))}: {reason(error)}")
+    if not decks and not unreadable:
         found.fail(f"{given}: no deck in this directory (looked for {', '.join(sorted(SUFFIXES))})")
-    start = given.replace(os.sep, "/").rstrip("/") or "/"
-    for file in decks:
-        inner = file.relative_to(path).as_posix()
-        found.files.append(Input(inner if given == "." else f"{start}/{inner}", file))
-
-
-def reason(error: OSError) -> str:
-    """Why a file could not be read or written, in words."""
-    return (error.strerror or str(error)).lower()
+    start = "" if given == "." else _slashed(given).rstrip("/") + "/"
+    for path in decks:
+        found.files.append(Input(start + path.relative_to(given).as_posix(), str(path)))
 
 
 def load(given: str, *, form: str | None = None, units: str | None = None, stdin_name: str = "<stdin>") -> Deck:
     """The one deck of a command; ends the command when the path cannot be read. Raises DeckError."""
-    if Path(given).is_dir():
-        raise click.UsageError(f"{given} is a directory: this command takes one deck")
-    file = Input(stdin_name, None) if given == STDIN else Input(given.replace(os.sep, "/"), Path(given))
+    if os.path.isdir(given):  # noqa: PTH112 - as above
+        raise click.ClickException(f"{given} is a directory: this command takes one deck")
+    file = _single(given, stdin_name)
     try:
         data = file.read()
     except OSError as error:
-        raise click.UsageError(f"{given}: {reason(error)}") from error
+        raise click.ClickException(f"{given}: {reason(error)}") from error
     return load_bytes(data, file.name, form=form, units=units)

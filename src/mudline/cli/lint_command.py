@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import sys
-
 import click
 
 from mudline.cli import options
@@ -11,6 +9,7 @@ from mudline.cli.exits import DONE, FOUND
 from mudline.cli.inputs import Input, Inputs, collect
 from mudline.cli.lazy import printing
 from mudline.cli.options import View
+from mudline.cli.streams import emit
 from mudline.cli.terminal import tell
 from mudline.diagnostics import Diagnostic, Severity
 from mudline.lint.engine import lint_bytes
@@ -29,7 +28,7 @@ def _words(given: tuple[str, ...]) -> list[str]:
 
 
 @click.command("lint")
-@click.argument("paths", nargs=-1, required=True, metavar="PATHS...")
+@options.paths
 @click.option(
     "--select", "chosen", multiple=True, metavar=_CODES, help="Run these rules only: codes, prefixes or slugs."
 )
@@ -106,9 +105,9 @@ class _Report:
         """What stands at the end."""
         found = sorted(self.found, key=lambda diagnostic: diagnostic.sort_key)
         if self.statistics:
-            sys.stdout.writelines(statistics_lines(found))
+            emit(statistics_lines(found))
         elif self.form in _PLAIN or self.view.quiet:
-            sys.stdout.writelines(_PLAIN.get(self.form, concise)(found))
+            emit(_PLAIN.get(self.form, concise)(found))
         elif not found and self.files:
             click.echo(f"No findings in {self.files} file{'s' * (self.files != 1)}.")
         elif found:

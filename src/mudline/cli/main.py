@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import sys
 from collections.abc import Sequence
@@ -11,7 +12,9 @@ from typing import cast
 import click
 
 from mudline import __version__
-from mudline.cli.exits import CLOSED_PIPE, INTERRUPTED, WRONG_USAGE
+from mudline.cli import streams
+from mudline.cli.exits import CLOSED_PIPE, WRONG_USAGE
+from mudline.cli.terminal import reason, tell
 
 COMMANDS = {
     "lint": "Find faults in decks.",
@@ -43,6 +46,7 @@ class _Commands(click.Group):
 
 @click.group(
     cls=_Commands,
+    no_args_is_help=False,
     context_settings={"help_option_names": ["-h", "--help"]},
     epilog="Exit codes: 0 clean, 1 findings or an illegal deck, 2 wrong usage or a path that cannot be read.",
 )
@@ -53,27 +57,38 @@ def mudline() -> None:
 
 def run(arguments: Sequence[str]) -> int:
     """Run a command line; returns its exit code. A closed pipe ends quietly."""
-    for stream in (sys.stdout, sys.stderr):
-        if hasattr(stream, "reconfigure"):
-            stream.reconfigure(encoding="utf-8", errors="backslashreplace")
+    streams.prepare()
     try:
-        code = mudline.main(list(arguments), prog_name="mudline", standalone_mode=False)
+        code = _invoke(arguments)
         sys.stdout.flush()
-    except click.ClickException as error:
-        error.show()
-        return WRONG_USAGE
+        sys.stderr.flush()
+    except OSError as error:
+        return _unwritable(error)
+    return code
+
+
+def _invoke(arguments: Sequence[str]) -> int:
+    """Not through `main` of click, which ends the process with its own exit codes."""
+    try:
+        with mudline.make_context("mudline", list(arguments)) as context:
+            if not arguments:
+                click.echo(mudline.get_help(context), err=True)
+                return WRONG_USAGE
+            return cast("int", mudline.invoke(context))
     except click.exceptions.Exit as leaving:
         return leaving.exit_code
-    except (click.Abort, KeyboardInterrupt):
-        return INTERRUPTED
-    except BrokenPipeError:
-        _drop_output()
-        return CLOSED_PIPE
-    return code if isinstance(code, int) else 0
+    except click.ClickException as error:
+        if isinstance(error, click.UsageError) and error.ctx is not None:
+            path = error.ctx.command_path
+            click.echo(f"{error.ctx.get_usage()}\nTry '{path} --help' for help.\n", err=True)
+        tell(error.format_message())
+        return WRONG_USAGE
 
 
-def _drop_output() -> None:
-    """Nobody reads any more: what is still in the buffer must not raise again when the interpreter ends."""
-    nowhere = os.open(os.devnull, os.O_WRONLY)
-    os.dup2(nowhere, sys.stdout.fileno())
-    os.close(nowhere)
+def _unwritable(error: OSError) -> int:
+    """Standard output is gone: read no further (Windows says EINVAL for that), or full."""
+    closed = isinstance(error, BrokenPipeError) or (os.name == "nt" and error.errno == errno.EINVAL)
+    if not closed:
+        tell(f"the output cannot be written: {reason(error)}")
+    streams.drop()
+    return CLOSED_PIPE if closed else WRONG_USAGE

@@ -53,8 +53,14 @@ units = click.option(
 
 deck = click.argument("deck", metavar="DECK")
 
+paths = click.argument("paths", nargs=-1, required=True, metavar="PATHS...")
+
 stdin_name = click.option(
-    "--stdin-filename", "stdin_name", default="<stdin>", help="Name for what is read from standard input (-)."
+    "--stdin-filename",
+    "stdin_name",
+    default="<stdin>",
+    metavar="NAME",
+    help="Name, and by its suffix the form, of what is read from standard input (-).",
 )
 
 

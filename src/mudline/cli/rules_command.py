@@ -11,6 +11,7 @@ from mudline.cli import options
 from mudline.cli.exits import DONE
 from mudline.cli.lazy import printing
 from mudline.cli.options import View
+from mudline.cli.streams import emit
 from mudline.lint.registry import Rule, rules
 from mudline.lint.selection import UnknownRule, select
 
@@ -26,7 +27,7 @@ def command(*, code: str | None, output_format: str, view: View) -> int:
     except UnknownRule as error:
         raise click.UsageError(str(error)) from error
     if output_format == "json":
-        click.echo(json.dumps([_object(rule) for rule in chosen], indent=1, ensure_ascii=False))
+        emit([json.dumps([_object(rule) for rule in chosen], indent=1, ensure_ascii=False), "\n"])
     elif code and len(chosen) == 1:
         click.echo(_page(chosen[0]), nl=False)
     else:

@@ -8,6 +8,7 @@ import click
 
 from mudline.cli import options
 from mudline.cli.exits import DONE
+from mudline.cli.streams import emit
 from mudline.deck.schema import json_schema
 
 
@@ -15,5 +16,5 @@ from mudline.deck.schema import json_schema
 @options.common
 def command() -> int:
     """Print the JSON Schema of a deck in JSON or YAML, as `mudline convert` writes it."""
-    click.echo(json.dumps(json_schema(), indent=1, ensure_ascii=False))
+    emit([json.dumps(json_schema(), indent=1, ensure_ascii=False), "\n"])
     return DONE

@@ -12,6 +12,7 @@ from mudline.cli.guard import refuses_bad_decks
 from mudline.cli.inputs import load
 from mudline.cli.lazy import printing
 from mudline.cli.options import View
+from mudline.cli.streams import emit
 from mudline.cli.terminal import tell
 from mudline.results.summary import summarise
 from mudline.scene.build import resolve
@@ -20,21 +21,22 @@ from mudline.scene.build import resolve
 @click.command("show")
 @options.deck
 @options.output_format("text", "json")
+@options.stdin_name
 @options.units
 @options.common
 @refuses_bad_decks
-def command(*, deck: str, output_format: str, units: str | None, view: View) -> int:
+def command(*, deck: str, output_format: str, stdin_name: str, units: str | None, view: View) -> int:
     """Summarise a deck: sections, keywords, sets, curves, diameters, laws.
 
     A deck with errors is shown as far as it can be read; the exit code is then 1.
     """
-    scene = resolve(load(deck, units=units))
+    scene = resolve(load(deck, units=units, stdin_name=stdin_name))
     summary = summarise(scene)
     errors = scene.errors()
     if output_format == "json":
-        click.echo(json.dumps(summary, indent=1, ensure_ascii=False))
+        emit([json.dumps(summary, indent=1, ensure_ascii=False, allow_nan=False), "\n"])
     else:
-        printing("show").print_summary(summary, view.color)
+        printing("show").print_summary(summary, view)
     if errors:
         tell(f"{summary['file']} has {len(errors)} error{'s' * (len(errors) != 1)}: see mudline lint")
     return FOUND if errors else DONE

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import csv
 import json
-import sys
 from dataclasses import asdict
 
 import click
@@ -14,6 +12,7 @@ from mudline.cli.exits import DONE, FOUND
 from mudline.cli.inputs import collect
 from mudline.cli.lazy import printing
 from mudline.cli.options import View
+from mudline.cli.streams import emit
 from mudline.cli.verdict import Verdict
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import Deck
@@ -21,11 +20,12 @@ from mudline.diagnostics import DeckError, Diagnostic, Severity
 from mudline.lint.context import LintContext
 from mudline.lint.output.json_objects import as_object
 from mudline.lint.registry import rules
+from mudline.results.csv_lines import csv_lines
 from mudline.syntax.source import Source
 
 
 @click.command("validate")
-@click.argument("paths", nargs=-1, required=True, metavar="PATHS...")
+@options.paths
 @options.output_format("text", "json", "csv")
 @options.stdin_name
 @options.units
@@ -43,16 +43,14 @@ def command(
     A deck is legal when no rule of severity error finds anything, and when it has a section at all.
     """
     inputs = collect(paths, stdin_name)
-    verdicts: list[Verdict] = []
-    errors: list[Diagnostic] = []
+    judged: list[tuple[Verdict, list[Diagnostic]]] = []
     for file, data in inputs.contents():
         verdict, found = _judge(data, file.name, units)
-        verdicts.append(verdict)
-        errors += found
+        judged.append((verdict, found))
         if output_format == "text" and not view.quiet and found:
             printing("lint").print_findings(found, Source.from_bytes(data, file.name), view.color)
-    _tell(verdicts, errors, output_format, view)
-    return max(inputs.code, DONE if all(verdict.verdict == "legal" for verdict in verdicts) else FOUND)
+    _tell(judged, output_format, view)
+    return max(inputs.code, DONE if all(verdict.verdict == "legal" for verdict, _ in judged) else FOUND)
 
 
 def _judge(data: bytes, name: str, units: str | None) -> tuple[Verdict, list[Diagnostic]]:
@@ -73,17 +71,13 @@ def _verdict(deck: Deck, context: LintContext, errors: int) -> Verdict:
     return Verdict(deck.file, len(deck.sections), keywords, curves, elements, errors, verdict)
 
 
-def _tell(verdicts: list[Verdict], errors: list[Diagnostic], form: str, view: View) -> None:
+def _tell(judged: list[tuple[Verdict, list[Diagnostic]]], form: str, view: View) -> None:
+    verdicts = [verdict for verdict, _ in judged]
     total = {"decks": len(verdicts), "legal": sum(verdict.verdict == "legal" for verdict in verdicts)}
     if form == "json":
-        rows = [
-            {**asdict(verdict), "findings": [as_object(found) for found in errors if found.file == verdict.file]}
-            for verdict in verdicts
-        ]
-        click.echo(json.dumps({"decks": rows, "total": total}, indent=1, ensure_ascii=False))
+        rows = [{**asdict(verdict), "findings": [as_object(found) for found in errors]} for verdict, errors in judged]
+        emit([json.dumps({"decks": rows, "total": total}, indent=1, ensure_ascii=False), "\n"])
     elif form == "csv":
-        writer = csv.writer(sys.stdout, lineterminator="\n")
-        writer.writerow(Verdict.__dataclass_fields__)
-        writer.writerows(asdict(verdict).values() for verdict in verdicts)
+        emit(csv_lines([Verdict.__dataclass_fields__, *(asdict(verdict).values() for verdict in verdicts)]))
     elif verdicts:
         printing("validate").print_verdicts(verdicts, total, view.color)

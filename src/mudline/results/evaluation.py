@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -11,13 +14,22 @@ from mudline.codes import RUN001
 from mudline.contact import ContactModel, ContactResult, ElementError, PositionError
 from mudline.diagnostics import DeckError, Problem, Where
 from mudline.scene.model import Scene
-from mudline.scene.numbering import Floats
+from mudline.scene.numbering import Floats, Indices
 from mudline.scene.positions import Positions
 
 Tension = Literal["keep", "cut"]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
+class Prepared:
+    """A scene that can be evaluated, its evaluator, and how many lengths come from the first positions."""
+
+    scene: Scene
+    model: ContactModel
+    lengths_from_positions: int
+
+
+@dataclass(frozen=True)
 class Evaluation:
     """A scene, its evaluator, the result for all steps (steps, ...), and the times (steps,) when there are any."""
 
@@ -28,14 +40,37 @@ class Evaluation:
     lengths_from_positions: int = 0
 
     @property
+    def steps(self) -> int:
+        """Number of steps; 1 for a single state."""
+        return len(self.result.depth)
+
+    @cached_property
+    def elements(self) -> Indices:
+        """Indices of the elements that were evaluated: those with a position of both nodes."""
+        return np.flatnonzero(self.result.evaluated)
+
+    @cached_property
+    def nodes(self) -> Indices:
+        """Indices of the nodes that have a position."""
+        return np.flatnonzero(self.result.present)
+
+    @property
     def skipped(self) -> int:
         """Elements without a position of both nodes."""
-        return int((~self.result.evaluated).sum())
+        return len(self.scene.element_ids) - len(self.elements)
 
     def law_names(self, step: int) -> list[str]:
-        """The law of every element at a step; `curve-cut` where a pulling curve was cut."""
-        cut = self.result.cut[step].tolist()
-        return ["curve-cut" if is_cut else name for name, is_cut in zip(self.scene.law_names, cut, strict=True)]
+        """The law of every evaluated element at a step; `curve-cut` where a pulling curve was cut."""
+        names = self._law_names
+        cut = self.result.cut[step, self.elements]
+        if not cut.any():
+            return names
+        return ["curve-cut" if is_cut else name for name, is_cut in zip(names, cut.tolist(), strict=True)]
+
+    @cached_property
+    def _law_names(self) -> list[str]:
+        names = self.scene.law_names
+        return [names[index] for index in self.elements.tolist()]
 
 
 def evaluate_scene(scene: Scene, positions: Positions | None = None, tension: Tension = "keep") -> Evaluation:
@@ -43,51 +78,75 @@ def evaluate_scene(scene: Scene, positions: Positions | None = None, tension: Te
 
     Raises DeckError: errors in the deck, elements without known nodes or coordinates, a value that overflows.
     """
+    if positions is None:
+        _require_coordinates(scene.require())
+    ready = prepare(scene, positions, tension)
+    with _told(ready.scene):
+        if positions is None:
+            result = ready.model.evaluate(ready.scene.coordinates[np.newaxis])
+        else:
+            result = ready.model.evaluate(positions.values, present=positions.present)
+    time = positions.time if positions else None
+    return Evaluation(ready.scene, ready.model, result, time, ready.lengths_from_positions)
+
+
+def prepare(scene: Scene, positions: Positions | None = None, tension: Tension = "keep") -> Prepared:
+    """Make the evaluator of a scene.
+
+    Raises DeckError: errors in the deck, elements without known nodes.
+    """
     scene.require()
     _require_elements(scene)
-    scene, filled = _with_lengths(scene, positions)
+    complete, filled = _with_lengths(scene, positions)
+    with _told(complete):
+        return Prepared(complete, complete.contact(tension), filled)
+
+
+@contextmanager
+def _told(scene: Scene) -> Iterator[None]:
+    """What the evaluator refuses, as an error of the deck, at the line of the element."""
     try:
-        model = scene.contact(tension)
-        if positions is None:
-            result = model.evaluate(scene.coordinates[np.newaxis])
-        else:
-            result = model.evaluate(positions.values, present=positions.present)
+        yield
     except ElementError as error:
         raise _located(scene, str(error), error.element) from error
     except PositionError as error:
         raise _refusal(scene, str(error)) from error
-    return Evaluation(scene, model, result, positions.time if positions else None, filled)
 
 
 def _require_elements(scene: Scene) -> None:
+    definers = scene.set_table.context.definers
+    hint = f": *{definers[0]} may make them, and is not read; give them with --elements" if definers else ""
     if not len(scene.element_ids):
-        definers = scene.set_table.context.definers
-        hint = f": they come from *{definers[0]}, which is not read; give them with --elements" if definers else ""
         raise _refusal(scene, f"the deck has no elements to evaluate{hint}")
     lost = np.flatnonzero((scene.element_nodes < 0).any(axis=1))
     if lost.size:
-        message = f"{lost.size} elements end at nodes that are not known: give the elements with --elements"
+        count = f"{lost.size} elements end" if lost.size > 1 else "an element ends"
+        message = f"{count} at nodes that are not known{hint}"
         raise _located(scene, message, int(scene.element_ids[lost[0]]))
 
 
 def _with_lengths(scene: Scene, positions: Positions | None) -> tuple[Scene, int]:
-    """Lengths that the deck's coordinates do not give come from the first step of the positions."""
+    """Lengths that the deck's coordinates do not give come from the first step of the positions; else they are 0."""
     unknown = np.isnan(scene.length)
     if not unknown.any():
         return scene, 0
-    coordinates = scene.coordinates if positions is None else positions.values[0]
-    ends = np.asarray(coordinates, dtype=np.float64)[scene.element_nodes[unknown]]
-    length = scene.length.copy()
-    with np.errstate(over="ignore", invalid="ignore"):
-        length[unknown] = np.sqrt(((ends[:, 1] - ends[:, 0]) ** 2).sum(axis=1))
-    present = np.ones(len(scene.node_ids), dtype=bool) if positions is None else positions.present
-    needed = unknown & present[scene.element_nodes].all(axis=1)
-    bad = np.flatnonzero(needed & ~np.isfinite(length))
-    if bad.size:
-        message = "the nodes of an element have no coordinates: give them with --positions"
-        raise _located(scene, message, int(scene.element_ids[bad[0]]))
-    length[np.isnan(length)] = 0.0
-    return replace(scene, table=replace(scene.table, length=length)), int(needed.sum())
+    length = np.where(unknown, 0.0, scene.length)
+    if positions is None:
+        filled = np.zeros(0, dtype=np.intp)
+    else:
+        filled = np.flatnonzero(unknown & positions.present[scene.element_nodes].all(axis=1))
+        ends = np.asarray(positions.values[0], dtype=np.float64)[scene.element_nodes[filled]]
+        with np.errstate(over="ignore", invalid="ignore"):
+            length[filled] = np.nan_to_num(np.sqrt(((ends[:, 1] - ends[:, 0]) ** 2).sum(axis=1)), posinf=np.inf)
+    return replace(scene, table=replace(scene.table, length=length)), len(filled)
+
+
+def _require_coordinates(scene: Scene) -> None:
+    missing = np.isnan(scene.coordinates).any(axis=1)
+    if missing.any():
+        example = int(scene.node_ids[np.argmax(missing)])
+        message = f"{int(missing.sum())} nodes have no coordinates, node {example} is one: give them with --positions"
+        raise _refusal(scene, message)
 
 
 def _refusal(scene: Scene, message: str, where: Where | None = None) -> DeckError:

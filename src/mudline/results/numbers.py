@@ -1,4 +1,4 @@
-"""Numbers for people: six significant digits, an empty cell where there is none."""
+"""Numbers for people and for JSON."""
 
 from __future__ import annotations
 
@@ -6,7 +6,12 @@ import math
 
 
 def shown(value: float | None, digits: int = 6) -> str:
-    """A number in the shortest common form; "" for None."""
-    if value is None:
+    """A number in the shortest common form; "" for None and NaN."""
+    if value is None or math.isnan(value):
         return ""
-    return "" if math.isnan(value) else f"{value:.{digits}g}"
+    return f"{value:.{digits}g}"
+
+
+def finite(value: float | None) -> float | None:
+    """A number that JSON can hold; None for what overflowed or is none."""
+    return value if value is not None and math.isfinite(value) else None

@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mudline.contact import LawKind
 from mudline.deck.model import Opaque
+from mudline.results.numbers import finite
 from mudline.scene.model import Scene
-
-_MOST_DIAMETERS = 10
 
 
 def summarise(scene: Scene) -> dict[str, Any]:
@@ -39,15 +39,21 @@ def summarise(scene: Scene) -> dict[str, Any]:
 
 def _total_length(scene: Scene) -> float | None:
     known = scene.length[np.isfinite(scene.length)]
-    return float(known.sum()) if known.size else None
+    return _sum(known) if known.size else None
+
+
+def _sum(lengths: NDArray[np.float64]) -> float | None:
+    """The sum of lengths; None when it overflows, or one of them is not known."""
+    with np.errstate(over="ignore", invalid="ignore"):
+        return finite(float(lengths.sum()))
 
 
 def _sets(scene: Scene) -> list[dict[str, Any]]:
     rows = []
     for entry in scene.set_table.named.values():
-        length = scene.length[entry.elements]
-        total = float(length.sum()) if length.size and np.isfinite(length).all() else None
-        rows.append({"name": entry.name, "elements": len(entry.elements), "length": total, "open": entry.open})
+        count = len(entry.elements)
+        length = _sum(scene.length[entry.elements]) if count else None
+        rows.append({"name": entry.name, "elements": count, "length": length, "open": entry.open})
     return rows
 
 
@@ -73,8 +79,7 @@ def _diameters(scene: Scene) -> list[dict[str, Any]]:
     known = scene.diameter[~np.isnan(scene.diameter)]
     values, counts = np.unique(known, return_counts=True)
     rows = [
-        {"diameter": value, "elements": count}
-        for value, count in zip(values[:_MOST_DIAMETERS].tolist(), counts.tolist(), strict=False)
+        {"diameter": value, "elements": count} for value, count in zip(values.tolist(), counts.tolist(), strict=True)
     ]
     missing = len(scene.diameter) - len(known)
     return [*rows, {"diameter": None, "elements": missing}] if missing else rows

@@ -1,13 +1,14 @@
-"""Rows of elements and nodes, with the columns of the contract."""
+"""Rows of elements and nodes with the columns of the contract, spelled for a text format."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic_core import to_json
 
 from mudline.results.evaluation import Evaluation
 
@@ -36,67 +37,74 @@ NODE_COLUMNS = (
     "axial_state",
     "lateral_state",
 )
-_FLAT = {"normal": ("normal_x", "normal_y", "normal_z"), "reaction": ("reaction_x", "reaction_y", "reaction_z")}
+VECTORS = frozenset({"normal", "reaction"})
+"""Columns of three components."""
 
-Row = dict[str, Any]
+_BLOCK = 16384
+"""Rows spelled at a time: the texts of a large model are never all in memory."""
+
+Row = tuple[str, ...]
+Column = NDArray[Any] | Sequence[str | None]
 
 
-def element_rows(evaluation: Evaluation, step: int) -> Iterator[Row]:
-    """The evaluated elements at a step; None where there is no value."""
+@dataclass(frozen=True, slots=True)
+class Spelling:
+    """How a format spells a name, and that there is no value."""
+
+    name: Callable[[str], str]
+    nothing: str
+
+    def column(self, values: Column) -> list[str]:
+        """The values of a column; numbers read back to the same double, NaN is no value."""
+        if not isinstance(values, np.ndarray):
+            known = {value: self.nothing if value is None else self.name(value) for value in set(values)}
+            return [known[value] for value in values]
+        if not values.size:
+            return []
+        spelled = to_json(values.tolist(), inf_nan_mode="null")[1:-1].decode().split(",")
+        if self.nothing == "null" or values.dtype.kind != "f" or not np.isnan(values).any():
+            return spelled
+        return [self.nothing if text == "null" else text for text in spelled]
+
+
+def element_rows(evaluation: Evaluation, step: int, spelling: Spelling) -> Iterator[Row]:
+    """The evaluated elements at a step, spelled."""
     scene, result = evaluation.scene, evaluation.result.step(step)
-    keep = np.flatnonzero(result.evaluated)
-    chosen = keep.tolist()
-    laws = evaluation.law_names(step)
-    columns: list[list[Any]] = [
-        scene.element_ids[keep].tolist(),
-        [scene.law_sets[index] for index in chosen],
-        _nullable(scene.diameter[keep]),
-        scene.length[keep].tolist(),
-        result.depth[keep].tolist(),
-        _nullable(result.ratio[keep]),
-        result.contact[keep].tolist(),
-        result.force[keep].tolist(),
-        _nullable(result.slope[keep]),
-        result.stiffness[keep].tolist(),
-        [laws[index] for index in chosen],
-        [None] * len(chosen),
-    ]
-    for row in zip(*columns, strict=True):
-        yield dict(zip(ELEMENT_COLUMNS, row, strict=True))
+    sets, laws = scene.law_sets, evaluation.law_names(step)
+    for start in range(0, len(evaluation.elements), _BLOCK):
+        chosen = evaluation.elements[start : start + _BLOCK]
+        columns: tuple[Column, ...] = (
+            scene.element_ids[chosen],
+            [sets[index] for index in chosen.tolist()],
+            scene.diameter[chosen],
+            scene.length[chosen],
+            result.depth[chosen],
+            result.ratio[chosen],
+            result.contact[chosen],
+            result.force[chosen],
+            result.slope[chosen],
+            result.stiffness[chosen],
+            laws[start : start + _BLOCK],
+            [None] * len(chosen),
+        )
+        yield from zip(*map(spelling.column, columns), strict=True)
 
 
-def node_rows(evaluation: Evaluation, step: int) -> Iterator[Row]:
-    """The nodes with a position at a step; friction forces are 0.0 and states None without friction."""
+def node_rows(evaluation: Evaluation, step: int, spelling: Spelling) -> Iterator[Row]:
+    """The nodes with a position at a step, spelled; friction forces are 0.0 and states none without friction."""
     scene, result = evaluation.scene, evaluation.result.step(step)
-    keep = np.flatnonzero(result.present)
-    zeros, nothing = [0.0] * len(keep), [None] * len(keep)
-    columns: list[list[Any]] = [
-        scene.node_ids[keep].tolist(),
-        result.gap[keep].tolist(),
-        result.normal[keep].tolist(),
-        result.reaction[keep].tolist(),
-        result.normal_force[keep].tolist(),
-        zeros,
-        zeros,
-        nothing,
-        nothing,
-    ]
-    for row in zip(*columns, strict=True):
-        yield dict(zip(NODE_COLUMNS, row, strict=True))
-
-
-def _nullable(values: NDArray[np.float64]) -> list[float | None]:
-    return [None if math.isnan(value) else value for value in values.tolist()]
-
-
-def flat_columns(columns: tuple[str, ...]) -> list[str]:
-    """Column names of CSV, where a vector is three columns."""
-    return [flat for name in columns for flat in _FLAT.get(name, (name,))]
-
-
-def flat_values(row: Row) -> list[Any]:
-    """The values of a row for CSV."""
-    values: list[Any] = []
-    for value in row.values():
-        values += value if isinstance(value, list) else [value]
-    return values
+    for start in range(0, len(evaluation.nodes), _BLOCK):
+        chosen = evaluation.nodes[start : start + _BLOCK]
+        zero, none = np.zeros(len(chosen)), [None] * len(chosen)
+        columns: tuple[Column, ...] = (
+            scene.node_ids[chosen],
+            result.gap[chosen],
+            *result.normal[chosen].T,
+            *result.reaction[chosen].T,
+            result.normal_force[chosen],
+            zero,
+            zero,
+            none,
+            none,
+        )
+        yield from zip(*map(spelling.column, columns), strict=True)

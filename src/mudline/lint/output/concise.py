@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from mudline.diagnostics import Diagnostic
+from mudline.lint.output.visible import visible
 
 
 def concise(diagnostics: Iterable[Diagnostic]) -> Iterator[str]:
     """The lines, with their ends."""
     for found in diagnostics:
-        yield f"{found}\n"
+        yield f"{visible(str(found))}\n"
