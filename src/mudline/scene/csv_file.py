@@ -1,10 +1,10 @@
-"""A CSV file with a header: named columns as text, every fault with its line and column."""
+"""A CSV file with a header: named columns, every fault with its line."""
 
 from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 
 from mudline.codes import DAT001
 from mudline.diagnostics import DeckError, Diagnostic, Span
+from mudline.keywords.text import shown
+from mudline.scene.numbering import LARGEST, Floats, Ids
 from mudline.syntax.rows import read_number, read_rows_fast
 
 
@@ -23,79 +25,121 @@ class CsvTable(NamedTuple):
     columns: dict[str, list[str]]
     lines: list[int]
 
-    def numbers(self, name: str, *, whole: bool = False, optional: bool = False) -> NDArray[np.float64]:
-        """A column as finite numbers; an empty field of an optional column is NaN. Raises DeckError with the place."""
+    def numbers(self, name: str, *, optional: bool = False) -> Floats:
+        """A column as finite numbers; an empty field of an optional column is NaN. Raises DeckError with the line."""
         values = np.empty(len(self.lines))
-        position = list(self.columns).index(name) + 1
         for row, text in enumerate(self.columns[name]):
-            value = read_number(text)
-            if value is None and optional and not text:
-                value = np.nan
-            if value is None or (whole and not value.is_integer()):
-                what = "a whole number" if whole else "a number"
-                raise data_error(self.file, f"field {position} ({name}): {text!r} is not {what}", self.lines[row])
+            value = np.nan if optional and not text else read_number(text)
+            if value is None:
+                raise data_error(self.file, f"{name}: {shown(text)} is not a number", self.lines[row])
             values[row] = value
         return values
 
 
-def data_error(file: str, message: str, line: int = 1, column: int = 1) -> DeckError:
+class NumericTable(NamedTuple):
+    """Columns of finite numbers by name, and the line of each row."""
+
+    file: str
+    columns: dict[str, Floats]
+    lines: Sequence[int]
+
+    def fault(self, row: int, message: str) -> DeckError:
+        """A fault in a row."""
+        return data_error(self.file, message, self.lines[row])
+
+    def whole(self, name: str) -> Ids:
+        """A column as whole numbers; raises DeckError with the line of one that is none."""
+        return whole_numbers(self.file, name, self.columns[name], self.lines)
+
+
+def data_error(file: str, message: str, line: int = 1) -> DeckError:
     """A fault of a data file."""
-    return DeckError([Diagnostic(file, DAT001.code, DAT001.slug, DAT001.severity, message, line, column, line, column)])
+    return DeckError([Diagnostic(file, DAT001.code, DAT001.slug, DAT001.severity, message, line, 1, line, 1)])
 
 
-def read_text(path: Path) -> str:
-    """A text file; raises OSError, or DeckError when it is not UTF-8."""
+def whole_numbers(file: str, name: str, column: Floats, lines: Sequence[int] | None = None) -> Ids:
+    """A column as whole numbers; raises DeckError for one that is none or larger than a double counts exactly."""
+    with np.errstate(invalid="ignore"):
+        good = (column == np.floor(column)) & (np.abs(column) <= LARGEST)
+    if not good.all():
+        row = int(np.argmin(good))
+        line = 1 if lines is None else lines[row]
+        raise data_error(file, f"{name}: {float(column[row])!r} is not a whole number up to 2^53", line)
+    return column.astype(np.int64)
+
+
+def read_csv(path: Path, needed: Sequence[str], known: Sequence[str]) -> CsvTable:
+    """A whole file as text columns; rows that are empty are left out. Raises OSError, DeckError."""
+    return _texts(path.as_posix(), _read_text(path), needed, known)
+
+
+def read_numeric_csv(path: Path, needed: Sequence[str], known: Sequence[str]) -> NumericTable:
+    """A file of numbers, in a fast way where all of them are spelled plainly. Raises OSError, DeckError."""
+    file, text = path.as_posix(), _read_text(path)
+    names = _header(file, text, needed, known)
+    start = text.find("\n") + 1
+    rows = read_rows_fast(text, Span(start, len(text)), len(names)) if start else None
+    if rows is not None and rows.values.shape[1] == len(names):
+        columns = dict(zip(names, rows.values.T.copy(), strict=True))
+        return NumericTable(file, columns, range(2, len(rows.values) + 2))
+    table = _texts(file, text, needed, known)
+    return NumericTable(file, {name: table.numbers(name) for name in names}, table.lines)
+
+
+def _read_text(path: Path) -> str:
     try:
         return path.read_bytes().decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise data_error(path.as_posix(), f"not a UTF-8 text file ({error.reason} at byte {error.start})") from error
 
 
-def read_header(path: Path, text: str, needed: Sequence[str], known: Sequence[str]) -> list[str]:
+def _header(file: str, text: str, needed: Sequence[str], known: Sequence[str]) -> list[str]:
     """The names in the first line, in lower case; raises DeckError when one is missing, unknown or there twice."""
-    first = text.partition("\n")[0]
-    names = [name.strip().lower() for name in next(csv.reader([first.rstrip("\r")]), [])]
+    row = next(_rows(file, text), ([], 1))[0]
+    names = [name.strip().lower() for name in row]
     expected = ",".join(known)
     if missing := [name for name in needed if name not in names]:
-        raise data_error(path.as_posix(), f"the header lacks {', '.join(missing)}: expected {expected}")
+        raise data_error(file, f"the header lacks {', '.join(missing)}: expected {expected}")
     for position, name in enumerate(names):
         if name not in known:
-            raise data_error(path.as_posix(), f"the header has {name!r}: expected {expected}", 1, position + 1)
+            raise data_error(file, f"the header has {shown(name)}: expected {expected}")
         if name in names[:position]:
-            raise data_error(path.as_posix(), f"the header has {name!r} twice", 1, position + 1)
+            raise data_error(file, f"the header has {name} twice")
     return names
 
 
-def read_csv(path: Path, needed: Sequence[str], known: Sequence[str]) -> CsvTable:
-    """A whole file as text columns; rows that are empty are left out."""
-    text = read_text(path)
-    names = read_header(path, text, needed, known)
+def _texts(file: str, text: str, needed: Sequence[str], known: Sequence[str]) -> CsvTable:
+    names = _header(file, text, needed, known)
     columns: dict[str, list[str]] = {name: [] for name in names}
     lines: list[int] = []
+    rows = _rows(file, text)
+    next(rows)
+    for row, line in rows:
+        if not any(field.strip() for field in row):
+            continue
+        if len(row) != len(names):
+            raise data_error(file, f"{len(row)} fields, the header has {len(names)}", line)
+        lines.append(line)
+        for name, field in zip(names, row, strict=True):
+            columns[name].append(field.strip())
+    return CsvTable(file, columns, lines)
+
+
+def _rows(file: str, text: str) -> Iterator[tuple[list[str], int]]:
+    """The rows of a text, each with the number of its last line."""
     reader = csv.reader(io.StringIO(text, newline=""))
     try:
-        next(reader)
         for row in reader:
-            if not any(field.strip() for field in row):
-                continue
-            if len(row) != len(names):
-                message = f"{len(row)} fields, the header has {len(names)}"
-                raise data_error(path.as_posix(), message, reader.line_num)
-            lines.append(reader.line_num)
-            for name, field in zip(names, row, strict=True):
-                columns[name].append(field.strip())
+            yield row, reader.line_num
     except csv.Error as error:
-        raise data_error(path.as_posix(), f"no CSV: {error}", reader.line_num) from error
-    return CsvTable(path.as_posix(), columns, lines)
+        raise data_error(file, f"no CSV: {error}", max(1, reader.line_num)) from error
 
 
-def read_numeric_csv(path: Path, needed: Sequence[str], known: Sequence[str]) -> dict[str, NDArray[np.float64]]:
-    """A file of finite numbers only, as arrays by name; large files at the speed of the table reader."""
-    text = read_text(path)
-    names = read_header(path, text, needed, known)
-    start = text.find("\n") + 1
-    rows = read_rows_fast(text, Span(start, len(text)), len(names)) if start else None
-    if rows is not None and rows.values.shape[1] == len(names):
-        return dict(zip(names, rows.values.T.copy(), strict=True))
-    table = read_csv(path, needed, known)
-    return {name: table.numbers(name) for name in names}
+def finite(file: str, name: str, array: NDArray[np.floating]) -> Floats:
+    """An array as float64, one-dimensional; raises DeckError for a number that is not finite."""
+    values = array.astype(np.float64).ravel()
+    if not np.isfinite(values).all():
+        raise data_error(
+            file, f"{name} holds {float(values[np.argmin(np.isfinite(values))])!r}, expected finite numbers"
+        )
+    return values

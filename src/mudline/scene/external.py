@@ -6,9 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
-from mudline.scene.csv_file import data_error, read_csv
+from mudline.scene.csv_file import CsvTable, data_error, read_csv, whole_numbers
 from mudline.scene.numbering import Floats, Ids
 
 
@@ -18,38 +17,50 @@ class ExternalElements:
 
     file: str
     ids: Ids
-    nodes: NDArray[np.int64]
+    nodes: Ids
     diameter: Floats
     length: Floats
     sets: dict[str, Ids]
 
 
 def read_external(path: Path) -> ExternalElements:
-    """`element,node1,node2,diameter[,length][,sets]`, sets parted by semicolons.
+    """`element,node1,node2,diameter[,length][,sets]`, sets parted by semicolons; a diameter or length may be empty.
 
     Raises OSError, or DeckError for a file with faults.
     """
     needed = ("element", "node1", "node2", "diameter")
     table = read_csv(path, needed, (*needed, "length", "sets"))
-    ids, first, second = (table.numbers(name, whole=True).astype(np.int64) for name in needed[:3])
-    _unique(table.file, ids, table.lines)
-    diameter = table.numbers("diameter", optional=True)
-    length = table.numbers("length", optional=True) if "length" in table.columns else np.full(len(ids), np.nan)
-    for name, values in (("diameter", diameter), ("length", length)):
-        for row in np.flatnonzero(values <= 0)[:1].tolist():
-            raise data_error(table.file, f"{name} is {values[row]!r}: it must be greater than 0", table.lines[row])
+    if not table.lines:
+        raise data_error(table.file, "no row below the header", 2)
+    ids, first, second = (
+        whole_numbers(table.file, name, table.numbers(name), table.lines) for name in ("element", "node1", "node2")
+    )
+    _unique(ids, table)
+    diameter = _positive("diameter", table)
+    length = _positive("length", table) if "length" in table.columns else np.full(len(ids), np.nan)
+    return ExternalElements(table.file, ids, np.column_stack([first, second]), diameter, length, _sets(ids, table))
+
+
+def _sets(ids: Ids, table: CsvTable) -> dict[str, Ids]:
     members: dict[str, list[int]] = {}
-    for number, text in zip(ids.tolist(), table.columns.get("sets", []), strict=False):
+    for number, text in zip(ids.tolist(), table.columns.get("sets", [""] * len(ids)), strict=True):
         for name in text.split(";"):
             if name.strip():
                 members.setdefault(name.strip(), []).append(number)
-    sets = {name: np.array(numbers, dtype=np.int64) for name, numbers in members.items()}
-    return ExternalElements(table.file, ids, np.column_stack([first, second]), diameter, length, sets)
+    return {name: np.array(numbers, dtype=np.int64) for name, numbers in members.items()}
 
 
-def _unique(file: str, ids: Ids, lines: list[int]) -> None:
+def _positive(name: str, table: CsvTable) -> Floats:
+    values = table.numbers(name, optional=True)
+    for row in np.flatnonzero(values <= 0)[:1].tolist():
+        value = float(values[row])
+        raise data_error(table.file, f"{name} is {value!r}: it must be greater than 0", table.lines[row])
+    return values
+
+
+def _unique(ids: Ids, table: CsvTable) -> None:
     seen: set[int] = set()
-    for number, line in zip(ids.tolist(), lines, strict=True):
+    for number, line in zip(ids.tolist(), table.lines, strict=True):
         if number in seen:
-            raise data_error(file, f"element {number} is given twice", line)
+            raise data_error(table.file, f"element {number} is given twice", line)
         seen.add(number)

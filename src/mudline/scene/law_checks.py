@@ -57,8 +57,9 @@ def _no_stiffness(context: Context, laws: LawTable) -> None:
 def _embedment(context: Context, laws: LawTable) -> None:
     """Told once for each block, at its first curve."""
     rigid, elastic = laws.types.get("RIGID"), laws.types.get("ELASTIC")
-    if not rigid and (elastic or "SEABED PROPERTIES" in context.deck.keywords()):
-        return  # without a type that could be read enough has been said
+    unread = "SEABED PROPERTIES" in context.deck.keywords() or context.astray("SEABED PROPERTIES")
+    if not rigid and (elastic or unread):
+        return  # of a type that could not be read enough has been said
     first: dict[tuple[int, int], SceneCurve] = {}
     for curve in laws.curves:
         if curve.embedment:

@@ -14,6 +14,7 @@ from mudline.keywords.text import shown
 from mudline.keywords.values import Equation
 from mudline.lint.context import LintContext
 from mudline.lint.registry import rule
+from mudline.syntax.rows import read_number
 
 if TYPE_CHECKING:
     from mudline.keywords.library.seabed_properties import SeabedProperties
@@ -105,7 +106,8 @@ def unused_curve(context: LintContext) -> Iterator[Problem]:
             continue
         if not scene.context.near(name, unknown):  # else the name is misspelt where it is used, which has been told
             told.add(name)
-            message = f"curve {shown(curve.name)} is not used: name it in a STIFFNESS=, or remove it"
+            number = "; a name that reads as a number is taken for the number" if read_number(name) is not None else ""
+            message = f"curve {shown(curve.name)} is not used: name it in a STIFFNESS=, or remove it{number}"
             yield Problem(REF003, message, where=curve.title)
 
 

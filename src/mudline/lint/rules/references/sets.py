@@ -194,7 +194,7 @@ def long_name(context: LintContext) -> Iterator[Problem]:
          1, 1, 2
         *ELEMENT SETS
          SET=Eastern export flowline from the manifold to the platform between kilometre post 12.400 and kilometre post\
- 12.900 as surveyed before the trench was made and again after it was filled, with the crossings of both cables and the\
+ 12.900 as surveyed before the trench was made and again after it was filled with the crossings of both cables and the\
  two mattresses that were laid on the eastern one in the second season
          1
 
