@@ -55,7 +55,9 @@ def from_json(text: str, file: str = "<json>") -> Deck:
     try:
         document = json.loads(text, object_pairs_hook=_unique, parse_constant=_no_constant)
     except json.JSONDecodeError as error:
-        raise _refusal(file, f"no JSON: {error.msg}", Range(error.lineno, error.colno, error.lineno, error.colno)) from error
+        raise _refusal(
+            file, f"no JSON: {error.msg}", Range(error.lineno, error.colno, error.lineno, error.colno)
+        ) from error
     except RecursionError as error:
         raise _refusal(file, "nested too deeply", START) from error
     except ValueError as error:

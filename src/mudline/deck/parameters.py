@@ -131,7 +131,7 @@ class Parameters:
             open_names.discard(current)
             if cyclic:
                 chain = " -> ".join(self.definitions[n].name for n in [*sorted(cyclic), current])
-                message = f"parameter {definition.name} is defined through itself ({chain})"
+                message = f"parameter {definition.name} is defined through itself ({chain}): give one of them a value"
                 self._fail(current, Problem(REF014, message, None, None, definition.where))
 
     def _waiting(self, name: str, definition: Definition) -> list[str]:

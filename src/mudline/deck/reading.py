@@ -148,7 +148,8 @@ class _Reader:
             self._opaque(section, Where(index, number), raw)
             return
         tree = self.tree
-        last = raw is tree.sections[-1].blocks[-1]
+        final = tree.sections[-1].blocks
+        last = bool(final) and raw is final[-1]
         read = read_block(self.text, raw, declared, last=last)
         self.origin.read[index, number] = read
         self.problems += read.problems
@@ -185,5 +186,5 @@ class _Reader:
                 continue
             piece = self.text[span.start : end]
             if unclosed or piece[-1:] in "+-.eEdD" or piece in ("=", "=["):
-                message = f"the file ends inside {piece!r}: it seems to be cut off"
+                message = f"the file ends inside {piece!r}: it seems to be cut off, add what is missing"
                 self.problems[index] = replace(problem, code=SYN014, message=message)

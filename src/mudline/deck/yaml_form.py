@@ -10,7 +10,7 @@ import yaml
 from mudline.codes import DOC001
 from mudline.deck.document import DocumentPath, from_document, to_document
 from mudline.deck.model import START, Deck, Range
-from mudline.deck.node_places import node_places
+from mudline.deck.node_places import node_places, too_deep, within
 from mudline.deck.yaml_core import CoreDumper, CoreLoader, scalar
 from mudline.diagnostics import DeckError, Diagnostic
 from mudline.keywords.writer import joined
@@ -44,9 +44,7 @@ _Dumper.add_representer(
 _Dumper.add_representer(
     _Flow, lambda dumper, row: dumper.represent_sequence("tag:yaml.org,2002:seq", row, flow_style=True)
 )
-_Dumper.add_representer(
-    float, lambda dumper, value: dumper.represent_scalar("tag:yaml.org,2002:float", repr(value))
-)
+_Dumper.add_representer(float, lambda dumper, value: dumper.represent_scalar("tag:yaml.org,2002:float", repr(value)))
 _Dumper.add_representer(type(None), lambda dumper, _: dumper.represent_scalar("tag:yaml.org,2002:null", "null"))
 
 
@@ -67,19 +65,21 @@ def _node(value: Any) -> Any:
 
 def from_yaml(text: str, file: str = "<yaml>") -> Deck:
     """The deck of a YAML text; raises DeckError for what is no YAML, has a key twice or an alias, or breaks the schema."""
+    if too_deep(text):
+        raise _refusal(file, "nested too deeply: is this a deck?", START)
     try:
         root = yaml.compose(text, Loader=CoreLoader)
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
-        place = Range(mark.line + 1, mark.column + 1, mark.line + 1, mark.column + 1) if mark else START
+        place = Range(*within(text, mark), *within(text, mark)) if mark else START
         raise _refusal(file, f"no YAML: {error.problem}", place) from error
-    except (yaml.YAMLError, RecursionError) as error:
-        raise _refusal(file, f"no YAML: {str(error) or 'nested too deeply'}", START) from error
+    except yaml.YAMLError as error:
+        raise _refusal(file, f"no YAML: {str(error).partition(chr(10))[0]}", START) from error
     document = None if root is None else _Reader(file).value(root)
 
     @cache
     def found() -> dict[DocumentPath, Range]:
-        return {} if root is None else node_places(root)
+        return {} if root is None else node_places(root, text)
 
     def locate(path: DocumentPath) -> Range:
         known = found()

@@ -12,7 +12,7 @@ from mudline.keywords.grammar import ROW, Content, Node
 from mudline.keywords.model import Block, ListRow, Part, Record, Slot, layout, row_format
 from mudline.keywords.places import Path, Places
 from mudline.keywords.tables import TableBuilder
-from mudline.keywords.text import Unreadable, Value, decimal_comma, decimal_comma_problem, read_value
+from mudline.keywords.text import Unreadable, Value, decimal_comma, read_value, suggestion
 from mudline.syntax.fields import Field, Group, read_line, split, trimmed
 from mudline.syntax.rows import blank_separated
 
@@ -75,10 +75,9 @@ class Builder:
         self.problems = problems
         self.damaged = False
         self.lost = 0
+        self.unclosed: Span | None = None
 
-    def build(
-        self, part: type[Record], node: Node, path: Path = (), siblings: Sequence[Built] = ()
-    ) -> Built:
+    def build(self, part: type[Record], node: Node, path: Path = (), siblings: Sequence[Built] = ()) -> Built:
         """The values of a record; `siblings` are the records of its list before it."""
         built = Built(part)
         found = layout(part)
@@ -107,6 +106,20 @@ class Builder:
         self.places.damaged.add(path)
         self.damaged = True
 
+    def _brackets(self, problems: list[Problem], path: Path) -> None:
+        """The bracket that a line does not close; it reaches to the end of the line, so there is one at most."""
+        self.unclosed = None
+        for problem in problems:
+            self.damage(path, problem)
+            self.unclosed = problem.span
+
+    def _unreadable(self, path: Path, problem: Problem) -> None:
+        """A field without a value; one with an open bracket has been told as such."""
+        if self.unclosed and problem.span and self.unclosed.start < problem.span.end:
+            self.places.damaged.add(path)
+        else:
+            self.damage(path, problem)
+
     def _child(self, built: Built, slot: Slot, node: Node, path: Path) -> None:
         before = built.children.setdefault(slot.json, [])
         inner = (*path, slot.json, len(before))
@@ -123,13 +136,14 @@ class Builder:
     def _settings(self, built: Built, content: Content, path: Path) -> None:
         found = layout(built.part)
         line = read_line(self.text, content.span, slashes=self.slashes)
-        for problem in line.problems:
-            self.damage(path, problem)
+        self._brackets(line.problems, path)
         opening = built.last is None and not issubclass(built.part, Block)
         for group in line.groups:
             slot = found.keys.get(group.key)
             if slot is None:
-                message = f"{group.key}= does not belong on this line: expected {', '.join(k + '=' for k in found.keys)}"
+                expected = ", ".join(f"{key}=" for key in found.keys)
+                hint = suggestion(group.key, found.keys)
+                message = f"{group.key}= does not belong on this line{hint}: expected {expected}"
                 self.damage(path, Problem(SYN004, message, group.span))
             elif slot.json in built.values:
                 self.damage(path, Problem(SYN001, f"{group.key}= is given twice", group.span))
@@ -150,8 +164,8 @@ class Builder:
         while len(fields) > 1 and not fields[-1].text:
             fields.pop()
         if len(fields) > 1:
-            if decimal_comma(fields, 1):
-                self.problems.append(decimal_comma_problem(fields))
+            if problem := decimal_comma(fields, [slot.kind], 1):
+                self.problems.append(problem)
             message = f"{slot.label} takes one value, found {len(fields)}"
             self.damage(path[:-1], Problem(SYN003, message, Span(fields[0].span.start, fields[-1].span.end)))
         if not fields[0].text:
@@ -161,7 +175,7 @@ class Builder:
         try:
             built.values[slot.json] = read_value(fields[0], slot, self.problems)
         except Unreadable as fault:
-            self.damage(path[:-1], fault.problem)
+            self._unreadable(path[:-1], fault.problem)
 
     def _row(
         self,
@@ -177,8 +191,7 @@ class Builder:
             slot, fields = found.table, []
         else:
             fields, problems = split(self.text, content.span, slashes=self.slashes)
-            for problem in problems:
-                self.damage(path, problem)
+            self._brackets(problems, path)
             before = [sibling.values for sibling in siblings]
             name = built.part.row_slot(number, len(fields), built.values, before)
             slot = next(s for s in found.slots if s.name == name)
@@ -218,19 +231,21 @@ class Builder:
         return [values.get(slot.json) for slot in columns[: len(values)]]
 
     def _fields(self, columns: Sequence[Slot], fields: list[Field], path: Path) -> dict[str, Value]:
+        before = len(self.problems)
         fields = self._counted(columns, fields, path)
+        miscounted = len(self.problems) > before
         values: dict[str, Value] = {}
         for slot, given in zip(columns, fields, strict=False):
             self.places.spans[*path, slot.json] = given.span
             if not given.text:
                 values[slot.json] = None
-                if slot.required:
+                if slot.required and not miscounted:
                     self.damage(path, Problem(SYN003, f"{slot.label} is missing", given.span))
                 continue
             try:
                 values[slot.json] = read_value(given, slot, self.problems)
             except Unreadable as fault:
-                self.damage(path, fault.problem)
+                self._unreadable(path, fault.problem)
                 values[slot.json] = None
         return values
 
@@ -244,8 +259,10 @@ class Builder:
             fields.pop()
         if fewest <= len(fields) <= len(columns):
             return fields
-        if decimal_comma(fields, max(fewest, 1)):
-            self.problems.append(decimal_comma_problem(fields))
+        if self.unclosed:  # the open bracket holds the fields that are missing
+            return fields[: len(columns)]
+        if problem := decimal_comma(fields, [slot.kind for slot in columns], fewest):
+            self.problems.append(problem)
         wanted = row_format([slot.label for slot in columns], required)
         count = f"{fewest}" if fewest == len(columns) else f"{fewest} to {len(columns)}"
         message = f"{count} fields expected (`{wanted}`), found {len(fields)}"
@@ -272,7 +289,7 @@ class Builder:
             try:
                 value = read_value(given, slot, self.problems)
             except Unreadable as fault:
-                self.damage(path, fault.problem)
+                self._unreadable(path, fault.problem)
                 continue
             self.places.spans[*path, len(values)] = given.span
             values.append(value)

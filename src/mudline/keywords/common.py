@@ -18,7 +18,9 @@ class CurvePoint(Row):
     ratio: Annotated[Real, about("embedment ratio: mean depth of the element's nodes over external diameter", unit="-")]
     force: Annotated[
         Real,
-        about("seabed force at that ratio", unit="F/L", inferred="the force is per unit length, as the linear stiffness"),
+        about(
+            "seabed force at that ratio", unit="F/L", inferred="the force is per unit length, as the linear stiffness"
+        ),
     ]
 
 
@@ -35,7 +37,9 @@ class Surface(Block):
     properties: Annotated[Row, about("properties of the surface")]
     slope: Annotated[
         Real | None,
-        about("slope of the bed about the origin", unit="deg", default="flat", inferred="a line of one value is a slope"),
+        about(
+            "slope of the bed about the origin", unit="deg", default="flat", inferred="a line of one value is a slope"
+        ),
     ] = None
     profile: Annotated[
         Table | None, rows(ProfilePoint, "arbitrary profile: Y and elevation, a line of two values a point")

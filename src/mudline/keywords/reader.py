@@ -57,6 +57,7 @@ class _Reader:
         node, mismatches = grammar.parse(self.declared.rule, contents)
         places = Places(self.text, trimmed(self.text, *self.raw.head.span))
         builder = Builder(self.text, self.declared.slashes, places, self.problems)
+        builder.damaged = any(mismatch.missing for mismatch in mismatches)
         for mismatch in mismatches:
             self._report(mismatch)
         built = builder.build(self.declared, node)

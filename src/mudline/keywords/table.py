@@ -197,5 +197,7 @@ def _not_whole(table: Table, columns: Sequence[Column]) -> dict[tuple[int, int],
         with np.errstate(invalid="ignore"):
             wrong = (values != np.floor(values)) & ~np.isnan(values) | (np.abs(values) > LARGEST_WHOLE)
         for row in np.flatnonzero(wrong).tolist():
-            faults[row, index] = f"{values[row]!r} is no {columns[index].label}: expected a whole number"
+            value = float(values[row])
+            faults[row, index] = f"{value!r} is no whole number: {columns[index].label} needs one"
+            values[row] = math.nan
     return faults

@@ -8,10 +8,10 @@ import numpy as np
 
 from mudline.codes import SYN002, SYN003, SYN016
 from mudline.diagnostics import Problem, Span
-from mudline.keywords.model import Rows, Slot
+from mudline.keywords.model import Rows, Slot, row_format
 from mudline.keywords.places import Path
 from mudline.keywords.table import Column, Table, from_rows
-from mudline.keywords.text import decimal_comma, decimal_comma_problem, number_fault
+from mudline.keywords.text import decimal_comma, maybe_label, number_fault
 from mudline.keywords.values import Equation, Kind, Label
 from mudline.syntax.fields import split
 from mudline.syntax.rows import Rows as RawRows
@@ -68,7 +68,7 @@ class TableBuilder:
         told = 0
         broken: set[int] = set()
         for (row, column), fault in sorted(faults.items()):
-            if row in short and column >= 0 and (row, column) in raw.words and not raw.words[row, column]:
+            if row in short and column >= 0:
                 continue
             if self._label(table, raw, lines[row], row, column):
                 continue
@@ -86,10 +86,7 @@ class TableBuilder:
     def _label(self, table: Table, raw: RawRows, line: Span, row: int, column: int) -> bool:
         """A word where a node number belongs is taken for a label whose braces were forgotten."""
         word = raw.words.get((row, column), "")
-        if column < 0 or self.columns[column].kind is not Kind.IDENT or not word[:1].isalpha():
-            return False
-        label = Label.match("{" + word + "}")
-        if label is None:
+        if column < 0 or self.columns[column].kind is not Kind.IDENT or (label := maybe_label(word)) is None:
             return False
         table.words[row, column] = label
         place = row_fields(self.builder.text, line, len(self.columns))[column].span
@@ -101,7 +98,8 @@ class TableBuilder:
         """Whether the fault of a row is an unclosed bracket, which is then told instead."""
         _, problems = split(self.builder.text, line)
         for problem in problems:
-            self.builder.damage(self.path[:-1], problem)
+            if problem.span != self.builder.unclosed:
+                self.builder.damage(self.path[:-1], problem)
         return bool(problems)
 
     def _fault(self, line: Span, row: int, column: int, fault: str, raw: RawRows) -> None:
@@ -109,9 +107,10 @@ class TableBuilder:
         self.builder.lost += column == 0
         if column < 0:
             fields, _ = split(text, line)
-            if decimal_comma(fields, len(self.columns)):
-                self.builder.problems.append(decimal_comma_problem(fields[:2]))
-            wanted = ", ".join(column.label for column in self.columns if column.required)
+            required = [column.required for column in self.columns]
+            if problem := decimal_comma(fields, [column.kind for column in self.columns], sum(required)):
+                self.builder.problems.append(problem)
+            wanted = row_format([column.label for column in self.columns], required)
             place = Span(fields[0].span.start, fields[-1].span.end)
             self.builder.damage(self.path[:-1], Problem(SYN003, f"{fault} (`{wanted}`)", place))
             return

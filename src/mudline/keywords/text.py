@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from difflib import get_close_matches
+from collections.abc import Iterable
 
 from mudline.codes import SYN002, SYN005, SYN015, SYN016
 from mudline.diagnostics import Problem
@@ -13,6 +13,7 @@ from mudline.syntax.rows import read_number
 
 Value = float | int | str | None
 LARGEST_WHOLE = 2.0**53
+_REAL = (Kind.REAL, Kind.REAL_OR_NAME)
 
 
 class Unreadable(Exception):
@@ -33,7 +34,7 @@ def read_value(field: Field, slot: Slot, problems: list[Problem]) -> Value:
         return equation
     number = read_number(field.text)
     match slot.kind:
-        case Kind.REAL_OR_NAME:
+        case Kind.REAL_OR_NAME if not field.text.startswith("=["):
             return field.text if number is None else number
         case Kind.WHOLE:
             return _whole(field, number, slot)
@@ -45,10 +46,21 @@ def read_value(field: Field, slot: Slot, problems: list[Problem]) -> Value:
             return number
 
 
+def maybe_label(text: str) -> Label | None:
+    """A text that is a label if its braces were forgotten: it begins with a letter, and is no NaN or infinity."""
+    if not text[:1].isalpha() or _not_finite(text):
+        return None
+    return Label.match("{" + text + "}")
+
+
+def _not_finite(text: str) -> bool:
+    return text.lower().lstrip("+-") in ("nan", "inf", "infinity")
+
+
 def number_fault(text: str, label: str) -> str:
     """Why a text is no number, in words that say what to do."""
     lower = text.lower().lstrip("+-")
-    if lower in ("nan", "inf", "infinity"):
+    if _not_finite(text):
         return f"{text!r} is not a finite number: {label} needs a number"
     if text.startswith(("[", "=")):
         return f"{text!r} is no equation: write =[...] for {label}"
@@ -67,22 +79,44 @@ def shown(text: str) -> str:
     return repr(text if len(text) <= 60 else text[:57] + "...")
 
 
-def suggestion(word: str, known: list[str]) -> str:
-    """` (did you mean X?)` for the nearest known word, or nothing."""
-    near = get_close_matches(word, known, 1, 0.75)
-    return f" (did you mean {near[0]}?)" if near else ""
+def suggestion(word: str, known: Iterable[str]) -> str:
+    """` (did you mean X?)` for the nearest known word within two edits (one for a short word), or nothing."""
+    wanted = word.casefold()
+    most = 1 if len(wanted) < 5 else 2
+    near = min(((edits(wanted, name.casefold(), most), name) for name in known), default=(most + 1, ""))
+    return f" (did you mean {near[1]}?)" if near[0] <= most else ""
 
 
-def decimal_comma(values: list[Field], expected: int) -> bool:
-    """Whether a row of whole numbers with twice the fields expected looks like decimal commas."""
-    return len(values) == 2 * expected and all(field.text.lstrip("+-").isdecimal() for field in values)
+def edits(one: str, other: str, most: int) -> int:
+    """Letters to change, insert, drop or swap with their neighbour to make one word of the other, `most` + 1 if more."""
+    if abs(len(one) - len(other)) > most:
+        return most + 1
+    before: list[int] = []
+    row = list(range(len(other) + 1))
+    for i, letter in enumerate(one, 1):
+        two_before, before, row = before, row, [i]
+        for j, target in enumerate(other, 1):
+            cost = min(before[j] + 1, row[j - 1] + 1, before[j - 1] + (letter != target))
+            if i > 1 and j > 1 and letter == other[j - 2] and one[i - 2] == target:
+                cost = min(cost, two_before[j - 2] + 1)
+            row.append(cost)
+        if min(row) > most:
+            return most + 1
+    return min(row[-1], most + 1)
 
 
-def decimal_comma_problem(values: list[Field]) -> Problem:
-    """The finding about a decimal comma."""
-    pair = f"{values[0].text},{values[1].text}"
-    message = f"decimal comma? {pair} is two fields here: write {values[0].text}.{values[1].text}"
-    return Problem(SYN015, message, values[0].span._replace(end=values[-1].span.end))
+def decimal_comma(values: list[Field], kinds: list[Kind | None], fewest: int) -> Problem | None:
+    """The finding about a row of whole numbers whose count is right if every real one takes two fields."""
+    for length in range(max(fewest, 1), len(kinds) + 1):
+        widths = [2 if kind in _REAL else 1 for kind in kinds[:length]]
+        numbers = [field for field in values if field.text.lstrip("+-").isdecimal()]
+        names = sum(kind is Kind.NAME for kind in kinds[:length])
+        if sum(widths) == len(values) > length and len(numbers) >= len(values) - names:
+            first = widths.index(2)
+            one, two = values[first : first + 2]
+            message = f"decimal comma? {one.text},{two.text} is two fields here: write {one.text}.{two.text}"
+            return Problem(SYN015, message, one.span._replace(end=two.span.end))
+    return None
 
 
 def _choice(field: Field, slot: Slot) -> str:
@@ -109,8 +143,8 @@ def _ident(field: Field, number: float | None, slot: Slot, problems: list[Proble
         return _whole(field, number, slot)
     if label := Label.match(field.text):
         return label
-    braced = Label.match("{" + field.text + "}")
-    if braced is None or not field.text or not field.text[0].isalpha():
+    braced = maybe_label(field.text)
+    if braced is None:
         raise Unreadable(Problem(SYN002, number_fault(field.text, slot.label), field.span))
     message = f"{shown(field.text)} is no number: is it the label {braced}? Labels stand in braces"
     problems.append(Problem(SYN016, message, field.span))

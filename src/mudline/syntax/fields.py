@@ -130,17 +130,24 @@ def _protected(text: str, body: Span, slashes: bool, problems: list[Problem]) ->
     while match := _SPECIAL.search(text, at, body.end):
         at = match.end()
         opener, start = match[0], match.start()
-        if (opener == "[" and text[start - 1 : start] != "=") or (opener == "/" and not slashes):
+        if opener == "[" and text[start - 1 : start] != "=":
+            continue
+        if opener == "/" and not (slashes and _begins_field(text, body, start)):
             continue
         end = _close(text, start, body.end)
         if end < 0:
             what = "=[" if opener == "[" else opener
             message = f"{what} is not closed: {_CLOSERS[opener]} is missing before the end of the line"
-            problems.append(Problem(SYN006, message, Span(start, start + 1)))
+            problems.append(Problem(SYN006, message, Span(start - (opener == "["), start + 1)))
             end = body.end
         spans.append(Span(start, end))
         at = end
     return spans
+
+
+def _begins_field(text: str, body: Span, at: int) -> bool:
+    """Whether a slash is the first character of a field, as it must be to open a list."""
+    return text[body.start : at].rstrip(" \t")[-1:] in ("", ",")
 
 
 def _close(text: str, start: int, end: int) -> int:

@@ -15,19 +15,28 @@ class ElasticProperties(Row):
     stiffness: Annotated[
         Real | None, about("stiffness per unit length; without it *EMBEDMENT is required", unit="F/L2", at_least=0)
     ] = None
-    longitudinal: Annotated[Real | None, about("longitudinal friction coefficient", unit="-", default="0", at_least=0)] = None
-    transverse: Annotated[Real | None, about("transverse friction coefficient", unit="-", default="0", at_least=0)] = None
+    longitudinal: Annotated[
+        Real | None, about("longitudinal friction coefficient", unit="-", default="0", at_least=0)
+    ] = None
+    transverse: Annotated[Real | None, about("transverse friction coefficient", unit="-", default="0", at_least=0)] = (
+        None
+    )
     lateral: Annotated[Real | None, about("lateral stiffness", unit="F/L2", at_least=0)] = None
     suction_stiffness: Annotated[Real | None, about("suction stiffness", unit="F/L2", at_least=0)] = None
-    suction_extent: Annotated[Real | None, about("height of the suction zone above the bed", unit="L", at_least=0)] = None
+    suction_extent: Annotated[Real | None, about("height of the suction zone above the bed", unit="L", at_least=0)] = (
+        None
+    )
     longitudinal_length: Annotated[
-        Real | None, about("largest longitudinal characteristic length", unit="L", default=CHARACTERISTIC_LENGTH, above=0)
+        Real | None,
+        about("largest longitudinal characteristic length", unit="L", default=CHARACTERISTIC_LENGTH, above=0),
     ] = None
     transverse_length: Annotated[
         Real | None, about("largest transverse characteristic length", unit="L", default=CHARACTERISTIC_LENGTH, above=0)
     ] = None
     constant: Annotated[Real | None, about("constant friction force coefficient", inferred="kept, not used")] = None
-    longitudinal_mobilisation: Annotated[Real | None, about("longitudinal mobilisation length", unit="L", above=0)] = None
+    longitudinal_mobilisation: Annotated[Real | None, about("longitudinal mobilisation length", unit="L", above=0)] = (
+        None
+    )
     transverse_mobilisation: Annotated[Real | None, about("transverse mobilisation length", unit="L", above=0)] = None
 
 

@@ -28,7 +28,9 @@ class Embedment(Block):
 
     rule: ClassVar[str] = "embedment"
     names: ClassVar[tuple[str, ...]] = ("EMBEDMENT",)
-    summary: ClassVar[str] = "Force-embedment curves of an elastic seabed, by element set (superseded by *SEABED STIFFNESS)."
+    summary: ClassVar[str] = (
+        "Force-embedment curves of an elastic seabed, by element set (superseded by *SEABED STIFFNESS)."
+    )
     tabular: ClassVar[bool] = True
     example: ClassVar[str] = "*EMBEDMENT\n SET=Flowline\n 0.0, 0.0\n 0.1, 1200.0\n 0.5, 10000.0\n"
 

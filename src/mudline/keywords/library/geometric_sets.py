@@ -16,8 +16,12 @@ _CURVE = "curve of non-linear {}; the number on the property line is then left e
 class FlexibleSection(Row):
     """Property line under OPTION=FLEXIBLE."""
 
-    eiyy: Annotated[Real | None, about("bending stiffness about local y", unit="FL2", at_least=0)] = Field(None, alias="EIyy")
-    eizz: Annotated[Real | None, about("bending stiffness about local z", unit="FL2", at_least=0)] = Field(None, alias="EIzz")
+    eiyy: Annotated[Real | None, about("bending stiffness about local y", unit="FL2", at_least=0)] = Field(
+        None, alias="EIyy"
+    )
+    eizz: Annotated[Real | None, about("bending stiffness about local z", unit="FL2", at_least=0)] = Field(
+        None, alias="EIzz"
+    )
     gj: Annotated[Real | None, about("torsional stiffness", unit="FL2", at_least=0)] = Field(None, alias="GJ")
     ea: Annotated[Real | None, about("axial stiffness", unit="F", at_least=0)] = Field(None, alias="EA")
     mass: Annotated[Real, about("mass per unit length", unit="M/L", at_least=0)]
@@ -39,7 +43,9 @@ class RigidSection(Row):
     density: Annotated[Real, about("density of the wall", unit="M/L3", at_least=0)]
     area: Annotated[Real | None, about("area of the section", unit="L2", above=0)] = Field(None, alias="A")
     second_moment: Annotated[Real | None, about("second moment of area", unit="L4", above=0)] = Field(None, alias="I")
-    polar_moment: Annotated[Real | None, about("polar second moment of area", unit="L4", above=0)] = Field(None, alias="J")
+    polar_moment: Annotated[Real | None, about("polar second moment of area", unit="L4", above=0)] = Field(
+        None, alias="J"
+    )
     dd: Annotated[Real | None, about("drag diameter", unit="L", at_least=0)] = Field(None, alias="Dd")
     db: Annotated[Real | None, about("buoyancy diameter", unit="L", at_least=0)] = Field(None, alias="Db")
     dc: Annotated[Real | None, about("contact diameter", unit="L", above=0)] = Field(None, alias="Dc")
@@ -76,9 +82,7 @@ class GeometricSet(Record):
         setting("OPTION", "format of the property line; holds until it is changed", default="FLEXIBLE"),
     ] = None
     set_name: Annotated[Name, setting("SET", "element set")] = Field(alias="set")
-    buoyancy: Annotated[
-        Literal["DISTRIBUTED"] | None, setting("BUOYANCY", "distributed buoyancy", inline=True)
-    ] = None
+    buoyancy: Annotated[Literal["DISTRIBUTED"] | None, setting("BUOYANCY", "distributed buoyancy", inline=True)] = None
     eiyy_curve: Annotated[Name | None, setting("EIYY", _CURVE.format("EIyy"), inline=True)] = None
     eizz_curve: Annotated[Name | None, setting("EIZZ", _CURVE.format("EIzz"), inline=True)] = None
     gj_curve: Annotated[Name | None, setting("GJ", _CURVE.format("GJ"), inline=True)] = None
@@ -86,9 +90,9 @@ class GeometricSet(Record):
     ei_curve: Annotated[Name | None, setting("EI", _CURVE.format("EI"), inline=True)] = None
     hysteresis_curve: Annotated[Name | None, setting("EI_HYSTERESIS", _CURVE.format("EI"), inline=True)] = None
     e_curve: Annotated[Name | None, setting("E", _CURVE.format("E"), inline=True)] = None
-    plastic_hardening: Annotated[
-        Name | None, setting("PLASTIC HARDENING", "plastic hardening model", inline=True)
-    ] = None
+    plastic_hardening: Annotated[Name | None, setting("PLASTIC HARDENING", "plastic hardening model", inline=True)] = (
+        None
+    )
     flexible: Annotated[FlexibleSection | None, about("section under OPTION=FLEXIBLE")] = None
     rigid: Annotated[RigidSection | None, about("section under OPTION=RIGID")] = None
     mooring: Annotated[MooringSection | None, about("section under OPTION=MOORING")] = None
@@ -123,9 +127,7 @@ class GeometricSets(Block):
     rule: ClassVar[str] = "geometric_sets"
     names: ClassVar[tuple[str, ...]] = ("GEOMETRIC SETS",)
     summary: ClassVar[str] = "Stiffness, mass and diameters of element sets, in one of four formats."
-    example: ClassVar[str] = (
-        "*GEOMETRIC SETS\n OPTION=RIGID\n SET=ALL\n 207.0E9, 79.9E9, 0.3239, 0.2731, 7850.0\n"
-    )
+    example: ClassVar[str] = "*GEOMETRIC SETS\n OPTION=RIGID\n SET=ALL\n 207.0E9, 79.9E9, 0.3239, 0.2731, 7850.0\n"
 
     keyword: Literal["GEOMETRIC SETS"] = "GEOMETRIC SETS"
     sets: list[GeometricSet] = []

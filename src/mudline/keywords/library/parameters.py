@@ -30,7 +30,9 @@ class Parameters(Block):
     sections: ClassVar[tuple[str, ...]] = ("PREPROCESSOR",)
     summary: ClassVar[str] = "Named values for equations, and for the variations of a deck."
     slashes: ClassVar[bool] = True
-    example: ClassVar[str] = "*PARAMETERS\n depth, 500.0\n vessel x, =[depth+5]\n Point, /X:11, Y:22, Z:=[Point_X+10]/\n"
+    example: ClassVar[str] = (
+        "*PARAMETERS\n depth, 500.0\n vessel x, =[depth+5]\n Point, /X:11, Y:22, Z:=[Point_X+10]/\n"
+    )
 
     keyword: Literal["PARAMETERS"] = "PARAMETERS"
     parameters: list[Parameter] = []

@@ -12,16 +12,23 @@ from mudline.keywords.values import Real
 class RigidProperties(Row):
     """The first line."""
 
-    longitudinal: Annotated[Real | None, about("longitudinal friction coefficient", unit="-", default="0", at_least=0)] = None
-    transverse: Annotated[Real | None, about("transverse friction coefficient", unit="-", default="0", at_least=0)] = None
+    longitudinal: Annotated[
+        Real | None, about("longitudinal friction coefficient", unit="-", default="0", at_least=0)
+    ] = None
+    transverse: Annotated[Real | None, about("transverse friction coefficient", unit="-", default="0", at_least=0)] = (
+        None
+    )
     longitudinal_length: Annotated[
-        Real | None, about("largest longitudinal characteristic length", unit="L", default=CHARACTERISTIC_LENGTH, above=0)
+        Real | None,
+        about("largest longitudinal characteristic length", unit="L", default=CHARACTERISTIC_LENGTH, above=0),
     ] = None
     transverse_length: Annotated[
         Real | None, about("largest transverse characteristic length", unit="L", default=CHARACTERISTIC_LENGTH, above=0)
     ] = None
     constant: Annotated[Real | None, about("constant friction force coefficient", inferred="kept, not used")] = None
-    longitudinal_mobilisation: Annotated[Real | None, about("longitudinal mobilisation length", unit="L", above=0)] = None
+    longitudinal_mobilisation: Annotated[Real | None, about("longitudinal mobilisation length", unit="L", above=0)] = (
+        None
+    )
     transverse_mobilisation: Annotated[Real | None, about("transverse mobilisation length", unit="L", above=0)] = None
 
 

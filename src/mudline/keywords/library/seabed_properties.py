@@ -15,8 +15,12 @@ _RANGE = "the manual gives no range"
 class SeabedFriction(Row):
     """Values of FRICTION=."""
 
-    longitudinal: Annotated[Real | None, about("longitudinal friction coefficient", unit="-", default="0", at_least=0)] = None
-    transverse: Annotated[Real | None, about("transverse friction coefficient", unit="-", default="0", at_least=0)] = None
+    longitudinal: Annotated[
+        Real | None, about("longitudinal friction coefficient", unit="-", default="0", at_least=0)
+    ] = None
+    transverse: Annotated[Real | None, about("transverse friction coefficient", unit="-", default="0", at_least=0)] = (
+        None
+    )
     longitudinal_mobilisation: Annotated[
         Real | None, about("longitudinal mobilisation length", unit="L", above=0, inferred=_RANGE)
     ] = None
@@ -62,7 +66,9 @@ class SeabedProperties(Block):
 
     rule: ClassVar[str] = "seabed_properties"
     names: ClassVar[tuple[str, ...]] = ("SEABED PROPERTIES",)
-    summary: ClassVar[str] = "Rigid or elastic seabed; stiffness, friction, lateral resistance and suction by element set."
+    summary: ClassVar[str] = (
+        "Rigid or elastic seabed; stiffness, friction, lateral resistance and suction by element set."
+    )
     example: ClassVar[str] = (
         "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=50000.0\n FRICTION=0.3, 0.5, 0.03, 0.05\n"
     )

@@ -9,6 +9,7 @@ from mudline.keywords.model import Block, Record, rows, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Name
 
+
 class StiffnessCurve(Record):
     """A curve."""
 

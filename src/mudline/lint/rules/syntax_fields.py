@@ -95,7 +95,7 @@ def unbalanced_bracket(context: LintContext) -> Iterator[Problem]:
         *OCEAN
          =[depth], 1025.0, 9.81
 
-    Finds: 4:13
+    Finds: 4:12
     """
     yield from context.told(SYN006)
 
