@@ -12,7 +12,7 @@ BENCHMARKS := $(sort $(wildcard tests/benchmarks/*.py))
 ARGS ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help install demo test lint format typecheck bench build clean
+.PHONY: help install demo test lint format typecheck docs bench build clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-10s %s\n", $$1, $$2 }' Makefile
@@ -65,6 +65,9 @@ typecheck: $(VENV)/.developer ## mypy --strict on the code and the tests
 format: $(VENV)/.developer ## put the code into its canonical layout
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
+
+docs: $(VENV)/.developer ## write the pages of docs/ that are made from the program
+	$(BIN)/python -m tests.docs.make
 
 bench: $(VENV)/.developer ## run the benchmarks
 	@for script in $(BENCHMARKS); do echo "== $$script"; $(BIN)/python "$$script" || exit; done

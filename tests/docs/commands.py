@@ -10,14 +10,33 @@ from mudline.__main__ import main
 
 
 def run(words: str) -> tuple[int, list[str]]:
-    """Run `mudline ...`: its exit code, and its lines on both streams without the blanks at their ends."""
-    name, *arguments = shlex.split(words)
-    assert name == "mudline", words
-    memory = io.BytesIO()
-    stream = io.TextIOWrapper(memory, encoding="utf-8", write_through=True)
-    with redirect_stdout(stream), redirect_stderr(stream):
-        code = main(arguments)
-    lines = [line.rstrip() for line in memory.getvalue().decode().replace("\r\n", "\n").split("\n")]
+    """Run `mudline ...`: its exit code, and the lines on both streams without the blanks at their ends."""
+    stream = _stream()
+    code = _main(words, stream, stream)
+    lines = [line.rstrip() for line in _text(stream).split("\n")]
     while lines and not lines[-1]:
         lines.pop()
     return code, lines
+
+
+def output(words: str) -> str:
+    """Run `mudline ...`: what it writes to standard output."""
+    stream = _stream()
+    _main(words, stream, _stream())
+    return _text(stream)
+
+
+def _main(words: str, out: io.TextIOWrapper, errors: io.TextIOWrapper) -> int:
+    name, *arguments = shlex.split(words)
+    assert name == "mudline", words
+    with redirect_stdout(out), redirect_stderr(errors):
+        return main(arguments)
+
+
+def _stream() -> io.TextIOWrapper:
+    return io.TextIOWrapper(io.BytesIO(), encoding="utf-8", write_through=True)
+
+
+def _text(stream: io.TextIOWrapper) -> str:
+    stream.seek(0)
+    return stream.read().replace("\r\n", "\n")

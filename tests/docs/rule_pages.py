@@ -33,14 +33,17 @@ _PAGE = """{made}
 
 {title}
 
-Severity: {severity}. [All rules](README.md).
+Severity: {severity}{off}. [All rules](README.md).
 
 {why}
 
-Bad:
+Bad{remark}:
 
 ```text
-{bad}```
+{bad}
+```
+
+What `mudline lint --output-format concise` says:
 
 ```text
 {says}
@@ -49,7 +52,8 @@ Bad:
 Good:
 
 ```text
-{good}```
+{good}
+```
 """
 
 
@@ -65,15 +69,17 @@ def _row(rule: Rule) -> str:
 
 def rule_page(rule: Rule) -> str:
     """docs/rules/CODE.md."""
-    found = lint_bytes(rule.bad.encode(), rule.file, [rule])
+    found = lint_bytes(rule.bad_bytes, rule.file, [rule])
     return _PAGE.format(
         made=MADE,
         code=rule.code.code,
         slug=rule.code.slug,
         severity=rule.code.severity,
+        off=", off unless selected" if rule.off else "",
         title=marked(rule.title),
         why=marked(rule.why),
-        bad=rule.bad,
+        remark=f" ({rule.remark})" if rule.remark else "",
+        bad=rule.bad.rstrip("\n"),
         says="\n".join(str(finding) for finding in found),
-        good=rule.good,
+        good=rule.good.rstrip("\n"),
     )
