@@ -57,7 +57,7 @@ def _elements(evaluation: Evaluation) -> tuple[_Cells, Iterator[_Cells]]:
     laws = evaluation.law_names(0)
     touching = np.flatnonzero(result.contact[evaluation.elements])
     index = evaluation.elements[touching]
-    numbers = (result.depth, result.ratio, result.force, result.stiffness, scene.length)
+    numbers = (result.depth, result.ratio, result.force, result.stiffness, evaluation.length)
     return columns, zip(
         map(str, scene.element_ids[index].tolist()),
         [laws[i] for i in touching.tolist()],

@@ -15,6 +15,9 @@ from mudline.results.units import unit_names
 
 _MARGIN = 0.15
 _LONGEST_NAME = 40
+_COLORS = 10
+_MARKERS = ("o", "s", "^", "v", "P")
+"""The next one when the colours are used up."""
 _MOST_MARKED = 60
 """Points of longer curves are not marked one by one."""
 
@@ -27,7 +30,7 @@ def draw(rows: list[dict[str, Any]], units: str, form: str, stream: BinaryIO) ->
     """Write a picture ("png" or "svg") of all curves, dashed beyond their points, with the values asked for."""
     figure = Figure(figsize=(8, max(5.0, 1.5 + 0.21 * len(rows))), layout="constrained", dpi=150)
     axes = figure.add_subplot()
-    handles = [_curve(axes, row) for row in rows]
+    handles = [_curve(axes, row, _MARKERS[index // _COLORS % len(_MARKERS)]) for index, row in enumerate(rows)]
     axes.axhline(0.0, color="0.4", linewidth=0.8, zorder=1)
     axes.axvline(0.0, color="0.4", linewidth=0.8, zorder=1)
     unit = unit_names(units).line_force or "force per length"
@@ -41,10 +44,10 @@ def draw(rows: list[dict[str, Any]], units: str, form: str, stream: BinaryIO) ->
         figure.savefig(stream, format=form, metadata={"Date": None} if form == "svg" else None)
 
 
-def _curve(axes: Axes, row: dict[str, Any]) -> Line2D:
+def _curve(axes: Axes, row: dict[str, Any], shape: str) -> Line2D:
     """One curve with its marks; returns what stands for it in the legend."""
     ratios, forces = np.array(row["points"]).T
-    marker = "o" if len(ratios) <= _MOST_MARKED else None
+    marker = shape if len(ratios) <= _MOST_MARKED else None
     (line,) = axes.plot(ratios, forces, marker=marker, markersize=3.5)
     color = line.get_color()
     static = [(each["ratio"], each["force"]) for each in row.get("static", [])]

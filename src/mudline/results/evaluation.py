@@ -44,6 +44,11 @@ class Evaluation:
         """Number of steps; 1 for a single state."""
         return len(self.result.depth)
 
+    @property
+    def length(self) -> Floats:
+        """Lengths (m,) as they were used; 0 for an element that has no spring and no finite length."""
+        return self.model.input.length
+
     @cached_property
     def elements(self) -> Indices:
         """Indices of the elements that were evaluated: those with a position of both nodes."""

@@ -115,7 +115,7 @@ def write_npz(evaluation: Evaluation, stream: BinaryIO) -> None:
         "element": scene.element_ids[elements],
         "set": np.array(names, dtype=np.str_),
         "diameter": scene.diameter[elements],
-        "length": scene.length[elements],
+        "length": evaluation.length[elements],
         "node": scene.node_ids[nodes],
         **(over_steps if evaluation.time is not None else {name: array[0] for name, array in over_steps.items()}),
     }

@@ -77,7 +77,7 @@ def element_rows(evaluation: Evaluation, step: int, spelling: Spelling) -> Itera
             scene.element_ids[chosen],
             [sets[index] for index in chosen.tolist()],
             scene.diameter[chosen],
-            scene.length[chosen],
+            evaluation.length[chosen],
             result.depth[chosen],
             result.ratio[chosen],
             result.contact[chosen],

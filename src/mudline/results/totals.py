@@ -47,7 +47,7 @@ def totals(evaluation: Evaluation) -> list[Total]:
             len(members),
             int(result.contact[members].sum()),
             float(result.depth[members].max()),
-            _sum(result.force[members], scene.length[members]),
+            _sum(result.force[members], evaluation.length[members]),
         )
         for (law, name), members in groups.items()
     ]
@@ -58,7 +58,7 @@ def step_totals(evaluation: Evaluation, most: int | None) -> list[StepTotal]:
     if evaluation.time is None:
         return []
     scene, chosen = evaluation.scene, evaluation.elements
-    ids, length = scene.element_ids[chosen], scene.length[chosen]
+    ids, length = scene.element_ids[chosen], evaluation.length[chosen]
     rows = []
     for step, time in enumerate(evaluation.time[:most].tolist()):
         result = evaluation.result.step(step)

@@ -1,0 +1,214 @@
+"""`mudline curves`: the curves that a deck really gives."""
+
+from __future__ import annotations
+
+import csv
+
+import pytest
+
+from tests.cli.conftest import Place
+from tests.cli.decks import BAD_NUMBER, CLEAN, LINEAR, UNSORTED, UNUSED
+from tests.cli.runner import SAMPLES, assert_fits, run
+
+TEXT = """\
+curve Clay: 3 points
+               from     to         stiffness
+ from     to  force  force  slope      D=0.5
+ratio  ratio  [N/m]  [N/m]  [N/m]     [N/m2]
+────────────────────────────────────────────
+    0    0.1      0   1000  10000      20000
+  0.1    0.5   1000   3000   5000      10000
+
+Below its first and above its last point a curve goes on with the slope of its end segment.
+"""
+
+VALUES = """\
+Clay at
+        force  slope
+ratio   [N/m]  [N/m]  segment  extrapolated
+───────────────────────────────────────────
+ 0.05     500  10000        0
+    2   10500   5000        1         above
+   -1  -10000  10000        0         below
+"""
+
+STATIC = """\
+Clay: static embedment
+       diameter  depth  stiffness
+ratio       [m]    [m]     [N/m2]  extrapolated
+───────────────────────────────────────────────
+  0.2       0.5    0.1      10000
+"""
+
+
+def rows(text: str) -> list[list[str]]:
+    return list(csv.reader(text.splitlines()))
+
+
+@pytest.mark.parametrize("deck", [CLEAN, UNSORTED])
+def test_text(place: Place, deck: str) -> None:
+    outcome = run("curves", place(deck))
+    assert (outcome.code, outcome.err) == (0, "")
+    assert outcome.out == TEXT
+
+
+def test_values_at_ratios(place: Place) -> None:
+    assert VALUES in run("curves", place(), "--at", "0.05", "--at", "2", "--at", "-1").out
+
+
+def test_static_embedment(place: Place) -> None:
+    assert STATIC in run("curves", place(), "--weight", "1500").out
+
+
+def test_json(place: Place) -> None:
+    outcome = run("curves", place(UNSORTED), "--at", "0.2", "--at", "0.6", "--output-format", "json")
+    found = outcome.json()
+    assert_fits(found, "curves")
+    assert found == [
+        {
+            "name": "Clay",
+            "points": [[0.0, 0.0], [0.1, 1000.0], [0.5, 3000.0]],
+            "segments": [{"from": 0.0, "to": 0.1, "slope": 10000.0}, {"from": 0.1, "to": 0.5, "slope": 5000.0}],
+            "at": [
+                {"ratio": 0.2, "force": 1500.0, "slope": 5000.0, "segment": 1, "extrapolated": None},
+                {"ratio": 0.6, "force": 3500.0, "slope": 5000.0, "segment": 1, "extrapolated": "above"},
+            ],
+        }
+    ]
+
+
+def test_static_embedment_in_json(place: Place) -> None:
+    found = run("curves", place(), "--weight", "3500", "--output-format", "json").json()
+    assert_fits(found, "curves")
+    assert found[0]["static"] == [
+        {
+            "ratio": 0.6,
+            "force": 3500.0,
+            "slope": 5000.0,
+            "segment": 1,
+            "extrapolated": "above",
+            "stiffness": [{"diameter": 0.5, "depth": 0.3, "stiffness": 10000.0}],
+        }
+    ]
+
+
+def test_csv_holds_the_points(place: Place) -> None:
+    assert rows(run("curves", place(UNUSED), "--output-format", "csv").out) == [
+        ["curve", "ratio", "force", "slope"],
+        ["Clay", "0.0", "0.0", "10000.0"],
+        ["Clay", "0.1", "1000.0", "5000.0"],
+        ["Clay", "0.5", "3000.0", ""],
+        ["Sand", "0.0", "0.0", "10.0"],
+        ["Sand", "0.1", "1.0", ""],
+    ]
+
+
+def test_csv_holds_the_values_asked_for(place: Place) -> None:
+    assert rows(run("curves", place(), "--at", "0.2", "--at", "0.6", "--output-format", "csv").out) == [
+        ["curve", "ratio", "force", "slope", "segment", "extrapolated"],
+        ["Clay", "0.2", "1500.0", "5000.0", "1", ""],
+        ["Clay", "0.6", "3500.0", "5000.0", "1", "above"],
+    ]
+
+
+def test_csv_holds_the_static_embedment(place: Place) -> None:
+    deck = UNUSED.replace(" CURVE=Sand\n 0.0, 0.0\n 0.1, 1.0\n", " CURVE=Sand\n 0.0, 0.0\n 0.1, 3000.0\n")
+    assert rows(run("curves", place(deck), "--weight", "1500", "--output-format", "csv").out) == [
+        ["curve", "ratio", "force", "slope", "segment", "extrapolated", "diameter", "depth", "stiffness"],
+        ["Clay", "0.2", "1500.0", "5000.0", "1", "", "0.5", "0.1", "10000.0"],
+        ["Sand", "0.05", "1500.0", "30000.0", "0", "", "", "", ""],
+    ]
+
+
+def test_csv_holds_one_table(place: Place) -> None:
+    outcome = run("curves", place(), "--at", "1", "--weight", "1", "--output-format", "csv")
+    assert outcome.code == 2
+    assert "CSV holds one table: give --at or --weight, not both" in outcome.err
+
+
+def test_curve_that_never_carries_the_weight(place: Place) -> None:
+    deck = CLEAN.replace(" 0.5, 3000.0", " 0.5, 500.0").replace(" 0.0, 0.0\n", " 0.0, 1000.0\n", 1)
+    outcome = run("curves", place(deck), "--weight", "5000")
+    assert outcome.code == 0
+    assert outcome.err == "mudline: curve Clay never carries this weight\n"
+    assert "static" not in outcome.out
+
+
+def test_curve_without_a_diameter(place: Place) -> None:
+    outcome = run("curves", place(UNUSED), "--weight", "0.5")
+    assert "curve Sand: 2 points, not used by an element with a diameter\n" in outcome.out
+    assert "\n 0.05\n" in outcome.out
+
+
+def test_deck_without_a_curve(place: Place) -> None:
+    outcome = run("curves", place(LINEAR))
+    assert (outcome.code, outcome.out) == (0, "")
+    assert outcome.err == "mudline: deck.keyxm has no force-embedment curve\n"
+    assert run("curves", place(LINEAR), "--output-format", "json").out == "[]\n"
+
+
+def test_legacy_curves_are_named_by_their_sets() -> None:
+    outcome = run("curves", SAMPLES / "legacy-flowline.keyxm")
+    assert outcome.code == 0
+    assert "set CLAY WEST: 7 points\n" in outcome.out
+
+
+def test_imperial_units(place: Place) -> None:
+    text = run("curves", place(CLEAN, "deck.keyxi")).out
+    assert "[lbf/ft]" in text
+    assert "[lbf/ft2]" in text
+    assert "[" not in run("curves", place(), "--units", "user").out
+
+
+def test_many_diameters(place: Place) -> None:
+    count = 5
+    nodes = "".join(f" {n}, 0.0, {n}.0\n" for n in range(1, count + 2))
+    elements = "".join(f" {n}, {n}, {n + 1}\n" for n in range(1, count + 1))
+    sets = "".join(f" SET=S{n}\n {n}\n" for n in range(1, count + 1))
+    sections = "".join(f" SET=S{n}\n 2.0E11, 8.0E10, {n}.5, 0.1, 7850.0\n" for n in range(1, count + 1))
+    deck = (
+        f"$MODEL\n*NODE\n{nodes}*ELEMENT\n{elements}*ELEMENT SETS\n{sets}*GEOMETRIC SETS\n OPTION=RIGID\n{sections}"
+        "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=Clay\n*SEABED STIFFNESS\n CURVE=Clay\n 0, 0\n 1, 9\n"
+    )
+    outcome = run("curves", place(deck))
+    assert "D=1.5" in outcome.out
+    assert "D=5.5" in outcome.out
+    assert "D=2.5" not in outcome.out
+    assert "5 diameters follow this curve: -v shows all\n" in outcome.out
+    assert "D=2.5" in run("curves", place(deck), "-v").out
+
+
+@pytest.mark.parametrize("option", ["--at", "--weight"])
+@pytest.mark.parametrize("value", ["nan", "inf", "1e400"])
+def test_value_that_is_no_number(place: Place, option: str, value: str) -> None:
+    outcome = run("curves", place(), option, value)
+    assert (outcome.code, outcome.out) == (2, "")
+    assert "mudline: no " in outcome.err
+
+
+def test_force_that_overflows_at_a_ratio(place: Place) -> None:
+    outcome = run("curves", place(), "--at", "1e307")
+    assert outcome.code == 2
+    assert "overflows" in outcome.err
+
+
+def test_stiffness_that_overflows_is_null(place: Place) -> None:
+    deck = CLEAN.replace(" 0.5, 3000.0", " 0.5, 6.0E307").replace("0.5, 0.46, 7850.0", "0.05, 0.046, 7850.0")
+    found = run("curves", place(deck), "--weight", "1.0E307", "--output-format", "json").json()
+    assert_fits(found, "curves")
+    assert found[0]["static"][0]["stiffness"][0]["stiffness"] is None
+    assert "inf" in run("curves", place(deck)).out
+
+
+@pytest.mark.parametrize("form", ["text", "json", "csv"])
+def test_deck_that_cannot_be_read(place: Place, form: str) -> None:
+    outcome = run("curves", place(BAD_NUMBER), "--output-format", form)
+    assert (outcome.code, outcome.out) == (1, "")
+    assert "SYN002" in outcome.err
+
+
+@pytest.mark.parametrize("name", sorted(path.name for path in SAMPLES.glob("*.key*") if path.stem != "broken"))
+def test_samples_keep_to_the_schema(name: str) -> None:
+    outcome = run("curves", SAMPLES / name, "--at", "0.1", "--weight", "300", "--output-format", "json")
+    assert outcome.code == 0
+    assert_fits(outcome.json(), "curves")

@@ -1,0 +1,301 @@
+"""`mudline evaluate`: at the deck's own coordinates."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tests.cli.conftest import Place
+from tests.cli.decks import BAD_NUMBER, CLEAN, LINEAR, PULLING
+from tests.cli.runner import SAMPLES, assert_fits, run
+
+RIGID = CLEAN.partition("*SEABED PROPERTIES")[0] + "*SEABED PROPERTIES\n TYPE=RIGID\n SET=ALL\n"
+FRICTION = CLEAN.replace(" STIFFNESS=Clay\n", " STIFFNESS=Clay\n FRICTION=0.3, 0.5\n")
+LENGTH = (0.4**2 + 10**2) ** 0.5
+
+def evaluate(deck: str, *options: str) -> Any:
+    outcome = run("evaluate", "-", "--stdin-filename", "deck.keyxm", "--output-format", "json", *options, stdin=deck.encode())
+    assert outcome.code == 0
+    assert_fits(outcome.json(), "evaluate")
+    return outcome.json()
+
+
+def test_json() -> None:
+    found = evaluate(CLEAN)
+    assert found["units"] == "metric"
+    assert [stage["stage"] for stage in found["plan"]] == [
+        "floor",
+        "normal law",
+        "suction",
+        "friction",
+        "trench",
+        "assembly",
+    ]
+    first, second = found["elements"]
+    assert first == {
+        "element": 1,
+        "set": "Pipe",
+        "diameter": 0.5,
+        "length": 10.0,
+        "depth": 0.1,
+        "ratio": 0.2,
+        "contact": True,
+        "force": 1500.0,
+        "slope": 5000.0,
+        "stiffness": 10000.0,
+        "law": "curve:Clay",
+        "state": None,
+    }
+    assert second["depth"] == pytest.approx(-0.1)
+    assert (second["contact"], second["force"], second["stiffness"]) == (False, 0.0, 0.0)
+    assert second["length"] == pytest.approx(LENGTH)
+    assert [node["reaction"] for node in found["nodes"]] == [[7500.0, 0.0, 0.0], [7500.0, 0.0, 0.0], [0.0, 0.0, 0.0]]
+    assert found["nodes"][0] == {
+        "node": 1,
+        "gap": -0.1,
+        "normal": [1.0, 0.0, 0.0],
+        "reaction": [7500.0, 0.0, 0.0],
+        "normal_force": 7500.0,
+        "axial_force": 0.0,
+        "lateral_force": 0.0,
+        "axial_state": None,
+        "lateral_state": None,
+    }
+
+
+def test_linear_law() -> None:
+    first, _ = evaluate(LINEAR)["elements"]
+    assert (first["law"], first["force"], first["stiffness"]) == ("linear", 2000.0, 20000.0)
+
+
+def test_nulls() -> None:
+    deck = LINEAR.partition("*GEOMETRIC SETS")[0] + "*SEABED PROPERTIES" + LINEAR.partition("*SEABED PROPERTIES")[2]
+    first, _ = evaluate(deck)["elements"]
+    assert first["diameter"] is None
+    assert first["ratio"] is None
+    assert first["slope"] is None
+    assert first["force"] == 2000.0
+    free = evaluate(CLEAN.partition("*SEABED PROPERTIES")[0])["elements"][0]
+    assert (free["law"], free["set"], free["force"], free["contact"]) == ("none", None, 0.0, True)
+
+
+def test_tension_is_kept_or_cut() -> None:
+    force = -500.0 + 0.2 * 400.0 / 0.3
+    kept, cut = (evaluate(PULLING, "--tension", tension)["elements"][0] for tension in ("keep", "cut"))
+    assert kept["force"] == pytest.approx(force)
+    assert kept["law"] == "curve:Clay"
+    assert (cut["force"], cut["slope"], cut["stiffness"]) == (0.0, 0.0, 0.0)
+    assert (cut["law"], cut["contact"]) == ("curve-cut", True)
+    assert evaluate(PULLING)["elements"][0] == kept
+
+
+def test_reactions_add_up() -> None:
+    found = run("evaluate", SAMPLES / "scr-touchdown.keyxm", "--output-format", "json").json()
+    forces = sum(element["force"] * element["length"] for element in found["elements"])
+    assert sum(node["reaction"][0] for node in found["nodes"]) == pytest.approx(forces, rel=1e-12)
+    assert forces == pytest.approx(294685, rel=1e-5)
+
+
+@pytest.mark.parametrize("name", sorted(path.name for path in SAMPLES.glob("*.key*")))
+def test_samples_keep_to_the_schema(name: str) -> None:
+    outcome = run("evaluate", SAMPLES / name, "--output-format", "json")
+    if name in {"broken.keyxm", "lines-deck.keyxm"}:
+        assert (outcome.code, outcome.out) == (1, "")
+    else:
+        assert outcome.code == 0
+        assert_fits(outcome.json(), "evaluate")
+
+
+def test_text(place: Place) -> None:
+    outcome = run("evaluate", place())
+    assert (outcome.code, outcome.err) == (0, "")
+    assert outcome.out == (
+        "Contact of deck.keyxm (metric units)\n"
+        "                                     largest     total\n"
+        "                                 in    depth  reaction\n"
+        "law         set   elements  contact      [m]       [N]\n"
+        "──────────────────────────────────────────────────────\n"
+        "curve:Clay  Pipe         2        1      0.1     15000\n"
+        "\n"
+        "Elements in contact\n"
+        "                     depth         force  stiffness  length\n"
+        "element  law           [m]  ratio  [N/m]     [N/m2]     [m]\n"
+        "───────────────────────────────────────────────────────────\n"
+        "      1  curve:Clay    0.1    0.2   1500      10000      10\n"
+        "\n"
+    )
+
+
+def test_text_of_nodes(place: Place) -> None:
+    assert run("evaluate", place(), "--table", "nodes").out.endswith(
+        "Nodes in contact\n"
+        "         gap  reaction X  reaction Y  reaction Z\n"
+        "  node   [m]         [N]         [N]         [N]\n"
+        "────────────────────────────────────────────────\n"
+        "1 to 2  -0.1        7500           0           0\n"
+        "\n"
+    )
+
+
+def test_several_laws_have_a_total() -> None:
+    text = run("evaluate", SAMPLES / "legacy-flowline.keyxm").out
+    total = next(line for line in text.splitlines() if line.startswith("total"))
+    assert total.split() == ["total", "60", "60", "0.0082", "97712.7"]
+
+
+def test_nothing_in_contact(place: Place) -> None:
+    outcome = run("evaluate", place(CLEAN.replace("-0.1,", "9.0,")))
+    assert "curve:Clay  Pipe         2        0                  0\n" in outcome.out
+
+
+def test_imperial_units(place: Place) -> None:
+    text = run("evaluate", place(CLEAN, "deck.keyxi")).out
+    assert "(imperial units)" in text
+    for unit in ("[ft]", "[lbf]", "[lbf/ft]", "[lbf/ft2]"):
+        assert unit in text
+    assert "[" not in run("evaluate", place(), "--units", "user").out
+
+
+def test_like_elements_are_told_together(place: Place) -> None:
+    nodes = "".join(f" {n}, {-0.1 - 0.001 * (n > 60) * n}, {n}.0\n" for n in range(1, 122))
+    elements = "".join(f" {n}, {n}, {n + 1}\n" for n in range(1, 121))
+    rest = CLEAN.partition("*ELEMENT SETS")[2].replace(" 1, 2\n", " GEN=1, 120\n")
+    deck = f"$MODEL\n*NODE\n{nodes}*ELEMENT\n{elements}*ELEMENT SETS{rest}"
+    lines = run("evaluate", place(deck)).out.splitlines()
+    assert sum(line.startswith("1 to 59 ") for line in lines) == 1
+    assert "22 more lines: -v shows all, -o writes all" in lines
+    every = run("evaluate", place(deck), "-v").out.splitlines()
+    assert sum("curve:Clay" in line for line in every) == 121
+    assert not any(" to " in line for line in every)
+
+
+def test_numbers_that_do_not_follow_each_other_are_told_apart(place: Place) -> None:
+    deck = CLEAN.replace(" 2, 2, 3\n", " 5, 2, 3\n").replace(" 1, 2\n*GEO", " 1, 5\n*GEO").replace(" 3, 0.3,", " 3, -0.1,")
+    lines = run("evaluate", place(deck)).out.splitlines()
+    assert [line.split()[0] for line in lines[-3:-1]] == ["1", "5"]
+
+
+@pytest.mark.parametrize(("table", "count"), [("elements", 12), ("nodes", 13)])
+def test_csv(place: Place, table: str, count: int) -> None:
+    outcome = run("evaluate", place(), "--output-format", "csv", "--table", table)
+    rows = list(csv.DictReader(outcome.out.splitlines()))
+    assert outcome.code == 0
+    assert len(rows[0]) == count
+    if table == "elements":
+        assert list(rows[0]) == (
+            "element set diameter length depth ratio contact force slope stiffness law state".split()
+        )
+        assert list(rows[0].values()) == (
+            ["1", "Pipe", "0.5", "10.0", "0.1", "0.2", "true", "1500.0", "5000.0", "10000.0", "curve:Clay", ""]
+        )
+    else:
+        assert list(rows[0]) == (
+            "node gap normal_x normal_y normal_z reaction_x reaction_y reaction_z normal_force axial_force "
+            "lateral_force axial_state lateral_state".split()
+        )
+        assert list(rows[0].values()) == (
+            ["1", "-0.1", "1.0", "0.0", "0.0", "7500.0", "0.0", "0.0", "7500.0", "0.0", "0.0", "", ""]
+        )
+
+
+def test_plan(place: Place) -> None:
+    outcome = run("evaluate", place(), "--plan")
+    lines = outcome.out.splitlines()
+    assert (outcome.code, outcome.err) == (0, "")
+    assert lines[0] == "Plan, all steps at once"
+    assert lines[1].split() == ["stage", "active", "why"]
+    assert [line.split()[0] for line in lines[3:9]] == ["floor", "normal", "suction", "friction", "trench", "assembly"]
+    assert "2 elements on 1 force-embedment curve" in lines[4]
+
+
+def test_plan_in_json_and_csv(place: Place) -> None:
+    found = run("evaluate", place(FRICTION), "--plan", "--output-format", "json").json()
+    assert_fits(found, "evaluate")
+    assert set(found) == {"units", "plan"}
+    friction = next(stage for stage in found["plan"] if stage["stage"] == "friction")
+    assert not friction["active"]
+    assert "FRICTION=" in friction["why"]
+    rows = list(csv.DictReader(run("evaluate", place(), "--plan", "--output-format", "csv").out.splitlines()))
+    assert [row["active"] for row in rows] == ["true", "true", "false", "false", "false", "true"]
+
+
+def test_plan_needs_no_coordinates() -> None:
+    options = ("--elements", SAMPLES / "elements.csv")
+    outcome = run("evaluate", SAMPLES / "lines-deck.keyxm", *options, "--plan")
+    assert (outcome.code, outcome.err) == (0, "")
+    assert "80 elements" in outcome.out
+
+
+def test_what_is_left_out_is_told_unless_quiet(place: Place) -> None:
+    outcome = run("evaluate", place(FRICTION), "--output-format", "json")
+    assert outcome.code == 0
+    assert outcome.err.startswith("mudline: friction: not evaluated in this version")
+    assert run("evaluate", place(FRICTION), "-q").err == ""
+
+
+def test_rigid_bed_is_told(place: Place) -> None:
+    outcome = run("evaluate", place(RIGID))
+    assert outcome.code == 0
+    assert "2 elements on a rigid bed: a constraint, whose reaction is not evaluated" in outcome.err
+
+
+@pytest.mark.parametrize("form", ["text", "json", "csv"])
+def test_deck_that_cannot_be_read(place: Place, form: str) -> None:
+    outcome = run("evaluate", place(BAD_NUMBER), "--output-format", form)
+    assert (outcome.code, outcome.out) == (1, "")
+    assert "6:11: error: SYN002" in outcome.err
+
+
+def test_deck_without_elements(place: Place) -> None:
+    outcome = run("evaluate", place("$MODEL\n*OCEAN\n 1, 2, 3\n"))
+    assert (outcome.code, outcome.out) == (1, "")
+    assert outcome.err == "deck.keyxm:1:1: error: RUN001 the deck has no elements to evaluate\n"
+
+
+def test_deck_whose_elements_come_from_lines() -> None:
+    outcome = run("evaluate", SAMPLES / "lines-deck.keyxm")
+    assert outcome.code == 1
+    assert "RUN001 the deck has no elements to evaluate: *LINES may make them, and is not read" in outcome.err
+    assert "give them with --elements" in outcome.err
+
+
+def test_elements_at_nodes_that_are_not_known(place: Place) -> None:
+    deck = CLEAN.replace(" 2, 2, 3\n", " 2, 2, 33\n") + "*LINES\n LINE=Riser\n"
+    outcome = run("evaluate", place(deck))
+    assert outcome.code == 1
+    assert ":10:" in outcome.err
+    assert "an element ends at nodes that are not known: *LINES may make them" in outcome.err
+
+
+def test_value_that_overflows_names_the_line_of_the_element(place: Place) -> None:
+    deck = CLEAN.replace("-0.1,", "-1.0E150,").replace("3000.0", "3.0E160")
+    outcome = run("evaluate", place(deck))
+    assert (outcome.code, outcome.out) == (1, "")
+    assert outcome.err.startswith("deck.keyxm:9:")
+    assert "RUN001 element 1" in outcome.err
+    assert "overflows" in outcome.err
+
+
+def test_length_that_overflows_names_the_line_of_the_element(place: Place) -> None:
+    deck = CLEAN.replace(" 2, -0.1, 10.0", " 2, -0.1, 1.0E308").replace(" 1, -0.1, 0.0", " 1, -0.1, -1.0E308")
+    for options in ((), ("--plan",)):
+        outcome = run("evaluate", place(deck), *options)
+        assert (outcome.code, outcome.out) == (1, "")
+        assert "RUN001 2 elements (first: 1) have no known finite length" in outcome.err
+
+
+def test_npz_holds_the_same_numbers(place: Place, folder: Path) -> None:
+    name = place()
+    assert run("evaluate", name, "-o", "out.npz").err == "mudline: deck.keyxm -> out.npz\n"
+    found = run("evaluate", name, "--output-format", "json").json()
+    with np.load(folder / "out.npz", allow_pickle=False) as archive:
+        arrays = dict(archive)
+    assert set(arrays) == set(found["elements"][0]) | set(found["nodes"][0])
+    for row, index in ((found["elements"][0], 0), (found["elements"][1], 1), (found["nodes"][2], 2)):
+        for key, value in row.items():
+            expected = "" if value is None else value
+            assert np.array_equal(arrays[key][index], np.array(expected)), key

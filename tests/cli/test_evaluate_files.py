@@ -1,0 +1,241 @@
+"""`mudline evaluate` with positions and elements from files, and results to files."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.cli.conftest import Place
+from tests.cli.decks import CLEAN, PULLING
+from tests.cli.runner import SAMPLES, assert_fits, no_constant, run
+
+STEPS = """\
+time,node,x,y,z
+0.0,1,-0.1,0.0,0.0
+0.0,2,-0.1,10.0,0.0
+0.0,3,0.3,20.0,0.0
+2.5,1,-0.05,0.0,0.0
+2.5,2,-0.05,10.0,0.0
+2.5,3,-0.05,20.0,0.0
+"""
+SCR = SAMPLES / "scr-touchdown.keyxm"
+LINES = (SAMPLES / "lines-deck.keyxm", "--elements", SAMPLES / "elements.csv")
+
+
+@pytest.fixture
+def steps(folder: Path) -> str:
+    (folder / "steps.csv").write_text(STEPS, encoding="utf-8")
+    return "steps.csv"
+
+
+def test_steps(place: Place, steps: str) -> None:
+    outcome = run("evaluate", place(), "--positions", steps, "--output-format", "json")
+    found = outcome.json()
+    assert (outcome.code, outcome.err) == (0, "")
+    assert_fits(found, "evaluate")
+    assert set(found) == {"units", "plan", "steps"}
+    assert [step["time"] for step in found["steps"]] == [0.0, 2.5]
+    first, second = found["steps"]
+    single = run("evaluate", place(), "--output-format", "json").json()
+    assert (first["elements"], first["nodes"]) == (single["elements"], single["nodes"])
+    assert [element["ratio"] for element in second["elements"]] == [0.1, 0.1]
+    assert [element["force"] for element in second["elements"]] == [1000.0, 1000.0]
+
+
+def test_text_of_steps(place: Place, steps: str) -> None:
+    outcome = run("evaluate", place(), "--positions", steps)
+    assert outcome.out == (
+        "Contact of deck.keyxm (metric units), 2 steps\n"
+        "                                 largest     total\n"
+        "time       in    first     last    depth  reaction\n"
+        " [s]  contact  element  element      [m]       [N]\n"
+        "──────────────────────────────────────────────────\n"
+        "   0        1        1        1      0.1     15000\n"
+        " 2.5        2        1        2     0.05     20008\n"
+        "\n"
+    )
+
+
+def test_text_of_many_steps(place: Place, folder: Path) -> None:
+    rest = np.repeat(np.array([[[9.0, 0, 0], [9.0, 10, 0], [9.0, 20, 0]]]), 50, axis=0)
+    np.save(folder / "steps.npy", rest)
+    lines = run("evaluate", place(), "--positions", "steps.npy").out.splitlines()
+    assert "10 more steps: -v shows all, -o writes all" in lines
+    assert lines[5].split() == ["0", "0", "-9", "0"]
+    assert len(run("evaluate", place(), "--positions", "steps.npy", "-v").out.splitlines()) == 56
+
+
+def test_csv_of_steps(place: Place, steps: str) -> None:
+    rows = list(csv.DictReader(run("evaluate", place(), "--positions", steps, "--output-format", "csv").out.splitlines()))
+    assert [(row["time"], row["element"], row["force"]) for row in rows] == [
+        ("0.0", "1", "1500.0"),
+        ("0.0", "2", "0.0"),
+        ("2.5", "1", "1000.0"),
+        ("2.5", "2", "1000.0"),
+    ]
+
+
+def test_written_csv_has_a_table_of_nodes_beside_it(place: Place, steps: str, folder: Path) -> None:
+    outcome = run("evaluate", place(), "--positions", steps, "-o", "out.csv")
+    assert (outcome.code, outcome.out) == (0, "")
+    assert outcome.err == "mudline: nodes -> out-nodes.csv\nmudline: deck.keyxm -> out.csv\n"
+    for name, options in (("out.csv", ()), ("out-nodes.csv", ("--table", "nodes"))):
+        printed = run("evaluate", place(), "--positions", steps, "--output-format", "csv", *options)
+        assert (folder / name).read_bytes() == printed.output
+
+
+def test_written_json_is_what_is_printed(place: Place, steps: str, folder: Path) -> None:
+    assert run("evaluate", place(), "--positions", steps, "-o", "out.json", "-q").err == ""
+    printed = run("evaluate", place(), "--positions", steps, "--output-format", "json")
+    assert (folder / "out.json").read_bytes() == printed.output
+
+
+def test_npz_of_steps(place: Place, steps: str, folder: Path) -> None:
+    assert run("evaluate", place(PULLING), "--positions", steps, "--tension", "cut", "-o", "out.npz").code == 0
+    with np.load(folder / "out.npz", allow_pickle=False) as archive:
+        arrays = dict(archive)
+    assert arrays["time"].tolist() == [0.0, 2.5]
+    for name in ("depth", "ratio", "contact", "force", "slope", "stiffness", "law", "state"):
+        assert arrays[name].shape == (2, 2), name
+    for name in ("gap", "normal_force", "axial_force", "lateral_force", "axial_state", "lateral_state"):
+        assert arrays[name].shape == (2, 3), name
+    for name in ("normal", "reaction"):
+        assert arrays[name].shape == (2, 3, 3), name
+    assert arrays["element"].tolist() == [1, 2]
+    assert arrays["law"].tolist() == [["curve-cut", "curve:Clay"], ["curve-cut", "curve-cut"]]
+    assert arrays["contact"].dtype == np.bool_
+
+
+def test_positions_of_some_nodes(folder: Path) -> None:
+    outcome = run("evaluate", SCR, "--positions", SAMPLES / "positions.csv", "--output-format", "json")
+    assert outcome.code == 0
+    assert "mudline: no positions for 140 nodes: 140 elements left out\n" in outcome.err
+    found = outcome.json()
+    assert_fits(found, "evaluate")
+    assert {len(step["elements"]) for step in found["steps"]} == {60}
+    assert {len(step["nodes"]) for step in found["steps"]} == {61}
+    assert run("evaluate", SCR, "--positions", SAMPLES / "positions.csv", "-o", "out.npz", "-q").code == 0
+    with np.load(folder / "out.npz", allow_pickle=False) as archive:
+        assert archive["force"].shape == (8, 60)
+        assert archive["reaction"].shape == (8, 61, 3)
+        assert not np.isnan(archive["force"]).any()
+        expected = [[element["force"] for element in step["elements"]] for step in found["steps"]]
+        assert np.array_equal(archive["force"], expected)
+    lines = run("evaluate", SCR, "--positions", SAMPLES / "positions.csv", "--output-format", "csv").out.splitlines()
+    assert len(lines) == 1 + 8 * 60
+
+
+def test_positions_of_one_node_leave_nothing_to_evaluate(place: Place, folder: Path) -> None:
+    (folder / "p.csv").write_text("time,node,x,y,z\n0,2,-0.1,0,0\n", encoding="utf-8")
+    outcome = run("evaluate", place(), "--positions", "p.csv")
+    assert outcome.code == 0
+    assert outcome.err == "mudline: no positions for 2 nodes: 2 elements left out\n"
+    assert outcome.out.splitlines()[5].split() == ["0", "0", "0"]
+    found = run("evaluate", place(), "--positions", "p.csv", "--output-format", "json").json()
+    assert found["steps"][0]["elements"] == []
+    (folder / "p.csv").write_text("node,x,y,z\n2,-0.1,0,0\n", encoding="utf-8")
+    outcome = run("evaluate", place(), "--positions", "p.csv")
+    assert (outcome.code, outcome.out.splitlines()[5:7]) == (0, ["", "Elements in contact"])
+
+
+def test_elements_from_a_file() -> None:
+    options = ("--positions", SAMPLES / "lines-positions.csv", "--output-format", "json")
+    outcome = run("evaluate", *LINES, *options)
+    found = outcome.json()
+    assert outcome.code == 0
+    assert_fits(found, "evaluate")
+    assert len(found["elements"]) == 80
+    assert found["elements"][0]["set"] == "Static Section"
+    assert found["elements"][0]["diameter"] == 0.168
+
+
+def test_elements_from_a_file_without_lengths(folder: Path) -> None:
+    lines = (SAMPLES / "elements.csv").read_text(encoding="utf-8").splitlines()
+    rows = [[*line.split(",")[:4], line.split(",")[5]] for line in lines]
+    (folder / "bare.csv").write_text("".join(",".join(row) + "\n" for row in rows), encoding="utf-8")
+    options = ("--elements", "bare.csv", "--positions", SAMPLES / "lines-positions.csv")
+    outcome = run("evaluate", SAMPLES / "lines-deck.keyxm", *options)
+    assert outcome.code == 0
+    assert "mudline: the length of 80 elements comes from the first positions\n" in outcome.err
+
+
+def test_elements_from_a_file_have_no_coordinates() -> None:
+    outcome = run("evaluate", *LINES)
+    assert (outcome.code, outcome.out) == (1, "")
+    assert "RUN001 81 nodes have no coordinates, node 1 is one: give them with --positions" in outcome.err
+
+
+@pytest.mark.parametrize("option", ["--positions", "--elements"])
+def test_file_that_is_missing(place: Place, option: str) -> None:
+    outcome = run("evaluate", place(), option, "nowhere.csv")
+    assert (outcome.code, outcome.out) == (2, "")
+    assert outcome.err == "mudline: nowhere.csv: no such file or directory\n"
+
+
+@pytest.mark.parametrize("name", ["dir", "dir.npz", "dir.npy"])
+def test_positions_that_are_a_directory(place: Place, folder: Path, name: str) -> None:
+    (folder / name).mkdir()
+    outcome = run("evaluate", place(), "--positions", name)
+    assert (outcome.code, outcome.err) == (2, f"mudline: {name}: is a directory\n")
+
+
+@pytest.mark.parametrize("option", ["--positions", "--elements"])
+def test_file_with_a_fault(place: Place, folder: Path, option: str) -> None:
+    (folder / "bad.csv").write_text("node,x,y\n1,2,3\n", encoding="utf-8")
+    outcome = run("evaluate", place(), option, "bad.csv")
+    assert (outcome.code, outcome.out) == (1, "")
+    assert outcome.err.startswith("bad.csv:1:1: error: DAT001 the header lacks ")
+
+
+def test_position_that_is_not_finite_names_node_and_step(place: Place, folder: Path) -> None:
+    values = np.zeros((3, 3, 3))
+    values[1, 2, 0] = np.nan
+    np.save(folder / "p.npy", values)
+    outcome = run("evaluate", place(), "--positions", "p.npy")
+    assert (outcome.code, outcome.out) == (1, "")
+    assert "RUN001 node 3 at step 1: its position (nan, 0.0, 0.0) is not finite" in outcome.err
+
+
+def test_velocities_are_accepted(place: Place, folder: Path) -> None:
+    lines = [line + (",vx,vy,vz" if line.startswith("time") else ",0.1,0,0") for line in STEPS.splitlines()]
+    (folder / "p.csv").write_text("\n".join(lines), encoding="utf-8")
+    assert run("evaluate", place(), "--positions", "p.csv").code == 0
+
+
+@pytest.mark.parametrize("name", ["out.txt", "out", "out.parquet", "-"])
+def test_other_forms_are_wrong_usage(place: Place, name: str) -> None:
+    outcome = run("evaluate", place(), "-o", name)
+    assert (outcome.code, outcome.out) == (2, "")
+    assert f"{name}: results are written as .csv, .json or .npz" in outcome.err
+
+
+@pytest.mark.parametrize("name", ["nowhere/out.json", "nowhere/out.csv", "nowhere/out.npz"])
+def test_folder_that_is_missing(place: Place, name: str) -> None:
+    outcome = run("evaluate", place(), "-o", name)
+    assert (outcome.code, outcome.out) == (2, "")
+    assert outcome.err == f"mudline: {name}: cannot be written: no such file or directory\n"
+
+
+def test_names_are_spelled_as_the_formats_need_it(place: Place, folder: Path) -> None:
+    text = run("convert", place(), "--to", "json").out
+    name = place(text.replace("Clay", 'Cl\\"ay, 1').replace("Pipe", "Rohr\u00e4"), "deck.json")
+    found = run("evaluate", name, "--output-format", "json").json()["elements"][0]
+    (row, _) = csv.DictReader(run("evaluate", name, "--output-format", "csv").out.splitlines())
+    assert run("evaluate", name, "-o", "out.npz").code == 0
+    with np.load(folder / "out.npz") as archive:
+        arrays = {key: archive[key][0] for key in ("law", "set")}
+    for source in (found, row, arrays):
+        assert source["law"] == 'curve:Cl"ay, 1'
+        assert source["set"] == "Rohr\u00e4"
+
+
+def test_json_never_holds_nan(place: Place, steps: str, folder: Path) -> None:
+    bare = CLEAN.partition("*GEOMETRIC SETS")[0] + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=Pipe\n STIFFNESS=1.0E4\n"
+    assert run("evaluate", place(bare), "--positions", steps, "-o", "out.json").code == 0
+    text = (folder / "out.json").read_text(encoding="utf-8")
+    found = json.loads(text, parse_constant=no_constant)
+    assert {element["ratio"] for step in found["steps"] for element in step["elements"]} == {None}

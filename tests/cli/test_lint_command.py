@@ -1,0 +1,203 @@
+"""`mudline lint`: what it finds, tells and answers."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from tests.cli.conftest import Place
+from tests.cli.decks import BAD_NUMBER, CLEAN, ILLEGAL, UNSORTED, UNUSED
+from tests.cli.runner import SAMPLES, Outcome, assert_fits, run
+
+MANY = UNUSED.replace(" 2, -0.1, 10.0\n", " 2, -0.1, ten\n").replace(" 0.0, 0.0\n 0.1, 1000.0\n", " 0.1, 1000.0\n 0.0, 0.0\n")
+"""One error, one warning, one info."""
+
+
+def codes(outcome: Outcome) -> list[str]:
+    return [found["code"] for found in outcome.json()]
+
+
+def lint(deck: str, *options: str) -> Outcome:
+    return run("lint", "-", "--stdin-filename", "deck.keyxm", *options, stdin=deck.encode())
+
+
+def test_nothing_found(place: Place) -> None:
+    outcome = run("lint", place())
+    assert (outcome.code, outcome.out, outcome.err) == (0, "No findings in 1 file.\n", "")
+
+
+def test_nothing_found_prints_an_empty_array(place: Place) -> None:
+    outcome = run("lint", place(), "--output-format", "json")
+    assert (outcome.code, outcome.out, outcome.err) == (0, "[]\n", "")
+
+
+def test_finding_with_its_source_line(place: Place) -> None:
+    outcome = run("lint", place(BAD_NUMBER))
+    assert outcome.code == 1
+    assert outcome.out.splitlines() == [
+        "deck.keyxm:6:11: error SYN002 'ten' is no number: expected a number or an equation =[...] for y [bad-number]",
+        " 6 |  2, -0.1, ten",
+        "   |           ^^^",
+        "Found 1 error in 1 file.",
+    ]
+
+
+def test_concise_is_a_line_a_finding(place: Place) -> None:
+    outcome = run("lint", place(BAD_NUMBER), "--output-format", "concise")
+    assert outcome.out == (
+        "deck.keyxm:6:11: SYN002 'ten' is no number: expected a number or an equation =[...] for y\n"
+    )
+
+
+def test_json_has_the_keys_of_the_contract(place: Place) -> None:
+    outcome = run("lint", place(BAD_NUMBER), "--output-format", "json")
+    (found,) = outcome.json()
+    assert_fits([found], "lint")
+    assert found.pop("message").startswith("'ten' is no number")
+    assert found.pop("url").endswith("SYN002.md")
+    assert found == {
+        "file": "deck.keyxm",
+        "code": "SYN002",
+        "slug": "bad-number",
+        "severity": "error",
+        "line": 6,
+        "column": 11,
+        "end_line": 6,
+        "end_column": 14,
+        "fix": None,
+    }
+
+
+def test_all_samples_keep_to_the_schema() -> None:
+    outcome = run("lint", SAMPLES, "--output-format", "json")
+    found = outcome.json()
+    assert_fits(found, "lint")
+    assert len({each["code"] for each in found}) >= 15
+    keys = [(each["file"], each["line"], each["column"], each["code"]) for each in found]
+    assert keys == sorted(keys)
+
+
+def test_json_lines_are_the_array_in_lines() -> None:
+    lines = run("lint", SAMPLES, "--output-format", "jsonl").out.splitlines()
+    assert [json.loads(line) for line in lines] == run("lint", SAMPLES, "--output-format", "json").json()
+
+
+def test_json_is_sorted_whatever_the_order_of_the_files(place: Place) -> None:
+    first, second = place(BAD_NUMBER, "b.keyxm"), place(BAD_NUMBER, "a.keyxm")
+    outcome = run("lint", first, second, "--output-format", "json")
+    assert [found["file"] for found in outcome.json()] == ["a.keyxm", "b.keyxm"]
+
+
+@pytest.mark.parametrize(
+    ("deck", "limit", "code"),
+    [
+        (UNSORTED, "info", 1),
+        (UNSORTED, "warning", 0),
+        (UNSORTED, "error", 0),
+        (UNUSED, "info", 1),
+        (UNUSED, "warning", 1),
+        (UNUSED, "error", 0),
+        (BAD_NUMBER, "error", 1),
+        (CLEAN, "info", 0),
+    ],
+)
+def test_fail_on(deck: str, limit: str, code: int) -> None:
+    assert lint(deck, "--fail-on", limit).code == code
+
+
+def test_warnings_fail_without_being_told_to() -> None:
+    assert lint(UNUSED).code == 1
+    assert lint(UNSORTED).code == 0
+
+
+def test_exit_zero() -> None:
+    outcome = lint(BAD_NUMBER, "--exit-zero")
+    assert outcome.code == 0
+    assert "SYN002" in outcome.out
+
+
+def test_exit_zero_does_not_hide_a_missing_path() -> None:
+    assert run("lint", "nowhere.keyxm", "--exit-zero").code == 2
+
+
+@pytest.mark.parametrize(
+    ("options", "expected"),
+    [
+        ((), ["SYN002", "CRV002", "REF003"]),
+        (("--select", "SYN"), ["SYN002"]),
+        (("--select", "unsorted-points"), ["CRV002"]),
+        (("--select", "REF003,SYN002"), ["SYN002", "REF003"]),
+        (("--select", "SYN", "--select", "CRV002"), ["SYN002", "CRV002"]),
+        (("--ignore", "SYN"), ["CRV002", "REF003"]),
+        (("--ignore", "SYN,CRV002"), ["REF003"]),
+        (("--select", "SYN", "--extend-select", "REF003"), ["SYN002", "REF003"]),
+        (("--select", "SYN", "--ignore", "SYN002"), []),
+    ],
+)
+def test_selection(options: tuple[str, ...], expected: list[str]) -> None:
+    assert codes(lint(MANY, "--output-format", "json", *options)) == expected
+
+
+@pytest.mark.parametrize("option", ["--select", "--ignore", "--extend-select"])
+def test_unknown_rule_is_wrong_usage(option: str) -> None:
+    outcome = lint(CLEAN, option, "CRV0O2")
+    assert outcome.code == 2
+    assert outcome.out == ""
+    assert "'CRV0O2' names no rule" in outcome.err
+
+
+def test_statistics_count_instead_of_listing() -> None:
+    outcome = lint(MANY + " CURVE=Gravel\n 0.0, 0.0\n 0.1, 1.0\n", "--statistics")
+    assert outcome.code == 1
+    assert outcome.out.split("\n") == [
+        "     2  REF003  unused-curve",
+        "     1  CRV002  unsorted-points",
+        "     1  SYN002  bad-number",
+        "",
+    ]
+
+
+def test_summary_counts_by_severity() -> None:
+    assert lint(MANY).out.endswith("Found 1 error, 1 warning, 1 info in 1 file.\n")
+
+
+def test_summary_of_several_files(place: Place) -> None:
+    names = [place(BAD_NUMBER, "a.keyxm"), place(ILLEGAL, "b.keyxm"), place(CLEAN, "c.keyxm")]
+    outcome = run("lint", *names)
+    assert "Found 2 errors" in outcome.out
+    assert outcome.out.endswith("in 3 files.\n")
+
+
+def test_quiet_tells_the_findings_only(place: Place) -> None:
+    assert run("lint", place(), "-q").out == ""
+    outcome = run("lint", place(BAD_NUMBER), "-q")
+    assert [line.split()[1] for line in outcome.out.splitlines()] == ["SYN002"]
+
+
+def test_verbose_tells_every_file_on_standard_error(place: Place) -> None:
+    names = [place(BAD_NUMBER, "a.keyxm"), place(CLEAN, "b.keyxm")]
+    outcome = run("lint", *names, "-v", "--output-format", "json")
+    assert outcome.err == "mudline: a.keyxm: 1 finding\nmudline: b.keyxm: 0 findings\n"
+    assert codes(outcome) == ["SYN002"]
+
+
+def test_units_override_what_the_suffix_tells(place: Place) -> None:
+    outcome = run("lint", place(), "--units", "imperial", "--output-format", "json")
+    assert_fits(outcome.json(), "lint")
+    assert run("lint", place(), "--units", "parsec").code == 2
+
+
+@pytest.mark.parametrize("form", ["json", "yaml"])
+def test_document_is_linted_as_the_deck_that_it_holds(place: Place, form: str) -> None:
+    text = run("convert", place(UNUSED), "--to", form).output
+    outcome = run("lint", place(text, f"deck.{form}"), "--output-format", "json")
+    (found,) = outcome.json()
+    assert (found["code"], found["file"]) == ("REF003", f"deck.{form}")
+    assert found["line"] > 1
+
+
+def test_document_that_is_none_gives_a_finding(place: Place) -> None:
+    outcome = run("lint", place('{"format": ', "deck.json"), "--output-format", "json")
+    assert outcome.code == 1
+    assert codes(outcome) == ["DOC001"]

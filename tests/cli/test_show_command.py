@@ -1,0 +1,183 @@
+"""`mudline show`: a deck in figures."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.cli.conftest import Place
+from tests.cli.decks import CLEAN, ILLEGAL, LINEAR
+from tests.cli.runner import SAMPLES, assert_fits, run
+
+
+TEXT = """\
+deck.keyxm: metric units, 3 nodes, 2 elements, 20.008 m long, elastic seabed
+  $MODEL: *OCEAN, *NODE, *ELEMENT, *ELEMENT SETS, *GEOMETRIC SETS, *SEABED PROPERTIES, *SEABED STIFFNESS
+
+Element sets
+                length
+set   elements     [m]
+──────────────────────
+ALL          2  20.008
+Pipe         2  20.008
+
+Force-embedment curves
+                                                force
+curve  keyword            points     ratio      [N/m]  elements
+───────────────────────────────────────────────────────────────
+Clay   *SEABED STIFFNESS       3  0 to 0.5  0 to 3000         2
+
+External diameters
+diameter
+     [m]  elements
+──────────────────
+     0.5         2
+
+Normal laws
+law         set   elements
+──────────────────────────
+curve:Clay  Pipe         2
+
+"""
+
+
+def test_text(place: Place) -> None:
+    outcome = run("show", place())
+    assert (outcome.code, outcome.err) == (0, "")
+    assert outcome.out == TEXT
+
+
+def test_json(place: Place) -> None:
+    outcome = run("show", place(), "--output-format", "json")
+    found = outcome.json()
+    assert_fits(found, "show")
+    assert found["file"] == "deck.keyxm"
+    assert (found["units"], found["nodes"], found["elements"]) == ("metric", 3, 2)
+    assert found["length"] == pytest.approx(10 + (0.4**2 + 10**2) ** 0.5)
+    assert found["sections"] == [
+        {
+            "name": "MODEL",
+            "keywords": [
+                {"keyword": keyword, "read": True}
+                for keyword in (
+                    "OCEAN",
+                    "NODE",
+                    "ELEMENT",
+                    "ELEMENT SETS",
+                    "GEOMETRIC SETS",
+                    "SEABED PROPERTIES",
+                    "SEABED STIFFNESS",
+                )
+            ],
+        }
+    ]
+    assert [(entry["name"], entry["elements"], entry["open"]) for entry in found["sets"]] == [
+        ("ALL", 2, False),
+        ("Pipe", 2, False),
+    ]
+    assert found["curves"] == [
+        {
+            "name": "Clay",
+            "keyword": "SEABED STIFFNESS",
+            "points": 3,
+            "ratios": [0.0, 0.5],
+            "forces": [0.0, 3000.0],
+            "elements": 2,
+        }
+    ]
+    assert found["diameters"] == [{"diameter": 0.5, "elements": 2}]
+    assert found["laws"] == [{"law": "curve:Clay", "set": "Pipe", "elements": 2, "stiffness": None}]
+    assert found["seabed"] == ["elastic"]
+
+
+def test_linear_law_shows_its_stiffness(place: Place) -> None:
+    text = run("show", place(LINEAR)).out
+    assert "stiffness" in text
+    assert "linear  Pipe         2      20000\n" in text
+    assert "Force-embedment curves" not in text
+
+
+def test_imperial_units_stand_in_the_headings(place: Place) -> None:
+    text = run("show", place(CLEAN, "deck.keyxi")).out
+    assert "20.008 ft long" in text
+    assert "[ft]" in text
+    assert "[lbf/ft]" in text
+
+
+def test_user_units_have_no_names(place: Place) -> None:
+    text = run("show", place(), "--units", "user").out
+    assert "[" not in text
+    assert "20.008 long" in text
+
+
+def test_what_a_plus_means_is_said(place: Place) -> None:
+    name = place(LINEAR + "*LINES\n LINE=Riser\n")
+    outcome = run("show", name)
+    assert "ALL          2+  20.008\n" in outcome.out
+    assert "+ a block that is not read may add elements to this set\n" in outcome.out
+    assert "    kept as they are: *LINES\n" in outcome.out
+    sets = run("show", name, "--output-format", "json").json()["sets"]
+    assert {entry["name"]: entry["open"] for entry in sets} == {"ALL": True, "Pipe": False, "Riser": True}
+
+
+def test_deck_with_errors_is_shown_as_far_as_it_goes(place: Place) -> None:
+    outcome = run("show", place(ILLEGAL))
+    assert outcome.code == 1
+    assert "3 nodes, 2 elements" in outcome.out
+    assert outcome.err == "mudline: deck.keyxm has 1 error: see mudline lint\n"
+
+
+def test_errors_are_counted(place: Place) -> None:
+    outcome = run("show", SAMPLES / "broken.keyxm", "--output-format", "json")
+    assert outcome.code == 1
+    assert_fits(outcome.json(), "show")
+    assert " errors: see mudline lint\n" in outcome.err
+
+
+@pytest.mark.parametrize("name", sorted(path.name for path in SAMPLES.glob("*.key*")))
+def test_samples_keep_to_the_schema(name: str) -> None:
+    assert_fits(run("show", SAMPLES / name, "--output-format", "json").json(), "show")
+
+
+def test_empty_deck(place: Place) -> None:
+    outcome = run("show", place(""))
+    assert outcome.code == 0
+    assert outcome.out.startswith("deck.keyxm: metric units, 0 nodes, 0 elements, no seabed\n")
+
+
+def test_section_of_kept_keywords_and_empty_section(place: Place) -> None:
+    text = run("show", place("$LOAD CASE\n*CURRENT\n 1\n$DATABASE\n")).out
+    assert "  $LOAD CASE\n    kept as they are: *CURRENT\n  $DATABASE\n" in text
+
+
+def test_long_list_of_keywords_is_folded(place: Place) -> None:
+    text = run("show", place("$MODEL\n" + "*VESSEL\n x\n" * 30)).out
+    lines = [line for line in text.splitlines() if "*VESSEL" in line]
+    assert len(lines) > 1
+    assert all(len(line) <= 120 for line in lines)
+
+
+def test_length_that_overflows_is_null(place: Place) -> None:
+    deck = CLEAN.replace(" 2, -0.1, 10.0", " 2, -0.1, 1.0E308").replace(" 3, 0.3, 20.0", " 3, 0.3, -1.0E308")
+    outcome = run("show", place(deck), "--output-format", "json")
+    assert outcome.json()["length"] is None
+    assert outcome.err == ""
+
+
+def test_many_diameters_are_shown_when_asked_for(place: Place) -> None:
+    sections = "".join(f" SET=S{n}\n 2.0E11, 8.0E10, {n}.5, 0.1, 7850.0\n" for n in range(1, 13))
+    nodes = "".join(f" {n}, 0.0, {n}.0\n" for n in range(1, 14))
+    elements = "".join(f" {n}, {n}, {n + 1}\n" for n in range(1, 13))
+    sets = "".join(f" SET=S{n}\n {n}\n" for n in range(1, 13))
+    deck = (
+        f"$MODEL\n*NODE\n{nodes}*ELEMENT\n{elements}*ELEMENT SETS\n{sets}*GEOMETRIC SETS\n OPTION=RIGID\n{sections}"
+    )
+    text = run("show", place(deck)).out
+    assert "2 more diameters: -v shows all\n" in text
+    assert "    12.5         1" not in text
+    assert "    12.5         1" in run("show", place(deck), "-v").out
+
+
+def test_elements_without_a_diameter_are_counted(place: Place) -> None:
+    deck = CLEAN.replace(" SET=Pipe\n 1, 2\n", " SET=Pipe\n 1\n")
+    outcome = run("show", place(deck))
+    assert "    none         1\n" in outcome.out

@@ -1,0 +1,120 @@
+"""`mudline validate`: a verdict on each deck."""
+
+from __future__ import annotations
+
+import csv
+
+import pytest
+
+from tests.cli.conftest import Place
+from tests.cli.decks import BAD_NUMBER, CLEAN, ILLEGAL, UNUSED
+from tests.cli.runner import SAMPLES, assert_fits, run
+
+COLUMNS = ["file", "sections", "keywords", "curves", "elements", "errors", "verdict"]
+
+
+def test_legal_deck(place: Place) -> None:
+    outcome = run("validate", place())
+    assert (outcome.code, outcome.err) == (0, "")
+    assert outcome.out.splitlines() == [
+        "Decks",
+        "verdict  errors  sections  keywords  curves  elements  file",
+        "─────────────────────────────────────────────────────────────────",
+        "legal         0         1         7       1         2  deck.keyxm",
+        "",
+        "1 of 1 deck legal",
+    ]
+
+
+def test_warnings_leave_a_deck_legal(place: Place) -> None:
+    outcome = run("validate", place(UNUSED))
+    assert outcome.code == 0
+    assert "REF003" not in outcome.out
+
+
+def test_errors_come_before_the_table(place: Place) -> None:
+    names = [place(CLEAN, "good.keyxm"), place(ILLEGAL, "bad.keyxm")]
+    outcome = run("validate", *names)
+    assert outcome.code == 1
+    lines = outcome.out.splitlines()
+    assert lines[0].startswith("bad.keyxm:20:6: error REF001")
+    assert lines[-1] == "1 of 2 decks legal"
+    assert [line.split()[0] for line in lines[-4:-2]] == ["legal", "illegal"]
+
+
+def test_quiet_leaves_the_table(place: Place) -> None:
+    outcome = run("validate", place(ILLEGAL), "-q")
+    assert outcome.code == 1
+    assert outcome.out.startswith("Decks\n")
+
+
+def test_json(place: Place) -> None:
+    names = [place(CLEAN, "good.keyxm"), place(ILLEGAL, "bad.keyxm")]
+    outcome = run("validate", *names, "--output-format", "json")
+    found = outcome.json()
+    assert_fits(found, "validate")
+    assert_fits(found["decks"][1]["findings"], "lint")
+    assert outcome.code == 1
+    assert found["total"] == {"decks": 2, "legal": 1}
+    good, bad = found["decks"]
+    assert good == dict(zip(COLUMNS, ["good.keyxm", 1, 7, 1, 2, 0, "legal"], strict=True)) | {"findings": []}
+    assert [each["code"] for each in bad["findings"]] == ["REF001"]
+    assert (bad["errors"], bad["verdict"]) == (1, "illegal")
+
+
+def test_csv(place: Place) -> None:
+    names = [place(CLEAN, "good.keyxm"), place(ILLEGAL, 'b"a,d.keyxm')]
+    rows = list(csv.reader(run("validate", *names, "--output-format", "csv").out.splitlines()))
+    assert rows == [
+        COLUMNS,
+        ["good.keyxm", "1", "7", "1", "2", "0", "legal"],
+        ['b"a,d.keyxm', "1", "7", "1", "2", "1", "illegal"],
+    ]
+
+
+@pytest.mark.parametrize("text", ["", "C only a comment\n"])
+def test_file_without_a_section_is_no_deck(place: Place, text: str) -> None:
+    outcome = run("validate", place(text), "--output-format", "json")
+    assert outcome.code == 1
+    assert outcome.json()["decks"][0]["verdict"] == "empty"
+
+
+def test_document(place: Place) -> None:
+    text = run("convert", place(), "--to", "yaml").output
+    found = run("validate", place(text, "deck.yaml"), "--output-format", "json").json()
+    assert found["decks"][0]["verdict"] == "legal"
+    assert found["decks"][0]["elements"] == 2
+
+
+def test_document_that_is_none(place: Place) -> None:
+    outcome = run("validate", place("{", "deck.json"))
+    assert outcome.code == 1
+    assert outcome.out.startswith("deck.json:1:2: error DOC001 ")
+    assert "illegal       1         0         0       0         0  deck.json" in outcome.out
+
+
+def test_path_that_is_missing_beats_a_deck_that_is_illegal(place: Place) -> None:
+    outcome = run("validate", place(ILLEGAL), "nowhere")
+    assert outcome.code == 2
+    assert "illegal" in outcome.out
+
+
+def test_nothing_to_validate_prints_no_table() -> None:
+    assert run("validate", "nowhere").out == ""
+
+
+def test_samples() -> None:
+    outcome = run("validate", SAMPLES, "--output-format", "json")
+    assert outcome.code == 1
+    verdicts = {row["file"].rpartition("/")[2]: row["verdict"] for row in outcome.json()["decks"]}
+    assert verdicts.pop("broken.keyxm") == "illegal"
+    assert set(verdicts.values()) == {"legal"}
+    assert len(verdicts) >= 6
+
+
+def test_units_override(place: Place) -> None:
+    assert run("validate", place(BAD_NUMBER), "--units", "imperial").code == 1
+
+
+def test_errors_alone_decide(place: Place) -> None:
+    assert run("validate", place(BAD_NUMBER), "--output-format", "json").json()["decks"][0]["errors"] == 1
