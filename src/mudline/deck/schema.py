@@ -1,0 +1,64 @@
+"""The JSON Schema of a deck in JSON or YAML: exactly what `to_json` and `to_yaml` write."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pydantic.json_schema import models_json_schema
+
+from mudline.deck.document import FORMAT, UNITS
+from mudline.deck.model import Opaque
+from mudline.keywords import catalogue
+from mudline.keywords.model import Comment
+
+DIALECT = "https://json-schema.org/draft/2020-12/schema"
+_REFERENCE = "#/$defs/{model}"
+
+
+def json_schema() -> dict[str, Any]:
+    """The schema: document, sections, every block with a model, the block without one.
+
+    In which section a keyword belongs is left to reading, as a deck may hold a keyword in the wrong one.
+    """
+    blocks = [catalogue.load(module) for module in catalogue.modules()]
+    models = [(model, "validation") for model in (*blocks, Opaque, Comment)]
+    references, schema = models_json_schema(models, ref_template=_REFERENCE)  # type: ignore[arg-type]
+    for block in blocks:
+        definition = schema["$defs"][references[block, "validation"]["$ref"].rsplit("/", 1)[1]]
+        definition["required"] = sorted({"keyword", *definition.get("required", [])})
+        definition["description"] = block.summary
+    comments = {"type": "array", "items": references[Comment, "validation"]}
+    lines = {"type": "array", "items": {"type": "string"}}
+    section = _object(
+        {
+            "name": {"type": "string", "description": "section name without the $"},
+            "lines": {**lines, "description": "stray lines before the first keyword"},
+            "comments": comments,
+            "blocks": {
+                "type": "array",
+                "items": {"anyOf": [references[model, "validation"] for model in (*blocks, Opaque)]},
+            },
+        },
+        required=("name", "blocks"),
+    )
+    document = _object(
+        {
+            "format": {"const": FORMAT},
+            "source": {"type": "string", "description": "name of the file that the deck was read from"},
+            "units": {"enum": list(UNITS)},
+            "preamble": {**lines, "description": "lines before the first section"},
+            "comments": comments,
+            "sections": {"type": "array", "items": {"$ref": "#/$defs/Section"}},
+        },
+        required=("format", "sections"),
+    )
+    return {
+        "$schema": DIALECT,
+        "title": "mudline deck",
+        **document,
+        "$defs": {**schema["$defs"], "Section": section},
+    }
+
+
+def _object(properties: dict[str, Any], required: tuple[str, ...]) -> dict[str, Any]:
+    return {"type": "object", "properties": properties, "required": list(required), "additionalProperties": False}
