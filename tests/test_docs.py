@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
-import doctest
 import json
 import re
 import shutil
+import subprocess
+import sys
 from pathlib import Path
 
 import click
 import jsonschema
 import pytest
 
+from mudline import codes
 from mudline.cli.main import COMMANDS, mudline
+from mudline.diagnostics import Code
 from mudline.expression import FORMS, FUNCTIONS
+from mudline.lint.registry import rules
 from tests.docs.blocks import Page, agree
 from tests.docs.commands import output, run
-from tests.docs.make import ROOT, pages, written_pages
+from tests.docs.make import BY_HAND, ROOT, pages, rule_files
 
 JSON = {
     "lint": ("lint samples", "lint samples/flowline-gen.keyxm", "lint samples/missing.yaml"),
@@ -82,18 +86,12 @@ def test_commands_print_what_the_page_shows(path: Path) -> None:
 
 
 @pytest.mark.parametrize("path", with_blocks("python", "pycon"), ids=identity)
-@pytest.mark.usefixtures("checkout")
-def test_programs_run_and_sessions_answer_what_the_page_shows(path: Path) -> None:
-    runner = doctest.DocTestRunner()
-    names: dict[str, object] = {}
-    for block in Page.read(path).blocks:
-        if block.language == "python":
-            exec(compile("\n" * (block.line - 1) + block.text, identity(path), "exec"), names)  # noqa: S102 - our pages
-        elif block.language == "pycon":
-            session = doctest.DocTestParser().get_doctest(block.text, names, identity(path), str(path), block.line - 1)
-            runner.run(session, clear_globs=False)
-            names = session.globs
-    assert runner.failures == 0
+def test_programs_run_and_sessions_answer_what_the_page_shows(path: Path, checkout: Path) -> None:
+    for language, interpreter in (("python", [sys.executable]), ("pycon", [sys.executable, "-m", "doctest"])):
+        program = checkout / f"{language}.txt"
+        program.write_text("\n".join(block.text for block in Page.read(path).blocks if block.language == language))
+        ran = subprocess.run([*interpreter, program.name], cwd=checkout, check=False, capture_output=True, text=True)
+        assert (ran.returncode, ran.stdout + ran.stderr if ran.returncode else "") == (0, "")
 
 
 @pytest.mark.parametrize("path", PAGES, ids=identity)
@@ -118,7 +116,13 @@ def test_made_pages_are_fresh() -> None:
 
 
 def test_every_made_page_is_still_made() -> None:
-    assert written_pages() <= pages().keys(), "run make docs"
+    assert rule_files() <= pages().keys(), "run make docs"
+
+
+def test_every_code_has_a_page() -> None:
+    known = {value.code for value in vars(codes).values() if isinstance(value, Code)}
+    assert known - {rule.code.code for rule in rules()} == BY_HAND
+    assert [code for code in BY_HAND if not (ROOT / f"docs/rules/{code}.md").exists()] == []
 
 
 @pytest.mark.parametrize("name", COMMANDS)

@@ -10,6 +10,9 @@ from tests.docs.rule_pages import rule_index, rule_page
 
 ROOT = Path(__file__).parents[2]
 
+BY_HAND = frozenset({"DOC001", "DOC002", "DAT001", "RUN001"})
+"""Codes that are no rules; their pages are written by hand."""
+
 
 def pages() -> dict[str, str]:
     """The text of every page by its path in the repository."""
@@ -17,10 +20,10 @@ def pages() -> dict[str, str]:
     return fixed | {f"docs/rules/{rule.code.code}.md": rule_page(rule) for rule in rules()}
 
 
-def written_pages() -> set[str]:
-    """The paths of the pages that are there."""
-    there = [ROOT / "docs/keywords.md", *(ROOT / "docs/rules").glob("*.md")]
-    return {page.relative_to(ROOT).as_posix() for page in there if page.exists()}
+def rule_files() -> set[str]:
+    """The paths of the made pages of rules that are there."""
+    there = (ROOT / "docs/rules").glob("*.md")
+    return {page.relative_to(ROOT).as_posix() for page in there if page.stem not in BY_HAND}
 
 
 def write() -> None:
@@ -30,7 +33,7 @@ def write() -> None:
         file = ROOT / path
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(text, encoding="utf-8", newline="\n")
-    for path in written_pages() - wanted.keys():
+    for path in rule_files() - wanted.keys():
         (ROOT / path).unlink()
 
 

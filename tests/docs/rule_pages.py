@@ -22,9 +22,14 @@ a choice of ours. An *info* is something to know.
 | --- | --- | --- | --- |
 {rows}
 
-Four more codes are no rules and cannot be left out; they say why a file could not be used: DOC001
-(`unreadable-document`) and DOC002 (`schema-error`) for decks in JSON and YAML, DAT001 (`bad-data-file`) for files of
-positions and elements, RUN001 (`cannot-evaluate`) for a deck that `mudline evaluate` can do nothing with.
+Four more codes are no rules and cannot be left out; they say why a file could not be used:
+
+| code | slug | severity | says |
+| --- | --- | --- | --- |
+| [DOC001](DOC001.md) | `unreadable-document` | error | A deck in JSON or YAML is no JSON or YAML. |
+| [DOC002](DOC002.md) | `schema-error` | error | A deck in JSON or YAML breaks the schema of decks. |
+| [DAT001](DAT001.md) | `bad-data-file` | error | A file of positions or elements has a fault. |
+| [RUN001](RUN001.md) | `cannot-evaluate` | error | The deck cannot be evaluated. |
 """
 
 _PAGE = """{made}
