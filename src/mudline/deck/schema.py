@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
 
 from mudline.deck.document import FORMAT, UNITS
@@ -21,13 +22,14 @@ def json_schema() -> dict[str, Any]:
     In which section a keyword belongs is left to reading, as a deck may hold a keyword in the wrong one.
     """
     blocks = [catalogue.load(module) for module in catalogue.modules()]
-    models = [(model, "validation") for model in (*blocks, Opaque, Comment)]
-    references, schema = models_json_schema(models, ref_template=_REFERENCE)  # type: ignore[arg-type]
+    models: list[type[BaseModel]] = [*blocks, Opaque, Comment]
+    made, schema = models_json_schema([(model, "validation") for model in models], ref_template=_REFERENCE)
+    references = {model: made[model, "validation"] for model in models}
     for block in blocks:
-        definition = schema["$defs"][references[block, "validation"]["$ref"].rsplit("/", 1)[1]]
+        definition = schema["$defs"][references[block]["$ref"].rsplit("/", 1)[1]]
         definition["required"] = sorted({"keyword", *definition.get("required", [])})
         definition["description"] = block.summary
-    comments = {"type": "array", "items": references[Comment, "validation"]}
+    comments = {"type": "array", "items": references[Comment]}
     lines = {"type": "array", "items": {"type": "string"}}
     section = _object(
         {
@@ -36,7 +38,7 @@ def json_schema() -> dict[str, Any]:
             "comments": comments,
             "blocks": {
                 "type": "array",
-                "items": {"anyOf": [references[model, "validation"] for model in (*blocks, Opaque)]},
+                "items": {"anyOf": [references[model] for model in models if model is not Comment]},
             },
         },
         required=("name", "blocks"),
