@@ -1,0 +1,210 @@
+"""A deck through JSON, YAML and keyword text and back: the same models, numbers to the last bit, every comment and line."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+from hypothesis import assume, example, given, settings
+from hypothesis import strategies as st
+from jsonschema import Draft202012Validator
+
+from mudline.deck.loading import dump, form_of, load_bytes
+from mudline.deck.model import Deck
+from mudline.deck.schema import json_schema
+from mudline.diagnostics import Severity
+from tests.reading.decks import MODELLED, SHARDS, deck_texts, mutated
+from tests.samples import SAMPLES
+
+NAME = "deck.keyxm"
+DECKS = sorted(path for path in SAMPLES.glob("*.keyx*") if path.name != "broken.keyxm")
+VALIDATOR = Draft202012Validator(json_schema())
+
+
+def read(text: str, name: str = NAME) -> Deck:
+    return load_bytes(text.encode(), name)
+
+
+def same(one: Deck, other: Deck) -> None:
+    """Hold all that a file says of two decks against each other."""
+    assert one.sections == other.sections
+    assert one.comments == other.comments
+    assert one.preamble == other.preamble
+
+
+def held(deck: Deck) -> None:
+    """Every way between the forms gives the same deck and the same text, and the schema takes what is written."""
+    as_json = dump(deck, "json")
+    VALIDATOR.validate(json.loads(as_json))
+    from_json = read(as_json, "deck.json")
+    same(deck, from_json)
+    assert (from_json.source, from_json.units) == (deck.source, deck.units)
+    assert dump(from_json, "json") == as_json
+    as_yaml = dump(from_json, "yaml")
+    from_yaml = read(as_yaml, "deck.yaml")
+    same(deck, from_yaml)
+    assert dump(from_yaml, "json") == as_json
+    assert dump(from_yaml, "yaml") == as_yaml
+    as_keyword = dump(deck, "keyword")
+    again = read(as_keyword)
+    same(deck, again)
+    assert dump(again, "keyword") == as_keyword
+    assert dump(from_yaml, "keyword") == as_keyword
+
+
+def remarks(text: str) -> list[str]:
+    """What follows the C of each comment line, in order."""
+    return [line[1:] for line in re.split(r"\r\n|\r|\n", text) if line[:1] in ("C", "c") and "=" not in line[:12]]
+
+
+@pytest.mark.parametrize("path", DECKS, ids=lambda path: path.name)
+def test_samples(path: Path) -> None:
+    deck = load_bytes(path.read_bytes(), path.name)
+    assert deck.require() is deck
+    held(deck)
+    text = path.read_text(encoding="utf-8")
+    assert remarks(dump(deck, "keyword")) == remarks(text)
+
+
+@given(deck_texts())
+@settings(max_examples=100)
+def test_decks(text: str) -> None:
+    deck = read(text)
+    assert [str(found) for found in deck.diagnose(deck.problems) if found.severity is Severity.ERROR] == []
+    held(deck)
+
+
+@given(deck_texts())
+@settings(max_examples=60)
+def test_no_comment_is_lost(text: str) -> None:
+    lines = iter(range(10**6))
+    numbered = re.sub(
+        r"(?m)^[Cc](?=[ \t]|\r|\n|$|-|=|\*|#|~|\.).*?(?=\r|\n|$)", lambda _: f"C remark {next(lines)} .", text
+    )
+    written = dump(read(numbered), "keyword")
+    wanted = re.findall(r"remark (\d+) \.", numbered)
+    assert re.findall(r"remark (\d+) \.", written) == wanted
+
+
+@given(mutated(deck_texts().map(str.encode)))
+@settings(max_examples=120)
+def test_what_reads_without_an_error_is_the_same_in_every_form(data: bytes) -> None:
+    deck = load_bytes(data, NAME)
+    assume(all(problem.weight is not Severity.ERROR for problem in deck.problems))
+    held(deck)
+
+
+LINES = {
+    "UNITS": ["UNITS=METRIC"],
+    "OCEAN": [" 500.0, , =[g]"],
+    "PARAMETERS": [" a, 1.5D0", ' b, "x, y"', " c, /1 2/"],
+    "NODE": [" 1, -0.0, =[y]", " =[n], 1, 2, 3,", " GEN=1, 3", " 5 6 7"],
+    "ELEMENT": [" 1, {a, b}, 2", " 2, 2, 3, , , 1", " GEN=1, 3, 2"],
+    "ELEMENT SETS": [" SET=x", " 1, {l}", " GEN=1, 2", " SUBSET=ALL", " SET=y"],
+    "GEOMETRIC SETS": [
+        " SET=x, EIYY=c",
+        " ,,,,1,2,3,4,5",
+        " OPTION=MOORING",
+        " SET=y",
+        " 1, 2, 3",
+        " SET=z",
+        " 1,2,3,,5",
+    ],
+    "SEABED PROPERTIES": [" STIFFNESS=1", " SET=x", " FRICTION=,0.3", " STIFFNESS==[k]", " SUCTION=1,2", " LATERAL=3"],
+    "SEABED STIFFNESS": [" CURVE=a", " 0,0", " 1e-320, =[f]", "CURVE=b", "CURVE=c", " 1,1"],
+    "EMBEDMENT": [" 0,0", " 1,1", " SET=x", " 2,2"],
+    "ELASTIC SURFACE": [" ,0.3", " 1.5"],
+    "RIGID SURFACE": [" 0.3", " 1,2", " 3,4"],
+}
+
+
+@pytest.mark.parametrize("keyword", sorted(LINES))
+def test_a_comment_before_every_line(keyword: str) -> None:
+    section = MODELLED[keyword][0]
+    lines = [f"${section}", f"*{keyword}", *LINES[keyword], "*TITLE", " opaque", f"*{keyword}", *LINES[keyword]]
+    text = "".join(f"C before {index}\n{line}\n" for index, line in enumerate(lines)) + "C end\n"
+    deck = read(text)
+    assert [str(found) for found in deck.diagnose(deck.problems)] == []
+    held(deck)
+    written = dump(deck, "keyword").splitlines()
+    assert len(written) == len(text.splitlines())
+    assert [line for line in written if line.startswith("C b")] == [f"C before {i}" for i in range(len(lines))]
+
+
+def test_every_keyword_is_tried() -> None:
+    assert sorted(LINES) == sorted(MODELLED)
+
+
+@given(
+    st.lists(st.tuples(st.floats(allow_nan=False, allow_infinity=False), st.floats(-1e9, 1e9)), min_size=1, max_size=30)
+)
+@example([(-0.0, 5e-324), (1.7976931348623157e308, 0.1 + 0.2)])
+@settings(max_examples=60)
+def test_numbers_to_the_last_bit(points: list[tuple[float, float]]) -> None:
+    text = "$MODEL\n*SEABED STIFFNESS\nCURVE=a\n" + "".join(f"{x!r},{y!r}\n" for x, y in points)
+    deck = read(text)
+    held(deck)
+    for form, name in (("json", "d.json"), ("yaml", "d.yaml"), ("keyword", NAME)):
+        _, block = next(read(dump(deck, form), name).blocks("SEABED STIFFNESS"))
+        values = block.curves[0].points.values
+        assert [value.hex() for row in values.tolist() for value in row] == [v.hex() for p in points for v in p]
+
+
+@pytest.mark.parametrize("field", ["-0", "-0.0", "0", "+0", "-0."])
+@pytest.mark.parametrize("end", ["", "\n 7, 1, 2, 3", "\n =[n], 1, 2"])
+def test_zero_as_a_node_number(field: str, end: str) -> None:
+    held(read(f"$MODEL\n*NODE\n {field}, -0, 2{end}\n*ELEMENT\n {field}, {field}, 2\n"))
+
+
+def test_equations_and_opaque_lines_stay_as_written() -> None:
+    lines = [
+        " =[ a +  B*( c ) ], 1025.0",
+        "*SEABED PROFILE",
+        "\t 1 ,2;x  ",
+        "",
+        "C-- kept",
+        '  {"no": [json',
+        "-: yaml #",
+    ]
+    text = "$MODEL\n*OCEAN\n" + "\n".join(lines) + "\n"
+    deck = read(text)
+    held(deck)
+    assert dump(deck, "keyword") == text
+    assert json.loads(dump(deck, "json"))["sections"][0]["blocks"] == [
+        {"keyword": "OCEAN", "depth": "=[ a +  B*( c ) ]", "density": 1025.0},
+        {"keyword": "SEABED PROFILE", "lines": lines[2:]},
+    ]
+
+
+def test_a_long_table_in_yaml_is_a_block_of_rows() -> None:
+    rows = [f" {i}, -0.{i}1, =[x, {i}]" if i % 7 == 0 else f" {i}, , {{l}}"[:6] + "1, 2.5" for i in range(1, 60)]
+    rows = [f" {i}, =[x, {i}], 2" if i % 7 == 0 else f" {i}, -0.{i}1, {i}.5, " for i in range(1, 60)]
+    deck = read("$MODEL\n*NODE\n" + "\n".join(rows) + "\n")
+    assert deck.problems == []
+    assert "nodes: |" in dump(deck, "yaml")
+    held(deck)
+
+
+@pytest.mark.parametrize(
+    ("name", "form"),
+    [
+        ("a.json", "json"),
+        ("a.JSON", "json"),
+        ("a.yaml", "yaml"),
+        ("a.YML", "yaml"),
+        ("a.keyx", "keyword"),
+        ("json", "keyword"),
+    ],
+)
+def test_form_of(name: str, form: str) -> None:
+    assert form_of(name) == form
+
+
+def test_a_form_and_units_can_be_given() -> None:
+    text = dump(read("$MODEL\n*OCEAN\n 1.0\n"), "json")
+    deck = load_bytes(text.encode(), "<stdin>", form="json", units="imperial")
+    assert deck.units == "imperial"
+    assert load_bytes(b"\xef\xbb\xbf" + text.encode(), "a.yaml", form="json").units == "metric"
+    assert SHARDS

@@ -1,0 +1,284 @@
+"""The slow row reader says what a table is; the fast one answers the same to the last bit, or declines."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+
+from mudline.diagnostics import Span
+from mudline.syntax.rows import Rows, read_number, read_rows, read_rows_fast, read_rows_slow
+from tests.reading.spellings import ODD_NUMBERS, numbers
+
+STRANGE = [
+    *(
+        "1e400",
+        "-1E400",
+        "1e-400",
+        "NaN",
+        "nan",
+        "inf",
+        "Infinity",
+        "true",
+        "null",
+        "[1]",
+        "=[a,b]",
+        "{a, b}",
+        '"1,2"',
+        "",
+        " ",
+    ),
+    *(
+        "1_000",
+        "0x10",
+        "1e",
+        "1e+",
+        ".",
+        "+",
+        "-",
+        "--1",
+        "1.2.3",
+        "1d",
+        "\u0661",
+        "1\xa0",
+        "9" * 309,
+        "9" * 401,
+        "1e9999999999",
+    ),
+    *(
+        "00",
+        "-00",
+        "-01",
+        "+0",
+        "-0e0",
+        "-0.e5",
+        "-0,",
+        "1 2",
+        "=[",
+        "{",
+        '"',
+        "1\x0b",
+        "\ufeff1",
+        "0." + "0" * 390 + "1",
+        "-",
+    ),
+    *(
+        "2.2250738585072011e-308",
+        "2.225073858507201e-308",
+        "4.940656458412465e-324",
+        "2e-324",
+        "1.7976931348623159e308",
+    ),
+    *(
+        "9007199254740993",
+        "-9007199254740993.0",
+        "123456789012345678901234567890",
+        "0.1000000000000000055511151231257827",
+    ),
+]
+cells = st.one_of(numbers, numbers, st.sampled_from(ODD_NUMBERS), st.sampled_from(STRANGE))
+plain_cells = st.one_of(
+    st.floats(allow_nan=False, allow_infinity=False).map(repr),
+    st.integers(-(10**30), 10**30).map(str),
+    st.sampled_from([number for number in ODD_NUMBERS if "d" not in number.lower()]),
+)
+
+
+def whole(text: str) -> Span:
+    return Span(0, len(text))
+
+
+def compared(text: str, columns: int) -> Rows:
+    """The rows of a text by the slow reader, having held the fast one and the choice between them against it."""
+    slow = read_rows_slow(text, whole(text), columns)
+    fast = read_rows_fast(text, whole(text), columns)
+    assert fast is None or fast.same(slow)
+    assert read_rows(text, whole(text), columns).same(slow)
+    return slow
+
+
+def bits(value: float) -> str:
+    return value.hex()
+
+
+@st.composite
+def tables(draw: st.DrawFn, fields: st.SearchStrategy[str]) -> str:
+    """Rows with commas, blanks, tabs, any LF or CRLF, of one length or ragged."""
+    width = draw(st.integers(1, 4))
+    lengths = st.just(width) if draw(st.booleans()) else st.integers(1, 5)
+    comma = st.sampled_from([",", ",", ", ", " ,", "\t,\t"] + ([" "] if draw(st.booleans()) else []))
+    lines = []
+    for _ in range(draw(st.integers(1, 5))):
+        words = draw(lengths.flatmap(lambda count: st.lists(fields, min_size=count, max_size=count)))
+        line = words[0] + "".join(draw(comma) + word for word in words[1:])
+        lines.append(draw(st.sampled_from(["", " ", "\t"])) + line + draw(st.sampled_from(["", "", " ", ",", ", ,"])))
+    end = draw(st.sampled_from(["\n", "\n", "\r\n"]))
+    return end.join(lines) + draw(st.sampled_from(["", end]))
+
+
+@given(tables(cells), st.integers(1, 5))
+@example("-0,-0\n", 2)
+@example("-0 \n", 1)
+@example("-0,-0.0\r\n+0,0\r\n", 2)
+@example("1,2\n\n3,4\n", 2)
+@example("1,2\n,\n", 2)
+@example("1,2,\n", 2)
+@example("1,2],[3,4\n", 2)
+@example("1\r2\n", 1)
+@example("1e308,1e309\n", 2)
+@example("12345678901234567890123,1\n", 2)
+@example("1 2\n3 4\n", 2)
+@example(" \n", 1)
+@settings(max_examples=350)
+def test_fast_is_slow_or_declines(text: str, columns: int) -> None:
+    compared(text, columns)
+
+
+@given(tables(plain_cells))
+@settings(max_examples=150)
+def test_plain_numbers(text: str) -> None:
+    rows = compared(text, 5)
+    words = [[word for word in line.replace(",", " ").split()] for line in text.splitlines()]
+    for index, line in enumerate(words):
+        read = [bits(value) for value in rows.values[index].tolist() if not math.isnan(value)]
+        assert read == [bits(float(word)) for word in line if float(word) not in (math.inf, -math.inf)][: len(read)]
+
+
+@given(st.text("0123456789+-.eE, \t\r\n", max_size=40), st.integers(1, 4))
+@settings(max_examples=350)
+def test_any_text_of_the_fast_alphabet(text: str, columns: int) -> None:
+    compared(text, columns)
+
+
+@given(
+    st.lists(
+        st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=3, max_size=3), min_size=1, max_size=20
+    )
+)
+@settings(max_examples=60)
+def test_seventeen_digits_come_back(values: list[list[float]]) -> None:
+    text = "".join(", ".join(repr(value) for value in row) + "\n" for row in values)
+    rows = compared(text, 3)
+    assert rows.values.tobytes() == np.array(values).tobytes()
+    assert rows.lengths.tolist() == [3] * len(values)
+    assert rows.words == {}
+
+
+def test_the_fast_reader_takes_long_tables() -> None:
+    values = np.random.default_rng(3).standard_normal((30_000, 3)) * 1e3
+    text = "".join(f" {x!r}, {y!r},{z!r}\r\n" for x, y, z in values.tolist())
+    rows = read_rows_fast(text, whole(text), 3)
+    assert rows is not None
+    assert rows.values.tobytes() == values.tobytes()
+    compared(text, 3)
+    compared(text.replace("\r\n", "\r\n\r\n", 1), 3)
+    compared(text + "1, 2\n", 3)
+
+
+def test_only_the_span_is_read() -> None:
+    text = "*NODE\n 1, 2\n 3, 4\nSET=x\n"
+    span = Span(6, 18)
+    rows = read_rows(text, span, 2)
+    assert rows.values.tolist() == [[1.0, 2.0], [3.0, 4.0]]
+    assert rows.same(read_rows_slow(text, span, 2))
+
+
+def test_words_lengths_and_columns() -> None:
+    rows = compared(" 1, =[a, b],, {x, y}\n 2\n 3, 4, 5, 6, 7\n 1.5 2.5\n 1, 2, 3, 4,,\n", 4)
+    assert rows.words == {(0, 1): "=[a, b]", (0, 2): "", (0, 3): "{x, y}"}
+    assert rows.lengths.tolist() == [4, 1, 5, 2, 4]
+    assert rows.values[2].tolist() == [3.0, 4.0, 5.0, 6.0]
+    assert rows.values[3, :2].tolist() == [1.5, 2.5]
+    assert np.isnan(rows.values[0, 1:]).all()
+    assert np.isnan(rows.values[1, 1:]).all()
+
+
+def test_the_array_is_as_wide_as_the_longest_row() -> None:
+    assert compared("1, 2\n3\n", 9).values.shape == (2, 2)
+    assert compared("1, 2\n3, 4\n", 9).values.shape == (2, 2)
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        *(
+            ("1", 1.0),
+            ("1.", 1.0),
+            (".5", 0.5),
+            ("+1", 1.0),
+            ("01", 1.0),
+            ("-0", -0.0),
+            ("-0.0", -0.0),
+            ("1e3", 1000.0),
+        ),
+        *(
+            ("1D3", 1000.0),
+            ("1d-3", 0.001),
+            ("1.5D+02", 150.0),
+            ("4.9e-324", 5e-324),
+            ("1e-400", 0.0),
+            ("-1e-400", -0.0),
+        ),
+        *(("9007199254740993", 9007199254740992.0), ("1.7976931348623157E308", 1.7976931348623157e308)),
+    ],
+)
+def test_numbers(text: str, value: float) -> None:
+    read = read_number(text)
+    assert read is not None
+    assert bits(read) == bits(value)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        *(
+            "",
+            " ",
+            "1 ",
+            " 1",
+            "e5",
+            "1e",
+            "1e+",
+            ".",
+            "+",
+            "-",
+            "--1",
+            "+-1",
+            "1.2.3",
+            "1,5",
+            "0x10",
+            "1_000",
+            "1f",
+            "1\n",
+        ),
+        *(
+            "1e400",
+            "-1e400",
+            "1D400",
+            "9" * 309,
+            "1" * 401,
+            "nan",
+            "NaN",
+            "inf",
+            "-Infinity",
+            "true",
+            "\u0661\u0662",
+            "1\xa0",
+            "\uff11",
+        ),
+    ],
+)
+def test_no_numbers(text: str) -> None:
+    assert read_number(text) is None
+
+
+@given(st.text("0123456789+-.eEdD_ naif", max_size=12))
+@settings(max_examples=200)
+def test_a_number_is_finite_and_what_python_reads(text: str) -> None:
+    value = read_number(text)
+    if value is not None:
+        assert math.isfinite(value)
+        assert bits(value) == bits(float(text.lower().replace("d", "e")))
