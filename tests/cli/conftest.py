@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from pathlib import Path
 
@@ -10,6 +11,8 @@ import pytest
 from tests.cli.decks import CLEAN
 
 Place = Callable[..., str]
+
+collect_ignore_glob = [] if os.name == "posix" else ["test_posix_*.py"]
 
 
 @pytest.fixture(autouse=True)

@@ -9,7 +9,7 @@ import subprocess
 import sys
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 from unittest.mock import patch
 
 from jsonschema import Draft202012Validator
@@ -19,6 +19,9 @@ from mudline.__main__ import main
 ROOT = Path(__file__).parents[2]
 SAMPLES = ROOT / "samples"
 TIMEOUT = 120
+
+Json: TypeAlias = Any
+"""What a JSON text holds."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +40,7 @@ class Outcome:
     def err(self) -> str:
         return self.errors.decode("utf-8")
 
-    def json(self) -> Any:
+    def json(self) -> Json:
         return json.loads(self.out, parse_constant=no_constant)
 
 
@@ -89,7 +92,7 @@ def no_constant(name: str) -> None:
     raise AssertionError(f"{name} in JSON")
 
 
-def assert_fits(value: Any, form: str) -> None:
+def assert_fits(value: Json, form: str) -> None:
     """A value keeps to the schema of docs/schemas that describes a form."""
     schema = json.loads((ROOT / "docs" / "schemas" / f"{form}.json").read_text(encoding="utf-8"))
     Draft202012Validator.check_schema(schema)

@@ -70,7 +70,9 @@ def test_text_of_many_steps(place: Place, folder: Path) -> None:
 
 
 def test_csv_of_steps(place: Place, steps: str) -> None:
-    rows = list(csv.DictReader(run("evaluate", place(), "--positions", steps, "--output-format", "csv").out.splitlines()))
+    rows = list(
+        csv.DictReader(run("evaluate", place(), "--positions", steps, "--output-format", "csv").out.splitlines())
+    )
     assert [(row["time"], row["element"], row["force"]) for row in rows] == [
         ("0.0", "1", "1500.0"),
         ("0.0", "2", "0.0"),

@@ -56,14 +56,6 @@ def test_files_keep_their_order_and_directories_are_sorted(place: Place) -> None
     assert names("z.keyxm", "d") == ["z.keyxm", "d/a.keyxm", "d/b.keyxm"]
 
 
-def test_links_and_pipes_in_a_directory_are_no_trap(place: Place, folder: Path) -> None:
-    place(CLEAN, "decks/a.keyxm")
-    (folder / "decks/loop").symlink_to(folder / "decks", target_is_directory=True)
-    (folder / "decks/gone.keyxm").symlink_to(folder / "nowhere")
-    os.mkfifo(folder / "decks/pipe.keyxm")
-    assert names("decks") == ["decks/a.keyxm"]
-
-
 @pytest.mark.parametrize("command", ["lint", "validate"])
 def test_directory_without_a_deck(command: str, folder: Path) -> None:
     (folder / "empty").mkdir()

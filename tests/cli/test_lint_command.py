@@ -10,7 +10,9 @@ from tests.cli.conftest import Place
 from tests.cli.decks import BAD_NUMBER, CLEAN, ILLEGAL, UNSORTED, UNUSED
 from tests.cli.runner import SAMPLES, Outcome, assert_fits, run
 
-MANY = UNUSED.replace(" 2, -0.1, 10.0\n", " 2, -0.1, ten\n").replace(" 0.0, 0.0\n 0.1, 1000.0\n", " 0.1, 1000.0\n 0.0, 0.0\n")
+MANY = UNUSED.replace(" 2, -0.1, 10.0\n", " 2, -0.1, ten\n").replace(
+    " 0.0, 0.0\n 0.1, 1000.0\n", " 0.1, 1000.0\n 0.0, 0.0\n"
+)
 """One error, one warning, one info."""
 
 

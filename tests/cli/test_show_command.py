@@ -8,7 +8,6 @@ from tests.cli.conftest import Place
 from tests.cli.decks import CLEAN, ILLEGAL, LINEAR
 from tests.cli.runner import SAMPLES, assert_fits, run
 
-
 TEXT = """\
 deck.keyxm: metric units, 3 nodes, 2 elements, 20.008 m long, elastic seabed
   $MODEL: *OCEAN, *NODE, *ELEMENT, *ELEMENT SETS, *GEOMETRIC SETS, *SEABED PROPERTIES, *SEABED STIFFNESS
@@ -126,7 +125,7 @@ def test_deck_with_errors_is_shown_as_far_as_it_goes(place: Place) -> None:
     assert outcome.err == "mudline: deck.keyxm has 1 error: see mudline lint\n"
 
 
-def test_errors_are_counted(place: Place) -> None:
+def test_errors_are_counted() -> None:
     outcome = run("show", SAMPLES / "broken.keyxm", "--output-format", "json")
     assert outcome.code == 1
     assert_fits(outcome.json(), "show")
@@ -168,9 +167,7 @@ def test_many_diameters_are_shown_when_asked_for(place: Place) -> None:
     nodes = "".join(f" {n}, 0.0, {n}.0\n" for n in range(1, 14))
     elements = "".join(f" {n}, {n}, {n + 1}\n" for n in range(1, 13))
     sets = "".join(f" SET=S{n}\n {n}\n" for n in range(1, 13))
-    deck = (
-        f"$MODEL\n*NODE\n{nodes}*ELEMENT\n{elements}*ELEMENT SETS\n{sets}*GEOMETRIC SETS\n OPTION=RIGID\n{sections}"
-    )
+    deck = f"$MODEL\n*NODE\n{nodes}*ELEMENT\n{elements}*ELEMENT SETS\n{sets}*GEOMETRIC SETS\n OPTION=RIGID\n{sections}"
     text = run("show", place(deck)).out
     assert "2 more diameters: -v shows all\n" in text
     assert "    12.5         1" not in text

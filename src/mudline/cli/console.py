@@ -12,11 +12,17 @@ EXCERPT_WIDTH = 120
 """Columns of a source line that are shown where no terminal sets a limit."""
 
 
+class _Console(Console):
+    def on_broken_pipe(self) -> None:
+        """Leave to the command what it means that nobody reads any more."""
+        raise BrokenPipeError
+
+
 def console(color: str) -> Console:
     """A console on standard output for "auto", "always" or "never" colours."""
     terminal = sys.stdout.isatty()
     plain = color == "never" or (color == "auto" and (not terminal or bool(os.environ.get("NO_COLOR"))))
-    return Console(
+    return _Console(
         file=sys.stdout,
         force_terminal=True if color == "always" else None,
         color_system=None if plain else "standard" if color == "always" else "auto",

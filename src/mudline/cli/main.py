@@ -13,7 +13,7 @@ import click
 
 from mudline import __version__
 from mudline.cli import streams
-from mudline.cli.exits import CLOSED_PIPE, WRONG_USAGE
+from mudline.cli.exits import CLOSED_PIPE, FOUND, WRONG_USAGE
 from mudline.cli.terminal import reason, tell
 
 COMMANDS = {
@@ -83,6 +83,9 @@ def _invoke(arguments: Sequence[str]) -> int:
             click.echo(f"{error.ctx.get_usage()}\nTry '{path} --help' for help.\n", err=True)
         tell(error.format_message())
         return WRONG_USAGE
+    except MemoryError:
+        tell("there is too little memory for this")
+        return FOUND
 
 
 def _unwritable(error: OSError) -> int:

@@ -6,6 +6,7 @@ import io
 import os
 import sys
 from collections.abc import Iterable
+from contextlib import suppress
 from pathlib import Path
 
 from mudline.lint.output.visible import visible_lines
@@ -30,7 +31,9 @@ def emit(pieces: Iterable[str]) -> None:
     sys.stdout.flush()
     for piece in pieces:
         text = visible_lines(piece) if sys.stdout.isatty() else piece
-        sys.stdout.buffer.write(encoded(text))
+        rest = memoryview(encoded(text))
+        while rest:  # an unbuffered stream may take less than it is given
+            rest = rest[sys.stdout.buffer.write(rest) :]
 
 
 def encoded(text: str) -> bytes:
@@ -42,5 +45,6 @@ def drop() -> None:
     """Nobody reads any more: what is still in the buffers must not raise again when the interpreter ends."""
     nowhere = os.open(os.devnull, os.O_WRONLY)
     for stream in (sys.stdout, sys.stderr):
-        os.dup2(nowhere, stream.fileno())
+        with suppress(io.UnsupportedOperation):  # a stream of a program that runs the command in itself
+            os.dup2(nowhere, stream.fileno())
     os.close(nowhere)

@@ -1,0 +1,150 @@
+"""The command as a whole: version, help, wrong usage, interruption, an output that is full."""
+
+from __future__ import annotations
+
+import errno
+import io
+import re
+import subprocess
+import sys
+from pathlib import Path
+from unittest.mock import Mock
+
+import pytest
+
+import mudline
+from mudline.__main__ import main
+from mudline.cli.main import COMMANDS
+from tests.cli.conftest import Place
+from tests.cli.decks import BAD_NUMBER, CLEAN
+from tests.cli.runner import TIMEOUT, Stream, process, run
+
+EVERY = sorted(COMMANDS)
+
+
+def test_version() -> None:
+    assert run("--version").out == f"mudline {mudline.__version__}\n"
+    assert run("--version").code == 0
+    outcome = process("--version")
+    assert (outcome.code, outcome.out, outcome.err) == (0, f"mudline {mudline.__version__}\n", "")
+
+
+def test_installed_command_is_the_module() -> None:
+    command = Path(sys.executable).with_name("mudline")
+    done = subprocess.run([command, "--version"], capture_output=True, text=True, timeout=TIMEOUT, check=True)
+    assert done.stdout == f"mudline {mudline.__version__}\n"
+
+
+@pytest.mark.parametrize("option", ["-h", "--help"])
+def test_help_lists_the_commands(option: str) -> None:
+    outcome = run(option)
+    assert (outcome.code, outcome.err) == (0, "")
+    for name, line in COMMANDS.items():
+        assert re.search(rf"^  {name} +{re.escape(line)}$", outcome.out, re.MULTILINE)
+
+
+@pytest.mark.parametrize("command", EVERY)
+def test_help_of_a_command(command: str) -> None:
+    outcome = run(command, "--help")
+    assert (outcome.code, outcome.err) == (0, "")
+    assert outcome.out.startswith(f"Usage: mudline {command} ")
+    assert "--color [auto|always|never]" in outcome.out
+
+
+@pytest.mark.parametrize("command", EVERY)
+def test_line_of_a_command_agrees_with_its_help(command: str) -> None:
+    first = run(command, "--help").out.split("\n\n")[1]
+    assert COMMANDS[command].split()[0] in first
+
+
+def test_no_command_shows_the_help_as_an_error() -> None:
+    outcome = run()
+    assert (outcome.code, outcome.out) == (2, "")
+    assert outcome.err == run("--help").out
+
+
+def test_unknown_command() -> None:
+    outcome = run("lnit")
+    assert (outcome.code, outcome.out) == (2, "")
+    assert outcome.err.endswith("mudline: No such command 'lnit'.\n")
+
+
+@pytest.mark.parametrize("command", EVERY)
+def test_unknown_option(command: str) -> None:
+    outcome = run(command, "--nonsense")
+    assert (outcome.code, outcome.out) == (2, "")
+    assert f"Try 'mudline {command} --help' for help." in outcome.err
+    assert "--nonsense" in outcome.err
+
+
+@pytest.mark.parametrize("command", ["lint", "validate", "convert", "show", "curves", "evaluate"])
+def test_nothing_to_read(command: str) -> None:
+    outcome = run(command)
+    assert (outcome.code, outcome.out) == (2, "")
+    assert "Missing argument" in outcome.err
+
+
+@pytest.mark.parametrize("command", ["lint", "validate", "show", "curves", "evaluate", "rules"])
+def test_unknown_format(command: str) -> None:
+    outcome = run(command, "x", "--output-format", "xml")
+    assert (outcome.code, outcome.out) == (2, "")
+    assert "'xml' is not one of" in outcome.err
+
+
+def test_module_is_the_command(place: Place) -> None:
+    outcome = process("lint", place(BAD_NUMBER), "--output-format", "concise")
+    assert outcome.code == 1
+    assert outcome.out.startswith("deck.keyxm:6:11: SYN002 ")
+    assert outcome.err == ""
+
+
+def test_message_about_an_argument_does_not_act_on_the_terminal() -> None:
+    outcome = run("lint", "\x1b[31mred\x07.keyxm")
+    assert outcome.code == 2
+    assert "\x1b" not in outcome.err
+    assert "\x07" not in outcome.err
+    assert "red" in outcome.err
+    assert "\x1b" not in run("\x1b[31mlint").err
+
+
+# ----------------------------------------------------------------------------------------- streams and interruption
+
+
+def test_interruption_in_this_process(monkeypatch: pytest.MonkeyPatch, place: Place) -> None:
+    monkeypatch.setattr(Path, "read_bytes", Mock(side_effect=KeyboardInterrupt))
+    outcome = run("lint", place())
+    assert (outcome.code, outcome.out, outcome.err) == (130, "", "")
+
+
+def test_too_little_memory(monkeypatch: pytest.MonkeyPatch, place: Place) -> None:
+    monkeypatch.setattr(Path, "read_bytes", Mock(side_effect=MemoryError))
+    outcome = run("lint", place())
+    assert (outcome.code, outcome.out, outcome.err) == (1, "", "mudline: there is too little memory for this\n")
+
+
+def test_machine_formats_are_utf_8_and_people_get_what_their_terminal_has(place: Place) -> None:
+    name = place(BAD_NUMBER.replace("ten", "z\u00e4hn"))
+    ascii_only = {"PYTHONIOENCODING": "ascii"}
+    machine = process("lint", name, "--output-format", "json", env=ascii_only)
+    assert (machine.code, machine.err) == (1, "")
+    assert "'z\u00e4hn' is no number" in machine.json()[0]["message"]
+    people = process("lint", name, env=ascii_only)
+    assert people.code == 1
+    assert "'z\\xe4hn' is no number" in people.out
+    assert people.output.isascii()
+    table = process("curves", place(CLEAN), env=ascii_only)
+    assert table.code == 0
+    assert "--------------------" in table.out
+    assert table.output.isascii()
+
+
+@pytest.mark.parametrize("form", ["json", "text"])
+def test_output_that_is_full(monkeypatch: pytest.MonkeyPatch, place: Place, form: str) -> None:
+    class Disk(io.BytesIO):
+        write = Mock(side_effect=OSError(errno.ENOSPC, "No space left on device"))
+
+    disk, errors = Disk(), Stream("utf-8", terminal=False)
+    monkeypatch.setattr(sys, "stdout", io.TextIOWrapper(disk, encoding="utf-8"))
+    monkeypatch.setattr(sys, "stderr", errors)
+    assert main(["lint", place(BAD_NUMBER), "--output-format", form]) == 2
+    assert errors.content() == b"mudline: the output cannot be written: no space left on device\n"

@@ -1,0 +1,87 @@
+"""Streams that are gone, signals, and names in odd bytes, where the system is of the Unix kind."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from tests.cli.decks import BAD_NUMBER
+from tests.cli.runner import SAMPLES, TIMEOUT, process
+
+PIPED = {
+    "lint": ["lint", str(SAMPLES), "--output-format", "concise"],
+    "lint-text": ["lint", str(SAMPLES)],
+    "convert": ["convert", str(SAMPLES / "scr-touchdown.keyxm"), "--to", "json"],
+    "evaluate": ["evaluate", str(SAMPLES / "flowline-gen.keyxm"), "-q", "-v"],
+    "curves": ["curves", str(SAMPLES / "scr-touchdown.keyxm")],
+    "rules": ["rules"],
+    "help": ["--help"],
+}
+
+
+@pytest.mark.parametrize("arguments", PIPED.values(), ids=PIPED)
+def test_closed_pipe_ends_quietly(arguments: list[str]) -> None:
+    """Nobody reads: not one line, so that also an output that fits into the pipe's buffer meets it closed."""
+    read, write = os.pipe()
+    os.close(read)
+    words = [sys.executable, "-m", "mudline", *arguments]
+    done = subprocess.run(words, stdout=write, stderr=subprocess.PIPE, timeout=TIMEOUT, check=False)
+    os.close(write)
+    assert (done.returncode, done.stderr) == (141, b"")
+
+
+def test_pipe_that_is_closed_after_the_first_line(folder: Path) -> None:
+    points = "".join(f" {i}.0, {i}.0\n" for i in range(40_000))
+    (folder / "long.keyxm").write_text(f"$MODEL\n*SEABED STIFFNESS\n CURVE=A\n{points}", encoding="utf-8")
+    words = [sys.executable, "-m", "mudline", "convert", "long.keyxm", "--to", "json"]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as running:
+        assert running.stdout is not None
+        assert running.stderr is not None
+        assert running.stdout.readline() == b"{\n"
+        running.stdout.close()
+        assert running.stderr.read() == b""
+        assert running.wait(TIMEOUT) == 141
+
+
+def test_standard_error_that_is_closed(folder: Path) -> None:
+    read, write = os.pipe()
+    os.close(read)
+    words = [sys.executable, "-m", "mudline", "lint", "nowhere"]
+    done = subprocess.run(words, stderr=write, stdout=subprocess.PIPE, timeout=TIMEOUT, check=False, cwd=folder)
+    os.close(write)
+    assert (done.returncode, done.stdout) == (141, b"")
+
+
+@pytest.mark.parametrize("arguments", [PIPED["lint"], PIPED["curves"], PIPED["rules"]], ids=["lint", "curves", "rules"])
+def test_output_that_was_closed_before_the_start(arguments: list[str]) -> None:
+    words = f"exec {sys.executable} -m mudline {' '.join(arguments)} >&-"
+    done = subprocess.run(["/bin/sh", "-c", words], capture_output=True, timeout=TIMEOUT, check=False)
+    assert done.returncode in {0, 1}
+    assert done.stderr == b""
+
+
+def test_interruption() -> None:
+    words = [sys.executable, "-m", "mudline", "lint", "-"]
+    with subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as running:
+        assert running.stderr is not None
+        assert running.stdout is not None
+        time.sleep(1.5)
+        running.send_signal(signal.SIGINT)
+        assert running.wait(TIMEOUT) == 130
+        assert (running.stdout.read(), running.stderr.read()) == (b"", b"")
+
+
+def test_file_name_that_is_no_utf_8(folder: Path) -> None:
+    name = os.fsdecode(b"deck-\xff.keyxm")
+    (folder / name).write_text(BAD_NUMBER, encoding="utf-8")
+    outcome = process("lint", ".", "--output-format", "json")
+    assert (outcome.code, outcome.err) == (1, "")
+    assert outcome.json()[0]["file"] == name
+    assert process("lint", name).code == 1
+    assert process("lint", name + "x").err == "mudline: deck-\ufffd.keyxmx: no such file or directory\n"
