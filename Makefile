@@ -66,7 +66,7 @@ format: $(VENV)/.developer ## put the code into its canonical layout
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 
-docs: $(VENV)/.developer ## write the pages of docs/ that are made from the program
+docs: $(VENV)/.developer ## write anew what docs/ has from the program
 	$(BIN)/python -m tests.docs.make
 
 bench: $(VENV)/.developer ## run the benchmarks

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -20,7 +19,8 @@ from mudline.expression import FORMS, FUNCTIONS
 from mudline.lint.registry import rules
 from tests.docs.blocks import Page, agree
 from tests.docs.commands import output, run
-from tests.docs.make import BY_HAND, ROOT, pages, rule_files
+from tests.docs.make import BY_HAND, ROOT, documents, pages, rule_files
+from tests.docs.refresh import copy_of_files
 
 JSON = {
     "lint": ("lint samples", "lint samples/flowline-gen.keyxm", "lint samples/missing.yaml"),
@@ -40,7 +40,7 @@ JSON = {
 }
 """Commands that print each form of JSON, by the name of its schema."""
 
-PAGES = [ROOT / "README.md", ROOT / "CHANGELOG.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
+PAGES = documents()
 
 
 def identity(path: Path) -> str:
@@ -54,8 +54,7 @@ def with_blocks(*languages: str) -> list[Path]:
 @pytest.fixture
 def checkout(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder in which the commands of a page find the files that they name, and may write."""
-    shutil.copytree(ROOT / "samples", tmp_path / "samples")
-    shutil.copytree(ROOT / "docs/examples", tmp_path / "docs/examples")
+    copy_of_files(ROOT, tmp_path)
     monkeypatch.chdir(tmp_path)
     monkeypatch.delenv("NO_COLOR", raising=False)
     return tmp_path
@@ -165,3 +164,10 @@ def test_every_function_of_equations_is_described() -> None:
     text = (ROOT / "docs/language.md").read_text(encoding="utf-8")
     undescribed = [name for name in (*FUNCTIONS, *FORMS) if f"`{name}(" not in text]
     assert undescribed == []
+
+
+def test_output_that_a_page_does_not_show_is_noticed() -> None:
+    assert agree(["a", "...", "c"], ["a", "b", "b", "c"])
+    assert not agree(["a", "...", "c"], ["a", "b"])
+    assert not agree(["a"], ["a", "b"])
+    assert not agree(["a.c"], ["abc"])

@@ -1,11 +1,15 @@
-"""The pages of docs/ that are made from the program. `make docs` writes them; a test holds them to it."""
+"""The pages of docs/ that are made from the program, and what commands print. `make docs` writes, a test holds them."""
 
 from __future__ import annotations
 
+import os
+import sys
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from mudline.lint.registry import rules
 from tests.docs.keyword_page import keyword_page
+from tests.docs.refresh import copy_of_files, refreshed
 from tests.docs.rule_pages import rule_index, rule_page
 
 ROOT = Path(__file__).parents[2]
@@ -26,6 +30,29 @@ def rule_files() -> set[str]:
     return {page.relative_to(ROOT).as_posix() for page in there if page.stem not in BY_HAND}
 
 
+def documents() -> list[Path]:
+    """Every page of the project, also those written by hand."""
+    return [
+        *(ROOT / f"{name}.md" for name in ("README", "CHANGELOG", "CONTRIBUTING")),
+        *sorted(ROOT.glob("docs/**/*.md")),
+    ]
+
+
+def refresh() -> None:
+    """Write anew what the commands on all pages print."""
+    with TemporaryDirectory() as folder:
+        copy_of_files(ROOT, Path(folder))
+        os.chdir(folder)
+        for page in documents():
+            text = page.read_text(encoding="utf-8")
+            by_hand: list[str] = []
+            fresh = refreshed(text, by_hand)
+            if fresh != text:
+                page.write_text(fresh, encoding="utf-8", newline="\n")
+            sys.stderr.writelines(f"{page}: cut the output by hand: {words}\n" for words in by_hand)
+        os.chdir(ROOT)
+
+
 def write() -> None:
     """Write the pages, and remove those that nothing makes any more."""
     wanted = pages()
@@ -39,3 +66,4 @@ def write() -> None:
 
 if __name__ == "__main__":
     write()
+    refresh()
