@@ -29,7 +29,7 @@ def command(*, code: str | None, output_format: str, view: View) -> int:
     if output_format == "json":
         emit([json.dumps([_object(rule) for rule in chosen], indent=1, ensure_ascii=False), "\n"])
     elif code and len(chosen) == 1:
-        click.echo(_page(chosen[0]), nl=False)
+        printing("rules").print_rule(chosen[0], view.color)
     else:
         printing("rules").print_rules(chosen, view.color)
     return DONE
@@ -45,15 +45,3 @@ def _object(rule: Rule) -> dict[str, Any]:
         "bad": rule.bad,
         "good": rule.good,
     }
-
-
-def _page(rule: Rule) -> str:
-    head = f"{rule.code.code} {rule.code.slug} ({rule.code.severity})"
-    bad, good = (_indented(deck) for deck in (rule.bad, rule.good))
-    line, column = rule.place
-    place = f"line {line}, column {column}"
-    return f"{head}\n\n{rule.title}\n\n{rule.why}\n\nBad (found at {place}):\n\n{bad}\nGood:\n\n{good}"
-
-
-def _indented(deck: str) -> str:
-    return "".join(f"    {line}\n" for line in deck.splitlines())

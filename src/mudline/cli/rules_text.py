@@ -1,20 +1,39 @@
-"""The list of rules on the terminal."""
+"""Rules on the terminal: the list, and the page of one."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Sequence
+from textwrap import fill, indent
 
 from rich.text import Text
 
 from mudline.cli.console import console
+from mudline.cli.tables import print_table
 from mudline.lint.output.text import STYLES
+from mudline.lint.output.visible import visible_lines
 from mudline.lint.registry import Rule
 
+_PAGE = 100
+_COLUMNS = ("code", "severity", "name", "finds")
 
-def print_rules(rules: Iterable[Rule], color: str) -> None:
-    """A line a rule: code, severity, slug, what it finds."""
+
+def print_rules(rules: Sequence[Rule], color: str) -> None:
+    """A line a rule: code, severity, name, what it finds."""
+    rows = [(rule.code.code, rule.code.severity.value, rule.code.slug, rule.title) for rule in rules]
+    styles = {severity.value: style for severity, style in STYLES.items()}
+    print_table(console(color), f"{len(rows)} rules", _COLUMNS, rows, left=_COLUMNS, styles=styles)
+
+
+def print_rule(rule: Rule, color: str) -> None:
+    """What a rule finds and why, with a bad and a good deck."""
     printer = console(color)
-    for rule in rules:
-        severity = rule.code.severity
-        words = ((f"{severity.value:<8}", STYLES[severity]), f"{rule.code.slug:<26}", rule.title)
-        printer.print(Text.assemble((rule.code.code, "bold"), "  ", *words))
+    severity = rule.code.severity
+    width = min(printer.width, _PAGE)
+    head = ((rule.code.code, "bold"), f" {rule.code.slug} (", (severity.value, STYLES[severity]), ")")
+    printer.print(Text.assemble(*head))
+    line, column = rule.place
+    bad = f"Bad (found at line {line}, column {column}):"
+    paragraphs = [fill(text, width) for text in (rule.title, *rule.why.split("\n\n"))]
+    decks = [visible_lines(indent(deck, "    ").rstrip("\n")) for deck in (rule.bad, rule.good)]
+    for paragraph in (*filter(None, paragraphs), bad, decks[0], "Good:", decks[1]):
+        printer.print(Text(f"\n{paragraph}"))

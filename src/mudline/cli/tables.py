@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import zip_longest
+from types import MappingProxyType
+from typing import NamedTuple
 
 from rich.cells import cell_len
 from rich.console import Console
@@ -12,6 +14,7 @@ from rich.text import Text
 from mudline.lint.output.visible import visible
 
 _GAP = "  "
+_UNSTYLED: Mapping[str, str] = MappingProxyType({})
 _NARROWEST = 12
 """Columns of text are not folded below this width."""
 
@@ -24,31 +27,72 @@ def print_table(
     *,
     left: Sequence[str] = (),
     note: str = "",
+    styles: Mapping[str, str] = _UNSTYLED,
 ) -> None:
     """Print texts under their headings, with a blank line behind.
 
     Numbers stand to the right, the columns named in `left` to the left; only these are folded on a narrow terminal.
-    A heading may have several lines. `note` stands below the table. Deck text is printed as plain text.
+    A heading may have several lines. `note` stands below the table; `styles` gives cells that hold just these words
+    a style. Deck text is printed as plain text.
     """
     heads = [name.split("\n") for name in columns]
     cells = [[visible(cell, printer.encoding) for cell in row] for row in rows]
-    to_left = [name in left for name in columns]
-    widths = [
-        max(cell_len(text) for text in (*head, *column))
-        for head, column in zip(heads, zip(*cells, strict=True) if cells else [()] * len(heads), strict=True)
-    ]
-    widths = _fitted(widths, to_left, printer.width)
-    rule = ("\u2500" if printer.encoding.startswith("utf") else "-") * (sum(widths) + len(_GAP) * (len(widths) - 1))
+    layout = _layout(heads, cells, [name in left for name in columns], printer.width)
+    width = sum(layout.widths) + len(_GAP) * (len(columns) - 1)
     printer.print(Text(visible(title, printer.encoding), style="bold"))
     depth = max(len(head) for head in heads)
-    for line in zip(*([""] * (depth - len(head)) + head for head in heads), strict=True):
-        printer.print(Text(_line(line, widths, to_left)))
-    printer.print(Text(rule, style="dim"))
-    if cells:
-        printer.out("\n".join(line for row in cells for line in _lines(row, widths, to_left, printer)), highlight=False)
+    for names in zip(*([""] * (depth - len(head)) + head for head in heads), strict=True):
+        printer.print(Text(layout.line(names)))
+    printer.print(Text(("\u2500" if printer.encoding.startswith("utf") else "-") * width, style="dim"))
+    lines = (line for row in cells for line in layout.lines(row, printer))
+    if styles:
+        for line in lines:
+            printer.print(layout.styled(line, styles))
+    elif cells:
+        printer.out("\n".join(map(layout.line, lines)), highlight=False)
     if note:
-        printer.print(Text(visible(note), style="dim"))
+        printer.print(Text(visible(note, printer.encoding), style="dim"))
     printer.print()
+
+
+class _Layout(NamedTuple):
+    """Widths of the columns, and which of them stand to the left."""
+
+    widths: list[int]
+    to_left: list[bool]
+
+    def lines(self, row: list[str], printer: Console) -> Iterable[Sequence[str]]:
+        """A row as one line of cells, or several where a text is folded."""
+        if all(cell_len(cell) <= width for cell, width in zip(row, self.widths, strict=True)):
+            return [row]
+        folded = [
+            [part.plain.rstrip() for part in Text(cell).wrap(printer, width)]
+            for cell, width in zip(row, self.widths, strict=True)
+        ]
+        return zip_longest(*folded, fillvalue="")
+
+    def line(self, cells: Sequence[str]) -> str:
+        """Cells side by side, without blanks behind the last."""
+        return _GAP.join(self._padded(cells)).rstrip()
+
+    def styled(self, cells: Sequence[str], styles: Mapping[str, str]) -> Text:
+        """The same with the cells that have a style."""
+        text = Text()
+        for cell, padded in zip(cells, self._padded(cells), strict=True):
+            text.append(_GAP if text else "").append(padded, styles.get(cell))
+        text.rstrip()
+        return text
+
+    def _padded(self, cells: Sequence[str]) -> Iterator[str]:
+        for cell, width, left in zip(cells, self.widths, self.to_left, strict=True):
+            blanks = " " * (width - cell_len(cell))
+            yield cell + blanks if left else blanks + cell
+
+
+def _layout(heads: list[list[str]], cells: list[list[str]], to_left: list[bool], available: int) -> _Layout:
+    columns = zip(*cells, strict=True) if cells else [()] * len(heads)
+    widths = [max(cell_len(text) for text in (*head, *column)) for head, column in zip(heads, columns, strict=True)]
+    return _Layout(_fitted(widths, to_left, available), to_left)
 
 
 def _fitted(widths: list[int], to_left: list[bool], available: int) -> list[int]:
@@ -61,22 +105,3 @@ def _fitted(widths: list[int], to_left: list[bool], available: int) -> list[int]
         column = next(i for i, text in enumerate(to_left) if text and fitted[i] == widest)
         fitted[column] -= 1
     return fitted
-
-
-def _lines(row: list[str], widths: list[int], to_left: list[bool], printer: Console) -> Iterable[str]:
-    """A row, on several lines where a text is folded."""
-    if all(cell_len(cell) <= width for cell, width in zip(row, widths, strict=True)):
-        return [_line(row, widths, to_left)]
-    folded = [
-        [part.plain.rstrip() for part in Text(cell).wrap(printer, width)]
-        for cell, width in zip(row, widths, strict=True)
-    ]
-    return [_line(line, widths, to_left) for line in zip_longest(*folded, fillvalue="")]
-
-
-def _line(cells: Sequence[str], widths: list[int], to_left: list[bool]) -> str:
-    padded = (
-        cell + " " * (width - cell_len(cell)) if text else " " * (width - cell_len(cell)) + cell
-        for cell, width, text in zip(cells, widths, to_left, strict=True)
-    )
-    return _GAP.join(padded).rstrip()

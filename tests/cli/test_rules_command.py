@@ -1,0 +1,78 @@
+"""`mudline rules` and `mudline schema`: what the program says about itself."""
+
+from __future__ import annotations
+
+import pytest
+from jsonschema import Draft202012Validator
+
+from mudline.lint.registry import rules
+from tests.cli.decks import CLEAN
+from tests.cli.runner import SAMPLES, assert_fits, run
+
+CODES = [rule.code.code for rule in rules()]
+
+
+def test_list_has_a_line_for_every_rule() -> None:
+    outcome = run("rules")
+    assert (outcome.code, outcome.err) == (0, "")
+    lines = outcome.out.splitlines()
+    assert lines[0] == f"{len(CODES)} rules"
+    assert [line.split()[0] for line in lines[3:-1]] == CODES
+    assert "SYN002  error     bad-number                A field that needs a number holds none." in lines
+
+
+@pytest.mark.parametrize("word", ["SYN002", "syn002", "bad-number"])
+def test_one_rule_is_explained(word: str) -> None:
+    outcome = run("rules", word)
+    assert outcome.code == 0
+    lines = outcome.out.splitlines()
+    assert lines[:3] == ["SYN002 bad-number (error)", "", "A field that needs a number holds none."]
+    assert any(line.startswith("Bad (found at line ") for line in lines)
+    assert "Good:" in lines
+    assert "    $MODEL" in lines
+
+
+@pytest.mark.parametrize("code", CODES)
+def test_page_fits_and_is_harmless(code: str) -> None:
+    text = run("rules", code, terminal=True).out
+    assert all(char.isprintable() or char == "\n" for char in text.replace("\x1b[", ""))
+    prose = [line for line in run("rules", code).out.splitlines() if not line.startswith("    ")]
+    assert max(map(len, prose)) <= 100
+
+
+def test_prefix_lists_its_rules() -> None:
+    lines = run("rules", "CRV").out.splitlines()
+    assert [line.split()[0] for line in lines[3:-1]] == [code for code in CODES if code.startswith("CRV")]
+
+
+def test_unknown_rule_is_wrong_usage() -> None:
+    outcome = run("rules", "SYN0O2")
+    assert (outcome.code, outcome.out) == (2, "")
+    assert "'SYN0O2' names no rule: did you mean SYN0" in outcome.err
+
+
+def test_json() -> None:
+    found = run("rules", "--output-format", "json").json()
+    assert_fits(found, "rules")
+    assert [rule["code"] for rule in found] == CODES
+    (one,) = run("rules", "SYN002", "--output-format", "json").json()
+    assert one == next(rule for rule in found if rule["code"] == "SYN002")
+
+
+@pytest.mark.parametrize("name", sorted(path.name for path in SAMPLES.glob("*.key*") if path.stem != "broken"))
+@pytest.mark.parametrize("options", [(), ("--sorted",)], ids=["as-is", "sorted"])
+def test_schema_describes_what_convert_writes(name: str, options: tuple[str, ...]) -> None:
+    outcome = run("schema")
+    assert (outcome.code, outcome.err) == (0, "")
+    schema = outcome.json()
+    Draft202012Validator.check_schema(schema)
+    Draft202012Validator(schema).validate(run("convert", SAMPLES / name, "--to", "json", *options).json())
+
+
+def test_schema_refuses_what_is_no_deck() -> None:
+    validator = Draft202012Validator(run("schema").json())
+    document = run("convert", "-", "--to", "json", stdin=CLEAN.encode()).json()
+    assert validator.is_valid(document)
+    document["sections"][0]["blocks"][0]["depth"] = "deep"
+    assert not validator.is_valid(document)
+    assert not validator.is_valid({"format": "mudline-deck/1"})
