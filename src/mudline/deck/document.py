@@ -8,9 +8,9 @@ from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
-from mudline.codes import DOC002
+from mudline.codes import DOC001, DOC002
 from mudline.deck.model import START, Deck, Opaque, Range, Section
-from mudline.diagnostics import DeckError, Problem, Where
+from mudline.diagnostics import DeckError, Diagnostic, Problem, Where
 from mudline.keywords import catalogue
 from mudline.keywords.model import Block, Comment
 from mudline.syntax.tree import canonical_name
@@ -80,6 +80,28 @@ class DocumentOrigin:
         return True
 
 
+def refusal(file: str, message: str, place: Range = START) -> DeckError:
+    """Why a text is no document at all."""
+    return DeckError([Diagnostic(file, DOC001.code, DOC001.slug, DOC001.severity, message, *place)])
+
+
+def _holds(value: object, part: str | int) -> bool:
+    """Whether a document has something at a key or an index."""
+    if isinstance(value, dict):
+        return part in value
+    return isinstance(value, list) and isinstance(part, int) and part < len(value)
+
+
+def decoded(data: bytes, file: str, form: str) -> str:
+    """The text of a JSON or YAML file; raises DeckError when it is not UTF-8."""
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        message = f"byte 0x{data[error.start]:02X} is not UTF-8: {form} files are"
+        raise refusal(file, message, Range(line, 1, line, 1)) from error
+
+
 def path_text(path: DocumentPath) -> str:
     """A path as people write it: `sections[0].blocks[2].curves[0].points`."""
     text = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path)
@@ -116,11 +138,9 @@ class _Faults:
     def _real_path(self, loc: DocumentPath) -> DocumentPath:
         """The path without the names of alternatives that pydantic puts in."""
         found: list[str | int] = []
-        value = self.document
+        value: Any = self.document
         for part in loc:
-            if isinstance(value, dict) and part in value:
-                value = value[part]
-            elif isinstance(value, list) and isinstance(part, int) and part < len(value):
+            if _holds(value, part):
                 value = value[part]
             elif part != loc[-1] or not isinstance(value, dict):
                 continue

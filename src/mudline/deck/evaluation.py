@@ -7,9 +7,9 @@ from typing import Any
 
 from mudline.codes import SYN002
 from mudline.deck.model import Deck
-from mudline.deck.parameters import NoValue, Parameters, Value, whole_fault
+from mudline.deck.parameters import NoValueError, Parameters, Value, whole_fault
 from mudline.diagnostics import Problem, Where
-from mudline.keywords.model import ListRow, Part, Rows, Slot, layout
+from mudline.keywords.model import ListRow, Part, Slot, columns_of, layout
 from mudline.keywords.table import Table
 from mudline.keywords.values import Equation, Kind
 
@@ -37,7 +37,8 @@ class _Evaluator:
     def part(self, part: Any, where: Where) -> Any:
         """A part without equations; the same object if it has none."""
         changed: dict[str, object] = {}
-        for slot in layout(type(part)).slots:
+        kind: type[Part] = type(part)
+        for slot in layout(kind).slots:
             value = getattr(part, slot.name)
             inner = where._replace(path=(*where.path, slot.json))
             new = self._value(value, slot, inner)
@@ -75,7 +76,7 @@ class _Evaluator:
         nothing = None if whole else math.nan
         try:
             value = self.parameters.evaluate(equation, where)
-        except NoValue as reason:
+        except NoValueError as reason:
             if reason.problem:
                 self.problems.append(reason.problem)
             return nothing
@@ -93,8 +94,7 @@ class _Evaluator:
         return None
 
     def _table(self, table: Table, slot: Slot, where: Where) -> Table:
-        assert isinstance(slot.about, Rows)
-        columns = slot.about.columns()
+        columns = columns_of(slot)
         values = table.values.copy()
         words = dict(table.words)
         for (row, column), word in table.words.items():

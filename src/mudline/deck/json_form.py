@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from functools import cache
 from typing import Any
 
 from pydantic_core import to_json as compact
 
-from mudline.codes import DOC001
-from mudline.deck.document import DocumentPath, from_document, to_document
-from mudline.deck.model import START, Deck, Range
-from mudline.deck.node_places import places
-from mudline.diagnostics import DeckError, Diagnostic
+from mudline.deck.document import decoded, from_document, refusal, to_document
+from mudline.deck.model import Deck, Range
+from mudline.deck.node_places import compose_json, locator
 
 _INDENT = " "
 
@@ -50,42 +47,38 @@ def _inline(value: Any) -> str:
     return compact(value, inf_nan_mode="constants").decode()
 
 
+def write(deck: Deck) -> str:
+    """What `dump` calls."""
+    return to_json(deck)
+
+
+def read(data: bytes, file: str) -> Deck:
+    """The deck of a file's content; raises DeckError."""
+    return from_json(decoded(data, file, "JSON"), file)
+
+
 def from_json(text: str, file: str = "<json>") -> Deck:
     """The deck of a JSON text; raises DeckError for what is no JSON, has a key twice, or breaks the schema."""
     try:
         document = json.loads(text, object_pairs_hook=_unique, parse_constant=_no_constant)
     except json.JSONDecodeError as error:
-        raise _refusal(
-            file, f"no JSON: {error.msg}", Range(error.lineno, error.colno, error.lineno, error.colno)
-        ) from error
+        place = Range(error.lineno, error.colno, error.lineno, error.colno)
+        raise refusal(file, f"no JSON: {error.msg}", place) from error
     except RecursionError as error:
-        raise _refusal(file, "nested too deeply", START) from error
+        raise refusal(file, "nested too deeply: is this a deck?") from error
     except ValueError as error:
-        raise _refusal(file, str(error), START) from error
-
-    @cache
-    def found() -> dict[DocumentPath, Range]:
-        return places(text)
-
-    def locate(path: DocumentPath) -> Range:
-        known = found()
-        return next((known[path[:n]] for n in range(len(path), -1, -1) if path[:n] in known), START)
-
-    return from_document(document, file, locate)
+        raise refusal(file, str(error)) from error
+    return from_document(document, file, locator(text, lambda: compose_json(text)))
 
 
 def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    values = dict(pairs)
-    if len(values) != len(pairs):
-        seen: set[str] = set()
-        twice = next(key for key, _ in pairs if key in seen or seen.add(key))  # type: ignore[func-returns-value]
-        raise ValueError(f"the key {twice!r} stands twice in one object")
+    values: dict[str, Any] = {}
+    for key, value in pairs:
+        if key in values:
+            raise ValueError(f"the key {key!r} stands twice in one object")
+        values[key] = value
     return values
 
 
 def _no_constant(name: str) -> None:
     raise ValueError(f"{name} is no JSON number: a deck holds finite numbers only")
-
-
-def _refusal(file: str, message: str, place: Range) -> DeckError:
-    return DeckError([Diagnostic(file, DOC001.code, DOC001.slug, DOC001.severity, message, *place)])

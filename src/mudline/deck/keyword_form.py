@@ -14,6 +14,11 @@ def to_keyword(deck: Deck) -> str:
     return "".join(f"{line}\n" for line in _lines(deck))
 
 
+def write(deck: Deck) -> str:
+    """What `dump` calls."""
+    return to_keyword(deck)
+
+
 def _lines(deck: Deck) -> Iterator[str]:
     yield from deck.preamble
     for index, section in enumerate(deck.sections):

@@ -3,52 +3,73 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
+from functools import cache
 
 import yaml
 
-from mudline.deck.model import Range
+from mudline.deck.document import DocumentPath, Locate
+from mudline.deck.model import START, Range
 from mudline.deck.yaml_core import CoreLoader
 
-Path = tuple[str | int, ...]
 DEEPEST = 100
 """The most levels of a document; the library that composes it crashes the process at some ten thousand."""
-_BRACKET = re.compile(r"[\[\]{}]")
-_INDENT = re.compile(r"^[ ?-]*+", re.MULTILINE)
+_OPENING = re.compile(r"[\[{]|^[ ?-]{8}", re.MULTILINE)
 
 
 def too_deep(text: str) -> bool:
-    """Whether a text may be nested deeper than a deck can be: by its brackets, or by dashes and indentation."""
-    depth = deepest = 0
-    for mark in _BRACKET.findall(text):
-        depth = depth + 1 if mark in "[{" else max(depth - 1, 0)
-        deepest = max(deepest, depth)
-    return deepest > DEEPEST or max(len(found) for found in _INDENT.findall(text)) > 2 * DEEPEST
+    """Whether a YAML text is nested deeper than a deck can be. Only one that could be is looked at twice."""
+    if len(_OPENING.findall(text)) <= DEEPEST:
+        return False
+    depth = 0
+    for event in yaml.parse(text, Loader=CoreLoader):
+        depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
+        if depth > DEEPEST:
+            return True
+    return False
 
 
-def within(text: str, mark: yaml.Mark) -> tuple[int, int]:
-    """Line and column of a mark; one behind the last line stands at its end."""
-    lines = text.count("\n") + 1
-    if mark.line < lines:
-        return mark.line + 1, mark.column + 1
-    return lines, len(text) - text.rfind("\n")
+def mark_range(text: str, start: yaml.Mark, end: yaml.Mark | None = None) -> Range:
+    """Lines and columns from one mark to another; one behind the last line stands at its end."""
+    lines, width = text.count("\n") + 1, len(text) - text.rfind("\n")
+    return _range(start, end or start, lines, width)
 
 
-def places(text: str) -> dict[Path, Range]:
-    """Lines and columns of every value of a document, JSON being YAML; {} when it is none."""
+def _range(start: yaml.Mark, end: yaml.Mark, lines: int, width: int) -> Range:
+    places = [(mark.line + 1, mark.column + 1) if mark.line < lines else (lines, width) for mark in (start, end)]
+    return Range(*places[0], *places[1])
+
+
+def locator(text: str, compose: Callable[[], yaml.Node | None]) -> Locate:
+    """A function that finds the place of a path, or of the nearest thing around it; it looks when first asked."""
+
+    @cache
+    def found() -> dict[DocumentPath, Range]:
+        root = compose()
+        return {} if root is None else _places(root, text)
+
+    def locate(path: DocumentPath) -> Range:
+        known = found()
+        return next((known[path[:n]] for n in range(len(path), -1, -1) if path[:n] in known), START)
+
+    return locate
+
+
+def compose_json(text: str) -> yaml.Node | None:
+    """The nodes of a JSON text, JSON being YAML; None where the YAML parser does not take it."""
     try:
-        root = yaml.compose(text, Loader=CoreLoader)
+        return yaml.compose(text, Loader=CoreLoader)
     except (yaml.YAMLError, RecursionError):
-        return {}
-    return {} if root is None else node_places(root, text)
+        return None
 
 
-def node_places(root: yaml.Node, text: str) -> dict[Path, Range]:
-    """The same from a composed document; tables of rows are not entered."""
-    found: dict[Path, Range] = {}
-    stack: list[tuple[Path, yaml.Node]] = [((), root)]
+def _places(root: yaml.Node, text: str) -> dict[DocumentPath, Range]:
+    lines, width = text.count("\n") + 1, len(text) - text.rfind("\n")
+    found: dict[DocumentPath, Range] = {}
+    stack: list[tuple[DocumentPath, yaml.Node]] = [((), root)]
     while stack:
         path, node = stack.pop()
-        found[path] = Range(*within(text, node.start_mark), *within(text, node.end_mark))
+        found[path] = _range(node.start_mark, node.end_mark, lines, width)
         if isinstance(node, yaml.MappingNode):
             stack += [((*path, key.value), value) for key, value in node.value if isinstance(key, yaml.ScalarNode)]
         elif isinstance(node, yaml.SequenceNode):

@@ -36,7 +36,7 @@ class Definition:
     expression: Expression | None = None
 
 
-class NoValue(Exception):
+class NoValueError(Exception):
     """An equation without a value; `problem` is None when it has been told elsewhere."""
 
     def __init__(self, problem: Problem | None = None) -> None:
@@ -66,16 +66,16 @@ class Parameters:
         if isinstance(value, Equation):
             try:
                 value = self.evaluate(value, Where())
-            except NoValue:
+            except NoValueError:
                 return None
         return float(value) if isinstance(value, int | float) else None
 
     def evaluate(self, equation: Equation, where: Where) -> Value:
-        """The value of an equation; raises NoValue with the problem, placed at `where`."""
+        """The value of an equation; raises NoValueError with the problem, placed at `where`."""
         expression = self._parse(equation, where)
         for name, _, _ in expression.name_spans:
             if folded(name) in self.failed:
-                raise NoValue
+                raise NoValueError
         return self._value(expression, where)
 
     def _define(self, parameter: Parameter, where: Where) -> None:
@@ -142,12 +142,13 @@ class Parameters:
         try:
             expression = self._parse(definition.value, definition.where)
             used = [folded(other) for other in expression.names if folded(other) in self.definitions]
-            if self.failed.intersection(used):
-                raise NoValue
             waiting = [other for other in used if other not in self.values]
+            if self.failed.intersection(used):
+                self._fail(name, None)
+                return []
             if not waiting:
                 self.values[name] = self._value(expression, definition.where)
-        except NoValue as reason:
+        except NoValueError as reason:
             self._fail(name, reason.problem)
             return []
         return waiting
@@ -162,7 +163,7 @@ class Parameters:
         try:
             return parse(equation.expression)
         except ExpressionError as error:
-            raise NoValue(_problem(SYN017, equation, error, where)) from error
+            raise NoValueError(_problem(SYN017, equation, error, where)) from error
 
     def _value(self, expression: Expression, where: Where) -> Value:
         equation = Equation(f"=[{expression.text}]")
@@ -172,13 +173,13 @@ class Parameters:
             word = expression.text[error.start : error.end]
             known = [definition.name for definition in self.definitions.values()]
             message = f"parameter {word} is not defined{suggestion(word, known)}: define it in *PARAMETERS"
-            raise NoValue(Problem(REF013, message, None, None, where)) from error
+            raise NoValueError(Problem(REF013, message, None, None, where)) from error
         except UnknownFunction as error:
             problem = _problem(SYN017, equation, error, where)
             message = f"{problem.message}; the equation is not evaluated"
-            raise NoValue(Problem(SYN017, message, None, Severity.WARNING, where)) from error
+            raise NoValueError(Problem(SYN017, message, None, Severity.WARNING, where)) from error
         except ExpressionError as error:
-            raise NoValue(_problem(SYN017, equation, error, where)) from error
+            raise NoValueError(_problem(SYN017, equation, error, where)) from error
 
 
 def _problem(code: Code, equation: Equation, error: ExpressionError, where: Where) -> Problem:

@@ -18,7 +18,7 @@ _NEAR = 0.02
 
 
 def units_of(deck: Deck) -> str:
-    """ "metric", "imperial" or "user": by suffix, else `*UNITS`, else the gravity of `*OCEAN` within 2 %."""
+    """The system, "metric", "imperial" or "user": by suffix, else `*UNITS`, else the gravity of `*OCEAN` within 2 %."""
     suffix = PurePath(deck.source).suffix.lower()
     if suffix in _SUFFIXES:
         return _SUFFIXES[suffix]

@@ -1,4 +1,4 @@
-"""YAML 1.2, core schema, on PyYAML's parser: what a plain scalar means is set here, duplicate keys and aliases are refused."""
+"""YAML 1.2, core schema, on PyYAML's parser: what a plain scalar means is set here."""
 
 from __future__ import annotations
 

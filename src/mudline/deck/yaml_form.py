@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from functools import cache
-from typing import Any
+from typing import Any, cast
 
 import yaml
 
-from mudline.codes import DOC001
-from mudline.deck.document import DocumentPath, from_document, to_document
-from mudline.deck.model import START, Deck, Range
-from mudline.deck.node_places import node_places, too_deep, within
+from mudline.deck.document import decoded, from_document, refusal, to_document
+from mudline.deck.model import START, Deck
+from mudline.deck.node_places import locator, mark_range, too_deep
 from mudline.deck.yaml_core import CoreDumper, CoreLoader, scalar
-from mudline.diagnostics import DeckError, Diagnostic
+from mudline.diagnostics import DeckError
 from mudline.keywords.writer import joined
 
 SHORT_TABLE = 20
@@ -63,36 +61,40 @@ def _node(value: Any) -> Any:
     return _Flow(value)
 
 
+def write(deck: Deck) -> str:
+    """What `dump` calls."""
+    return to_yaml(deck)
+
+
+def read(data: bytes, file: str) -> Deck:
+    """The deck of a file's content; raises DeckError."""
+    return from_yaml(decoded(data, file, "YAML"), file)
+
+
 def from_yaml(text: str, file: str = "<yaml>") -> Deck:
-    """The deck of a YAML text; raises DeckError for what is no YAML, has a key twice or an alias, or breaks the schema."""
-    if too_deep(text):
-        raise _refusal(file, "nested too deeply: is this a deck?", START)
+    """The deck of a YAML text.
+
+    Raises DeckError for what is no YAML, has a key twice or an alias, or breaks the schema.
+    """
     try:
+        if too_deep(text):
+            raise refusal(file, "nested too deeply: is this a deck?")
         root = yaml.compose(text, Loader=CoreLoader)
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
-        place = Range(*within(text, mark), *within(text, mark)) if mark else START
-        raise _refusal(file, f"no YAML: {error.problem}", place) from error
+        raise refusal(file, f"no YAML: {error.problem}", mark_range(text, mark) if mark else START) from error
     except yaml.YAMLError as error:
-        raise _refusal(file, f"no YAML: {str(error).partition(chr(10))[0]}", START) from error
-    document = None if root is None else _Reader(file).value(root)
-
-    @cache
-    def found() -> dict[DocumentPath, Range]:
-        return {} if root is None else node_places(root, text)
-
-    def locate(path: DocumentPath) -> Range:
-        known = found()
-        return next((known[path[:n]] for n in range(len(path), -1, -1) if path[:n] in known), START)
-
-    return from_document(document, file, locate)
+        raise refusal(file, f"no YAML: {str(error).partition(chr(10))[0]}") from error
+    document = None if root is None else _Reader(file, text).value(root)
+    return from_document(document, file, locator(text, lambda: root))
 
 
 class _Reader:
     """Nodes to values."""
 
-    def __init__(self, file: str) -> None:
+    def __init__(self, file: str, text: str) -> None:
         self.file = file
+        self.text = text
         self.seen: set[int] = set()
 
     def value(self, node: yaml.Node) -> Any:
@@ -104,9 +106,8 @@ class _Reader:
             return self._mapping(node)
         if isinstance(node, yaml.SequenceNode):
             return [self.value(item) for item in node.value]
-        assert isinstance(node, yaml.ScalarNode)
         try:
-            return scalar(node)
+            return scalar(cast("yaml.ScalarNode", node))
         except ValueError as error:
             raise self._error(node, str(error)) from error
 
@@ -122,9 +123,4 @@ class _Reader:
         return values
 
     def _error(self, node: yaml.Node, message: str) -> DeckError:
-        mark = node.start_mark
-        return _refusal(self.file, message, Range(mark.line + 1, mark.column + 1, mark.line + 1, mark.column + 1))
-
-
-def _refusal(file: str, message: str, place: Range) -> DeckError:
-    return DeckError([Diagnostic(file, DOC001.code, DOC001.slug, DOC001.severity, message, *place)])
+        return refusal(self.file, message, mark_range(self.text, node.start_mark))

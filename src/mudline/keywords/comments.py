@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from operator import itemgetter
 from typing import NamedTuple
 
 from mudline.diagnostics import Span
@@ -22,12 +23,16 @@ def attach(comments: list[CommentLine], block: Built) -> list[str]:
     Returns the texts of those behind the last line of the block: they belong to what follows it.
     """
     trailing: list[str] = []
+    owners: list[Built] = []
     for comment in comments:
         if block.last is not None and comment.position < block.last:
             owner = block.owner(comment.position)
             before = owner.after(comment.position)
             index = owner.count if before is None else before
             owner.values.setdefault("comments", []).append({"before": index, "text": comment.text})
+            owners.append(owner)
         else:
             trailing.append(comment.text)
+    for owner in owners:  # a setting may stand in another place than it is written back to
+        owner.values["comments"].sort(key=itemgetter("before"))
     return trailing

@@ -290,6 +290,11 @@ def layout(part: type[Part]) -> Layout:
     return found
 
 
+def columns_of(slot: Slot) -> list[Column]:
+    """The columns of a field that is a table."""
+    return slot.about.columns() if isinstance(slot.about, Rows) else []
+
+
 @cache
 def table_columns(row: type[Row]) -> list[Column]:
     """The columns of a table whose rows are `row`."""

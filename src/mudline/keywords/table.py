@@ -194,6 +194,7 @@ def _not_whole(table: Table, columns: Sequence[Column]) -> dict[tuple[int, int],
         if not columns[index].whole:
             continue
         values = table.values[:, index]
+        values += 0.0  # a whole number has no signed zero
         with np.errstate(invalid="ignore"):
             wrong = (values != np.floor(values)) & ~np.isnan(values) | (np.abs(values) > LARGEST_WHOLE)
         for row in np.flatnonzero(wrong).tolist():

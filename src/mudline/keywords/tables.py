@@ -51,7 +51,7 @@ class TableBuilder:
         """All rows in one table."""
         if len(self.parts) == 1:
             return self.parts[0]
-        width = max((part.values.shape[1] for part in self.parts), default=len(self.columns))
+        width = max((part.values.shape[1] for part in self.parts), default=0)
         values = np.full((self.count, width), np.nan)
         words: dict[tuple[int, int], Equation | Label | None] = {}
         start = 0

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
-from mudline.keywords.model import Block, Part, Record, Rows, Setting, Slot, layout
+from mudline.keywords.model import Block, Part, Record, Rows, Setting, Slot, columns_of, layout
 from mudline.keywords.table import Cell, Table
 
 
@@ -73,8 +73,7 @@ def _items(record: Record) -> Iterator[list[str]]:
 
 def table_lines(table: Table, slot: Slot) -> Iterator[str]:
     """The rows of a table, one a line."""
-    assert isinstance(slot.about, Rows)
-    for row in table.rows(slot.about.columns()):
+    for row in table.rows(columns_of(slot)):
         yield " " + joined(row)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import NamedTuple
 
 from mudline.codes import SYN003, SYN006
@@ -15,6 +16,7 @@ MOST_FIELDS = 100_000
 _KEY = re.compile(r"[ \t]*([A-Za-z][\w \t-]*)=")
 _BLANKS = re.compile(r"[ \t]+")
 _SPECIAL = re.compile(r'[\["{/]')
+_MARKS = ',"[{/'
 _NESTING = re.compile(r'[\[\]"/]')
 _CLOSERS = {"[": "]", "{": "}", '"': '"', "/": "/"}
 
@@ -90,16 +92,15 @@ def _field(text: str, piece: Span) -> Field:
 def split(text: str, span: Span, *, slashes: bool = False) -> tuple[list[Field], list[Problem]]:
     """The fields between the top-level commas of a line, and what was wrong with its brackets."""
     body = trimmed(text, *span)
-    if text.count(",", body.start, body.end) >= MOST_FIELDS:
-        message = f"more than {MOST_FIELDS} fields on one line: is this a deck?"
+    if sum(text.count(mark, *body) for mark in _MARKS) >= MOST_FIELDS:
+        message = f"more than {MOST_FIELDS} fields or brackets on one line: is this a deck?"
         return [], [Problem(SYN003, message, Span(body.start, body.start + 1))]
     commas = _commas(text, body)
     problems: list[Problem] = []
     if _SPECIAL.search(text, body.start, body.end):
-        commas = _outside(commas, _protected(text, body, slashes, problems))
-    edges = [body.start - 1, *commas, body.end]
-    spans = zip(edges[:-1], edges[1:], strict=True)
-    return [_field(text, Span(left + 1, right)) for left, right in spans], problems
+        commas = _outside(commas, _protected(text, body, problems, slashes=slashes))
+    edges = pairwise([body.start - 1, *commas, body.end])
+    return [_field(text, Span(left + 1, right)) for left, right in edges], problems
 
 
 def _commas(text: str, body: Span) -> list[int]:
@@ -123,7 +124,7 @@ def _outside(commas: list[int], protected: list[Span]) -> list[int]:
     return kept
 
 
-def _protected(text: str, body: Span, slashes: bool, problems: list[Problem]) -> list[Span]:
+def _protected(text: str, body: Span, problems: list[Problem], *, slashes: bool) -> list[Span]:
     """Spans of equations, labels, strings and slash lists; an unclosed one reaches to the end of the line."""
     spans: list[Span] = []
     at = body.start
@@ -147,7 +148,9 @@ def _protected(text: str, body: Span, slashes: bool, problems: list[Problem]) ->
 
 def _begins_field(text: str, body: Span, at: int) -> bool:
     """Whether a slash is the first character of a field, as it must be to open a list."""
-    return text[body.start : at].rstrip(" \t")[-1:] in ("", ",")
+    while at > body.start and text[at - 1] in " \t":
+        at -= 1
+    return at == body.start or text[at - 1] == ","
 
 
 def _close(text: str, start: int, end: int) -> int:

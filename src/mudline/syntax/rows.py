@@ -1,4 +1,4 @@
-"""Runs of rows to arrays: the slow reader defines the meaning, the fast one answers the same to the last bit or declines."""
+"""Runs of rows to arrays: the slow reader defines their meaning, the fast one says the same bit for bit or declines."""
 
 from __future__ import annotations
 
@@ -26,7 +26,9 @@ _DIGITS = 400
 
 
 class Rows(NamedTuple):
-    """A run of rows. `values` (rows, columns) holds NaN where `words` has a text that is no number ("" for an empty field).
+    """A run of rows.
+
+    `values` (rows, columns) holds NaN where `words` has a text that is no number ("" for an empty field).
 
     `lengths` (rows,) counts the fields of each row, also those beyond the last column, which are not kept.
     """
@@ -90,22 +92,24 @@ def read_rows_fast(text: str, span: Span, columns: int) -> Rows | None:
     data = body.encode("ascii")
     if data.translate(None, _PLAIN) or _LOST_SIGN.search(data):
         return None
-    pieces: list[NDArray[np.float64]] = []
-    for piece in _pieces(data):
-        if len(piece) > 2 * _PIECE:
-            return None
-        try:
-            array = np.array(from_json(b"[[" + piece.replace(b"\n", b"],[") + b"]]"), dtype=np.float64)
-        except (ValueError, OverflowError):
-            return None
-        if array.ndim != 2 or not np.isfinite(array).all():
-            return None
-        pieces.append(array)
-    widths = {piece.shape[1] for piece in pieces}
-    if len(widths) != 1 or not 0 < (width := widths.pop()) <= columns:
+    pieces = [_plain_rows(piece) for piece in _pieces(data)]
+    tables = [piece for piece in pieces if piece is not None]
+    widths = {table.shape[1] for table in tables}
+    if len(tables) < len(pieces) or len(widths) != 1 or not 0 < (width := widths.pop()) <= columns:
         return None
-    values = pieces[0] if len(pieces) == 1 else np.concatenate(pieces)
+    values = np.concatenate(tables)
     return Rows(values, np.full(len(values), width, dtype=np.intp), {})
+
+
+def _plain_rows(piece: bytes) -> NDArray[np.float64] | None:
+    """The rows of a piece as one JSON list of lists; None where they are none, or not of one length, or not finite."""
+    if len(piece) > 2 * _PIECE:
+        return None
+    try:
+        table = np.array(from_json(b"[[" + piece.replace(b"\n", b"],[") + b"]]"), dtype=np.float64)
+    except (ValueError, OverflowError):
+        return None
+    return table if table.ndim == 2 and np.isfinite(table).all() else None
 
 
 def _pieces(data: bytes) -> Iterator[bytes]:
@@ -147,8 +151,10 @@ def _row_words(body: str, columns: int) -> tuple[list[str], int]:
     Empty fields behind the last column, as trailing commas leave them, do not count.
     """
     if _SPECIAL.search(body):
-        fields, _ = split(body, Span(0, len(body)))
-        return [field.text for field in fields[:columns]], len(fields)
+        texts = [field.text for field in split(body, Span(0, len(body)))[0]]
+        while len(texts) > columns and not texts[-1]:
+            texts.pop()
+        return texts[:columns], len(texts)
     if "," not in body and blank_separated(body):
         words = _WORD.findall(body)
         return words[:columns], len(words)

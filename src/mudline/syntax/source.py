@@ -17,6 +17,7 @@ _LONE_CR = re.compile(r"\r(?!\n)")
 _NOT_UTF8 = "{} is not UTF-8; the file is read as {}: save it as UTF-8"
 _BINARY_SHARE = 0.1
 _SAMPLE = 65536
+_FEW = 8
 
 
 @dataclass(frozen=True)
@@ -85,7 +86,7 @@ def _refusal(body: bytes) -> str:
         return "the file is UTF-16, which no deck reader takes: save it as UTF-8"
     sample = body[:_SAMPLE]
     strange = len(sample) - len(sample.translate(None, bytes({*range(9), 11, *range(14, 26), *range(27, 32), 127})))
-    if strange > _BINARY_SHARE * len(sample):
+    if strange > max(_BINARY_SHARE * len(sample), _FEW):
         return f"the file looks like binary data ({strange} control characters in its first {len(sample)} bytes)"
     return ""
 

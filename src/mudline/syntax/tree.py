@@ -94,7 +94,7 @@ def parse(source: Source) -> SyntaxTree:
     if not source.readable:
         leaf = Leaf(Kind.TEXT, Span(0, len(source.text)))
         return SyntaxTree(source, RawSection(None, "", [leaf] if source.text else []), ())
-    tree = cast("Tree[Token]", _parser().parse(source.unified))
+    tree = _parser().parse(source.unified)
     sections = [_section(cast("Tree[Token]", child)) for child in tree.children]
     return SyntaxTree(source, sections[0], tuple(sections[1:]))
 
