@@ -192,6 +192,8 @@ class Builder:
         else:
             fields, problems = split(self.text, content.span, slashes=self.slashes)
             self._brackets(problems, path)
+            if len(fields) == 1 and blank_separated(fields[0].text):
+                fields = self._apart(fields[0])
             before = [sibling.values for sibling in siblings]
             name = built.part.row_slot(number, len(fields), built.values, before)
             slot = next(s for s in found.slots if s.name == name)
@@ -280,8 +282,6 @@ class Builder:
         return fields
 
     def _list(self, slot: Slot, fields: list[Field], path: Path) -> list[Value]:
-        if len(fields) == 1 and blank_separated(fields[0].text):
-            fields = self._apart(fields[0])
         while len(fields) > 1 and not fields[-1].text:
             fields.pop()
         values: list[Value] = []
