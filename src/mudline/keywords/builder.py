@@ -12,14 +12,14 @@ from mudline.keywords.grammar import ROW, Content, Node
 from mudline.keywords.model import Block, ListRow, Part, Record, Slot, layout, row_format
 from mudline.keywords.places import Path, Places
 from mudline.keywords.tables import TableBuilder
-from mudline.keywords.text import Unreadable, Value, decimal_comma, read_value, suggestion
+from mudline.keywords.text import UnreadableError, Value, decimal_comma, read_value, suggestion
 from mudline.syntax.fields import Field, Group, read_line, split, trimmed
 from mudline.syntax.rows import blank_separated
 
 
 @dataclass(slots=True)
 class Item:
-    """A line or a record among the contents of a record: where it is written, where it stands, how many it counts for."""
+    """A line or a record in a record: where it is written, where it stands, how many it counts for."""
 
     order: int
     position: int
@@ -68,7 +68,7 @@ class Built:
 class Builder:
     """Reads the lines of one block."""
 
-    def __init__(self, text: str, slashes: bool, places: Places, problems: list[Problem]) -> None:
+    def __init__(self, text: str, places: Places, problems: list[Problem], *, slashes: bool) -> None:
         self.text = text
         self.slashes = slashes
         self.places = places
@@ -174,7 +174,7 @@ class Builder:
         self.places.spans[path] = fields[0].span
         try:
             built.values[slot.json] = read_value(fields[0], slot, self.problems)
-        except Unreadable as fault:
+        except UnreadableError as fault:
             self._unreadable(path[:-1], fault.problem)
 
     def _row(
@@ -188,7 +188,7 @@ class Builder:
     ) -> None:
         found = layout(built.part)
         if found.table and not found.columns:
-            slot, fields = found.table, []
+            slot, fields = found.table, list[Field]()
         else:
             fields, problems = split(self.text, content.span, slashes=self.slashes)
             self._brackets(problems, path)
@@ -246,7 +246,7 @@ class Builder:
                 continue
             try:
                 values[slot.json] = read_value(given, slot, self.problems)
-            except Unreadable as fault:
+            except UnreadableError as fault:
                 self._unreadable(path, fault.problem)
                 values[slot.json] = None
         return values
@@ -288,7 +288,7 @@ class Builder:
         for given in fields:
             try:
                 value = read_value(given, slot, self.problems)
-            except Unreadable as fault:
+            except UnreadableError as fault:
                 self._unreadable(path, fault.problem)
                 continue
             self.places.spans[*path, len(values)] = given.span
@@ -318,4 +318,5 @@ def construct(built: Built) -> Part:
 
 def _bare(row: type[Part], values: dict[str, Value]) -> Part:
     """A row as it was read."""
-    return row.model_construct(**{slot.name: values.get(slot.json) for slot in layout(row).columns})
+    ready: dict[str, Any] = {slot.name: values.get(slot.json) for slot in layout(row).columns}
+    return row.model_construct(**ready)

@@ -1,4 +1,4 @@
-"""Every section and keyword that is known, and which module declares it; modules are imported when a deck needs them."""
+"""Every section and keyword that is known, and which module declares it; a module is imported when a deck needs it."""
 
 from __future__ import annotations
 

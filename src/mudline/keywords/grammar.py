@@ -1,8 +1,8 @@
-"""Level two: the rule of a keyword over the lines of level one, compiled when first needed, with recovery from bad lines."""
+"""Level two: a keyword's rule over the lines of level one, compiled when first needed, with recovery from bad lines."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from typing import NamedTuple, cast
@@ -44,13 +44,14 @@ class Mismatch(NamedTuple):
 
 
 class _Given(Lexer):
-    """The tokens come ready made."""
+    """No lexer: the tokens are fed one by one."""
 
     def __init__(self, _configuration: object) -> None:
         pass
 
-    def lex(self, data: Iterable[Token]) -> Iterator[Token]:
-        yield from data
+    def lex(self, lexer_state: object, parser_state: object) -> Iterator[Token]:  # noqa: ARG002 - lark's signature
+        """Nothing to cut."""
+        return iter(())
 
 
 @cache

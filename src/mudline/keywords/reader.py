@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, cast
+from typing import cast
 
 from pydantic import ValidationError
 
@@ -13,7 +13,7 @@ from mudline.keywords import grammar
 from mudline.keywords.builder import Builder, Built, construct
 from mudline.keywords.comments import CommentLine, attach
 from mudline.keywords.grammar import END, ROW, Content, Mismatch
-from mudline.keywords.model import Block, Layout, layout, row_format
+from mudline.keywords.model import Block, Layout, Part, layout, row_format
 from mudline.keywords.places import Places
 from mudline.keywords.text import shown, suggestion
 from mudline.syntax.fields import first_key, trimmed
@@ -36,13 +36,12 @@ class ReadBlock:
 
 
 def read_block(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
-    """Read a block. `text` is the unified text of the source; `last` says that nothing follows the block in the file."""
-    reader = _Reader(text, raw, declared, last)
-    return reader.read()
+    """Read a block. `text` is the unified text of the source; `last` says that nothing follows the block in it."""
+    return _Reader(text, raw, declared, last=last).read()
 
 
 class _Reader:
-    def __init__(self, text: str, raw: RawBlock, declared: type[Block], last: bool) -> None:
+    def __init__(self, text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> None:
         self.text = text
         self.raw = raw
         self.declared = declared
@@ -56,7 +55,7 @@ class _Reader:
         contents = self._contents()
         node, mismatches = grammar.parse(self.declared.rule, contents)
         places = Places(self.text, trimmed(self.text, *self.raw.head.span))
-        builder = Builder(self.text, self.declared.slashes, places, self.problems)
+        builder = Builder(self.text, places, self.problems, slashes=self.declared.slashes)
         builder.damaged = any(mismatch.missing for mismatch in mismatches)
         for mismatch in mismatches:
             self._report(mismatch)
@@ -156,12 +155,12 @@ class _Reader:
         return next(f"{key}=" for key in self.keys if grammar.terminal_of(key) == terminal)
 
 
-def all_keys(part: type[Any]) -> frozenset[str]:
+def all_keys(part: type[Part]) -> frozenset[str]:
     """Every KEY that the lines of a keyword may begin with or hold."""
     return frozenset(key for found in _layouts(part) for key in found.keys)
 
 
-def row_formats(part: type[Any]) -> list[str]:
+def row_formats(part: type[Part]) -> list[str]:
     """How the rows of a keyword look."""
     shapes: list[str] = []
     for found in _layouts(part):
@@ -175,7 +174,7 @@ def row_formats(part: type[Any]) -> list[str]:
     return shapes
 
 
-def _layouts(part: type[Any]) -> list[Layout]:
+def _layouts(part: type[Part]) -> list[Layout]:
     own = layout(part)
     below = [inner for slot in own.children.values() for record in slot.record.values() for inner in _layouts(record)]
     return [own, *below]

@@ -8,7 +8,7 @@ import numpy as np
 
 from mudline.codes import SYN002, SYN003, SYN016
 from mudline.diagnostics import Problem, Span
-from mudline.keywords.model import Rows, Slot, row_format
+from mudline.keywords.model import Slot, columns_of, row_format
 from mudline.keywords.places import Path
 from mudline.keywords.table import Column, Table, from_rows
 from mudline.keywords.text import decimal_comma, maybe_label, number_fault
@@ -28,9 +28,8 @@ class TableBuilder:
     """Collects the runs of one table."""
 
     def __init__(self, builder: Builder, slot: Slot, path: Path) -> None:
-        assert isinstance(slot.about, Rows)
         self.builder = builder
-        self.columns: list[Column] = slot.about.columns()
+        self.columns: list[Column] = columns_of(slot)
         self.path = path
         self.parts: list[Table] = []
         self.count = 0

@@ -16,7 +16,7 @@ LARGEST_WHOLE = 2.0**53
 _REAL = (Kind.REAL, Kind.REAL_OR_NAME)
 
 
-class Unreadable(Exception):
+class UnreadableError(Exception):
     """A field that gives no value; the problem is the reason."""
 
     def __init__(self, problem: Problem) -> None:
@@ -25,7 +25,7 @@ class Unreadable(Exception):
 
 
 def read_value(field: Field, slot: Slot, problems: list[Problem]) -> Value:
-    """The value of a field; raises Unreadable. What is only doubtful is added to `problems`."""
+    """The value of a field; raises UnreadableError. What is only doubtful is added to `problems`."""
     if slot.choices:
         return _choice(field, slot)
     if slot.kind is Kind.NAME:
@@ -33,17 +33,19 @@ def read_value(field: Field, slot: Slot, problems: list[Problem]) -> Value:
     if equation := Equation.match(field.text):
         return equation
     number = read_number(field.text)
-    match slot.kind:
-        case Kind.REAL_OR_NAME if not field.text.startswith("=["):
-            return field.text if number is None else number
-        case Kind.WHOLE:
-            return _whole(field, number, slot)
-        case Kind.IDENT:
-            return _ident(field, number, slot, problems)
-        case _:
-            if number is None:
-                raise Unreadable(Problem(SYN002, number_fault(field.text, slot.label), field.span))
-            return number
+    if slot.kind is Kind.WHOLE:
+        return _whole(field, number, slot)
+    if slot.kind is Kind.IDENT:
+        return _ident(field, number, slot, problems)
+    return _real(field, number, slot)
+
+
+def _real(field: Field, number: float | None, slot: Slot) -> float | str:
+    if number is None:
+        if slot.kind is Kind.REAL_OR_NAME and not field.text.startswith("=["):
+            return field.text
+        raise UnreadableError(Problem(SYN002, number_fault(field.text, slot.label), field.span))
+    return number
 
 
 def maybe_label(text: str) -> Label | None:
@@ -88,7 +90,7 @@ def suggestion(word: str, known: Iterable[str]) -> str:
 
 
 def edits(one: str, other: str, most: int) -> int:
-    """Letters to change, insert, drop or swap with their neighbour to make one word of the other, `most` + 1 if more."""
+    """Letters to change, insert, drop or swap with a neighbour to make one word of the other; `most` + 1 if more."""
     if abs(len(one) - len(other)) > most:
         return most + 1
     before: list[int] = []
@@ -126,15 +128,15 @@ def _choice(field: Field, slot: Slot) -> str:
     known = list(slot.choices)
     listed = ", ".join(known[:-1]) + f" or {known[-1]}" if len(known) > 1 else known[0]
     message = f"{shown(field.text)} is not allowed for {slot.label}: expected {listed}{suggestion(word, known)}"
-    raise Unreadable(Problem(SYN005, message, field.span))
+    raise UnreadableError(Problem(SYN005, message, field.span))
 
 
 def _whole(field: Field, number: float | None, slot: Slot) -> int:
     if number is None:
-        raise Unreadable(Problem(SYN002, number_fault(field.text, slot.label), field.span))
+        raise UnreadableError(Problem(SYN002, number_fault(field.text, slot.label), field.span))
     if not number.is_integer() or abs(number) > LARGEST_WHOLE:
         message = f"{field.text} is no whole number: {slot.label} needs one"
-        raise Unreadable(Problem(SYN002, message, field.span))
+        raise UnreadableError(Problem(SYN002, message, field.span))
     return int(number)
 
 
@@ -145,7 +147,7 @@ def _ident(field: Field, number: float | None, slot: Slot, problems: list[Proble
         return label
     braced = maybe_label(field.text)
     if braced is None:
-        raise Unreadable(Problem(SYN002, number_fault(field.text, slot.label), field.span))
+        raise UnreadableError(Problem(SYN002, number_fault(field.text, slot.label), field.span))
     message = f"{shown(field.text)} is no number: is it the label {braced}? Labels stand in braces"
     problems.append(Problem(SYN016, message, field.span))
     return braced

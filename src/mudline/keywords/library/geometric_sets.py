@@ -116,9 +116,9 @@ class GeometricSet(Record):
         section = self.section
         if section is None:
             return "", None
-        if section.do is not None:
-            return "Do", section.do
-        return ("Dd", section.dd) if isinstance(section, FlexibleSection) else ("", None)
+        if isinstance(section, FlexibleSection) and section.do is None:
+            return "Dd", section.dd
+        return "Do", section.do
 
 
 class GeometricSets(Block):

@@ -17,7 +17,7 @@ class Parameter(Record):
         RealOrName,
         about(
             "number, equation, text, or a list between slashes: /a:1 b:2 3/ gives name_a, name_b and name_1",
-            inferred="unnamed items are counted by themselves; names and values may be joined by a colon or a semicolon",
+            inferred="unnamed items are counted by themselves; a colon or a semicolon joins name and value",
         ),
     ]
 
