@@ -141,7 +141,12 @@ def surface(draw: st.DrawFn, most: int) -> Lines:
     return lines + [draw(rows([draw(reals), draw(reals)])) for _ in range(draw(st.integers(0, 3)))]
 
 
-_OPAQUE = ("HYDRODYNAMIC SETS", "NODE, CURVILINEAR", "LINES", "TITLE", "NEW THING", "p-y", "Gel\u00e4nde")
+_OPAQUE = {
+    "MODEL": ("HYDRODYNAMIC SETS", "NODE, CURVILINEAR", "LINES", "p-y", "TITLE", "NEW THING", "Gel\u00e4nde"),
+    "PREPROCESSOR": ("VARIATION", "TITLE"),
+    "ANALYSIS": ("ANALYSIS TYPE", "NEW THING"),
+    "LOAD CASE": ("BOUNDARY", "TIME,DISCONNECT", "WAVE-REGULAR", ""),
+}
 
 
 @st.composite
@@ -179,7 +184,7 @@ def remarked(draw: st.DrawFn, lines: Lines) -> Lines:
 @st.composite
 def blocks(draw: st.DrawFn, section: str) -> Lines:
     known = [keyword for keyword, (belongs, _) in MODELLED.items() if belongs == section]
-    keyword = draw(st.sampled_from([*known, *_OPAQUE[: 1 + len(known) // 2]]))
+    keyword = draw(st.sampled_from([*known, *_OPAQUE[section]]))
     lines = draw(MODELLED[keyword][1] if keyword in known else opaque())
     return [f"*{draw(cased(keyword))}", *draw(remarked(lines))]
 
