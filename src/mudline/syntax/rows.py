@@ -123,12 +123,13 @@ def _pieces(data: bytes) -> Iterator[bytes]:
 
 
 def line_spans(text: str, span: Span) -> Iterator[Span]:
-    """The lines of a run, without their ends."""
+    """The lines of a run without their ends; blank ones are no rows."""
     start = span.start
     while start < span.end:
         stop = text.find("\n", start, span.end)
         stop = span.end if stop < 0 else stop
-        yield Span(start, stop)
+        if text[start:stop].strip(" \t\r"):
+            yield Span(start, stop)
         start = stop + 1
 
 
