@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from functools import cache
 
@@ -12,21 +11,6 @@ from mudline.deck.document import DocumentPath, Locate
 from mudline.deck.model import START, Range
 from mudline.deck.yaml_core import CoreLoader
 
-DEEPEST = 100
-"""The most levels of a document; the library that composes it crashes the process at some ten thousand."""
-_OPENING = re.compile(r"[\[{]|^[ ?-]{8}", re.MULTILINE)
-
-
-def too_deep(text: str) -> bool:
-    """Whether a YAML text is nested deeper than a deck can be. Only one that could be is looked at twice."""
-    if len(_OPENING.findall(text)) <= DEEPEST:
-        return False
-    depth = 0
-    for event in yaml.parse(text, Loader=CoreLoader):
-        depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
-        if depth > DEEPEST:
-            return True
-    return False
 
 
 def mark_range(text: str, start: yaml.Mark, end: yaml.Mark | None = None) -> Range:

@@ -8,10 +8,13 @@ import yaml
 
 from mudline.deck.document import decoded, from_document, refusal, to_document
 from mudline.deck.model import START, Deck
-from mudline.deck.node_places import locator, mark_range, too_deep
+from mudline.deck.node_places import locator, mark_range
 from mudline.deck.yaml_core import CoreDumper, CoreLoader, scalar
 from mudline.diagnostics import DeckError
 from mudline.keywords.writer import joined
+
+DEEPEST = 100
+"""The most levels of a document; a deck has about ten."""
 
 SHORT_TABLE = 20
 """Tables up to this many rows are lists; longer ones a block of text, a row a line."""
@@ -77,8 +80,7 @@ def from_yaml(text: str, file: str = "<yaml>") -> Deck:
     Raises DeckError for what is no YAML, has a key twice or an alias, or breaks the schema.
     """
     try:
-        if too_deep(text):
-            raise refusal(file, "nested too deeply: is this a deck?")
+        _look_over(text, file)
         root = yaml.compose(text, Loader=CoreLoader)
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
@@ -89,19 +91,27 @@ def from_yaml(text: str, file: str = "<yaml>") -> Deck:
     return from_document(document, file, locator(text, lambda: root))
 
 
+def _look_over(text: str, file: str) -> None:
+    """Refuse aliases, which could make a short file endless, and nesting that would exhaust the composer's stack."""
+    depth = 0
+    for event in yaml.parse(text, Loader=CoreLoader):
+        depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
+        if depth > DEEPEST:
+            raise refusal(file, "nested too deeply: is this a deck?", mark_range(text, event.start_mark))
+        if isinstance(event, yaml.AliasEvent):
+            message = "an alias (*name) is not used in a deck: write the value out"
+            raise refusal(file, message, mark_range(text, event.start_mark))
+
+
 class _Reader:
     """Nodes to values."""
 
     def __init__(self, file: str, text: str) -> None:
         self.file = file
         self.text = text
-        self.seen: set[int] = set()
 
     def value(self, node: yaml.Node) -> Any:
         """The value of a node and all below it."""
-        if id(node) in self.seen:
-            raise self._error(node, "an alias (*name) is not used in a deck: write the value out")
-        self.seen.add(id(node))
         if isinstance(node, yaml.MappingNode):
             return self._mapping(node)
         if isinstance(node, yaml.SequenceNode):
