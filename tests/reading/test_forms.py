@@ -15,7 +15,7 @@ from mudline.deck.loading import dump, form_of, load_bytes
 from mudline.deck.model import Deck
 from mudline.deck.schema import json_schema
 from mudline.diagnostics import Severity
-from tests.reading.decks import MODELLED, SHARDS, deck_texts, mutated
+from tests.reading.decks import MODELLED, deck_texts, mutated
 from tests.samples import SAMPLES
 
 NAME = "deck.keyxm"
@@ -227,4 +227,3 @@ def test_a_form_and_units_can_be_given() -> None:
     deck = load_bytes(text.encode(), "<stdin>", form="json", units="imperial")
     assert deck.units == "imperial"
     assert load_bytes(b"\xef\xbb\xbf" + text.encode(), "a.yaml", form="json").units == "metric"
-    assert SHARDS

@@ -1,0 +1,196 @@
+"""Reading a keyword text never fails, whatever it holds, and long or hostile input is read in time."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mudline.deck.loading import dump, load_bytes
+from mudline.deck.model import Deck
+from mudline.diagnostics import Severity
+from tests.reading.decks import MODELLED, deck_texts, mutated
+from tests.samples import SAMPLES
+
+BROKEN = (SAMPLES / "broken.keyxm").read_bytes()
+
+
+def read(data: bytes) -> Deck:
+    """The deck of any bytes, having asked for the place of each of its problems and for its other forms."""
+    deck = load_bytes(data, "deck.keyxm")
+    found = deck.diagnose(deck.problems)
+    assert len(found) == len(deck.problems)
+    lines = data.count(b"\n") + data.count(b"\r") + 1
+    for one in found:
+        assert 1 <= one.line <= one.end_line <= lines
+        assert one.column >= 1
+        assert (one.line, one.column) <= (one.end_line, one.end_column)
+        assert one.message.isprintable() or one.code == "SYN009" or not one.message.isascii()
+    return deck
+
+
+_words = st.sampled_from(
+    [
+        *(f"*{keyword}\n" for keyword in MODELLED),
+        *(
+            "$MODEL\n",
+            "$PREPROCESSOR\n",
+            "$ANALYSIS\n",
+            "$\n",
+            "*\n",
+            "\n",
+            "\r",
+            "\r\n",
+            " ",
+            ",",
+            "=",
+            "==[",
+            "=[x]",
+            "]",
+        ),
+        *(
+            "C",
+            "C x\n",
+            "CURVE=a",
+            "SET=ALL",
+            "SET=",
+            "OPTION=RIGID\n",
+            "TYPE=ELASTIC",
+            "GEN=1,2\n",
+            "GEN=",
+            "SUBSET=a\n",
+        ),
+        *(
+            "STIFFNESS=",
+            "FRICTION=",
+            "SUCTION=,",
+            "BUOYANCY=x",
+            "COMPRESSION CHECK=",
+            "UNITS=",
+            "METRIC",
+            "1",
+            "0.5",
+            "-",
+            "1e9",
+        ),
+        *(
+            "1,2,3\n",
+            " 1 2\n",
+            "0,0\n",
+            "{",
+            "{l}",
+            "}",
+            '"',
+            "/",
+            "/a:1/",
+            "nan",
+            "1e400",
+            "a",
+            "\u00e9",
+            "\x00",
+            "\u2028",
+            "[",
+            ":",
+        ),
+    ]
+)
+
+
+@given(st.lists(_words, max_size=40).map("".join))
+@settings(max_examples=400)
+def test_fragments_of_decks(text: str) -> None:
+    read(text.encode())
+
+
+@given(
+    st.sampled_from(sorted(MODELLED)),
+    st.lists(_words.filter(lambda word: word[0] not in "$*"), max_size=25).map("".join),
+)
+@settings(max_examples=400)
+def test_fragments_in_every_keyword(keyword: str, text: str) -> None:
+    deck = read(f"${MODELLED[keyword][0]}\n*{keyword}\n{text}\n*{keyword}\n".encode())
+    assert len(deck.sections) == 1
+    assert [block.keyword for block in deck.sections[0].blocks] == [keyword, keyword]
+
+
+@given(st.binary(max_size=200))
+@settings(max_examples=200)
+def test_random_bytes(data: bytes) -> None:
+    read(data)
+
+
+@given(mutated(st.just(BROKEN) | deck_texts().map(str.encode)))
+@settings(max_examples=100)
+def test_mutated_decks(data: bytes) -> None:
+    read(data)
+
+
+@given(deck_texts(), st.integers(0, 200))
+@settings(max_examples=60)
+def test_decks_cut_anywhere(text: str, at: int) -> None:
+    deck = read(text.encode()[: -at or None])
+    written = dump(deck, "json") if all(one.weight is not Severity.ERROR for one in deck.problems) else "{}"
+    assert written.startswith("{")
+
+
+def test_a_deck_cut_at_every_place() -> None:
+    data = BROKEN[1500:4500]
+    for end in range(0, len(data), 7):
+        read(b"$MODEL\n" + data[:end])
+
+
+SIZE = 2_000_000
+LINES = [
+    *("1", "1,", ", ", "a", "a,", "=", "a=", "SET=a,", "C", "$", "*", "{x},", "=[1],", " ", "\t", "-", "1 ", "1e", "9"),
+    *(
+        "a b ",
+        "[",
+        "=[a]",
+        "/",
+        "/,",
+        "//,",
+        '"",',
+        "\u00e9",
+        "1,\u00e9,",
+        "\r",
+        "\n",
+        " \n",
+        "\r\n",
+        "1\n",
+        "C\n",
+        "x\n",
+        "SET=a\n",
+    ),
+    *(
+        "$a\n",
+        "*a\n",
+        "*NODE\n",
+        "$MODEL\n*OCEAN\n",
+        "Ca\n",
+        " 1,2,x\n",
+        "SET=a\n1,2\n",
+        " 0,0\n,\n",
+        "=[\n",
+        "{a\n",
+        "1,=[x],2\n",
+    ),
+]
+
+
+@pytest.mark.parametrize("piece", LINES)
+@pytest.mark.parametrize("keyword", ["NODE", "ELEMENT SETS"])
+def test_long_input(piece: str, keyword: str) -> None:
+    size = SIZE // 20 if piece.endswith(("\n", "\r")) else SIZE // 4
+    text = f"$MODEL\n*{keyword}\n SET=a\n " + piece * (size // len(piece)) + "\n*OCEAN\n 1O\n"
+    deck = load_bytes(text.encode(), "deck.keyxm")
+    assert any(one.code == "SYN002" and "1O" in one.message for one in deck.diagnose(deck.problems))
+
+
+@pytest.mark.parametrize(
+    "head", ["$MODEL\n*NODE\n", "$PREPROCESSOR\n*PARAMETERS\n a, ", "$MODEL\n*SEABED PROPERTIES\n STIFFNESS=", ""]
+)
+@pytest.mark.parametrize("piece", ["1", "a ", ",", "1,", "\x00\x01", "9."])
+def test_one_line_of_two_megabytes(head: str, piece: str) -> None:
+    deck = load_bytes((head + piece * (SIZE // len(piece))).encode(), "deck.keyxm")
+    assert deck.problems or piece == "a "
+    assert all(len(one.message) < 2000 for one in deck.problems)
