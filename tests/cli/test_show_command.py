@@ -149,9 +149,9 @@ def test_section_of_kept_keywords_and_empty_section(place: Place) -> None:
 
 
 def test_long_list_of_keywords_is_folded(place: Place) -> None:
-    text = run("show", place("$MODEL\n" + "*VESSEL\n x\n" * 30)).out
-    lines = [line for line in text.splitlines() if "*VESSEL" in line]
-    assert len(lines) > 1
+    text = run("show", place("$MODEL\n" + "".join(f"*KEYWORD {n}\n" for n in range(30)))).out
+    lines = [line for line in text.splitlines() if "*KEYWORD" in line]
+    assert len(lines) > 3
     assert all(len(line) <= 120 for line in lines)
 
 
@@ -178,3 +178,8 @@ def test_elements_without_a_diameter_are_counted(place: Place) -> None:
     deck = CLEAN.replace(" SET=Pipe\n 1, 2\n", " SET=Pipe\n 1\n")
     outcome = run("show", place(deck))
     assert "    none         1\n" in outcome.out
+
+
+def test_repeated_keywords_are_counted(place: Place) -> None:
+    text = run("show", place("$MODEL\n*NODE\n*VESSEL\n*NODE\n*VESSEL\n*OCEAN\n*VESSEL\n")).out
+    assert "  $MODEL: *NODE (2 blocks), *OCEAN\n    kept as they are: *VESSEL (3 blocks)\n" in text

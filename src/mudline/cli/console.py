@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Iterable
 
 from rich.console import Console
+from rich.text import Text
 
 _WIDE = 10_000
 EXCERPT_WIDTH = 120
@@ -33,3 +35,12 @@ def console(color: str) -> Console:
         emoji=False,
         soft_wrap=True,
     )
+
+
+def say(printer: Console, texts: Iterable[Text]) -> None:
+    """Print lines, folded between words on a terminal; where there is no terminal and no colour, in the quick way."""
+    if printer.is_terminal or printer.color_system is not None:
+        for text in texts:
+            printer.print(text, soft_wrap=False)
+    else:
+        printer.file.writelines(f"{text.plain}\n" for text in texts)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from textwrap import wrap
 from typing import Any
 
@@ -48,17 +49,27 @@ def _print_head(printer: Console, summary: dict[str, Any], names: UnitNames) -> 
     printer.print(Text(visible(head, printer.encoding), style="bold"), soft_wrap=False)
     for section in summary["sections"]:
         keywords = section["keywords"]
-        read = ", ".join(f"*{entry['keyword']}" for entry in keywords if entry["read"])
-        kept = ", ".join(f"*{entry['keyword']}" for entry in keywords if not entry["read"])
-        _print_folded(printer, f"${section['name']}: {read}" if read else f"${section['name']}", "  ")
+        read = _listed(printer, [entry["keyword"] for entry in keywords if entry["read"]])
+        kept = _listed(printer, [entry["keyword"] for entry in keywords if not entry["read"]])
+        name = "$" + visible(section["name"], printer.encoding)
+        _print_folded(printer, f"{name}: {read}" if read else name, "  ")
         if kept:
             _print_folded(printer, f"kept as they are: {kept}", "    ")
     printer.print()
 
 
+def _listed(printer: Console, keywords: list[str]) -> str:
+    """Names of keywords, each once, with the number of its blocks when there are more."""
+    counts = Counter(keywords)
+    return ", ".join(
+        f"*{visible(name, printer.encoding)}" + (f" ({count} blocks)" if count > 1 else "")
+        for name, count in counts.items()
+    )
+
+
 def _print_folded(printer: Console, text: str, indent: str) -> None:
     width = min(printer.width, _WIDEST)
-    for line in wrap(visible(text, printer.encoding), width, initial_indent=indent, subsequent_indent="      "):
+    for line in wrap(text, width, initial_indent=indent, subsequent_indent="      "):
         printer.print(Text(line))
 
 

@@ -21,8 +21,8 @@ def tell(message: str) -> None:
 def tell_diagnostics(diagnostics: Sequence[Diagnostic]) -> None:
     """Why a deck cannot be used."""
     for found in diagnostics[:MOST_TOLD]:
-        place = f"{found.file}:{found.line}:{found.column}"
-        click.echo(visible(f"{place}: {found.severity}: {found.code} {found.message}"), err=True)
+        place = visible(f"{found.file}:{found.line}:{found.column}")
+        click.echo(f"{place}: {found.severity}: {found.code} {visible(found.message)}", err=True)
     if len(diagnostics) > MOST_TOLD:
         tell(f"{len(diagnostics) - MOST_TOLD} more errors: mudline lint shows all")
 

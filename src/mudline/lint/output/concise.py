@@ -11,4 +11,5 @@ from mudline.lint.output.visible import visible
 def concise(diagnostics: Iterable[Diagnostic]) -> Iterator[str]:
     """The lines, with their ends."""
     for found in diagnostics:
-        yield f"{visible(str(found))}\n"
+        place = f"{found.file}:{found.line}:{found.column}"
+        yield f"{visible(place)}: {found.code} {visible(found.message)}\n"

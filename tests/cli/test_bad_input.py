@@ -1,0 +1,192 @@
+"""Bad input of every kind: a clear message, the exit code of the contract, no traceback."""
+
+from __future__ import annotations
+
+import tracemalloc
+from hashlib import sha256
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.cli.conftest import Place
+from tests.cli.decks import CLEAN
+from tests.cli.runner import SAMPLES, Outcome, assert_fits, run
+
+EVERY = [
+    ("lint",),
+    ("validate",),
+    ("show",),
+    ("curves",),
+    ("evaluate",),
+    ("convert", "--to", "yaml"),
+]
+NAMES = [command[0] for command in EVERY]
+
+BINARY = b"".join(sha256(str(n).encode()).digest() for n in range(600))
+LONG = 2_000_000
+
+
+def lint(place: Place, text: str | bytes, name: str = "deck.keyxm") -> list[dict[str, object]]:
+    outcome = run("lint", place(text, name), "--output-format", "json")
+    assert outcome.err == ""
+    found: list[dict[str, object]] = outcome.json()
+    assert_fits(found, "lint")
+    return found
+
+
+def codes(place: Place, text: str | bytes, name: str = "deck.keyxm") -> set[object]:
+    return {each["code"] for each in lint(place, text, name)}
+
+
+def assert_quiet(outcome: Outcome) -> None:
+    assert outcome.code in {0, 1}
+    assert "Traceback" not in outcome.err
+    assert all(char.isprintable() or char == "\n" for char in outcome.err)
+
+
+NO_DIAMETER = CLEAN.partition("*GEOMETRIC SETS")[0] + "*SEABED PROPERTIES" + CLEAN.partition("*SEABED PROPERTIES")[2]
+
+BAD = {
+    "binary": (BINARY, "SYN012"),
+    "utf-16": (CLEAN.encode("utf-16"), "SYN012"),
+    "utf-16 without mark": (CLEAN.encode("utf-16-le"), "SYN012"),
+    "truncated": (CLEAN.encode()[:-6] + b".0E", "SYN014"),
+    "too large": (CLEAN.replace("3000.0", "1e400").encode(), "SYN002"),
+    "nan": (CLEAN.replace("3000.0", "nan").encode(), "SYN002"),
+    "infinite": (CLEAN.replace("3000.0", "-inf").encode(), "SYN002"),
+    "one point": (CLEAN.partition(" 0.1, 1000.0")[0].encode(), "CRV001"),
+    "no diameter": (NO_DIAMETER.encode(), "SBD009"),
+    "NUL": (CLEAN.replace("Clay", "Cl\0ay").encode(), "SYN012"),
+    "no section": (b"*NODE\n 1, 0, 0\n", "SYN007"),
+}
+
+
+@pytest.mark.parametrize(("data", "code"), BAD.values(), ids=BAD)
+def test_fault_has_its_code(place: Place, data: bytes, code: str) -> None:
+    assert code in codes(place, data)
+
+
+@pytest.mark.parametrize("command", EVERY, ids=NAMES)
+@pytest.mark.parametrize("data", [data for data, _ in BAD.values()], ids=BAD)
+def test_every_command_takes_every_fault(place: Place, data: bytes, command: tuple[str, ...]) -> None:
+    assert_quiet(run(command[0], place(data), *command[1:]))
+
+
+@pytest.mark.parametrize("name", ["binary", "utf-16"])
+@pytest.mark.parametrize("command", [("curves",), ("evaluate",), ("convert", "--to", "json")], ids=str)
+def test_content_that_is_no_text_is_refused(place: Place, name: str, command: tuple[str, ...]) -> None:
+    outcome = run(command[0], place(BAD[name][0]), *command[1:])
+    assert (outcome.code, outcome.out) == (1, "")
+    assert outcome.err.startswith("deck.keyxm:1:1: error: SYN012 ")
+
+
+def test_binary_content_is_not_shown(place: Place) -> None:
+    lines = run("lint", place(BINARY)).out.splitlines()
+    assert [line for line in lines if line] == [lines[0], "Found 1 error in 1 file."]
+
+
+def test_set_name_of_300_characters(place: Place) -> None:
+    name = "n" * 300
+    assert codes(place, CLEAN.replace("Pipe", name)) == {"REF011"}
+    for command in EVERY:
+        assert run(command[0], place(CLEAN.replace("Pipe", name)), *command[1:]).code == (command[0] == "lint")
+
+
+def test_windows_line_ends_and_mark_change_nothing(place: Place) -> None:
+    data = b"\xef\xbb\xbf" + CLEAN.replace("\n", "\r\n").encode()
+    plain = place(CLEAN, "plain.keyxm")
+    other = place(data, "other.keyxm")
+    for command in EVERY:
+        expected, found = (run(command[0], name, *command[1:]) for name in (plain, other))
+        assert found.code == expected.code == 0
+        assert found.out.replace("other", "plain") == expected.out
+
+
+@pytest.mark.parametrize("end", ["\r", "\r\n", "\n"])
+def test_place_of_a_fault_counts_every_kind_of_line_end(place: Place, end: str) -> None:
+    text = CLEAN.replace(" 2, -0.1, 10.0", " 2, -0.1, ten").replace("\n", end)
+    for data in (text.encode(), b"\xef\xbb\xbf" + text.encode()):
+        (found,) = lint(place, data)
+        assert (found["line"], found["column"], found["end_column"]) == (6, 11, 14)
+
+
+def test_cp1252_is_read_with_a_warning(place: Place) -> None:
+    name = place(CLEAN.replace("Clay", "Lehm\u00e4").encode("cp1252"))
+    outcome = run("lint", name, "--output-format", "json")
+    assert outcome.code == 1
+    assert [(found["code"], found["severity"]) for found in outcome.json()] == [("SYN012", "warning")]
+    assert run("curves", name).out.startswith("curve Lehm\u00e4: 3 points")
+    assert "Lehm\u00e4" in run("convert", name, "--to", "json").out
+
+
+ONE_LINE = {
+    "letters": "x" * LONG,
+    "digits": "1234," * (LONG // 5),
+    "one number": "1" * LONG,
+    "words": "ab cd " * (LONG // 6),
+    "blanks": " " * LONG,
+    "brackets": "=[" + "(" * LONG,
+    "quotes": '"' * LONG,
+}
+
+
+@pytest.mark.parametrize("text", ONE_LINE.values(), ids=ONE_LINE)
+@pytest.mark.parametrize("head", ["", "$MODEL\n*SEABED STIFFNESS\n CURVE=A\n ", "$MODEL\n*ELEMENT SETS\n SET="])
+def test_file_of_one_long_line(place: Place, head: str, text: str) -> None:
+    tracemalloc.start()
+    outcome = run("lint", place(head + text))
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert_quiet(outcome)
+    assert len(outcome.out) < 5000
+    assert peak < 40 * LONG
+
+
+def test_long_names_do_not_fill_the_screen(place: Place) -> None:
+    text = f"$MODEL\n*ELEMENT SETS\n SET={'n' * LONG}\n 1\n*{'k' * LONG}\n${'s' * LONG}\n"
+    for command in ("lint", "show", "validate"):
+        assert len(run(command, place(text)).out) < 15_000
+    assert len(run("convert", place(text + "*NODE\n 1, x, 2\n"), "--to", "json").err) < 5000
+
+
+def test_many_findings(place: Place) -> None:
+    outcome = run("lint", place("$MODEL\n" + "*FOO\n" * 3000))
+    assert outcome.out.endswith("Found 3000 info in 1 file.\n")
+
+
+@pytest.mark.parametrize("text", ["", "\n", "\r\n\r\n", "C only a comment", "C only\nC comments\n", "\ufeff", "$MODEL"])
+def test_nearly_nothing(place: Place, text: str) -> None:
+    assert run("lint", place(text)).code == 0
+    for command in EVERY:
+        assert_quiet(run(command[0], place(text), *command[1:]))
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", "null", "{}", '{"format": 1}', '{"a": NaN}', "[" * 100_000, "1e999"])
+@pytest.mark.parametrize("form", ["json", "yaml"])
+def test_document_that_is_no_deck(place: Place, form: str, text: str) -> None:
+    for command in EVERY:
+        outcome = run(command[0], place(text, f"deck.{form}"), *command[1:])
+        assert_quiet(outcome)
+        assert outcome.code == 1
+
+
+def test_document_that_is_not_utf_8(place: Place) -> None:
+    (found,) = lint(place, b'{"format":\n "\xff"}', "deck.json")
+    assert (found["code"], found["line"]) == ("DOC001", 2)
+
+
+SOURCE = (SAMPLES / "broken.keyxm").read_bytes()
+
+
+@given(st.data())
+def test_damaged_deck_never_breaks_a_command(data: st.DataObject) -> None:
+    body = bytearray(SOURCE)
+    for _ in range(data.draw(st.integers(1, 6))):
+        at = data.draw(st.integers(0, len(body)))
+        length = data.draw(st.integers(0, 30))
+        body[at : at + length] = data.draw(st.binary(max_size=12))
+    command = data.draw(st.sampled_from(EVERY))
+    outcome = run(command[0], "-", *command[1:], stdin=bytes(body))
+    assert outcome.code in {0, 1}
+    assert "\x1b" not in outcome.err

@@ -1,0 +1,245 @@
+"""What reaches a terminal: colours when they are wanted, deck text as plain text, a mark under the right column."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from rich.cells import cell_len
+
+from tests.cli.conftest import Place
+from tests.cli.decks import BAD_NUMBER, CLEAN, UNUSED
+from tests.cli.runner import Outcome, process, run
+
+ESCAPE = re.compile(r"\x1b\[[0-9;]*m")
+COMMANDS = [("lint",), ("validate",), ("show",), ("curves",), ("evaluate",)]
+
+
+def plain(text: str) -> str:
+    return ESCAPE.sub("", text)
+
+
+def bad_line(line: str, name: str = "deck.keyxm") -> Outcome:
+    deck = CLEAN.replace(" 2, -0.1, 10.0", line)
+    return run("lint", "-", "--stdin-filename", name, stdin=deck.encode())
+
+
+def marked(outcome: Outcome) -> tuple[str, str]:
+    """The source line of the first finding and what stands under it."""
+    lines = plain(outcome.out).splitlines()
+    return lines[1], lines[2]
+
+
+# -------------------------------------------------------------------------------------------------------------- colours
+
+
+@pytest.mark.parametrize("command", ["lint", "validate", "rules"])
+def test_colours_on_a_terminal_only(place: Place, command: str) -> None:
+    arguments = [command, *([] if command == "rules" else [place(BAD_NUMBER)])]
+    assert "\x1b[" in run(*arguments, terminal=True).out
+    assert "\x1b" not in run(*arguments).out
+    assert "\x1b" not in run(*arguments, "--color", "never", terminal=True).out
+    assert "\x1b[" in run(*arguments, "--color", "always").out
+
+
+def test_no_color_is_respected_unless_overruled(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
+    name = place(BAD_NUMBER)
+    monkeypatch.setenv("NO_COLOR", "1")
+    assert "\x1b" not in run("lint", name, terminal=True).out
+    assert "\x1b[" in run("lint", name, "--color", "always").out
+    monkeypatch.setenv("NO_COLOR", "")
+    assert "\x1b[" in run("lint", name, terminal=True).out
+
+
+@pytest.mark.parametrize("command", COMMANDS, ids=str)
+def test_colours_change_nothing_else(place: Place, command: tuple[str, ...]) -> None:
+    name = place(UNUSED)
+    assert plain(run(*command, name, "--color", "always").out) == run(*command, name).out
+
+
+@pytest.mark.parametrize("form", ["json", "jsonl", "concise"])
+def test_machine_formats_have_no_colours(place: Place, form: str) -> None:
+    outcome = run("lint", place(BAD_NUMBER), "--output-format", form, "--color", "always", terminal=True)
+    assert "\x1b" not in outcome.out
+
+
+def test_unknown_colour(place: Place) -> None:
+    assert run("lint", place(), "--color", "sometimes").code == 2
+
+
+def test_dumb_terminal(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("TERM", "dumb")
+    assert "\x1b" not in run("lint", place(BAD_NUMBER), terminal=True).out
+
+
+# ------------------------------------------------------------------------------------------------ text that looks alive
+
+ALIVE = ["=[depth+5]", "[/x]", "[red]", "[bold]b[/bold]", ":smile:", "[link=http://x]y[/link]", "{0}", "%s", "\\[x]"]
+
+
+@pytest.mark.parametrize("text", ALIVE)
+@pytest.mark.parametrize("color", ["never", "always"])
+def test_markup_is_plain_text(place: Place, text: str, color: str) -> None:
+    line = f" 2, -0.1, 1 {text} 0"
+    outcome = run("lint", place(CLEAN.replace(" 2, -0.1, 10.0", line)), "--color", color)
+    assert outcome.code == 1
+    assert f" 6 | {line}\n" in plain(outcome.out)
+
+
+@pytest.mark.parametrize("text", ["[/x]", "[red]", ":smile:"])
+@pytest.mark.parametrize("command", COMMANDS, ids=str)
+def test_markup_in_names_is_plain_text(place: Place, command: tuple[str, ...], text: str) -> None:
+    deck = CLEAN.replace("Clay", f"Cl{text}ay").replace("Pipe", f"P{text}ipe")
+    outcome = run(*command, place(deck, f"deck{text.replace('/', '')}.keyxm"))
+    assert outcome.code == 0
+    if command[0] in {"show", "curves", "evaluate"}:
+        assert f"Cl{text}ay" in outcome.out
+
+
+HOSTILE = {
+    "colour": "\x1b[31m",
+    "title": "\x1b]0;gone\x07",
+    "clear": "\x1b[2J\x1b[H",
+    "c1": "\x9b31m",
+    "bell": "\x07",
+    "backspace": "\x08\x08\x08",
+    "return": "\x7f",
+    "override": "\u202e",
+    "nul": "\x00",
+}
+
+
+@pytest.mark.parametrize("text", HOSTILE.values(), ids=HOSTILE)
+@pytest.mark.parametrize("terminal", [True, False])
+@pytest.mark.parametrize("command", [*COMMANDS, ("lint", "--output-format", "concise")], ids=str)
+def test_nothing_in_a_deck_acts_on_the_terminal(
+    place: Place, command: tuple[str, ...], text: str, *, terminal: bool
+) -> None:
+    deck = UNUSED.replace("Sand", f"S{text}and").replace("Clay", f"Cl{text}ay").replace("Pipe", f"P{text}ipe")
+    deck += f"*FOO{text}BAR\n$X{text}Y\n"
+    name = place(deck, "deck.keyxm")
+    outcome = run(*command, name, "--color", "never", terminal=terminal)
+    for stream in (outcome.out, outcome.err):
+        assert all(char.isprintable() or char == "\n" for char in stream)
+
+
+@pytest.mark.parametrize("text", ["\x1b[31m", "\x9b31m", "\u202e"])
+@pytest.mark.parametrize("form", ["json", "yaml", "keyword"])
+def test_conversion_is_harmless_on_a_terminal_and_exact_in_a_pipe(place: Place, form: str, text: str) -> None:
+    name = place(CLEAN.replace("Clay", f"Cl{text}ay"))
+    shown = run("convert", name, "--to", form, terminal=True)
+    assert all(char.isprintable() or char == "\n" for char in shown.out)
+    piped = run("convert", name, "--to", form)
+    assert (
+        run("convert", "-", "--from", form, "--to", "json", stdin=piped.output).json()["sections"]
+        == (run("convert", name, "--to", "json").json()["sections"])
+    )
+
+
+def test_hostile_file_name() -> None:
+    outcome = bad_line(" 2, -0.1, ten", "a\x1b[31mb\nc.keyxm")
+    assert plain(outcome.out).startswith("a\ufffd[31mb\ufffdc.keyxm:6:11: ")
+    assert "\x1b" not in outcome.out
+
+
+# ------------------------------------------------------------------------------------------------ the mark and its line
+
+
+@pytest.mark.parametrize("line", [" 2, -0.1, ten", "\t2,\t-0.1,\tten", " 2, -0.1,\t\t ten"])
+def test_mark_stands_under_the_fault(line: str) -> None:
+    source, under = marked(bad_line(line))
+    assert source == f" 6 | {line}".replace("\t", " ")
+    assert under == f"   | {' ' * line.index('ten')}^^^"
+
+
+def test_mark_counts_the_columns_of_wide_characters() -> None:
+    outcome = bad_line(" \u6f22\u5b57, -0.1, ten")
+    lines = outcome.out.splitlines()
+    under = [lines[i + 1] for i, line in enumerate(lines) if line.startswith(" 6 | ")]
+    source = next(line for line in lines if line.startswith(" 6 | "))
+    column = cell_len(source[: source.index("ten")])
+    assert any(cell_len(line[: line.index("^")]) == column and line.endswith("^^^") for line in under)
+    first = source.index("\u6f22")
+    assert any(line[: line.index("^")] == "   | " + " " * (first - 5) and line.endswith("^^^^") for line in under)
+
+
+def test_mark_counts_what_is_escaped(place: Place) -> None:
+    name = place(CLEAN.replace(" 2, -0.1, 10.0", " 2, \u00e4\u6f22, 10.0"))
+    outcome = process("lint", name, env={"PYTHONIOENCODING": "ascii"})
+    source, under = marked(outcome)
+    assert source == " 6 |  2, \\xe4\\u6f22, 10.0"
+    assert under == "   |     ^^^^^^^^^^"
+
+
+def test_mark_at_the_end_of_a_line(place: Place) -> None:
+    outcome = run("lint", place(CLEAN + "*OCEAN\n 1, 2, =[1"))
+    source, under = marked(outcome)
+    assert source.endswith("=[1")
+    assert under.rstrip().endswith("^")
+    assert len(under) <= len(source)
+
+
+@pytest.mark.parametrize("at", [0, 10, 60, 300, 5000])
+def test_long_line_is_cut_around_the_fault(at: int) -> None:
+    line = f" 2, {' ' * at}ten, {'9' * 4000}"
+    source, under = marked(bad_line(line))
+    assert len(source) <= 120
+    assert source.endswith("...")
+    assert source[under.index("^") :].startswith("ten,")
+    assert ("| ..." in source) == (at >= 60)
+    assert under.count("^") == 3
+
+
+def test_fault_longer_than_the_screen() -> None:
+    source, under = marked(bad_line(f" 2, -0.1, {'x' * 500}"))
+    assert len(source) <= 120
+    assert len(under) <= len(source)
+    assert under.index("^") == source.index("x")
+
+
+def test_wide_characters_are_cut_by_columns() -> None:
+    source, _ = marked(bad_line(f" 2, -0.1, {chr(0x6F22) * 500}"))
+    assert cell_len(source) <= 120
+
+
+@pytest.mark.parametrize("width", [40, 80, 100, 200])
+def test_lines_fit_the_terminal(place: Place, monkeypatch: pytest.MonkeyPatch, width: int) -> None:
+    monkeypatch.setenv("COLUMNS", str(width))
+    name = place(CLEAN.replace(" 2, -0.1, 10.0", f" 2, -0.1, {'9' * 50} {'8' * 200}, ten"))
+    lines = plain(run("lint", name, terminal=True).out).splitlines()
+    assert max(map(cell_len, lines)) <= width
+
+
+def test_narrow_terminal_still_shows_something(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "5")
+    assert "ten" in plain(run("lint", place(BAD_NUMBER), terminal=True).out)
+
+
+def test_message_is_not_broken_in_a_pipe(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "20")
+    assert run("lint", place(BAD_NUMBER)).out.splitlines()[0].endswith("for y [bad-number]")
+
+
+# --------------------------------------------------------------------------------------------------------------- tables
+
+
+def test_table_in_a_pipe_is_as_wide_as_it_has_to_be(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "40")
+    name = place(CLEAN.replace("Pipe", "P" * 250))
+    assert f"\n{'P' * 250}         2" in run("show", name).out
+
+
+def test_table_on_a_terminal_folds_its_texts(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "60")
+    name = place(CLEAN.replace("Pipe", "The whole of the pipe " * 8))
+    text = plain(run("show", name, terminal=True).out)
+    assert max(map(len, text.splitlines())) <= 60
+    assert " ".join(text.split()).count("The whole of the pipe") >= 8
+
+
+def test_number_is_never_cut(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "20")
+    deck = CLEAN.replace(" 0.1, 1000.0", " 0.123456, 123456.0")
+    text = plain(run("curves", place(deck), terminal=True).out)
+    assert "0.123456" in text
+    assert "123456" in text
