@@ -180,8 +180,8 @@ LINES = [
 @pytest.mark.parametrize("piece", LINES)
 @pytest.mark.parametrize("keyword", ["NODE", "ELEMENT SETS"])
 def test_long_input(piece: str, keyword: str) -> None:
-    size = SIZE // 20 if piece.endswith(("\n", "\r")) else SIZE // 4
-    text = f"$MODEL\n*{keyword}\n SET=a\n " + piece * (size // len(piece)) + "\n*OCEAN\n 1O\n"
+    size = 8_000 if piece.endswith(("\n", "\r")) else 60_000
+    text = f"$MODEL\n*{keyword}\n SET=a\n " + piece * (size // len(piece)) + "\n$MODEL\n*OCEAN\n 1O\n"
     deck = load_bytes(text.encode(), "deck.keyxm")
     assert any(one.code == "SYN002" and "1O" in one.message for one in deck.diagnose(deck.problems))
 
@@ -192,5 +192,5 @@ def test_long_input(piece: str, keyword: str) -> None:
 @pytest.mark.parametrize("piece", ["1", "a ", ",", "1,", "\x00\x01", "9."])
 def test_one_line_of_two_megabytes(head: str, piece: str) -> None:
     deck = load_bytes((head + piece * (SIZE // len(piece))).encode(), "deck.keyxm")
-    assert deck.problems or piece == "a "
+    assert len(deck.sections) == (head.count("$") if piece != "\x00\x01" else 0)
     assert all(len(one.message) < 2000 for one in deck.problems)
