@@ -114,7 +114,10 @@ class Deck:
     def _diagnostic(self, problem: Problem) -> Diagnostic:
         code: Code = problem.code
         place = self.origin.place(problem)
-        return Diagnostic(self.file, code.code, code.slug, problem.weight, problem.message, *place)
+        message = problem.message
+        if not message.isprintable():  # names of the deck stand in it as they are
+            message = "".join(char if char.isprintable() else "\ufffd" for char in message)
+        return Diagnostic(self.file, code.code, code.slug, problem.weight, message, *place)
 
     def require(self) -> Self:
         """The deck itself; raises DeckError when something in it could not be read."""

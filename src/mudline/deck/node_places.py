@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
+from typing import Protocol
 
 import yaml
 
@@ -12,14 +13,22 @@ from mudline.deck.model import START, Range
 from mudline.deck.yaml_core import CoreLoader
 
 
+class Mark(Protocol):
+    """A place that the parser tells, whether its C library or its Python one; both count from 0."""
 
-def mark_range(text: str, start: yaml.Mark, end: yaml.Mark | None = None) -> Range:
-    """Lines and columns from one mark to another; one behind the last line stands at its end."""
+    line: int
+    column: int
+
+
+def mark_range(text: str, mark: Mark | None) -> Range:
+    """Line and column of a mark; one behind the last line stands at its end, none at the start of the text."""
+    if mark is None:
+        return START
     lines, width = text.count("\n") + 1, len(text) - text.rfind("\n")
-    return _range(start, end or start, lines, width)
+    return _range(mark, mark, lines, width)
 
 
-def _range(start: yaml.Mark, end: yaml.Mark, lines: int, width: int) -> Range:
+def _range(start: Mark, end: Mark, lines: int, width: int) -> Range:
     places = [(mark.line + 1, mark.column + 1) if mark.line < lines else (lines, width) for mark in (start, end)]
     return Range(*places[0], *places[1])
 

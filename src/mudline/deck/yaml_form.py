@@ -7,7 +7,7 @@ from typing import Any, cast
 import yaml
 
 from mudline.deck.document import decoded, from_document, refusal, to_document
-from mudline.deck.model import START, Deck
+from mudline.deck.model import Deck
 from mudline.deck.node_places import locator, mark_range
 from mudline.deck.yaml_core import CoreDumper, CoreLoader, scalar
 from mudline.diagnostics import DeckError
@@ -84,7 +84,7 @@ def from_yaml(text: str, file: str = "<yaml>") -> Deck:
         root = yaml.compose(text, Loader=CoreLoader)
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
-        raise refusal(file, f"no YAML: {error.problem}", mark_range(text, mark) if mark else START) from error
+        raise refusal(file, f"no YAML: {error.problem}", mark_range(text, mark)) from error
     except yaml.YAMLError as error:
         raise refusal(file, f"no YAML: {str(error).partition(chr(10))[0]}") from error
     document = None if root is None else _Reader(file, text).value(root)
@@ -99,7 +99,7 @@ def _look_over(text: str, file: str) -> None:
         if depth > DEEPEST:
             raise refusal(file, "nested too deeply: is this a deck?", mark_range(text, event.start_mark))
         if isinstance(event, yaml.AliasEvent):
-            message = "an alias (*name) is not used in a deck: write the value out"
+            message = f"the alias *{event.anchor} is YAML that a deck does not use: write the value out"
             raise refusal(file, message, mark_range(text, event.start_mark))
 
 
