@@ -184,7 +184,7 @@ def remarked(draw: st.DrawFn, lines: Lines) -> Lines:
 @st.composite
 def blocks(draw: st.DrawFn, section: str) -> Lines:
     known = [keyword for keyword, (belongs, _) in MODELLED.items() if belongs == section]
-    keyword = draw(st.sampled_from([*known, *_OPAQUE[section]]))
+    keyword = draw(st.sampled_from([*known, *known, *known, *_OPAQUE[section]]))
     lines = draw(MODELLED[keyword][1] if keyword in known else opaque())
     return [f"*{draw(cased(keyword))}", *draw(remarked(lines))]
 
@@ -194,7 +194,7 @@ def deck_lines(draw: st.DrawFn) -> Lines:
     """The lines of a whole deck without a fault."""
     lines: Lines = draw(st.lists(st.one_of(comments, gaps), max_size=3))
     for section in draw(
-        st.lists(st.sampled_from(["MODEL", "MODEL", "PREPROCESSOR", "ANALYSIS", "LOAD CASE"]), max_size=3)
+        st.lists(st.sampled_from([*["MODEL"] * 6, "PREPROCESSOR", "PREPROCESSOR", "ANALYSIS", "LOAD CASE"]), max_size=3)
     ):
         lines += [f"${draw(cased(section))}", *draw(remarked([]))]
         for block in draw(st.lists(blocks(section), max_size=4)):

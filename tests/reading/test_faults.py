@@ -108,13 +108,10 @@ def test_places(text: str, found: list[Found], end: str, mark: str) -> None:
     assert sorted(problems(mark + text.replace("\n", ENDS[end]))) == sorted(found)
 
 
-@pytest.mark.parametrize("end", ENDS)
-@pytest.mark.parametrize(("text", "found"), FAULTS)
-def test_a_comment_and_a_good_block_before_a_fault_shift_its_line(text: str, found: list[Found], end: str) -> None:
-    before = "C \u00e9\U0001f30a above\n$MODEL\n*NODE\n 1, 2, 3\nC\n\n"
-    text = (before + text).replace("\n", ENDS[end])
-    if found[0][0] != "SYN007" and not text.split(ENDS[end])[6].startswith("title"):
-        assert sorted(problems(text)) == sorted((code, line + 6, column) for code, line, column in found)
+@pytest.mark.parametrize(("text", "found"), [(text, found) for text, found in IN_MODEL if text.startswith("*")])
+def test_lines_above_a_fault_shift_its_line(text: str, found: list[Found]) -> None:
+    above = "C \u00e9\U0001f30a above\r\n$MODEL\r*NODE\n 1, 2, 3\rC\n\n"
+    assert sorted(problems(above + text)) == sorted((code, line + 5, column) for code, line, column in found)
 
 
 def test_faults_of_all_blocks_are_told_together() -> None:

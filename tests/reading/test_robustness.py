@@ -25,7 +25,8 @@ def read(data: bytes) -> Deck:
         assert 1 <= one.line <= one.end_line <= lines
         assert one.column >= 1
         assert (one.line, one.column) <= (one.end_line, one.end_column)
-        assert one.message.isprintable() or one.code == "SYN009" or not one.message.isascii()
+        assert one.message
+        assert not set(one.message) & {"\n", "\r"}
     return deck
 
 
@@ -135,7 +136,7 @@ def test_decks_cut_anywhere(text: str, at: int) -> None:
 
 def test_a_deck_cut_at_every_place() -> None:
     data = BROKEN[1500:4500]
-    for end in range(0, len(data), 7):
+    for end in range(0, len(data), 19):
         read(b"$MODEL\n" + data[:end])
 
 
