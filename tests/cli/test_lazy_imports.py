@@ -1,0 +1,106 @@
+"""What a command does not need is not imported."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+from tests.cli.conftest import Place
+from tests.cli.decks import BAD_NUMBER, CLEAN, LINEAR
+from tests.cli.runner import TIMEOUT
+
+HEAVY = frozenset({"click", "lark", "matplotlib", "numpy", "pydantic", "rich", "yaml", "numba", "scipy", "pyarrow"})
+PROGRAM = """\
+import json, sys
+from mudline.__main__ import main
+code = main(json.loads(sys.argv[1]))
+sys.stderr.write(json.dumps([code, sorted(sys.modules)]))
+"""
+
+
+def modules(*arguments: str, code: int = 0) -> set[str]:
+    words = [sys.executable, "-c", PROGRAM, json.dumps(arguments)]
+    done = subprocess.run(words, capture_output=True, text=True, timeout=TIMEOUT, check=True)
+    found, names = json.loads(done.stderr.splitlines()[-1])
+    assert found == code
+    return set(names)
+
+
+def heavy(names: set[str]) -> set[str]:
+    return names & HEAVY
+
+
+def test_version_needs_nothing() -> None:
+    names = modules("--version")
+    assert heavy(names) == set()
+    assert "mudline.cli.main" not in names
+
+
+def test_help_needs_no_command() -> None:
+    names = modules("--help")
+    assert heavy(names) == {"click"}
+    assert not any(name.startswith(("mudline.deck", "mudline.scene", "mudline.keywords")) for name in names)
+
+
+def test_import_of_the_package_needs_nothing() -> None:
+    program = "import sys, mudline; print(mudline.__version__, dir(mudline)); print(*sys.modules, file=sys.stderr)"
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=TIMEOUT, check=True)
+    assert heavy(set(done.stderr.split())) == set()
+
+
+@pytest.mark.parametrize("form", ["json", "jsonl", "concise", "text"])
+def test_clean_lint_prints_without_rich(place: Place, form: str) -> None:
+    names = modules("lint", place(), "--output-format", form)
+    assert heavy(names) == {"click", "lark", "numpy", "pydantic"}
+
+
+def test_findings_for_programs_need_no_rich(place: Place) -> None:
+    assert "rich" not in modules("lint", place(BAD_NUMBER), "--output-format", "json", code=1)
+    assert "rich" in modules("lint", place(BAD_NUMBER), code=1)
+
+
+def test_keywords_that_a_deck_lacks_are_not_loaded(place: Place) -> None:
+    names = modules("lint", place("$MODEL\n*OCEAN\n 100.0, 1025.0, 9.81\n"), "--output-format", "json")
+    assert {name for name in names if name.startswith("mudline.keywords.library.")} == {
+        "mudline.keywords.library.ocean"
+    }
+
+
+def test_schema_needs_no_scene() -> None:
+    names = modules("schema")
+    assert not names & {"rich", "matplotlib", "mudline.scene.build", "mudline.contact"}
+
+
+@pytest.mark.parametrize("form", ["json", "csv"])
+def test_evaluation_needs_no_rich_and_draws_nothing(place: Place, form: str) -> None:
+    names = modules("evaluate", place(), "--output-format", form)
+    assert not names & {"rich", "matplotlib", "yaml", "scipy", "numba"}
+
+
+def test_law_that_no_element_has_is_not_loaded(place: Place) -> None:
+    names = modules("evaluate", place(LINEAR), "--output-format", "json")
+    assert "mudline.contact.laws.linear" in names
+    assert "mudline.contact.laws.curve" not in names
+    names = modules("evaluate", place(CLEAN), "--output-format", "json")
+    assert "mudline.contact.laws.curve" in names
+    assert "mudline.contact.laws.linear" not in names
+
+
+@pytest.mark.parametrize("form", ["json", "keyword"])
+def test_conversion_needs_no_scene(place: Place, form: str) -> None:
+    names = modules("convert", place(), "--to", form)
+    assert not names & {"rich", "mudline.scene.build", "mudline.contact"}
+
+
+def test_curves_draw_only_when_asked_to(place: Place) -> None:
+    assert "matplotlib" not in modules("curves", place())
+    assert "matplotlib" in modules("curves", place(), "--plot", "out.svg")
+
+
+def test_names_of_the_api_are_loaded_when_used() -> None:
+    program = "import sys, mudline; mudline.ForceCurve([(0, 0), (1, 1)]); print(*sys.modules, file=sys.stderr)"
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=TIMEOUT, check=True)
+    assert heavy(set(done.stderr.split())) == {"numpy"}
