@@ -104,16 +104,14 @@ class Context:
         return next((place for name, place in self._astray if name == keyword), "")
 
     def near(self, word: str, known: Collection[str]) -> str:
-        """` (did you mean X?)` for a known name that is spelt nearly as `word`, or "".
+        """The name among `known`, all of them folded, that is spelt nearly as `word`, or "".
 
         Comparing takes time: a deck with very many unknown names gets suggestions for the first of them only.
         """
         self._compared += len(known)
         if len(word) > _LONGEST_MISSPELT or self._compared > _MOST_COMPARED:
             return ""
-        names = {folded(name): name for name in known if len(name) <= _LONGEST_MISSPELT}
-        found = _nearest(folded(word), names)
-        return f" (did you mean {names[found]}?)" if found else ""
+        return _nearest(folded(word), [name for name in known if len(name) <= _LONGEST_MISSPELT])
 
     def disturbed(self, where: Where) -> bool:
         """Whether something at this place, or a line below it, could not be used."""

@@ -172,7 +172,8 @@ class _Reading:
         self.laws.referenced.add(folded(name))
         index = self.curves.get(folded(name), NOTHING)
         if index == NOTHING:
-            hint = self.context.near(name, [self.laws.curves[known].name for known in self.curves.values()])
+            near = self.context.near(name, self.curves)
+            hint = f" (did you mean {self.laws.curves[self.curves[near]].name}?)" if near else ""
             message = f"curve {shown(name)} is not defined{hint}: *SEABED STIFFNESS has no such curve"
             self.context.tell_missing(REF002, message, where, "SEABED STIFFNESS")
         unknown = unread or index == NOTHING or not self.laws.curves[index].usable

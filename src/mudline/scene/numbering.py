@@ -136,7 +136,7 @@ class Numbered:
     repeats: Indices
     starts: Indices
     batches: list[Batch]
-    _order: Indices | None = None
+    _order: tuple[Indices, Ids] | None = None
 
     def __len__(self) -> int:
         return len(self.ids)
@@ -164,20 +164,20 @@ class Numbered:
         """Indices of numbers, -1 for those not defined."""
         if not len(self.ids):
             return np.full(ids.shape, -1, dtype=np.intp)
-        ordered = self.ids[self.order]
+        order, ordered = self._sorted()
         at = np.minimum(np.searchsorted(ordered, ids), len(ordered) - 1)
-        return np.where(ordered[at] == ids, self.order[at], -1)
-
-    @property
-    def order(self) -> Indices:
-        """Indices in ascending order of their numbers."""
-        if self._order is None:
-            self._order = np.argsort(self.ids, kind="stable")
-        return self._order
+        return np.where(ordered[at] == ids, order[at], -1)
 
     def between(self, start: int, end: int, step: int) -> Indices:
-        """Indices of the numbers start, start + step, ... up to end, in ascending order of the numbers."""
-        ordered = self.ids[self.order]
+        """Indices of the numbers start, start + step, ... up to end, in ascending order."""
+        order, ordered = self._sorted()
         first, last = np.searchsorted(ordered, [start, end + 1])
-        found = self.order[first:last]
-        return found if step == 1 else found[(ordered[first:last] - start) % step == 0]
+        found = order[first:last]
+        return np.sort(found if step == 1 else found[(ordered[first:last] - start) % step == 0])
+
+    def _sorted(self) -> tuple[Indices, Ids]:
+        """Indices in ascending order of their numbers, and the numbers in that order."""
+        if self._order is None:
+            order = np.argsort(self.ids, kind="stable")
+            self._order = (order, self.ids[order])
+        return self._order

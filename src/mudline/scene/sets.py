@@ -53,7 +53,8 @@ class Sets:
         """The set that a SET= names; None, and a problem, when there is no such set."""
         found = self.named.get(folded(name))
         if found is None:
-            hint = self.context.near(name, [entry.name for entry in self.named.values()])
+            near = self.context.near(name, self.named)
+            hint = f" (did you mean {self.named[near].name}?)" if near else ""
             message = f"set {shown(name)} is not defined{hint}: define it in *ELEMENT SETS"
             self.context.tell_missing(REF001, message, where, "ELEMENT SETS")
         return found
@@ -130,10 +131,9 @@ class _Reader:
             elif other in self.definitions:
                 yield other
             elif other not in self.sets.named:
-                known = [self.definitions[known][0][0].name for known in self.definitions]
-                message = (
-                    f"SUBSET= names no set: {shown(name)} is not defined{self.context.near(name, known)}; define it"
-                )
+                near = self.context.near(name, self.definitions)
+                hint = f" (did you mean {self.definitions[near][0][0].name}?)" if near else ""
+                message = f"SUBSET= names no set: {shown(name)} is not defined{hint}; define it"
                 self.context.tell_missing(REF008, message, where, "ELEMENT SETS")
 
     def _subsets(self, key: str) -> Iterator[tuple[str, Where]]:
@@ -170,7 +170,7 @@ class _Reader:
         return (_NOTHING, False) if found is None else (found.elements, not found.open)
 
     def _listed(self, member: SetList, where: Where) -> tuple[Indices, bool]:
-        """Indices of the elements of a list, and whether these are all."""
+        """Indices of the elements of a list in ascending order, and whether these are all."""
         positions = [position for position, element in enumerate(member.elements) if isinstance(element, int)]
         numbers = np.array([member.elements[position] for position in positions], dtype=np.int64)
         indices = self.elements.indices(numbers)
@@ -185,7 +185,7 @@ class _Reader:
                 self._label(element, where._replace(path=(*where.path, "elements", position)))
         found = indices[indices >= 0]
         whole = len(found) == len(member.elements)
-        return found, whole and not self.context.disturbed(where._replace(path=(*where.path, "elements")))
+        return np.unique(found), whole and not self.context.disturbed(where._replace(path=(*where.path, "elements")))
 
     def _label(self, label: str, where: Where) -> None:
         if not self.context.definers and not self.context.doubted(where):
@@ -216,13 +216,15 @@ class _Reader:
 
 
 def _union(parts: list[Indices]) -> Indices:
-    """Indices in ascending order, each once. Sets that hold the same elements share an array."""
+    """Indices in ascending order, each once, of parts that are so. Sets of the same elements share an array."""
     largest = max(parts, key=len, default=_NOTHING)
     rest = [part for part in parts if part is not largest and len(part)]
-    if not rest and (np.diff(largest) > 0).all():
+    if not rest:
         return largest
-    merged = np.unique(np.concatenate(parts))
-    return largest if np.array_equal(merged, largest) else merged
+    others = np.unique(np.concatenate(rest))
+    at = np.searchsorted(largest, others)
+    new = largest[np.minimum(at, len(largest) - 1)] != others
+    return np.insert(largest, at[new], others[new]) if new.any() else largest
 
 
 def later_wins(holders: Sequence[NamedSet | None], count: int) -> Indices:
