@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Literal
 
-from mudline.keywords.model import Block, Record, about
+from pydantic import Field
+
+from mudline.keywords.about import about
+from mudline.keywords.model import Block, Record
 from mudline.keywords.values import Name, RealOrName
 
 
@@ -35,7 +38,7 @@ class Parameters(Block):
     )
 
     keyword: Literal["PARAMETERS"] = "PARAMETERS"
-    parameters: list[Parameter] = []
+    parameters: list[Parameter] = Field(default_factory=list)
 
 
 BLOCK = Parameters

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Literal
 
-from mudline.keywords.model import Block, setting
+from mudline.keywords.about import setting
+from mudline.keywords.model import Block
 
 
 class Units(Block):
