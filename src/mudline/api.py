@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 from dataclasses import fields
 from pathlib import Path
 
@@ -15,7 +16,7 @@ from mudline.deck.yaml_form import from_yaml as _from_yaml
 from mudline.deck.yaml_form import to_yaml as _to_yaml
 from mudline.diagnostics import Diagnostic
 from mudline.lint.engine import lint_bytes
-from mudline.lint.selection import select
+from mudline.lint.selection import select as _chosen
 from mudline.scene.build import resolve
 from mudline.scene.model import Scene
 
@@ -46,7 +47,8 @@ class Deck(model.Deck):
 def read(path: str | os.PathLike[str], *, units: str | None = None) -> Deck:
     """Read a deck from a keyword, JSON or YAML file, by its suffix.
 
-    Raises OSError when the file cannot be read, DeckError (with `.diagnostics`) when its content cannot.
+    `units` ("metric", "imperial" or "user") holds instead of what the file tells. Raises OSError when the file cannot
+    be read, DeckError (with `.diagnostics`) when its content cannot.
     """
     return _offered(load_path(Path(path), units=units).require())
 
@@ -62,14 +64,19 @@ def from_yaml(text: str) -> Deck:
 
 
 def lint(
-    path: str | os.PathLike[str], *, chosen: tuple[str, ...] = (), ignored: tuple[str, ...] = ()
+    path: str | os.PathLike[str],
+    *,
+    select: Iterable[str] = (),
+    ignore: Iterable[str] = (),
+    units: str | None = None,
 ) -> list[Diagnostic]:
     """All findings in a file, in its order; never raises for content.
 
-    Raises OSError when the file cannot be read, UnknownRule (a ValueError) for a word that names no rule.
+    `select` and `ignore` name rules by code, prefix of a code, or slug; without `select` all rules run. Raises OSError
+    when the file cannot be read, ValueError for a word that names no rule.
     """
     file = Path(path)
-    return lint_bytes(file.read_bytes(), file.as_posix(), select(chosen, ignored))
+    return lint_bytes(file.read_bytes(), file.as_posix(), _chosen(select, ignore), units=units)
 
 
 def _offered(deck: model.Deck) -> Deck:

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import tokenize
+import warnings
 import zipfile
 import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import NamedTuple, cast
 
@@ -18,12 +22,16 @@ Reals = NDArray[np.floating]
 
 _ARRAYS = frozenset({"positions", "node", "time", "velocities"})
 _UNREADABLE = (
+    # damaged bytes meet the checks of numpy, of zipfile and of the parser of the header
     ValueError,
     EOFError,
     KeyError,
-    MemoryError,  # a damaged header may ask for any size
+    MemoryError,
     NotImplementedError,
+    OverflowError,
     RuntimeError,
+    SyntaxError,
+    tokenize.TokenError,
     zipfile.BadZipFile,
     zlib.error,
 )
@@ -42,7 +50,8 @@ def load_npy(path: Path, count: int) -> Series:
     """An array (steps, count, 3) or (count, 3), memory-mapped. Raises OSError, or DeckError for anything else."""
     file = path.as_posix()
     try:
-        values = np.lib.format.open_memmap(path, mode="r")
+        with _from_old_python():
+            values = np.lib.format.open_memmap(path, mode="r")
     except _UNREADABLE as error:
         raise data_error(file, f"no NPY array: {error}") from error
     return _series(file, {"positions": _real(file, "positions", values)}, count)
@@ -51,16 +60,25 @@ def load_npy(path: Path, count: int) -> Series:
 def load_npz(path: Path, count: int) -> Series:
     """An archive with `positions` and, if wanted, `node`, `time` and `velocities`. Raises OSError, DeckError."""
     file = path.as_posix()
-    try:
-        with zipfile.ZipFile(path) as archive:
-            names = [name.removesuffix(".npy") for name in archive.namelist()]
-            _check_names(file, names)
-            arrays = {name: _real(file, name, _member(archive, name)) for name in names}
-    except _UNREADABLE as error:
-        if isinstance(error, DeckError):
+    with path.open("rb") as stream:
+        try:
+            with _from_old_python(), zipfile.ZipFile(stream) as archive:
+                names = [name.removesuffix(".npy") for name in archive.namelist()]
+                _check_names(file, names)
+                arrays = {name: _real(file, name, _member(archive, name)) for name in names}
+        except DeckError:
             raise
-        raise data_error(file, f"no NPZ archive: {error}") from error
+        except (*_UNREADABLE, OSError) as error:
+            raise data_error(file, f"no NPZ archive: {error}") from error
     return _series(file, arrays, count)
+
+
+@contextmanager
+def _from_old_python() -> Iterator[None]:
+    """Without the warning of numpy that Python 2 spelled the header, which the file's reader cannot help."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)
+        yield
 
 
 def _check_names(file: str, names: list[str]) -> None:

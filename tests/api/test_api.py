@@ -1,0 +1,195 @@
+"""`import mudline`: the names of the contract do what it says."""
+
+from __future__ import annotations
+
+import importlib
+import inspect
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import mudline
+from tests.cli.decks import BAD_NUMBER, CLEAN, ILLEGAL, UNSORTED, UNUSED
+
+NAMES = [name for name in mudline.__all__ if name != "__version__"]
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    file = tmp_path / "scr.keyxm"
+    file.write_text(CLEAN, encoding="utf-8")
+    return file
+
+
+def changed(path: Path, text: str) -> Path:
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+# --------------------------------------------------------------------------------------------------------------- names
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_public_name_resolves_and_is_documented(name: str) -> None:
+    value = getattr(mudline, name)
+    assert inspect.isclass(value) or inspect.isfunction(value)
+    assert value.__doc__
+    for member, attribute in vars(value).items():
+        if not member.startswith("_") and callable(attribute):
+            assert attribute.__doc__, f"{name}.{member}"
+
+
+def test_names_are_those_of_the_contract() -> None:
+    assert {"read", "lint", "from_json", "from_yaml", "ForceCurve", "DeckError"} <= set(mudline.__all__)
+    assert dir(mudline) == mudline.__all__ == sorted(mudline.__all__)
+    assert mudline.__version__.count(".") == 2
+
+
+def test_unknown_name() -> None:
+    with pytest.raises(AttributeError, match="module 'mudline' has no attribute 'nonsense'"):
+        getattr(mudline, "nonsense")  # noqa: B009 - a name that no checker may know
+
+
+def test_lint_stays_a_function_whatever_is_imported() -> None:
+    for module in ("mudline.api", "mudline.cli.lint_command"):
+        importlib.import_module(module)
+    assert inspect.isfunction(mudline.lint)
+
+
+# ------------------------------------------------------------------------------------------------------------- reading
+
+
+def test_deck_is_read(path: Path) -> None:
+    deck = mudline.read(path)
+    assert isinstance(deck, mudline.Deck)
+    assert (deck.source, deck.units, deck.file) == ("scr.keyxm", "metric", path.as_posix())
+    assert [block.keyword for block in deck.sections[0].blocks][:3] == ["OCEAN", "NODE", "ELEMENT"]
+    assert mudline.read(str(path)) == deck
+    assert mudline.read(path, units="imperial").units == "imperial"
+
+
+@pytest.mark.parametrize("form", ["json", "yaml"])
+def test_deck_makes_the_round_trip(path: Path, form: str) -> None:
+    deck = mudline.read(path)
+    text = deck.to_json() if form == "json" else deck.to_yaml()
+    again = mudline.from_json(text) if form == "json" else mudline.from_yaml(text)
+    assert isinstance(again, mudline.Deck)
+    assert again.sections == deck.sections
+    assert (again.source, again.units) == (deck.source, deck.units)
+    assert again.to_keyword() == deck.to_keyword()
+    document = path.with_suffix(f".{form}")
+    assert mudline.read(changed(document, text)).sections == deck.sections
+    assert mudline.read(document, units="user").units == "user"
+
+
+def test_keyword_text_is_read_again(path: Path) -> None:
+    deck = mudline.read(path)
+    assert mudline.read(changed(path, deck.to_keyword())) == deck
+
+
+def test_what_cannot_be_read(path: Path) -> None:
+    with pytest.raises(mudline.DeckError, match="'ten' is no number") as caught:
+        mudline.read(changed(path, BAD_NUMBER))
+    (found,) = caught.value.diagnostics
+    assert isinstance(found, mudline.Diagnostic)
+    assert (found.file, found.line, found.column) == (path.as_posix(), 6, 11)
+    assert (found.code, found.severity) == ("SYN002", mudline.Severity.ERROR)
+    assert isinstance(caught.value, ValueError)
+
+
+def test_warnings_and_errors_of_the_scene_do_not_keep_a_deck_from_being_read(path: Path) -> None:
+    assert mudline.read(changed(path, ILLEGAL)).sections
+    assert mudline.read(changed(path, UNUSED)).sections
+
+
+def test_file_that_is_missing(tmp_path: Path) -> None:
+    with pytest.raises(FileNotFoundError):
+        mudline.read(tmp_path / "nowhere.keyxm")
+    with pytest.raises(FileNotFoundError):
+        mudline.lint(tmp_path / "nowhere.keyxm")
+
+
+@pytest.mark.parametrize("read", [mudline.from_json, mudline.from_yaml])
+def test_document_that_is_none(read: object) -> None:
+    assert callable(read)
+    with pytest.raises(mudline.DeckError) as caught:
+        read("{")
+    assert caught.value.diagnostics[0].code == "DOC001"
+
+
+# ------------------------------------------------------------------------------------------------------------- linting
+
+
+def test_lint(path: Path) -> None:
+    assert mudline.lint(path) == []
+    (found,) = mudline.lint(str(changed(path, UNSORTED)))
+    assert (found.code, found.slug, found.severity) == ("CRV002", "unsorted-points", "info")
+    assert str(found).startswith(f"{path.as_posix()}:25:2: CRV002 ")
+
+
+def test_lint_never_raises_for_content(path: Path) -> None:
+    assert [found.code for found in mudline.lint(changed(path, BAD_NUMBER))] == ["SYN002"]
+    path.write_bytes(b"\x00\x01\x02" * 100)
+    assert [found.code for found in mudline.lint(path)] == ["SYN012"]
+    assert [found.code for found in mudline.lint(changed(path.with_suffix(".json"), "{"))] == ["DOC001"]
+
+
+def test_lint_selects(path: Path) -> None:
+    changed(path, UNUSED)
+    assert [found.code for found in mudline.lint(path)] == ["REF003"]
+    assert mudline.lint(path, select=["SYN"]) == []
+    assert mudline.lint(path, ignore=["unused-curve"]) == []
+    with pytest.raises(ValueError, match="'XYZ' names no rule"):
+        mudline.lint(path, select=["XYZ"])
+
+
+# --------------------------------------------------------------------------------------------------- scene and contact
+
+
+def test_scene(path: Path) -> None:
+    scene = mudline.read(path).scene()
+    curve = scene.curves["Clay"]
+    assert isinstance(curve, mudline.ForceCurve)
+    force, slope = curve.evaluate([[0.2], [0.6]])
+    assert force.tolist() == [[1500.0], [3500.0]]
+    assert slope.dtype == np.float64
+    into = np.empty(2), np.empty(2)
+    curve.evaluate(np.array([0.0, 0.1]), out=into)
+    assert into[0].tolist() == [0.0, 1000.0]
+    assert scene.sets["Pipe"].tolist() == [1, 2]
+    assert scene.diameter.tolist() == [0.5, 0.5]
+
+
+def test_contact(path: Path) -> None:
+    contact = mudline.read(path).scene().contact()
+    result = contact.evaluate()
+    assert result.force.tolist() == [1500.0, 0.0]
+    moved = np.repeat(contact.input.coordinates[np.newaxis], 4, axis=0) - [0.1, 0.0, 0.0]
+    assert contact.evaluate(moved).force.shape == (4, 2)
+    assert contact.evaluate(moved[0]).ratio[0] == pytest.approx(0.4)
+    assert [stage.stage for stage in contact.plan] == (
+        ["floor", "normal law", "suction", "friction", "trench", "assembly"]
+    )
+
+
+def test_scene_of_a_deck_with_errors(path: Path) -> None:
+    deck = mudline.read(changed(path, ILLEGAL))
+    with pytest.raises(mudline.DeckError, match="REF001") as caught:
+        deck.scene()
+    assert caught.value.diagnostics[0].line == 20
+
+
+def test_curve_of_ones_own() -> None:
+    curve = mudline.ForceCurve([(0.3, 4500), (0.0, 0.0), (0.1, 2000)])
+    assert curve.ratios.tolist() == [0.0, 0.1, 0.3]
+    force, slope = curve.evaluate(0.2)
+    assert (float(force), float(slope)) == pytest.approx((3250.0, 12500.0))
+
+
+def test_scene_of_a_document() -> None:
+    deck = mudline.from_json(mudline.from_json(EMPTY).to_json())
+    assert deck.scene().curves == {}
+
+
+EMPTY = '{"format": "mudline-deck/1", "source": "", "units": "user", "sections": []}'

@@ -1,0 +1,86 @@
+"""How values are spelled in JSON and CSV."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mudline.results.csv_lines import csv_lines
+from mudline.results.numbers import finite, shown
+from mudline.results.tables import Spelling
+from mudline.results.units import headed, unit_names
+
+JSON = Spelling(json.dumps, "null")
+CSV = Spelling(lambda name: name, "")
+FLOATS = st.floats(allow_infinity=False)
+
+
+@given(st.lists(FLOATS))
+def test_numbers_come_back_to_the_last_bit(values: list[float]) -> None:
+    column = np.array(values)
+    for spelling in (JSON, CSV):
+        spelled = spelling.column(column)
+        back = np.array([math.nan if text == spelling.nothing else float(text) for text in spelled])
+        assert np.array_equal(back, column, equal_nan=True)
+        assert np.array_equal(np.signbit(back[~np.isnan(back)]), np.signbit(column[~np.isnan(column)]))
+    assert json.loads(f"[{','.join(JSON.column(column))}]") == [None if math.isnan(v) else v for v in values]
+
+
+@given(st.lists(st.integers(-(2**63), 2**63 - 1), min_size=1))
+def test_whole_numbers(values: list[int]) -> None:
+    assert JSON.column(np.array(values, dtype=np.int64)) == [str(value) for value in values]
+
+
+def test_truth_values() -> None:
+    assert CSV.column(np.array([True, False])) == ["true", "false"]
+
+
+@given(st.lists(st.none() | st.text()))
+def test_names(values: list[str | None]) -> None:
+    assert json.loads(f"[{','.join(JSON.column(values))}]") == values
+
+
+@given(st.lists(st.lists(st.text(st.characters(exclude_characters="\r", codec="utf-8")), min_size=2, max_size=4)))
+def test_csv_is_read_back(rows: list[list[str]]) -> None:
+    assert list(csv.reader("".join(csv_lines(rows)).splitlines(keepends=True))) == rows or any(
+        "\n" in text or not text.isprintable() for row in rows for text in row
+    )
+
+
+def test_csv_values() -> None:
+    lines = list(csv_lines([("a", 1, 0.1, 1e22, None, True, False, 'b"c'), ()]))
+    assert lines == ['a,1,0.1,1e+22,,true,false,"b""c"\n', "\n"]
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (0.0, "0"),
+        (1234567.0, "1.23457e+06"),
+        (0.000123456789, "0.000123457"),
+        (None, ""),
+        (math.nan, ""),
+        (math.inf, "inf"),
+        (-0.5, "-0.5"),
+    ],
+)
+def test_numbers_for_people(value: float | None, text: str) -> None:
+    assert shown(value) == text
+
+
+def test_numbers_that_json_can_hold() -> None:
+    assert [finite(value) for value in (1.5, None, math.nan, math.inf, -math.inf)] == [1.5, None, None, None, None]
+
+
+def test_units() -> None:
+    assert unit_names("metric") == ("m", "N", "N/m", "N/m2")
+    assert unit_names("imperial") == ("ft", "lbf", "lbf/ft", "lbf/ft2")
+    assert unit_names("user") == ("", "", "", "")
+    assert headed("depth", "m") == "depth\n[m]"
+    assert headed("depth", "") == "depth"
