@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import Any, cast
+from typing import Any
 
 from mudline.codes import SYN002
 from mudline.deck.model import Deck
 from mudline.deck.parameters import NoValueError, Parameters, Value, whole_fault
 from mudline.diagnostics import Problem, Where
-from mudline.keywords.model import ListRow, Part, Row, Slot, layout
+from mudline.keywords.model import ListRow, Part, Slot, columns_of, layout
 from mudline.keywords.table import Table
 from mudline.keywords.values import Equation, Kind
 
@@ -94,7 +94,7 @@ class _Evaluator:
         return None
 
     def _table(self, table: Table, slot: Slot, where: Where) -> Table:
-        columns = [inner.column for inner in layout(cast("type[Row]", slot.row)).columns]
+        columns = columns_of(slot)
         values = table.values.copy()
         words = dict(table.words)
         for (row, column), word in table.words.items():

@@ -8,10 +8,9 @@ from typing import Any
 
 from pydantic_core import to_json as compact
 
-from mudline.deck.document import from_document, to_document
-from mudline.deck.document_faults import decoded, refusal
-from mudline.deck.json_places import JsonPlaces, repeated_key
-from mudline.deck.model import Deck
+from mudline.deck.document import decoded, from_document, refusal, to_document
+from mudline.deck.model import Deck, Range
+from mudline.deck.node_places import compose_json, locator
 
 _INDENT = " "
 
@@ -19,6 +18,33 @@ _INDENT = " "
 def to_json(deck: Deck) -> str:
     """The deck as JSON text: a line for each value, rows of a table on one line."""
     return "".join(_pretty(to_document(deck), "")) + "\n"
+
+
+def _pretty(value: Any, indent: str) -> Iterator[str]:
+    inner = indent + _INDENT
+    if isinstance(value, dict) and value:
+        mark = "{\n"
+        for key, item in value.items():
+            yield f"{mark}{inner}{json.dumps(key, ensure_ascii=False)}: "
+            yield from _pretty(item, inner)
+            mark = ",\n"
+        yield f"\n{indent}}}"
+    elif isinstance(value, list) and value and isinstance(value[0], dict | list):
+        mark = "[\n"
+        for item in value:
+            yield f"{mark}{inner}"
+            yield from _pretty(item, inner)
+            mark = ",\n"
+        yield f"\n{indent}]"
+    else:
+        yield _inline(value)
+
+
+def _inline(value: Any) -> str:
+    """A scalar, or a list of scalars, on one line."""
+    if isinstance(value, list):
+        return "[" + ", ".join(_inline(item) for item in value) + "]"
+    return compact(value, inf_nan_mode="constants").decode()
 
 
 def write(deck: Deck) -> str:
@@ -33,64 +59,26 @@ def read(data: bytes, file: str) -> Deck:
 
 def from_json(text: str, file: str = "<json>") -> Deck:
     """The deck of a JSON text; raises DeckError for what is no JSON, has a key twice, or breaks the schema."""
-    places = JsonPlaces(text)
     try:
-        document = json.loads(text, object_pairs_hook=_unique)
+        document = json.loads(text, object_pairs_hook=_unique, parse_constant=_no_constant)
     except json.JSONDecodeError as error:
-        raise refusal(file, f"no JSON: {error.msg[0].lower()}{error.msg[1:]}", places.at(error.pos)) from error
+        place = Range(error.lineno, error.colno, error.lineno, error.colno)
+        raise refusal(file, f"no JSON: {error.msg}", place) from error
     except RecursionError as error:
         raise refusal(file, "nested too deeply: is this a deck?") from error
-    except _TwiceError as error:
-        key, place = repeated_key(text)
-        raise refusal(file, f"the key {key!r} stands twice in one object", places.at(place)) from error
-    except ValueError as error:  # Python converts whole numbers of up to 4300 digits
-        raise refusal(file, "a whole number of thousands of digits: is this a deck?") from error
-    return from_document(document, file, places)
+    except ValueError as error:
+        raise refusal(file, str(error)) from error
+    return from_document(document, file, locator(text, lambda: compose_json(text)))
 
 
-class _TwiceError(Exception):
-    """A key that stands twice in one object."""
-
-
-def _unique(pairs: list[tuple[str, object]]) -> dict[str, object]:
-    values = dict(pairs)
-    if len(values) < len(pairs):
-        raise _TwiceError
+def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    values: dict[str, Any] = {}
+    for key, value in pairs:
+        if key in values:
+            raise ValueError(f"the key {key!r} stands twice in one object")
+        values[key] = value
     return values
 
 
-def _pretty(value: Any, indent: str) -> Iterator[str]:
-    inner = indent + _INDENT
-    if isinstance(value, dict) and value:
-        mark = "{\n"
-        for key, item in value.items():
-            yield f"{mark}{inner}{_inline(key)}: "
-            yield from _pretty(item, inner)
-            mark = ",\n"
-        yield f"\n{indent}}}"
-    elif isinstance(value, list) and value and isinstance(value[0], list):
-        yield f"[\n{inner}{_rows(value, inner)}\n{indent}]"
-    elif isinstance(value, list) and value and isinstance(value[0], dict):
-        mark = "[\n"
-        for item in value:
-            yield f"{mark}{inner}"
-            yield from _pretty(item, inner)
-            mark = ",\n"
-        yield f"\n{indent}]"
-    else:
-        yield _inline(value)
-
-
-def _rows(rows: list[list[object]], indent: str) -> str:
-    """The rows of a table, one a line; numbers alone are written all at once."""
-    numbers = compact(rows).decode()
-    if '"' in numbers:
-        return f",\n{indent}".join(_inline(row) for row in rows)
-    return numbers[1:-1].replace(",", ", ").replace("], [", f"],\n{indent}[")
-
-
-def _inline(value: object) -> str:
-    """A scalar, or a list of scalars, on one line."""
-    if isinstance(value, list):
-        return "[" + ", ".join(_inline(item) for item in value) + "]"
-    return compact(value).decode()
+def _no_constant(name: str) -> None:
+    raise ValueError(f"{name} is no JSON number: a deck holds finite numbers only")

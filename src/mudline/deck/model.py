@@ -4,27 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import Annotated, Any, NamedTuple, Self
+from typing import Any, NamedTuple, Protocol, Self
 
-from pydantic import Field
-
-from mudline.diagnostics import DeckError, Diagnostic, Problem, Severity, Where
+from mudline.diagnostics import Code, DeckError, Diagnostic, Problem, Severity, Where
 from mudline.keywords.model import Block, Comment, Part
-from mudline.keywords.values import Expected, Text
-
-_WORDS = "[^a-z \t\r\n,]+(?: [^a-z \t\r\n,]+)*"
-Title = Annotated[
-    str,
-    Field(strict=True, pattern=f"^(?:{_WORDS})?(?:,(?:{_WORDS})?)*$"),
-    Expected("a name in capital letters, with single blanks and none beside a comma"),
-]
-"""The name of a section or keyword as `canonical_name` gives it."""
+from mudline.keywords.values import Text
 
 
 class Opaque(Part):
     """A block without a model: its lines are kept as they are, without their ends."""
 
-    keyword: Title
+    keyword: Text
     lines: list[Text]
 
 
@@ -50,27 +40,39 @@ class Range(NamedTuple):
 START = Range(1, 1, 1, 1)
 
 
-class Origin:
-    """What a deck was read from. This one is that of a deck that was made by a program: whole, without places."""
+class Origin(Protocol):
+    """What a deck was read from: tells where a problem is."""
 
-    def place(self, _problem: Problem, /) -> Range:
+    def place(self, problem: Problem) -> Range:
         """Lines and columns of a problem."""
+
+    def damaged(self, where: Where) -> bool:
+        """Whether something at this place could not be read."""
+
+    def lost(self, section: int, block: int) -> int:
+        """How many lines of a block could not be used at all."""
+
+    def written(self, where: Where) -> bool:
+        """Whether exactly this value stands in the file."""
+
+
+class Nowhere:
+    """The origin of a deck that was made by a program."""
+
+    def place(self, problem: Problem) -> Range:
+        """Always the start."""
         return START
 
-    def places(self, problems: Sequence[Problem]) -> list[Range]:
-        """Lines and columns of several problems."""
-        return [self.place(problem) for problem in problems]
-
-    def damaged(self, _where: Where, /) -> bool:
-        """Whether something at this place could not be read."""
+    def damaged(self, where: Where) -> bool:
+        """Nothing is."""
         return False
 
-    def lost(self, _section: int, _block: int, /) -> int:
-        """How many lines of a block could not be used at all."""
+    def lost(self, section: int, block: int) -> int:
+        """Nothing is."""
         return 0
 
-    def written(self, _where: Where, /) -> bool:
-        """Whether exactly this value stands in the file."""
+    def written(self, where: Where) -> bool:
+        """Everything is."""
         return True
 
 
@@ -88,7 +90,7 @@ class Deck:
     sections: list[Section] = field(default_factory=list)
     comments: list[Comment] = field(default_factory=list)
     problems: list[Problem] = field(default_factory=list, compare=False)
-    origin: Origin = field(default_factory=Origin, compare=False, repr=False)
+    origin: Origin = field(default_factory=Nowhere, compare=False, repr=False)
 
     def blocks(self, keyword: str, section: str = "MODEL") -> Iterator[tuple[Where, Any]]:
         """The modelled blocks of a keyword in all sections of a name, in the order of the file.
@@ -107,11 +109,15 @@ class Deck:
 
     def diagnose(self, problems: Sequence[Problem]) -> list[Diagnostic]:
         """Problems as diagnostics, in the order of the file."""
-        found = [
-            Diagnostic(self.file, one.code.code, one.code.slug, one.weight, _printable(one.message), *place)
-            for one, place in zip(problems, self.origin.places(problems), strict=True)
-        ]
-        return sorted(found, key=lambda diagnostic: diagnostic.sort_key)
+        return sorted((self._diagnostic(problem) for problem in problems), key=lambda found: found.sort_key)
+
+    def _diagnostic(self, problem: Problem) -> Diagnostic:
+        code: Code = problem.code
+        place = self.origin.place(problem)
+        message = problem.message
+        if not message.isprintable():  # names of the deck stand in it as they are
+            message = "".join(char if char.isprintable() else "\ufffd" for char in message)
+        return Diagnostic(self.file, code.code, code.slug, problem.weight, message, *place)
 
     def require(self) -> Self:
         """The deck itself; raises DeckError when something in it could not be read."""
@@ -119,10 +125,3 @@ class Deck:
         if errors:
             raise DeckError(self.diagnose(errors))
         return self
-
-
-def _printable(message: str) -> str:
-    """A message in which names of the deck, which stand in it as they are, cannot act on a terminal."""
-    if message.isprintable():
-        return message
-    return "".join(letter if letter.isprintable() else "\ufffd" for letter in message)

@@ -2,33 +2,71 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import PurePath
 
-from mudline.codes import SYN007, SYN008, SYN009, SYN010, SYN011
-from mudline.deck.model import Deck, Opaque, Section
-from mudline.deck.text_origin import TextOrigin
-from mudline.deck.truncation import told_as_cut
+from mudline.codes import SYN002, SYN006, SYN007, SYN008, SYN009, SYN010, SYN011, SYN014
+from mudline.deck.model import START, Deck, Opaque, Range, Section
 from mudline.deck.units import units_of
-from mudline.diagnostics import Code, Problem, Severity, Span, Where
+from mudline.diagnostics import Problem, Severity, Span, Where
 from mudline.keywords import catalogue
-from mudline.keywords.contents import ambiguous_comment
-from mudline.keywords.model import Block, Comment
-from mudline.keywords.reader import read_block
-from mudline.keywords.text import cut, either, suggestion
+from mudline.keywords.model import Comment
+from mudline.keywords.reader import ReadBlock, read_block
+from mudline.keywords.text import suggestion
 from mudline.syntax.fields import trimmed
 from mudline.syntax.source import Source
 from mudline.syntax.tree import Kind, Leaf, RawBlock, RawSection, SyntaxTree, parse
 
-_SPACE = (Kind.BLANK, Kind.COMMENT, Kind.UNDECIDED)
+
+@dataclass
+class TextOrigin:
+    """Where the values of a deck stand in its text."""
+
+    tree: SyntaxTree
+    heads: dict[Where, Span] = field(default_factory=dict)
+    read: dict[tuple[int, int], ReadBlock] = field(default_factory=dict)
+
+    @property
+    def source(self) -> Source:
+        """The text."""
+        return self.tree.source
+
+    def span(self, where: Where) -> Span | None:
+        """The span of a value, of its block or section where it has none."""
+        block = self.read.get((where.section, where.block))
+        if block is not None and where.path:
+            return block.places.find(where.path)
+        return self.heads.get(where._replace(path=()))
+
+    def place(self, problem: Problem) -> Range:
+        """Lines and columns of a problem."""
+        span = problem.span
+        if span is None and problem.where is not None:
+            span = self.span(problem.where)
+        if span is None:
+            return START
+        return Range(*self.source.position(span.start), *self.source.position(max(span.start, span.end)))
+
+    def damaged(self, where: Where) -> bool:
+        """Whether something at this place could not be read."""
+        block = self.read.get((where.section, where.block))
+        return block is not None and where.path in block.places.damaged
+
+    def lost(self, section: int, block: int) -> int:
+        """How many lines of a block could not be used at all."""
+        found = self.read.get((section, block))
+        return found.lost if found else 0
+
+    def written(self, where: Where) -> bool:
+        """Whether exactly this value stands in the file."""
+        block = self.read.get((where.section, where.block))
+        return block is not None and block.places.has(where.path)
 
 
 def read_source(source: Source, *, units: str | None = None) -> Deck:
     """The deck of a keyword text, as far as it can be read; what was wrong is in its `problems`."""
     reader = _Reader(parse(source))
-    deck = reader.read()
-    deck.units = units or units_of(deck)
-    return deck
+    return reader.read(units)
 
 
 class _Reader:
@@ -38,27 +76,26 @@ class _Reader:
         self.origin = TextOrigin(tree)
         self.problems: list[Problem] = list(tree.source.problems)
         self.deck = Deck(tree.source.name, PurePath(tree.source.name).name, origin=self.origin)
-        ending = tree.sections[-1].blocks if tree.sections else []
-        self.last = ending[-1] if ending else None
 
-    def read(self) -> Deck:
-        if self.tree.source.readable:
-            self._preamble(self.tree.preamble)
+    def read(self, units: str | None) -> Deck:
+        self._preamble()
         for index, raw in enumerate(self.tree.sections):
             self._section(index, raw)
-        self.deck.problems = told_as_cut(self.problems, self.text)
+        self._truncated()
+        self.deck.problems = self.problems
+        self.deck.units = units or units_of(self.deck)
         return self.deck
 
     def _lines(self, span: Span) -> list[str]:
-        """Lines without their ends."""
-        return self.text[slice(*span)].replace("\r\n", "\n").removesuffix("\n").split("\n")
+        lines = self.text[slice(*span)].replace("\r\n", "\n").removesuffix("\n").split("\n")
+        return [line.removesuffix("\r") for line in lines]
 
-    def _preamble(self, preamble: RawSection) -> None:
-        """What stands before the first section is kept as it is."""
-        self._stray(preamble.leaves, "before the first section")
+    def _preamble(self) -> None:
+        preamble = self.tree.preamble
+        if self.tree.source.readable:
+            self._stray(preamble.leaves, "before the first section")
         for block in preamble.blocks:
-            belongs = self._belongs(block.name) or "such as $MODEL"
-            message = f"*{cut(block.name)} stands before any $SECTION: put it in its section, {belongs}"
+            message = f"*{block.name} stands before any $SECTION: put it in its section, {self._belongs(block.name)}"
             self.problems.append(Problem(SYN007, message, trimmed(self.text, *block.head.span)))
         first = self.tree.sections[0].head if self.tree.sections else None
         end = first.span.start if first else len(self.text)
@@ -66,22 +103,19 @@ class _Reader:
 
     def _belongs(self, keyword: str) -> str:
         sections = catalogue.sections_of(keyword)
-        return either(f"${name}" for name in sections) if sections else ""
+        return " or ".join(f"${name}" for name in sections) if sections else "such as $MODEL"
 
-    def _stray(self, leaves: Sequence[Leaf], where: str) -> None:
-        """One finding for all data lines of a place, and one for each line that may be a comment."""
-        self.problems += [ambiguous_comment(self.text, leaf.span) for leaf in leaves if leaf.kind is Kind.UNDECIDED]
-        data = [leaf.span for leaf in leaves if leaf.kind not in _SPACE]
+    def _stray(self, leaves: list[Leaf], where: str) -> None:
+        """One finding for all data lines of a place."""
+        data = [leaf for leaf in leaves if leaf.kind not in (Kind.BLANK, Kind.COMMENT)]
         if not data:
             return
-        count = sum(len(self._lines(span)) for span in data)
+        count = sum(len(self._lines(leaf.span)) for leaf in data)
         lines = "1 line" if count == 1 else f"{count} lines"
         message = f"{lines} {where} under no keyword: not read. A title can stand in a comment, C and a blank"
-        first = data[0]
-        end = self.text.find("\n", *first)
-        self.problems.append(Problem(SYN011, message, trimmed(self.text, first.start, end if end >= 0 else first.end)))
-
-    # -------------------------------------------------------------------------------------------------- sections
+        first = data[0].span
+        end = self.text.find("\n", first.start, first.end)
+        self.problems.append(Problem(SYN011, message, trimmed(self.text, first.start, first.end if end < 0 else end)))
 
     def _section(self, index: int, raw: RawSection) -> None:
         section = Section(raw.name)
@@ -89,46 +123,68 @@ class _Reader:
         if raw.head:
             self.origin.heads[Where(index)] = trimmed(self.text, *raw.head.span)
         if raw.name not in catalogue.SECTIONS:
-            self._unknown(SYN010, "section $", raw.name, catalogue.SECTIONS, Where(index))
-        self._stray(raw.leaves, f"of ${cut(raw.name)}")
+            self._unknown_section(index, raw.name)
+        self._stray(raw.leaves, f"of ${raw.name}")
         for leaf in raw.leaves:
-            lines = self._lines(leaf.span)
-            if leaf.kind in (Kind.COMMENT, Kind.UNDECIDED):
-                section.comments.append(Comment(before=0, text=lines[0][1:]))
+            line = self._lines(leaf.span)
+            if leaf.kind is Kind.COMMENT:
+                section.comments.append(Comment(before=0, text=line[0][1:]))
             elif leaf.kind is not Kind.BLANK:
-                section.lines += lines
+                section.lines += line
         for number, block in enumerate(raw.blocks):
-            where = Where(index, number)
-            self.origin.heads[where] = trimmed(self.text, *block.head.span)
-            declared = catalogue.block_class(section.name, block.name)
-            if declared is None:
-                self._opaque(section, where, block)
-            else:
-                self._block(section, where, block, declared)
+            self.origin.heads[Where(index, number)] = trimmed(self.text, *block.head.span)
+            self._block(section, index, block)
 
-    def _unknown(self, code: Code, kind: str, name: str, known: Sequence[str], where: Where) -> None:
-        hint = suggestion(name, known)
-        message = f"{kind}{cut(name)} is not known{hint}: it is kept as it is"
-        self.problems.append(Problem(code, message, None, Severity.WARNING if hint else None, where))
+    def _unknown_section(self, index: int, name: str) -> None:
+        hint = suggestion(name, list(catalogue.SECTIONS))
+        message = f"section ${name} is not known{hint}: it is kept as it is"
+        severity = Severity.WARNING if hint else None
+        self.problems.append(Problem(SYN010, message, None, severity, Where(index)))
 
-    def _block(self, section: Section, where: Where, raw: RawBlock, declared: type[Block]) -> None:
-        """A block with a model. Comments behind its last line belong to what follows: a block, or a section."""
-        read = read_block(self.text, raw, declared, last=raw is self.last)
-        self.origin.read[where.section, where.block] = read
+    def _block(self, section: Section, index: int, raw: RawBlock) -> None:
+        number = len(section.blocks)
+        declared = catalogue.block_class(section.name, raw.name)
+        if declared is None:
+            self._opaque(section, Where(index, number), raw)
+            return
+        tree = self.tree
+        final = tree.sections[-1].blocks
+        last = bool(final) and raw is final[-1]
+        read = read_block(self.text, raw, declared, last=last)
+        self.origin.read[index, number] = read
         self.problems += read.problems
         section.blocks.append(read.model)
-        ends_section = raw is self.tree.sections[where.section].blocks[-1]
-        target = self.deck.comments if ends_section else section.comments
-        before = where.section + 1 if ends_section else where.block + 1
-        target += [Comment(before=before, text=text) for text in read.trailing]
+        if read.trailing:
+            ends = raw is tree.sections[index].blocks[-1]
+            target = self.deck.comments if ends else section.comments
+            before = index + 1 if ends else number + 1
+            target += [Comment(before=before, text=text) for text in read.trailing]
 
     def _opaque(self, section: Section, where: Where, raw: RawBlock) -> None:
-        """A block without a model: its lines are kept."""
         lines = [line for leaf in raw.leaves for line in self._lines(leaf.span)]
         section.blocks.append(Opaque(keyword=raw.name, lines=lines))
         sections = catalogue.sections_of(raw.name)
         if sections is None:
-            self._unknown(SYN009, "keyword *", raw.name, catalogue.keywords(), where)
+            hint = suggestion(raw.name, list(catalogue.keywords()))
+            message = f"keyword *{raw.name} is not known{hint}: the block is kept as it is"
+            self.problems.append(Problem(SYN009, message, None, Severity.WARNING if hint else None, where))
         elif sections and section.name not in sections and section.name in catalogue.SECTIONS:
             message = f"*{raw.name} does not belong in ${section.name}: it belongs in {self._belongs(raw.name)}"
             self.problems.append(Problem(SYN008, message, None, None, where))
+
+    def _truncated(self) -> None:
+        """A fault in the very last token of a file without a last line end means that the file was cut."""
+        end = len(self.text.rstrip(" \t"))
+        if self.text.endswith("\n") or not self.problems:
+            return
+        for index, problem in enumerate(self.problems):
+            span = problem.span
+            unclosed = problem.code is SYN006
+            if span is None or problem.code not in (SYN002, SYN006) or (span.end != end and not unclosed):
+                continue
+            if unclosed and "\n" in self.text[span.start :]:
+                continue
+            piece = self.text[span.start : end]
+            if unclosed or piece[-1:] in "+-.eEdD" or piece in ("=", "=["):
+                message = f"the file ends inside {piece!r}: it seems to be cut off, add what is missing"
+                self.problems[index] = replace(problem, code=SYN014, message=message)

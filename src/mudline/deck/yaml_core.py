@@ -1,75 +1,68 @@
-"""YAML 1.2, core schema, on PyYAML's events: what a plain scalar means is set here."""
+"""YAML 1.2, core schema, on PyYAML's parser: what a plain scalar means is set here."""
 
 from __future__ import annotations
 
 import math
 import re
-from typing import Protocol, cast
+from typing import Any
 
 import yaml
 
-LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-"""What cuts a text into events: the C library where PyYAML has it."""
-DUMPER = getattr(yaml, "CSafeDumper", yaml.SafeDumper)
+try:
+    from yaml import CSafeDumper as _Dumper
+    from yaml import CSafeLoader as _Loader
+except ImportError:  # PyYAML without its C library
+    from yaml import SafeDumper as _Dumper  # type: ignore[assignment]
+    from yaml import SafeLoader as _Loader  # type: ignore[assignment]
 
 _TAG = "tag:yaml.org,2002:"
 # the tables of section 10.3.2 of the YAML 1.2.2 specification
-_PLAIN = re.compile(
-    r"(?P<null>null|Null|NULL|~|)"
-    r"|(?P<bool>true|True|TRUE|false|False|FALSE)"
-    r"|(?P<int>[-+]?[0-9]+|0o[0-7]+|0x[0-9a-fA-F]+)"
-    r"|(?P<float>[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?|[-+]?\.(?:inf|Inf|INF)|\.(?:nan|NaN|NAN))"
-)
+_CORE: dict[str, tuple[str, list[str]]] = {
+    "null": (r"^(?:null|Null|NULL|~|)$", ["n", "N", "~", ""]),
+    "bool": (r"^(?:true|True|TRUE|false|False|FALSE)$", list("tTfF")),
+    "int": (r"^(?:[-+]?[0-9]+|0o[0-7]+|0x[0-9a-fA-F]+)$", list("-+0123456789")),
+    "float": (
+        r"^(?:[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?|[-+]?\.(?:inf|Inf|INF)|\.(?:nan|NaN|NAN))$",
+        list("-+.0123456789"),
+    ),
+}
 
 
-class Mark(Protocol):
-    """A place in the text: line and column, both from 0."""
-
-    line: int
-    column: int
-
-
-def start_of(event: yaml.Event) -> Mark:
-    """Where an event begins."""
-    return cast("Mark", event.start_mark)
+def _resolvers() -> dict[str, list[tuple[str, re.Pattern[str]]]]:
+    table: dict[str, list[tuple[str, re.Pattern[str]]]] = {}
+    for name, (pattern, firsts) in _CORE.items():
+        for first in firsts:
+            table.setdefault(first, []).append((_TAG + name, re.compile(pattern)))
+    return table
 
 
-def end_of(event: yaml.Event) -> Mark:
-    """Where an event ends."""
-    return cast("Mark", event.end_mark)
+class CoreLoader(_Loader):
+    """Reads plain scalars by the core schema."""
+
+    yaml_implicit_resolvers = _resolvers()
 
 
-Scalar = str | int | float | bool | None
+class CoreDumper(_Dumper):
+    """Quotes what the core schema would read as something else."""
+
+    yaml_implicit_resolvers = _resolvers()
 
 
-def plain_kind(text: str) -> str:
-    """What a plain scalar is: "null", "bool", "int", "float" or "str"."""
-    match = _PLAIN.fullmatch(text)
-    return str(match.lastgroup) if match else "str"
-
-
-def scalar(event: yaml.ScalarEvent) -> Scalar:
-    """The value of a scalar; raises ValueError for a tag outside the core schema, or one that does not fit the text."""
-    text: str = event.value
-    kind = event.tag.removeprefix(_TAG) if event.tag else plain_kind(text) if event.implicit[0] else "str"
-    if kind in ("str", "!"):
-        return text
-    if kind != plain_kind(text) and (kind, plain_kind(text)) != ("float", "int"):
-        known = kind in _PLAIN.groupindex
-        raise ValueError(f"{text!r} is no {kind}" if known else f"the tag {event.tag} is not used in a deck")
-    match kind:
+def scalar(node: yaml.ScalarNode) -> Any:
+    """The value of a scalar node; raises ValueError for a tag outside the core schema or a number out of range."""
+    text = node.value
+    match node.tag.removeprefix(_TAG):
+        case "str":
+            return text
         case "null":
             return None
         case "bool":
             return text.lower() == "true"
         case "int":
-            return _whole(text)
-    return float(text) if "n" not in text.lower() else math.nan if "a" in text.lower() else math.inf
-
-
-def _whole(text: str) -> int:
-    base = {"0o": 8, "0x": 16}.get(text[:2], 10)
-    try:
-        return int(text, base)
-    except ValueError as error:
-        raise ValueError("a whole number of thousands of digits: is this a deck?") from error
+            return int(text, 8 if text.startswith("0o") else 16 if text.startswith("0x") else 10)
+        case "float":
+            value = float(text) if "n" not in text.lower() else math.nan
+            if not math.isfinite(value):
+                raise ValueError(f"{text} is no finite number")
+            return value
+    raise ValueError(f"the tag {node.tag} is not used in a deck")

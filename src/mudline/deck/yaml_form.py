@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any, cast
 
 import yaml
-from pydantic_core import to_json as compact
 
-from mudline.deck.document import from_document, to_document
-from mudline.deck.document_faults import decoded, refusal
-from mudline.deck.model import START, Deck
-from mudline.deck.yaml_core import DUMPER, LOADER, plain_kind
-from mudline.deck.yaml_places import YamlPlaces
-from mudline.deck.yaml_reading import NoDeckError, compose
+from mudline.deck.document import decoded, from_document, refusal, to_document
+from mudline.deck.model import Deck
+from mudline.deck.node_places import locator, mark_range
+from mudline.deck.yaml_core import CoreDumper, CoreLoader, scalar
+from mudline.diagnostics import DeckError
 from mudline.keywords.writer import joined
+
+DEEPEST = 100
+"""The most levels of a document; a deck has about ten."""
 
 SHORT_TABLE = 20
 """Tables up to this many rows are lists; longer ones a block of text, a row a line."""
@@ -22,14 +22,46 @@ SHORT_TABLE = 20
 
 def to_yaml(deck: Deck) -> str:
     """The deck as YAML text."""
-    events = [
-        yaml.StreamStartEvent(),
-        yaml.DocumentStartEvent(explicit=False),
-        *_events(to_document(deck)),
-        yaml.DocumentEndEvent(explicit=False),
-        yaml.StreamEndEvent(),
-    ]
-    return cast("str", yaml.emit(events, Dumper=DUMPER, allow_unicode=True, width=2**30))
+    return yaml.dump(_node(to_document(deck)), Dumper=_Dumper, sort_keys=False, allow_unicode=True, width=2**30)
+
+
+class _Literal(str):
+    """Text that is written as a literal block."""
+
+    __slots__ = ()
+
+
+class _Flow(list[Any]):
+    """A list that is written on one line."""
+
+
+class _Dumper(CoreDumper):
+    """Literal blocks, rows on one line, the shortest numbers that read back."""
+
+
+_Dumper.add_representer(
+    _Literal, lambda dumper, text: dumper.represent_scalar("tag:yaml.org,2002:str", str(text), style="|")
+)
+_Dumper.add_representer(
+    _Flow, lambda dumper, row: dumper.represent_sequence("tag:yaml.org,2002:seq", row, flow_style=True)
+)
+_Dumper.add_representer(float, lambda dumper, value: dumper.represent_scalar("tag:yaml.org,2002:float", repr(value)))
+_Dumper.add_representer(type(None), lambda dumper, _: dumper.represent_scalar("tag:yaml.org,2002:null", "null"))
+
+
+def _node(value: Any) -> Any:
+    """The document with its tables and rows marked for the dumper."""
+    if isinstance(value, dict):
+        return {key: _node(item) for key, item in value.items()}
+    if not isinstance(value, list) or not value:
+        return value
+    if isinstance(value[0], list) and len(value) > SHORT_TABLE:
+        return _Literal("".join(f"{joined(row)}\n" for row in value))
+    if isinstance(value[0], str):
+        return value
+    if isinstance(value[0], dict | list):
+        return [_node(item) for item in value]
+    return _Flow(value)
 
 
 def write(deck: Deck) -> str:
@@ -47,50 +79,58 @@ def from_yaml(text: str, file: str = "<yaml>") -> Deck:
 
     Raises DeckError for what is no YAML, has a key twice or an alias, or breaks the schema.
     """
-    places = YamlPlaces(text)
     try:
-        document = compose(yaml.parse(text, Loader=LOADER))
+        _look_over(text, file)
+        root = yaml.compose(text, Loader=CoreLoader)
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
-        raise refusal(file, f"no YAML: {error.problem}", places.at(mark, mark) if mark else START) from error
+        raise refusal(file, f"no YAML: {error.problem}", mark_range(text, mark)) from error
     except yaml.YAMLError as error:
         raise refusal(file, f"no YAML: {str(error).partition(chr(10))[0]}") from error
-    except NoDeckError as error:
-        raise refusal(file, str(error), places.at(error.mark, error.mark)) from error
-    return from_document(document, file, places)
+    document = None if root is None else _Reader(file, text).value(root)
+    return from_document(document, file, locator(text, lambda: root))
 
 
-def _events(value: Any) -> Iterator[yaml.Event]:
-    """The events of a value of a document: long tables as text, rows on one line."""
-    if isinstance(value, dict):
-        yield yaml.MappingStartEvent(anchor=None, tag=None, implicit=True, flow_style=False)
-        for key, item in value.items():
-            yield _text(key)
-            yield from _events(item)
-        yield yaml.MappingEndEvent()
-    elif isinstance(value, list):
-        yield from _list(value)
-    else:
-        yield _text(value) if isinstance(value, str) else _plain(value)
+def _look_over(text: str, file: str) -> None:
+    """Refuse aliases, which could make a short file endless, and nesting that would exhaust the composer's stack."""
+    depth = 0
+    for event in yaml.parse(text, Loader=CoreLoader):
+        depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
+        if depth > DEEPEST:
+            raise refusal(file, "nested too deeply: is this a deck?", mark_range(text, event.start_mark))
+        if isinstance(event, yaml.AliasEvent):
+            message = f"the alias *{event.anchor} is YAML that a deck does not use: write the value out"
+            raise refusal(file, message, mark_range(text, event.start_mark))
 
 
-def _list(items: list[Any]) -> Iterator[yaml.Event]:
-    if len(items) > SHORT_TABLE and isinstance(items[0], list):
-        text = "".join(f"{joined(row)}\n" for row in items)
-        yield yaml.ScalarEvent(anchor=None, tag=None, implicit=(False, True), value=text, style="|")
-        return
-    in_one_line = not items or not isinstance(items[0], str | dict | list)
-    yield yaml.SequenceStartEvent(anchor=None, tag=None, implicit=True, flow_style=in_one_line)
-    for item in items:
-        yield from _events(item)
-    yield yaml.SequenceEndEvent()
+class _Reader:
+    """Nodes to values."""
 
+    def __init__(self, file: str, text: str) -> None:
+        self.file = file
+        self.text = text
 
-def _text(text: str) -> yaml.Event:
-    """A text, in quotes where it would be read as something else."""
-    style = None if plain_kind(text) == "str" else "'"
-    return yaml.ScalarEvent(anchor=None, tag=None, implicit=(style is None, True), value=text, style=style)
+    def value(self, node: yaml.Node) -> Any:
+        """The value of a node and all below it."""
+        if isinstance(node, yaml.MappingNode):
+            return self._mapping(node)
+        if isinstance(node, yaml.SequenceNode):
+            return [self.value(item) for item in node.value]
+        try:
+            return scalar(cast("yaml.ScalarNode", node))
+        except ValueError as error:
+            raise self._error(node, str(error)) from error
 
+    def _mapping(self, node: yaml.MappingNode) -> dict[str, Any]:
+        values: dict[str, Any] = {}
+        for key_node, value_node in node.value:
+            key = self.value(key_node)
+            if not isinstance(key, str):
+                raise self._error(key_node, f"a key must be a text, found {key!r}")
+            if key in values:
+                raise self._error(key_node, f"the key {key!r} stands twice in one mapping")
+            values[key] = self.value(value_node)
+        return values
 
-def _plain(value: float | None) -> yaml.Event:
-    return yaml.ScalarEvent(anchor=None, tag=None, implicit=(True, False), value=compact(value).decode(), style=None)
+    def _error(self, node: yaml.Node, message: str) -> DeckError:
+        return refusal(self.file, message, mark_range(self.text, node.start_mark))

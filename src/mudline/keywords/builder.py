@@ -3,157 +3,320 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import cast
+from dataclasses import dataclass, field
+from typing import Any
 
 from mudline.codes import SYN001, SYN003, SYN004
 from mudline.diagnostics import Problem, Span
-from mudline.keywords.built import Built
-from mudline.keywords.field_reader import FieldReader
-from mudline.keywords.fields import Value
-from mudline.keywords.findings import Findings
-from mudline.keywords.formats import every_line
-from mudline.keywords.grammar import Content, Node
-from mudline.keywords.layout import Slot
-from mudline.keywords.model import Block, ListRow, Record, Row, RowAt, layout
-from mudline.keywords.places import Path
+from mudline.keywords.grammar import ROW, Content, Node
+from mudline.keywords.model import Block, ListRow, Part, Record, Slot, layout, row_format
+from mudline.keywords.places import Path, Places
 from mudline.keywords.tables import TableBuilder
-from mudline.keywords.text import either, shown, suggestion
+from mudline.keywords.text import UnreadableError, Value, decimal_comma, read_value, suggestion
 from mudline.syntax.fields import Field, Group, read_line, split, trimmed
+from mudline.syntax.rows import blank_separated
+
+
+@dataclass(slots=True)
+class Item:
+    """A line or a record in a record: where it is written, where it stands, how many it counts for."""
+
+    order: int
+    position: int
+    count: int
+
+
+@dataclass(slots=True)
+class Built:
+    """A record as plain values, and what is needed to place comments in it."""
+
+    part: type[Record]
+    values: dict[str, Any] = field(default_factory=dict)
+    children: dict[str, list[Built]] = field(default_factory=dict)
+    items: list[Item] = field(default_factory=list)
+    first: int = 0
+    last: int | None = None
+
+    @property
+    def count(self) -> int:
+        """Number of items."""
+        return sum(item.count for item in self.items)
+
+    def after(self, position: int) -> int | None:
+        """Index, in the order in which the record is written, of the first item behind a position."""
+        behind = [item for item in self.items if item.position > position]
+        if not behind:
+            return None
+        following = min(behind, key=lambda item: item.position)
+        mark = (following.order, following.position)
+        return sum(item.count for item in self.items if (item.order, item.position) < mark)
+
+    def owner(self, position: int) -> Built:
+        """The innermost record that has lines on both sides of a position."""
+        for records in self.children.values():
+            for record in records:
+                if record.first < position and record.last is not None and position < record.last:
+                    return record.owner(position)
+        return self
+
+    def reach(self, position: int) -> None:
+        """Take note of a line."""
+        self.first = position if self.last is None else self.first
+        self.last = position if self.last is None else max(self.last, position)
 
 
 class Builder:
     """Reads the lines of one block."""
 
-    def __init__(self, text: str, declared: type[Block], findings: Findings) -> None:
+    def __init__(self, text: str, places: Places, problems: list[Problem], *, slashes: bool) -> None:
         self.text = text
-        self.declared = declared
-        self.findings = findings
-        self.reader = FieldReader(text, findings)
-        self.sticky: dict[str, Value] = {}
+        self.slashes = slashes
+        self.places = places
+        self.problems = problems
+        self.damaged = False
+        self.lost = 0
+        self.unclosed: Span | None = None
 
-    def build(self, part: type[Record], node: Node, path: Path = ()) -> Built:
-        """The values of a record."""
-        built = Built(part, path)
+    def build(self, part: type[Record], node: Node, path: Path = (), siblings: Sequence[Built] = ()) -> Built:
+        """The values of a record; `siblings` are the records of its list before it."""
+        built = Built(part)
+        found = layout(part)
+        tables: dict[str, TableBuilder] = {}
+        row_number = 0
         for child in node.children:
             if isinstance(child, Node):
-                self._child(built, child)
+                self._child(built, found.children[child.rule], child, path)
                 continue
-            if not built.items:
-                self.findings.places.spans[path] = trimmed(self.text, *child.span)
-            if child.key:
-                self._settings(built, child)
+            if not built.items and built.last is None:
+                self.places.spans[path] = trimmed(self.text, *child.span)
+            if child.terminal == ROW:
+                self._row(built, child, path, siblings, row_number, tables)
+                row_number += 1
             else:
-                self._row(built, child)
-                built.rows += 1
-        self._finish(built)
+                self._settings(built, child, path)
+        for name, table in tables.items():
+            built.values[name] = table.finish()
+        if found.table and found.table.required and found.table.json not in built.values:
+            built.values[found.table.json] = TableBuilder(self, found.table, (*path, found.table.json)).finish()
         return built
 
-    def _finish(self, built: Built) -> None:
-        """Put in the tables, a mandatory one without rows too; any other mandatory field that is missing is damage."""
-        for slot in layout(built.part).slots:
-            if slot.table and (slot.required or slot.json in built.tables):
-                built.values[slot.json] = self._table(built, slot).finish()
-            elif slot.required and slot.json not in built.values:
-                self.findings.damage(built.path)
+    def damage(self, path: Path, problem: Problem) -> None:
+        """A value that could not be read: the record at `path` is not complete."""
+        self.problems.append(problem)
+        self.places.damaged.add(path)
+        self.damaged = True
 
-    def _child(self, built: Built, node: Node) -> None:
-        slot = layout(built.part).children[node.rule]
-        before = built.children.get(slot.json, [])
-        child = self.build(slot.record[node.rule], node, (*built.path, slot.json, len(before)))
-        if child.items:
-            built.add_child(slot, child)
+    def _brackets(self, problems: list[Problem], path: Path) -> None:
+        """The bracket that a line does not close; it reaches to the end of the line, so there is one at most."""
+        self.unclosed = None
+        for problem in problems:
+            self.damage(path, problem)
+            self.unclosed = problem.span
 
-    def _table(self, built: Built, slot: Slot) -> TableBuilder:
-        if slot.json not in built.tables:
-            path = (*built.path, slot.json)
-            row = layout(cast("type[Row]", slot.row))
-            built.tables[slot.json] = TableBuilder(self.text, self.findings, row, path, every_line(self.declared))
-        return built.tables[slot.json]
+    def _unreadable(self, path: Path, problem: Problem) -> None:
+        """A field without a value; one with an open bracket has been told as such."""
+        if self.unclosed and problem.span and self.unclosed.start < problem.span.end:
+            self.places.damaged.add(path)
+        else:
+            self.damage(path, problem)
 
-    # -------------------------------------------------------------------------------------------------- settings
-
-    def _settings(self, built: Built, content: Content) -> None:
-        """A line of settings: the one it begins with, and those that may follow it."""
-        keys = layout(built.part).keys
-        line = read_line(self.text, content.span, slashes=self.declared.slashes)
-        for problem in line.problems:
-            self.findings.damage(built.path, problem)
-        built.add(keys[content.key], content.position)
-        for index, group in enumerate(line.groups):
-            key = group.key if index else content.key
-            if key not in keys:
-                guess = suggestion(key, list(keys))
-                allowed = either(f"{name}=" for name in keys)
-                message = f"{shown(key)} is no setting of this line{guess}: it takes {allowed}"
-                self.findings.damage(built.path, Problem(SYN004, message, group.span))
-            elif keys[key].json in built.values:
-                self.findings.damage(built.path, Problem(SYN001, f"{key}= is given twice", group.span))
-            else:
-                cut = bool(line.problems) and group is line.groups[-1]
-                self._setting(built, keys[key], group, cut=cut)
-
-    def _setting(self, built: Built, slot: Slot, group: Group, *, cut: bool) -> None:
-        """One setting; what is behind an unclosed bracket is left out."""
-        path = (*built.path, slot.json)
-        fields = group.fields[:-1] if cut else group.fields
-        self.findings.places.spans[path] = group.span
-        if slot.row:
-            built.values[slot.json] = self._values(slot.row, self.reader.apart(fields), path, cut=cut)
+    def _child(self, built: Built, slot: Slot, node: Node, path: Path) -> None:
+        before = built.children.setdefault(slot.json, [])
+        inner = (*path, slot.json, len(before))
+        child = self.build(slot.record[node.rule], node, inner, before)
+        if child.last is None:
+            self.damaged = True
             return
-        if fields and not fields[0].text:
-            self.findings.damage(built.path, Problem(SYN003, f"{slot.label} has no value", group.span))
-        value = self.reader.single(slot, fields, built.path) if fields else None
-        if value is not None:
-            built.values[slot.json] = value
-            self.sticky |= {slot.json: value} if slot.sticky else {}
-        elif slot.required:
-            self.findings.lose()
+        before.append(child)
+        built.values.setdefault(slot.json, []).append(child.values)
+        built.items.append(Item(slot.order, child.first, 1))
+        built.reach(child.first)
+        built.reach(child.last)
 
-    # ------------------------------------------------------------------------------------------------------ rows
+    def _settings(self, built: Built, content: Content, path: Path) -> None:
+        found = layout(built.part)
+        line = read_line(self.text, content.span, slashes=self.slashes)
+        self._brackets(line.problems, path)
+        opening = built.last is None and not issubclass(built.part, Block)
+        for group in line.groups:
+            slot = found.keys.get(group.key)
+            if slot is None:
+                expected = ", ".join(f"{key}=" for key in found.keys)
+                hint = suggestion(group.key, found.keys)
+                message = f"{group.key}= does not belong on this line{hint}: expected {expected}"
+                self.damage(path, Problem(SYN004, message, group.span))
+            elif slot.json in built.values:
+                self.damage(path, Problem(SYN001, f"{group.key}= is given twice", group.span))
+            else:
+                self._setting(built, slot, group, (*path, slot.json))
+        if not opening:
+            order = min((found.keys[g.key].order for g in line.groups if g.key in found.keys), default=0)
+            built.items.append(Item(order, content.position, 1))
+        built.reach(content.position)
 
-    def _row(self, built: Built, content: Content) -> None:
-        """A row, or a run of rows where the record has nothing but a table."""
+    def _setting(self, built: Built, slot: Slot, group: Group, path: Path) -> None:
+        self.places.spans[path] = group.span
+        fields = group.fields
+        if slot.row:
+            self.lost += issubclass(slot.row, ListRow) and path[:-1] in self.places.damaged
+            built.values[slot.json] = self._row_values(slot.row, fields, path)
+            return
+        while len(fields) > 1 and not fields[-1].text:
+            fields.pop()
+        if len(fields) > 1:
+            if problem := decimal_comma(fields, [slot.kind], 1):
+                self.problems.append(problem)
+            message = f"{slot.label} takes one value, found {len(fields)}"
+            self.damage(path[:-1], Problem(SYN003, message, Span(fields[0].span.start, fields[-1].span.end)))
+        if not fields[0].text:
+            self.damage(path[:-1], Problem(SYN003, f"{slot.label} has no value", group.span))
+            return
+        self.places.spans[path] = fields[0].span
+        try:
+            built.values[slot.json] = read_value(fields[0], slot, self.problems)
+        except UnreadableError as fault:
+            self._unreadable(path[:-1], fault.problem)
+
+    def _row(
+        self,
+        built: Built,
+        content: Content,
+        path: Path,
+        siblings: Sequence[Built],
+        number: int,
+        tables: dict[str, TableBuilder],
+    ) -> None:
         found = layout(built.part)
         if found.table and not found.columns:
-            built.add(found.table, content.position, self._table(built, found.table).add(content.span))
-            return
-        given, problems = split(self.text, content.span, slashes=self.declared.slashes)
-        fields = self.reader.apart(given)
-        slot = built.part.row_slot(RowAt(built.rows, len(fields), {**self.sticky, **built.values}))
-        if slot.table:
-            built.add(slot, content.position, self._table(built, slot).add(content.span))
-            return
-        for problem in problems:
-            self.findings.damage(built.path, problem)
-        built.add(slot, content.position)
-        span = trimmed(self.text, *content.span)
-        if slot.json in built.values:
-            self.findings.damage(built.path, Problem(SYN001, f"{slot.label} is given twice", span))
+            slot, fields = found.table, list[Field]()
         else:
-            self._plain_row(built, slot, fields[:-1] if problems else fields, span, cut=bool(problems))
-
-    def _plain_row(self, built: Built, slot: Slot, fields: Sequence[Field], span: Span, *, cut: bool) -> None:
-        """A row that stands by itself: a row of its own kind, a list, one value, or the columns of the record."""
-        found = layout(built.part)
-        if slot.row:
-            path = (*built.path, slot.json)
-            self.findings.places.spans[path] = span
-            built.values[slot.json] = self._values(slot.row, fields, path, cut=cut)
+            fields, problems = split(self.text, content.span, slashes=self.slashes)
+            self._brackets(problems, path)
+            if len(fields) == 1 and blank_separated(fields[0].text):
+                fields = self._apart(fields[0])
+            before = [sibling.values for sibling in siblings]
+            name = built.part.row_slot(number, len(fields), built.values, before)
+            slot = next(s for s in found.slots if s.name == name)
+        inner = (*path, slot.json)
+        count = 1
+        if slot is found.table:
+            table = tables.setdefault(slot.json, TableBuilder(self, slot, inner))
+            count = table.add(content.span)
+        elif slot.row:
+            self.places.spans[inner] = trimmed(self.text, *content.span)
+            built.values[slot.json] = self._row_values(slot.row, fields, inner)
         elif slot.many:
-            built.values[slot.json] = self.reader.many(slot, fields, built.path)
+            built.values[slot.json] = self._list(slot, fields, inner)
+        elif len(found.columns) > 1 and any(column.row for column in found.columns):
+            self._single(built, slot, fields, path)
         else:
-            columns = found.columns if found.plain_row else [slot]
-            built.values |= self.reader.row(columns, fields, built.path, cut=cut)
+            built.values |= self._fields(found.columns, fields, path)
+        built.items.append(Item(slot.order, content.position, count))
+        built.reach(content.position)
 
-    def _values(
-        self, row: type[Row], fields: Sequence[Field], path: Path, *, cut: bool
-    ) -> dict[str, Value] | list[Value]:
-        """The values of a row as JSON holds it; what a list of numbers stands for is lost when one cannot be read."""
+    def _single(self, built: Built, slot: Slot, fields: list[Field], path: Path) -> None:
+        """A row of one value."""
+        if slot.json in built.values:
+            self.damage(path, Problem(SYN001, f"{slot.label} is given twice", fields[0].span))
+            return
+        built.values |= self._fields([slot], fields, path)
+
+    def _row_values(self, row: type[Part], fields: list[Field], path: Path) -> dict[str, Value] | list[Value]:
         columns = layout(row).columns
-        by_index = issubclass(row, ListRow)
-        values = self.reader.row(columns, fields, path, cut=cut, by_index=by_index)
-        if cut:
-            self.findings.damage(path)
-        if by_index and path in self.findings.places.damaged:
-            self.findings.lose()
-        return list(values.values()) if by_index else values
+        if not issubclass(row, ListRow):
+            return self._fields(columns, fields, path)
+        values = self._fields(columns, fields, path)
+        for index, slot in enumerate(columns):
+            if (*path, slot.json) in self.places.spans:
+                self.places.spans[*path, index] = self.places.spans.pop((*path, slot.json))
+        self.lost += path in self.places.damaged
+        return [values.get(slot.json) for slot in columns[: len(values)]]
+
+    def _fields(self, columns: Sequence[Slot], fields: list[Field], path: Path) -> dict[str, Value]:
+        before = len(self.problems)
+        fields = self._counted(columns, fields, path)
+        miscounted = len(self.problems) > before
+        values: dict[str, Value] = {}
+        for slot, given in zip(columns, fields, strict=False):
+            self.places.spans[*path, slot.json] = given.span
+            if not given.text:
+                values[slot.json] = None
+                if slot.required and not miscounted:
+                    self.damage(path, Problem(SYN003, f"{slot.label} is missing", given.span))
+                continue
+            try:
+                values[slot.json] = read_value(given, slot, self.problems)
+            except UnreadableError as fault:
+                self._unreadable(path, fault.problem)
+                values[slot.json] = None
+        return values
+
+    def _counted(self, columns: Sequence[Slot], fields: list[Field], path: Path) -> list[Field]:
+        """The fields without trailing empty ones; a wrong number of them is a problem."""
+        required = [slot.required for slot in columns]
+        fewest = max((index + 1 for index, needed in enumerate(required) if needed), default=0)
+        if len(fields) == 1 and len(columns) > 1 and blank_separated(fields[0].text):
+            fields = self._apart(fields[0])
+        while len(fields) > len(columns) and not fields[-1].text:
+            fields.pop()
+        if fewest <= len(fields) <= len(columns):
+            return fields
+        if self.unclosed:  # the open bracket holds the fields that are missing
+            return fields[: len(columns)]
+        if problem := decimal_comma(fields, [slot.kind for slot in columns], fewest):
+            self.problems.append(problem)
+        wanted = row_format([slot.label for slot in columns], required)
+        count = f"{fewest}" if fewest == len(columns) else f"{fewest} to {len(columns)}"
+        message = f"{count} fields expected (`{wanted}`), found {len(fields)}"
+        span = Span(fields[0].span.start, fields[-1].span.end) if fields else self.places.find(path)
+        self.damage(path, Problem(SYN003, message, span))
+        return fields[: len(columns)]
+
+    def _apart(self, given: Field) -> list[Field]:
+        start = given.span.start
+        fields: list[Field] = []
+        for word in given.text.split():
+            start = self.text.index(word, start)
+            fields.append(Field(word, Span(start, start + len(word))))
+            start += len(word)
+        return fields
+
+    def _list(self, slot: Slot, fields: list[Field], path: Path) -> list[Value]:
+        while len(fields) > 1 and not fields[-1].text:
+            fields.pop()
+        values: list[Value] = []
+        for given in fields:
+            try:
+                value = read_value(given, slot, self.problems)
+            except UnreadableError as fault:
+                self._unreadable(path, fault.problem)
+                continue
+            self.places.spans[*path, len(values)] = given.span
+            values.append(value)
+        return values
+
+
+def construct(built: Built) -> Part:
+    """A model without validation, for a block in which something could not be read: what is missing is None."""
+    ready: dict[str, Any] = {}
+    for slot in layout(built.part).slots:
+        given = built.values.get(slot.json)
+        if slot.record:
+            ready[slot.name] = [construct(child) for child in built.children.get(slot.json, [])]
+        elif slot.row and isinstance(given, list):
+            columns = layout(slot.row).columns
+            ready[slot.name] = _bare(slot.row, {c.json: v for c, v in zip(columns, given, strict=False)})
+        elif slot.row and isinstance(given, dict):
+            ready[slot.name] = _bare(slot.row, given)
+        else:
+            ready[slot.name] = given
+    ready["comments"] = []
+    if "keyword" in built.values:
+        ready["keyword"] = built.values["keyword"]
+    return built.part.model_construct(**ready)
+
+
+def _bare(row: type[Part], values: dict[str, Value]) -> Part:
+    """A row as it was read."""
+    ready: dict[str, Any] = {slot.name: values.get(slot.json) for slot in layout(row).columns}
+    return row.model_construct(**ready)

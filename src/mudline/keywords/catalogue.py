@@ -1,4 +1,4 @@
-"""Every section and keyword that is known, and which module declares it, imported when a deck needs it."""
+"""Every section and keyword that is known, and which module declares it; a module is imported when a deck needs it."""
 
 from __future__ import annotations
 

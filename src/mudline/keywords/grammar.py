@@ -1,14 +1,16 @@
-"""Level two: the rule of a keyword over the lines of level one, compiled when first needed, with recovery."""
+"""Level two: a keyword's rule over the lines of level one, compiled when first needed, with recovery from bad lines."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from copy import copy
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cache
-from typing import Any, NamedTuple, Protocol, cast
+from typing import NamedTuple, cast
 
 from lark import Lark, Token, Tree, UnexpectedToken
+from lark.lexer import Lexer
+from lark.load_grammar import Grammar, load_grammar
+from lark.parsers.lalr_interactive_parser import InteractiveParser
 
 from mudline.diagnostics import Span
 from mudline.resources import grammar_file
@@ -18,20 +20,11 @@ ROW = "ROW"
 
 
 class Content(NamedTuple):
-    """A line of a block, or a run of rows: its place, and its position among the block's leaves.
+    """A line of a block, or a run of rows: the terminal it is, its place, and its position among the block's leaves."""
 
-    `key` is the KEY that a setting begins with, "" for rows; `text` says that a row does not begin like a number.
-    """
-
-    key: str
+    terminal: str
     span: Span
     position: int
-    text: bool = False
-
-    @property
-    def terminal(self) -> str:
-        """What the line is to the grammar."""
-        return terminal_of(self.key) if self.key else ROW
 
 
 @dataclass(slots=True)
@@ -43,22 +36,45 @@ class Node:
 
 
 class Mismatch(NamedTuple):
-    """A line that does not fit; `found` None is the end of the block. `missing`: the line that was put in before it."""
+    """A line that does not fit; `found` None is the end of the block. `missing`: the line that was left out instead."""
 
     found: Content | None
     expected: tuple[str, ...]
     missing: str
 
 
-class _Cursor(Protocol):
-    """What is used of lark's interactive parser, which has no types of its own."""
+class _Given(Lexer):
+    """No lexer: the tokens are fed one by one."""
 
-    parser_state: Any
+    def __init__(self, _configuration: object) -> None:
+        pass
 
-    def feed_token(self, token: Token) -> object: ...
-    def feed_eof(self) -> object: ...
-    def accepts(self) -> set[str]: ...
-    def copy(self, *, deepcopy_values: bool) -> _Cursor: ...
+    def lex(self, lexer_state: object, parser_state: object) -> Iterator[Token]:  # noqa: ARG002 - lark's signature
+        """Nothing to cut."""
+        return iter(())
+
+
+@cache
+def _grammar() -> Grammar:
+    path = grammar_file("blocks.lark")
+    text = path.read_text(encoding="utf-8")
+    terminals = sorted(set(_terminals(text)))
+    grammar, _ = load_grammar(f"{text}\n%declare {' '.join(terminals)}\n", str(path), [], global_keep_all_tokens=True)
+    return cast("Grammar", grammar)
+
+
+def _terminals(text: str) -> Iterator[str]:
+    for line in text.splitlines():
+        rule = line.partition("//")[0]
+        for word in rule.replace("(", " ").replace(")", " ").replace("|", " ").split():
+            name = word.rstrip("*+?")
+            if name.isupper():
+                yield name
+
+
+@cache
+def _parser(rule: str) -> Lark:
+    return Lark(_grammar(), start=rule, parser="lalr", lexer=_Given, maybe_placeholders=False)
 
 
 def terminal_of(key: str) -> str:
@@ -66,93 +82,59 @@ def terminal_of(key: str) -> str:
     return "K_" + "".join(letter if letter.isalnum() else "_" for letter in key)
 
 
-@cache
-def _paragraphs() -> dict[str, str]:
-    """The rules of each keyword: the grammar file has a paragraph for one."""
-    lines = grammar_file("blocks.lark").read_text(encoding="utf-8").split("\n")
-    text = "\n".join(line for line in lines if not line.startswith("//"))
-    return {paragraph.partition(":")[0]: paragraph for paragraph in text.strip().split("\n\n")}
-
-
-@cache
-def _parser(rule: str) -> Lark:
-    text = _paragraphs()[rule]
-    words = (word.strip("()*+?|") for word in text.split())
-    terminals = sorted({word for word in words if word.isupper()})
-    return Lark(f"{text}\n%declare {' '.join(terminals)}\n", start=rule, parser="lalr", lexer="basic")
-
-
 def parse(rule: str, contents: list[Content]) -> tuple[Node, list[Mismatch]]:
     """The tree of a block under its rule.
 
-    A line that does not fit is reported. If putting in a missing line before it makes it fit, that is done; else, and
-    for text that may be anything, the line is left out.
+    A line that does not fit is left out, unless putting in a missing line before it makes it fit; each is reported.
     """
-    run = _Run(cast("_Cursor", _parser(rule).parse_interactive()))
+    parser = _parser(rule).parse_interactive()
+    mismatches: list[Mismatch] = []
     for index, content in enumerate(contents):
-        run.feed(index, content)
-    tree = run.finish()
-    return _node(tree, contents), run.mismatches
-
-
-@dataclass(slots=True)
-class _Run:
-    """One pass over the lines of a block. `known` remembers how a state recovers from a terminal."""
-
-    cursor: _Cursor
-    mismatches: list[Mismatch] = field(default_factory=list)
-    known: dict[tuple[object, ...], tuple[tuple[str, ...], str]] = field(default_factory=dict)
-
-    def feed(self, index: int, content: Content) -> None:
-        """Go on by one line; where it does not fit, feed what is missing before it, or leave it out."""
         token = Token(content.terminal, "", start_pos=index)
         try:
-            self.cursor.feed_token(token)
+            parser.feed_token(token)
         except UnexpectedToken:
-            expected, missing = self._recovery(content.terminal)
-            missing = "" if content.text else missing
-            self.mismatches.append(Mismatch(content, expected, missing))
-            if missing:
-                self.cursor.feed_token(Token(missing, ""))
-                self.cursor.feed_token(token)
+            mismatches.append(_recover(parser, token, content))
+    try:
+        tree = parser.feed_eof()
+    except UnexpectedToken:
+        tree, missing = _complete(parser)
+        mismatches.append(missing)
+    return _node(tree, contents), mismatches
 
-    def finish(self) -> Tree[Token]:
-        """The tree, with the mandatory lines that the end of the block lacks."""
-        missing: list[str] = []
-        expected = tuple(sorted(self.cursor.accepts()))
-        while END not in self.cursor.accepts():
-            missing.append(min(self.cursor.accepts()))
-            self.cursor.feed_token(Token(missing[-1], ""))
-        if missing:
-            self.mismatches.append(Mismatch(None, expected, missing[0]))
-        return cast("Tree[Token]", self.cursor.feed_eof())
 
-    def _recovery(self, terminal: str) -> tuple[tuple[str, ...], str]:
-        """What was expected instead of a terminal, and which of it makes the terminal fit, or ""."""
-        state = (*self.cursor.parser_state.state_stack, terminal)
-        if state not in self.known:
-            expected = tuple(sorted(self.cursor.accepts()))
-            self.known[state] = expected, next((one for one in expected if self._fits(one, terminal)), "")
-        return self.known[state]
-
-    def _fits(self, missing: str, terminal: str) -> bool:
+def _recover(parser: InteractiveParser, token: Token, content: Content) -> Mismatch:
+    """Feed the missing line before a token that does not fit, or drop the token."""
+    expected = tuple(sorted(parser.accepts()))
+    for missing in expected:
+        trial = parser.copy()
         if missing == END:
-            return False
-        trial = self.cursor.copy(deepcopy_values=False)
-        trial.parser_state.parse_conf = copy(trial.parser_state.parse_conf)
-        trial.parser_state.parse_conf.callbacks = {}  # nothing is built: the trees are shared with the real parser
+            continue
         trial.feed_token(Token(missing, ""))
-        return terminal in trial.accepts()
+        if token.type in trial.accepts():
+            parser.feed_token(Token(missing, ""))
+            parser.feed_token(token)
+            return Mismatch(content, expected, missing)
+    return Mismatch(content, expected, "")
+
+
+def _complete(parser: InteractiveParser) -> tuple[Tree[Token], Mismatch]:
+    """Feed the mandatory lines that the end of a block lacks."""
+    expected = tuple(sorted(parser.accepts()))
+    first = expected[0]
+    missing = first
+    while END not in parser.accepts():
+        parser.feed_token(Token(missing, ""))
+        missing = min(parser.accepts())
+    return parser.feed_eof(), Mismatch(None, expected, first)
 
 
 def _node(tree: Tree[Token], contents: list[Content]) -> Node:
     """Our own tree; a line that was put in has no content."""
-    return Node(str(tree.data), list(_children(tree, contents)))
-
-
-def _children(tree: Tree[Token], contents: list[Content]) -> Iterator[Node | Content]:
+    children: list[Node | Content] = []
     for child in tree.children:
         if isinstance(child, Tree):
-            yield _node(child, contents)
+            children.append(_node(child, contents))
         elif child.start_pos is not None:
-            yield contents[child.start_pos]
+            children.append(contents[child.start_pos])
+    return Node(str(tree.data), children)

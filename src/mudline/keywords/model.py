@@ -2,120 +2,162 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cache
-from typing import Annotated, ClassVar, NamedTuple, Self
+from types import NoneType, UnionType
+from typing import Annotated, Any, ClassVar, Literal, Union, get_args, get_origin
 
 from pydantic import (
     BaseModel,
     ConfigDict,
     Field,
+    GetCoreSchemaHandler,
     GetJsonSchemaHandler,
-    ModelWrapValidatorHandler,
-    ValidationError,
-    ValidationInfo,
     model_serializer,
     model_validator,
 )
-from pydantic.json_schema import JsonSchemaValue
-from pydantic_core import CoreSchema
+from pydantic.fields import FieldInfo
+from pydantic_core import CoreSchema, core_schema
 
-from mudline.keywords.about import About, Setting, about, setting
-from mudline.keywords.faults import by_index, told
-from mudline.keywords.layout import Layout, Slot, annotated, choices, classes, is_list
-from mudline.keywords.table import Column
-from mudline.keywords.table_field import Rows, row_schema, rows
-from mudline.keywords.table_reading import count, fewest, row_format, wanted
-from mudline.keywords.values import Expected, Integer, Kind, Text
+from mudline.keywords.table import Column, Table, from_cells, from_text
+from mudline.keywords.values import Equation, Integer, Kind, Label, Text
 
-__all__ = [
-    "DOCUMENT",
-    "About",
-    "Block",
-    "Comment",
-    "Layout",
-    "ListRow",
-    "Part",
-    "Record",
-    "Row",
-    "RowAt",
-    "Rows",
-    "Setting",
-    "Slot",
-    "about",
-    "given_values",
-    "layout",
-    "row_format",
-    "rows",
-    "setting",
-]
 
-DOCUMENT = "document"
-"""Context of a validation whose input comes from a document, which has exactly one form."""
+@dataclass(frozen=True, slots=True)
+class About:
+    """What a field means. Units in F (force), L, M, T, deg; "-" is dimensionless. `inferred` names our deduction."""
+
+    meaning: str
+    unit: str = ""
+    default: str = ""
+    at_least: float | None = None
+    above: float | None = None
+    inferred: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Setting(About):
+    """A field written `KEY=value`; `inline` ones follow on the line of the setting before them."""
+
+    key: str = ""
+    inline: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Rows(About):
+    """A field that is a table; `row` declares its columns."""
+
+    row: type[Row] | None = None
+
+    def columns(self) -> list[Column]:
+        """The columns of the table."""
+        return table_columns(self.row) if self.row else []
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        cell = core_schema.union_schema(
+            [
+                core_schema.float_schema(strict=True, allow_inf_nan=False),
+                core_schema.str_schema(strict=True),
+                core_schema.none_schema(),
+            ],
+            mode="left_to_right",
+        )
+        cells = core_schema.list_schema(core_schema.list_schema(cell, strict=True), strict=True)
+        return core_schema.union_schema(
+            [
+                core_schema.is_instance_schema(Table),
+                core_schema.no_info_after_validator_function(lambda given: from_cells(given, self.columns()), cells),
+                core_schema.no_info_after_validator_function(
+                    lambda given: from_text(given, self.columns()), core_schema.str_schema(strict=True)
+                ),
+            ],
+            mode="left_to_right",
+            serialization=core_schema.plain_serializer_function_ser_schema(lambda table: table.rows(self.columns())),
+        )
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        columns = self.columns()
+        fewest = max((index + 1 for index, column in enumerate(columns) if column.required), default=0)
+        listed = {
+            "type": "array",
+            "prefixItems": [_cell_schema(column) for column in columns],
+            "items": False,
+            "minItems": fewest,
+        }
+        return {
+            "description": self.meaning,
+            "anyOf": [
+                {"type": "array", "items": listed},
+                {"type": "string", "description": "the same rows as text, one a line, fields parted by commas"},
+            ],
+        }
+
+
+def _cell_schema(column: Column) -> dict[str, Any]:
+    word = Label.form if column.kind is Kind.IDENT else Equation.form
+    options: list[dict[str, Any]] = [
+        {"type": "integer" if column.whole else "number"},
+        {"type": "string", "pattern": word},
+    ]
+    return {"description": column.label, "anyOf": options if column.required else [*options, {"type": "null"}]}
+
+
+def about(meaning: str, **details: Any) -> About:
+    """A positional field."""
+    return About(meaning, **details)
+
+
+def setting(key: str, meaning: str, **details: Any) -> Setting:
+    """A field written `KEY=value`."""
+    return Setting(meaning, key=key, **details)
+
+
+def rows(row: type[Row], meaning: str) -> Rows:
+    """A table field."""
+    return Rows(meaning, row=row)
 
 
 class Comment(BaseModel):
     """A comment line; `before` is the index of the item that it precedes, `text` what follows the C."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
-    before: Annotated[Integer, Field(ge=0), Expected("a whole number from 0 on")]
+    before: Annotated[Integer, Field(ge=0)]
     text: Text
 
 
 class Part(BaseModel):
     """Anything with declared fields."""
 
-    model_config = ConfigDict(extra="forbid", serialize_by_alias=True)
+    model_config = ConfigDict(extra="forbid", populate_by_name=True, serialize_by_alias=True)
 
 
 class Row(Part):
     """A line of positional fields, or the values behind a KEY=."""
 
-    @classmethod
-    def table_columns(cls) -> list[Column]:
-        """What its fields hold."""
-        return [slot.column for slot in layout(cls).columns]
-
 
 class ListRow(Row):
     """A row that JSON holds as a list, trailing fields left out."""
 
-    @model_validator(mode="wrap")
+    @model_validator(mode="before")
     @classmethod
-    def _from_list(cls, given: object, handler: ModelWrapValidatorHandler[Self], info: ValidationInfo) -> Self:
-        """A program may give the fields by name; a document has to give the list."""
-        columns = cls.table_columns()
+    def _from_list(cls, given: object) -> object:
         if not isinstance(given, list):
-            if info.context == DOCUMENT:
-                raise told(f"expected a list: `{wanted(columns)}`")
-            return handler(given)
-        if not fewest(columns) <= len(given) <= len(columns):
-            raise told(f"{len(given)} values, expected {count(columns)}: `{wanted(columns)}`")
-        names = [slot.json for slot in layout(cls).columns]
-        try:
-            return handler(dict(zip(names, given, strict=False)))
-        except ValidationError as error:
-            raise by_index(error, names) from error
+            return given
+        columns = layout(cls).columns
+        if not layout(cls).fewest <= len(given) <= len(columns):
+            raise ValueError(f"{len(given)} values, expected {layout(cls).wanted}")
+        return {slot.json: value for slot, value in zip(columns, given, strict=False)}
 
     @model_serializer
     def _to_list(self) -> list[object]:
-        return given_values(self, layout(type(self)).columns)
+        given = [slot.name for slot in layout(type(self)).columns if slot.name in self.model_fields_set]
+        return [getattr(self, name) for name in given]
 
     @classmethod
-    def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
-        return row_schema(cls.table_columns())
-
-
-class RowAt(NamedTuple):
-    """A row among the lines of a record.
-
-    `number` counts the record's rows from 0; `fields` is how many values stand on it; `settings` are those read
-    before it, with the sticky ones of earlier records.
-    """
-
-    number: int
-    fields: int
-    settings: Mapping[str, object]
+    def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        found = layout(cls)
+        items = [_cell_schema(Column(s.label, s.kind or Kind.REAL, s.required)) for s in found.columns]
+        return {"type": "array", "prefixItems": items, "items": False, "minItems": found.fewest}
 
 
 class Record(Part):
@@ -125,17 +167,20 @@ class Record(Part):
     comments: list[Comment] = Field(default_factory=list)
 
     @classmethod
-    def row_slot(cls, row: RowAt) -> Slot:
-        """Which field a row fills: those that rows can fill in their order, the last one all that follow."""
-        slots = layout(cls).row_slots
-        return slots[min(row.number, len(slots) - 1)]
+    def row_slot(cls, number: int, fields: int, given: dict[str, object], siblings: list[dict[str, object]]) -> str:
+        """Which field the row `number` of this record fills; `fields` is how many values stand on it.
+
+        `given` holds what was read of the record so far, `siblings` the records before it. Only records with several
+        kinds of row need to say.
+        """
+        return layout(cls).row_names[0]
 
 
 class Block(Record):
     """A keyword with its data. The class variables are its declaration.
 
-    `names` are its spellings, `sections` those where it belongs; `tabular` keeps runs of numeric lines whole, as
-    arrays; `slashes` says that /.../ is one field; `example` is a block that reads without a finding.
+    `sections` are those where it belongs; `tabular` keeps runs of numeric lines whole, as arrays; `slashes` says that
+    /.../ is one field; `example` is a block that reads without a finding.
     """
 
     names: ClassVar[tuple[str, ...]]
@@ -147,34 +192,151 @@ class Block(Record):
     keyword: str
 
 
+@dataclass(slots=True)
+class Slot:
+    """One field of a part, as the reader and the writer see it."""
+
+    name: str
+    json: str
+    about: About
+    kind: Kind | None
+    choices: tuple[str, ...]
+    row: type[Row] | None
+    record: dict[str, type[Record]]
+    required: bool
+    many: bool
+    order: int
+
+    @property
+    def key(self) -> str:
+        """The KEY of a setting, or ""."""
+        return self.about.key if isinstance(self.about, Setting) else ""
+
+    @property
+    def label(self) -> str:
+        """The field's name for a reader."""
+        return self.key + "=" if self.key else self.json.replace("_", " ")
+
+
+@dataclass(slots=True)
+class Layout:
+    """The fields of a part by how they are written."""
+
+    columns: list[Slot] = field(default_factory=list)
+    keys: dict[str, Slot] = field(default_factory=dict)
+    table: Slot | None = None
+    children: dict[str, Slot] = field(default_factory=dict)
+    slots: list[Slot] = field(default_factory=list)
+
+    @property
+    def row_names(self) -> list[str]:
+        """Names of the fields that a row can fill."""
+        return [slot.name for slot in (*self.columns, *([self.table] if self.table else []))]
+
+    @property
+    def fewest(self) -> int:
+        """How many fields a row must have."""
+        return max((index + 1 for index, slot in enumerate(self.columns) if slot.required), default=0)
+
+    @property
+    def wanted(self) -> str:
+        """The columns in words: `depth, density [, gravity]`."""
+        return row_format([slot.label for slot in self.columns], [slot.required for slot in self.columns])
+
+
+def row_format(labels: list[str], required: list[bool]) -> str:
+    """`a, b [, c]`, with empty-able fields before the last required one in brackets."""
+    last = max((index for index, needed in enumerate(required) if needed), default=-1)
+    text = ""
+    for index, (label, needed) in enumerate(zip(labels, required, strict=True)):
+        comma = ", " if index else ""
+        if index > last:
+            text += f" [{comma.strip()} {label}]" if index else f"[{label}]"
+        else:
+            text += comma + (label if needed else f"[{label}]")
+    return text
+
+
 @cache
 def layout(part: type[Part]) -> Layout:
     """The declared fields of a class, found once."""
     found = Layout()
     for order, (name, info) in enumerate(part.model_fields.items()):
-        about = annotated(info, About)
-        records = classes(info, Record)
-        if about is None and not records:
+        meta = next((item for item in _metadata(info) if isinstance(item, About)), None)
+        records = _records(info.annotation)
+        if meta is None and not records:
             continue
-        table = about.row if isinstance(about, Rows) else None
         slot = Slot(
             name=name,
             json=info.alias or name,
-            about=about or About(""),
-            kind=annotated(info, Kind),
-            choices=choices(info),
-            row=table or next(iter(classes(info, Row)), None),
+            about=meta or About(""),
+            kind=_kind(info),
+            choices=_choices(info.annotation),
+            row=meta.row if isinstance(meta, Rows) else _row(info.annotation),
             record={record.rule: record for record in records},
-            table=table is not None,
             required=info.is_required(),
-            many=is_list(info.annotation),
+            many=_is_list(info.annotation),
             order=order,
         )
-        found.add(slot)
+        found.slots.append(slot)
+        if isinstance(meta, Rows):
+            found.table = slot
+        elif isinstance(meta, Setting):
+            found.keys[meta.key] = slot
+        elif records:
+            found.children |= dict.fromkeys(slot.record, slot)
+        else:
+            found.columns.append(slot)
     return found
 
 
-def given_values(part: Part, slots: Sequence[Slot]) -> list[object]:
-    """The values of some fields up to the last one given."""
-    length = max((index + 1 for index, slot in enumerate(slots) if slot.name in part.model_fields_set), default=0)
-    return [getattr(part, slot.name) for slot in slots[:length]]
+def columns_of(slot: Slot) -> list[Column]:
+    """The columns of a field that is a table."""
+    return slot.about.columns() if isinstance(slot.about, Rows) else []
+
+
+@cache
+def table_columns(row: type[Row]) -> list[Column]:
+    """The columns of a table whose rows are `row`."""
+    return [Column(slot.label, slot.kind or Kind.REAL, slot.required) for slot in layout(row).columns]
+
+
+def _parts(annotation: Any) -> list[Any]:
+    """A type taken apart: members of unions, items of lists, what is annotated."""
+    origin = get_origin(annotation)
+    if origin is Annotated:
+        return [*_parts(get_args(annotation)[0]), *get_args(annotation)[1:]]
+    if origin in (Union, UnionType, list):
+        return [piece for member in get_args(annotation) for piece in _parts(member)]
+    return [] if annotation is NoneType else [annotation]
+
+
+def _metadata(info: FieldInfo) -> list[Any]:
+    return [*info.metadata, *_parts(info.annotation)]
+
+
+def _kind(info: FieldInfo) -> Kind | None:
+    return next((item for item in _metadata(info) if isinstance(item, Kind)), None)
+
+
+def _choices(annotation: Any) -> tuple[str, ...]:
+    literal = (piece for piece in _parts(annotation) if get_origin(piece) is Literal)
+    return next((get_args(piece) for piece in literal), ())
+
+
+def _records(annotation: Any) -> list[type[Record]]:
+    return [piece for piece in _parts(annotation) if isinstance(piece, type) and issubclass(piece, Record)]
+
+
+def _row(annotation: Any) -> type[Row] | None:
+    found = (piece for piece in _parts(annotation) if isinstance(piece, type) and issubclass(piece, Row))
+    return next(found, None)
+
+
+def _is_list(annotation: Any) -> bool:
+    origin = get_origin(annotation)
+    if origin is Annotated:
+        return _is_list(get_args(annotation)[0])
+    if origin in (Union, UnionType):
+        return any(_is_list(member) for member in get_args(annotation))
+    return origin is list

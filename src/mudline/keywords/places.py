@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from mudline.diagnostics import Span
-from mudline.syntax.fields import trimmed
 from mudline.syntax.rows import line_spans, row_fields
 
 Path = tuple[str | int, ...]
@@ -15,44 +14,13 @@ _MOST_COLUMNS = 64
 
 
 @dataclass(slots=True)
-class Runs:
-    """Where the rows of a table stand: the first row of each run and its span; lines are counted when asked for."""
-
-    text: str
-    first_rows: list[int] = field(default_factory=list)
-    spans: list[Span] = field(default_factory=list)
-    count: int = 0
-    _lines: list[Span] = field(default_factory=list)
-
-    def add(self, span: Span) -> int:
-        """Take note of a run; returns its number of rows."""
-        rows = self.text.count("\n", *span) + (self.text[span.end - 1] != "\n")
-        self.first_rows.append(self.count)
-        self.spans.append(span)
-        self.count += rows
-        return rows
-
-    def line(self, row: int) -> Span:
-        """The line of a row, without outer blanks."""
-        if len(self._lines) < self.count:
-            self._lines = [line for span in self.spans for line in line_spans(self.text, span)]
-        return trimmed(self.text, *self._lines[min(row, self.count - 1)])
-
-    def cell(self, row: int, column: int) -> Span:
-        """A field of a row; the whole row where it has no such field."""
-        line = self.line(row)
-        fields = row_fields(self.text, line, _MOST_COLUMNS)
-        return fields[column].span if 0 <= column < len(fields) else line
-
-
-@dataclass(slots=True)
 class Places:
-    """Spans by path, of values and of the runs of tables; and which records are not complete."""
+    """Spans by path. Tables keep only where their runs begin: a row is looked up when somebody asks."""
 
     text: str
     block: Span
     spans: dict[Path, Span] = field(default_factory=dict)
-    runs: dict[Path, Runs] = field(default_factory=dict)
+    runs: dict[Path, list[tuple[int, Span]]] = field(default_factory=dict)
     damaged: set[Path] = field(default_factory=set)
 
     def find(self, path: Path) -> Span:
@@ -62,10 +30,20 @@ class Places:
             if inner in self.spans:
                 return self.spans[inner]
             if inner in self.runs:
-                row, column = (*path[length:], 0, -1)[:2] if length < len(path) else (0, -1)
-                return self.runs[inner].cell(int(row), int(column))
+                return self._cell(self.runs[inner], path[length:])
         return self.block
 
     def has(self, path: Path) -> bool:
         """Whether exactly this value was written in the deck."""
         return path in self.spans or path in self.runs
+
+    def _cell(self, runs: list[tuple[int, Span]], inner: Path) -> Span:
+        row = int(inner[0]) if inner else 0
+        first, run = max((start for start in runs if start[0] <= row), default=runs[0], key=lambda start: start[0])
+        for index, line in enumerate(line_spans(self.text, run)):
+            if index == row - first:
+                fields = row_fields(self.text, line, _MOST_COLUMNS)
+                if len(inner) > 1 and int(inner[1]) < len(fields) and int(inner[1]) >= 0:
+                    return fields[int(inner[1])].span
+                return Span(fields[0].span.start, fields[-1].span.end)
+        return run

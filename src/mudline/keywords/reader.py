@@ -7,18 +7,18 @@ from typing import cast
 
 from pydantic import ValidationError
 
-from mudline.codes import SYN001
-from mudline.diagnostics import Problem
+from mudline.codes import SYN001, SYN004, SYN013, SYN014
+from mudline.diagnostics import Problem, Span
 from mudline.keywords import grammar
-from mudline.keywords.builder import Builder
-from mudline.keywords.built import Built, attach, construct
-from mudline.keywords.contents import Contents
-from mudline.keywords.findings import Findings
-from mudline.keywords.mismatches import MismatchReport
-from mudline.keywords.model import Block
+from mudline.keywords.builder import Builder, Built, construct
+from mudline.keywords.comments import CommentLine, attach
+from mudline.keywords.grammar import END, ROW, Content, Mismatch
+from mudline.keywords.model import Block, Layout, Part, layout, row_format
 from mudline.keywords.places import Places
-from mudline.syntax.fields import trimmed
-from mudline.syntax.tree import RawBlock
+from mudline.keywords.text import shown, suggestion
+from mudline.syntax.fields import first_key, trimmed
+from mudline.syntax.rows import line_spans
+from mudline.syntax.tree import Kind, Leaf, RawBlock
 
 
 @dataclass(slots=True)
@@ -36,25 +36,145 @@ class ReadBlock:
 
 
 def read_block(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
-    """Read a block. `text` is the unified text of the source; `last`: nothing follows the block in the file."""
-    findings = Findings(Places(text, trimmed(text, *raw.head.span)))
-    contents = Contents(text, declared, findings)
-    contents.read(raw.leaves)
-    node, mismatches = grammar.parse(declared.rule, contents.lines)
-    MismatchReport(text, raw, declared, contents, last=last).tell(mismatches)
-    built = Builder(text, declared, findings).build(declared, node)
-    trailing = [comment.text for comment in contents.comments if not attach(comment.position, comment.text, built)]
-    built.values["keyword"] = raw.name
-    model = _model(built, declared, findings)
-    return ReadBlock(model, findings.places, findings.finish(), trailing, findings.lost)
+    """Read a block. `text` is the unified text of the source; `last` says that nothing follows the block in it."""
+    return _Reader(text, raw, declared, last=last).read()
 
 
-def _model(built: Built, declared: type[Block], findings: Findings) -> Block:
-    """The validated model; of a block with faults, what could be read of it."""
-    if findings.whole:
-        try:
-            return declared.model_validate(built.values)
-        except ValidationError as error:
-            for fault in error.errors(include_url=False):
-                findings.damage((), Problem(SYN001, fault["msg"], findings.places.find(tuple(fault["loc"]))))
-    return cast("Block", construct(built))
+class _Reader:
+    def __init__(self, text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> None:
+        self.text = text
+        self.raw = raw
+        self.declared = declared
+        self.last = last
+        self.keys = all_keys(declared)
+        self.problems: list[Problem] = []
+        self.comments: list[CommentLine] = []
+        self.lost = 0
+
+    def read(self) -> ReadBlock:
+        contents = self._contents()
+        node, mismatches = grammar.parse(self.declared.rule, contents)
+        places = Places(self.text, trimmed(self.text, *self.raw.head.span))
+        builder = Builder(self.text, places, self.problems, slashes=self.declared.slashes)
+        builder.damaged = any(mismatch.missing for mismatch in mismatches)
+        for mismatch in mismatches:
+            self._report(mismatch)
+        built = builder.build(self.declared, node)
+        trailing = attach(self.comments, built)
+        self.lost += builder.lost
+        model = self._model(built, builder)
+        return ReadBlock(model, places, self.problems, trailing, self.lost)
+
+    def _model(self, built: Built, builder: Builder) -> Block:
+        """The validated model; of a block with faults, what could be read of it."""
+        built.values["keyword"] = self.raw.name
+        if not builder.damaged:
+            try:
+                return self.declared.model_validate(built.values)
+            except ValidationError as error:
+                for fault in error.errors():
+                    message = fault["msg"].removeprefix("Value error, ")
+                    span = builder.places.find(tuple(fault["loc"]))
+                    self.problems.append(Problem(SYN001, message, span))
+        return cast("Block", construct(built))
+
+    def _contents(self) -> list[Content]:
+        contents: list[Content] = []
+        for position, leaf in enumerate(self.raw.leaves):
+            match leaf.kind:
+                case Kind.COMMENT:
+                    self._comment(position, leaf)
+                case Kind.UNDECIDED:
+                    self._undecided(position, leaf, contents)
+                case Kind.SETTING:
+                    self._setting(position, leaf.span, contents)
+                case Kind.RUN if not self.declared.tabular:
+                    contents += [Content(ROW, line, position) for line in line_spans(self.text, leaf.span)]
+                case Kind.RUN | Kind.TEXT:
+                    contents.append(Content(ROW, leaf.span, position))
+                case _:
+                    pass
+        return contents
+
+    def _comment(self, position: int, leaf: Leaf) -> None:
+        line = self.text[slice(*leaf.span)].rstrip("\r\n")
+        self.comments.append(CommentLine(position, line[1:], leaf.span))
+
+    def _undecided(self, position: int, leaf: Leaf, contents: list[Content]) -> None:
+        """A line with C and a letter in column 1: a known key makes it data, else it is a comment, with a warning."""
+        key = first_key(self.text, leaf.span)
+        if key in self.keys:
+            self._setting(position, leaf.span, contents)
+            return
+        line = self.text[slice(*leaf.span)].rstrip("\r\n")
+        hint = suggestion(key, sorted(self.keys)) if key else ""
+        message = (
+            f"{shown(line)} begins with C in column 1 and is read as a comment (inferred){hint}: "
+            "put a blank after the C, or indent the line if it is data"
+        )
+        self.problems.append(Problem(SYN013, message, trimmed(self.text, *leaf.span)))
+        self._comment(position, leaf)
+
+    def _setting(self, position: int, span: Span, contents: list[Content]) -> None:
+        key = first_key(self.text, span)
+        if key in self.keys:
+            contents.append(Content(grammar.terminal_of(key), span, position))
+            return
+        known = sorted(self.keys)
+        allowed = ", ".join(f"{name}=" for name in known) or "no KEY= at all"
+        body = trimmed(self.text, *span)
+        end = self.text.find("=", body.start, body.end)
+        message = f"*{self.raw.name} has no setting {key}={suggestion(key, known)}: it takes {allowed}"
+        self.problems.append(Problem(SYN004, message, Span(body.start, end + 1)))
+        self.lost += 1
+
+    def _report(self, mismatch: Mismatch) -> None:
+        wanted = " or ".join(self._describe(terminal) for terminal in mismatch.expected if terminal != END)
+        wanted = wanted or "nothing more in this block"
+        self.lost += 1
+        if mismatch.found is None:
+            code = SYN014 if self.last else SYN001
+            where = "the file" if self.last else f"*{self.raw.name}"
+            message = f"{where} ends too early: expected {wanted}"
+            span = trimmed(self.text, *(self.raw.leaves[-1] if self.raw.leaves else self.raw.head).span)
+            self.problems.append(Problem(code, message, span))
+            return
+        span = trimmed(self.text, *mismatch.found.span)
+        if mismatch.missing:
+            message = f"expected {self._describe(mismatch.missing)} before this line"
+            self.problems.append(Problem(SYN001, message, span))
+            return
+        found = "a row" if mismatch.found.terminal == ROW else f"{first_key(self.text, mismatch.found.span)}="
+        message = f"*{self.raw.name} has no place for {found} here: expected {wanted}"
+        self.problems.append(Problem(SYN001, message, span))
+
+    def _describe(self, terminal: str) -> str:
+        if terminal == ROW:
+            formats = dict.fromkeys(row_formats(self.declared))
+            return "a row " + " or ".join(f"`{shape}`" for shape in formats)
+        return next(f"{key}=" for key in self.keys if grammar.terminal_of(key) == terminal)
+
+
+def all_keys(part: type[Part]) -> frozenset[str]:
+    """Every KEY that the lines of a keyword may begin with or hold."""
+    return frozenset(key for found in _layouts(part) for key in found.keys)
+
+
+def row_formats(part: type[Part]) -> list[str]:
+    """How the rows of a keyword look."""
+    shapes: list[str] = []
+    for found in _layouts(part):
+        lines = [slot for slot in found.columns if slot.row]
+        plain = [slot for slot in found.columns if not slot.row]
+        shapes += [layout(slot.row).wanted for slot in lines if slot.row]
+        if found.table and found.table.row:
+            shapes.append(layout(found.table.row).wanted)
+        if plain and not lines:
+            shapes.append(row_format([slot.label for slot in plain], [slot.required for slot in plain]))
+    return shapes
+
+
+def _layouts(part: type[Part]) -> list[Layout]:
+    own = layout(part)
+    below = [inner for slot in own.children.values() for record in slot.record.values() for inner in _layouts(record)]
+    return [own, *below]

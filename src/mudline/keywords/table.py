@@ -9,10 +9,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mudline.keywords.values import Equation, Kind, Label, unbraced_label
+from mudline.diagnostics import Span
+from mudline.keywords.values import Equation, Kind, Label
+from mudline.syntax.rows import Rows as RawRows
+from mudline.syntax.rows import read_rows
 
 Cell = float | int | str | None
-Word = Equation | Label | None
+LARGEST_WHOLE = 2.0**53
 
 
 class Column(NamedTuple):
@@ -21,21 +24,19 @@ class Column(NamedTuple):
     label: str
     kind: Kind
     required: bool
-    meaning: str = ""
 
     @property
     def whole(self) -> bool:
         """Whether its numbers are whole."""
         return self.kind in (Kind.WHOLE, Kind.IDENT)
 
-    @property
-    def word_type(self) -> type[Equation | Label]:
-        """What may stand here instead of a number."""
-        return Label if self.kind is Kind.IDENT else Equation
-
-    def label_in(self, word: str) -> Label | None:
-        """The label that a text without braces stands for, where labels may stand; None when it is no likely one."""
-        return unbraced_label(word) if self.word_type is Label else None
+    def fault(self, word: str) -> str:
+        """Why a field that is no number cannot stand here, or ""."""
+        if word == "":
+            return f"{self.label} is missing: expected {self.kind.value}" if self.required else ""
+        if self.kind is Kind.IDENT:
+            return "" if Label.match(word) else f"{word!r} is no {self.label}: expected {self.kind.value}"
+        return "" if Equation.match(word) else f"{word!r} is no number: expected {self.kind.value} for {self.label}"
 
 
 class Table:
@@ -52,13 +53,11 @@ class Table:
         self,
         values: NDArray[np.float64],
         lengths: NDArray[np.intp] | None = None,
-        words: dict[tuple[int, int], Word] | None = None,
+        words: dict[tuple[int, int], Equation | Label | None] | None = None,
     ) -> None:
         self.values = values
         self.lengths = np.full(len(values), values.shape[1], dtype=np.intp) if lengths is None else lengths
         self.words = words or {}
-
-    __hash__ = None  # type: ignore[assignment]  # its arrays may change
 
     def __len__(self) -> int:
         return len(self.values)
@@ -72,6 +71,8 @@ class Table:
             and self.values.shape == other.values.shape
             and self.values.tobytes() == other.values.tobytes()
         )
+
+    __hash__ = None  # type: ignore[assignment]  # mutable arrays inside
 
     def __repr__(self) -> str:
         return f"Table({len(self)} rows of {self.values.shape[1]})"
@@ -94,21 +95,110 @@ class Table:
         return values
 
     def rows(self, columns: Sequence[Column]) -> list[list[Cell]]:
-        """The rows as lists: whole numbers as int, equations and labels as text, None where there is no value."""
+        """The rows as lists: whole numbers as int, empty fields None, equations and labels as text."""
         width = self.values.shape[1]
-        whole = [column.whole for column in columns[:width]]
-        found: list[list[Cell]] = self.values.tolist() if not any(whole) else self._with_whole(whole)
-        for row, column in np.argwhere(np.isnan(self.values)).tolist():
-            word = self.words.get((row, column))
-            found[row][column] = None if word is None else str(word)
-        for row in np.flatnonzero(self.lengths != width).tolist():
-            del found[row][self.lengths[row] :]
+        lists: list[list[Cell]] = []
+        bad = np.isnan(self.values)
+        for index in range(width):
+            whole = columns[index].whole and not bad[:, index].any()
+            lists.append(self.values[:, index].astype(np.int64).tolist() if whole else self.values[:, index].tolist())
+        found = [list(row) for row in zip(*lists, strict=True)]
+        if self.words or (self.lengths != width).any():
+            for (row, column), word in self.words.items():
+                found[row][column] = None if word is None else str(word)
+            for row, length in enumerate(self.lengths.tolist()):
+                del found[row][length:]
+                for column in range(length):
+                    cell = found[row][column]
+                    if columns[column].whole and isinstance(cell, float) and cell.is_integer():
+                        found[row][column] = int(cell)
         return found
 
-    def _with_whole(self, whole: Sequence[bool]) -> list[list[Cell]]:
-        """The rows with the numbers of whole columns as int; what is no number is put in afterwards."""
-        lists: list[list[Cell]] = []
-        for index, is_whole in enumerate(whole):
-            values = self.values[:, index]
-            lists.append((np.nan_to_num(values).astype(np.int64) if is_whole else values).tolist())
-        return [list(row) for row in zip(*lists, strict=True)]
+
+def from_cells(cells: Sequence[Sequence[Cell]], columns: Sequence[Column]) -> Table:
+    """A table from lists, as JSON holds them. Raises ValueError naming row and column."""
+    width = max((len(row) for row in cells), default=0)
+    values = np.full((len(cells), width), math.nan)
+    lengths = np.fromiter((len(row) for row in cells), dtype=np.intp, count=len(cells))
+    words: dict[tuple[int, int], Equation | Label | None] = {}
+    fewest = _fewest(columns)
+    if width > len(columns) or (len(cells) and int(lengths.min()) < fewest):
+        row = int(np.flatnonzero((lengths > len(columns)) | (lengths < fewest))[0])
+        raise ValueError(f"row {row}: {lengths[row]} fields, expected {_count(columns)}")
+    if len(cells) and int(lengths.min()) == width and _all_numbers(cells):
+        values = np.array(cells, dtype=np.float64).reshape(len(cells), width)
+    else:
+        for row, fields in enumerate(cells):
+            for column, cell in enumerate(fields):
+                if isinstance(cell, int | float):
+                    values[row, column] = cell
+                    continue
+                if fault := columns[column].fault(cell or ""):
+                    raise ValueError(f"row {row}, column {column}: {fault}")
+                words[row, column] = _word(cell or "")
+    table = Table(values, lengths, words)
+    for (row, column), fault in _not_whole(table, columns).items():
+        raise ValueError(f"row {row}, column {column}: {fault}")
+    return table
+
+
+def from_text(text: str, columns: Sequence[Column]) -> Table:
+    """A table from a block of rows, as YAML holds a long one. Raises ValueError naming row and column."""
+    table, faults = from_rows(read_rows(text, Span(0, len(text)), len(columns)), columns)
+    for (row, column), fault in sorted(faults.items()):
+        raise ValueError(f"row {row}, column {column}: {fault}" if column >= 0 else f"row {row}: {fault}")
+    return table
+
+
+def from_rows(raw: RawRows, columns: Sequence[Column]) -> tuple[Table, dict[tuple[int, int], str]]:
+    """A table from raw rows, and what is wrong in it by row and column (column -1: the whole row).
+
+    Empty fields beyond the last column (a trailing comma) are dropped.
+    """
+    faults: dict[tuple[int, int], str] = {}
+    words: dict[tuple[int, int], Equation | Label | None] = {}
+    lengths = np.minimum(raw.lengths, len(columns))
+    for (row, column), word in raw.words.items():
+        if fault := columns[column].fault(word):
+            faults[row, column] = fault
+        else:
+            words[row, column] = _word(word)
+    fewest = _fewest(columns)
+    for row in np.flatnonzero((raw.lengths < fewest) | (raw.lengths > len(columns))).tolist():
+        faults[row, -1] = f"{raw.lengths[row]} fields, expected {_count(columns)}"
+        raw.values[row, 1:] = math.nan  # the row still defines its number
+    table = Table(raw.values, lengths, words)
+    return table, faults | _not_whole(table, columns)
+
+
+def _word(text: str) -> Equation | Label | None:
+    return None if text == "" else Label.match(text) or Equation.match(text)
+
+
+def _fewest(columns: Sequence[Column]) -> int:
+    return max((index + 1 for index, column in enumerate(columns) if column.required), default=0)
+
+
+def _count(columns: Sequence[Column]) -> str:
+    fewest, most = _fewest(columns), len(columns)
+    return f"{fewest}" if fewest == most else f"{fewest} to {most}"
+
+
+def _all_numbers(cells: Sequence[Sequence[Cell]]) -> bool:
+    return {type(cell) for row in cells for cell in row} <= {int, float}
+
+
+def _not_whole(table: Table, columns: Sequence[Column]) -> dict[tuple[int, int], str]:
+    faults: dict[tuple[int, int], str] = {}
+    for index in range(table.values.shape[1]):
+        if not columns[index].whole:
+            continue
+        values = table.values[:, index]
+        values += 0.0  # a whole number has no signed zero
+        with np.errstate(invalid="ignore"):
+            wrong = (values != np.floor(values)) & ~np.isnan(values) | (np.abs(values) > LARGEST_WHOLE)
+        for row in np.flatnonzero(wrong).tolist():
+            value = float(values[row])
+            faults[row, index] = f"{value!r} is no whole number: {columns[index].label} needs one"
+            values[row] = math.nan
+    return faults

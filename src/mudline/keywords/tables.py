@@ -1,89 +1,120 @@
-"""Runs of rows to one table, and every fault in them as a problem."""
+"""Runs of rows to one table."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from itertools import groupby
+from typing import TYPE_CHECKING
 
-from mudline.codes import SYN001, SYN002, SYN003
+import numpy as np
+
+from mudline.codes import SYN002, SYN003, SYN016
 from mudline.diagnostics import Problem, Span
-from mudline.keywords.fields import decimal_comma, missing_braces
-from mudline.keywords.findings import MOST_TOLD, Findings
-from mudline.keywords.layout import Layout
-from mudline.keywords.places import Path, Runs
-from mudline.keywords.table import Table
-from mudline.keywords.table_reading import WHOLE_ROW, check, explain
-from mudline.keywords.text import shown
-from mudline.keywords.values import Label
-from mudline.syntax.fields import Field, split
-from mudline.syntax.rows import Rows, read_rows
+from mudline.keywords.model import Slot, columns_of, row_format
+from mudline.keywords.places import Path
+from mudline.keywords.table import Column, Table, from_rows
+from mudline.keywords.text import decimal_comma, maybe_label, number_fault
+from mudline.keywords.values import Equation, Kind, Label
+from mudline.syntax.fields import split
+from mudline.syntax.rows import Rows as RawRows
+from mudline.syntax.rows import line_spans, read_rows, row_fields
 
-_ROW_STARTS = "-+.,0123456789=[{"
+if TYPE_CHECKING:
+    from mudline.keywords.builder import Builder
+
+MOST_FAULTS = 1000
+"""Faults told one by one; more of them in one table are counted."""
 
 
 class TableBuilder:
-    """Collects the runs of one table, and reads them together.
+    """Collects the runs of one table."""
 
-    `expected` says in words what lines the keyword has.
-    """
-
-    def __init__(self, text: str, findings: Findings, row: Layout, path: Path, expected: str) -> None:
-        self.text = text
-        self.findings = findings
-        self.columns = [slot.column for slot in row.columns]
+    def __init__(self, builder: Builder, slot: Slot, path: Path) -> None:
+        self.builder = builder
+        self.columns: list[Column] = columns_of(slot)
         self.path = path
-        self.expected = expected
-        self.runs = Runs(text)
+        self.parts: list[Table] = []
+        self.count = 0
 
     def add(self, span: Span) -> int:
-        """Take in one run; returns its number of rows."""
-        self.findings.places.runs[self.path] = self.runs
-        return self.runs.add(span)
+        """Read one run; returns its number of rows."""
+        text = self.builder.text
+        raw = read_rows(text, span, len(self.columns))
+        self.builder.places.runs.setdefault(self.path, []).append((self.count, span))
+        table, faults = from_rows(raw, self.columns)
+        if faults:
+            self._report(span, raw, table, faults)
+        self.parts.append(table)
+        self.count += len(table)
+        return len(table)
 
     def finish(self) -> Table:
         """All rows in one table."""
-        raw = self._rows()
-        table, faults, doubts = check(raw, self.columns)
-        self.findings.lost += any(column == 0 for _, column in faults)
-        for row, places in groupby(faults[:MOST_TOLD], key=lambda place: place[0]):
-            self._tell_row(raw, row, [column for _, column in places])
-        for row, column in doubts[: MOST_TOLD + 1]:
-            word = Field(raw.words[row, column], self.runs.cell(row, column))
-            self.findings.tell(missing_braces(word, Label("{" + word.text + "}")))
-        if len(faults) > MOST_TOLD:
-            message = f"{len(faults) - MOST_TOLD} more faulty fields or rows in this table: only the first are listed"
-            self._damage(Problem(SYN002, message, self.runs.line(faults[-1][0])))
-        return table
+        if len(self.parts) == 1:
+            return self.parts[0]
+        width = max((part.values.shape[1] for part in self.parts), default=0)
+        values = np.full((self.count, width), np.nan)
+        words: dict[tuple[int, int], Equation | Label | None] = {}
+        start = 0
+        for part in self.parts:
+            values[start : start + len(part), : part.values.shape[1]] = part.values
+            words |= {(row + start, column): word for (row, column), word in part.words.items()}
+            start += len(part)
+        lengths = [part.lengths for part in self.parts] or [np.zeros(0, dtype=np.intp)]
+        return Table(values, np.concatenate(lengths), words)
 
-    def _damage(self, problem: Problem) -> None:
-        self.findings.damage(self.path[:-1], problem)
+    def _report(self, span: Span, raw: RawRows, table: Table, faults: dict[tuple[int, int], str]) -> None:
+        lines = list(line_spans(self.builder.text, span))
+        short = {row for row, column in faults if column < 0}
+        told = 0
+        broken: set[int] = set()
+        for (row, column), fault in sorted(faults.items()):
+            if row in short and column >= 0:
+                continue
+            if self._label(table, raw, lines[row], row, column):
+                continue
+            told += 1
+            if told > MOST_FAULTS:
+                continue
+            if row not in broken and self._brackets(lines[row]):
+                broken.add(row)
+            if row not in broken:
+                self._fault(lines[row], row, column, fault, raw)
+        if told > MOST_FAULTS:
+            message = f"{told - MOST_FAULTS} more faulty rows or fields in this table"
+            self.builder.damage(self.path[:-1], Problem(SYN002, message, lines[-1]))
 
-    def _rows(self) -> Rows:
-        spans = self.runs.spans
-        if len(spans) == 1:
-            return read_rows(self.text, spans[0], len(self.columns))
-        pieces = (self.text[slice(*span)] for span in spans)
-        joined = "".join(piece if piece.endswith("\n") else f"{piece}\n" for piece in pieces)
-        return read_rows(joined, Span(0, len(joined)), len(self.columns))
+    def _label(self, table: Table, raw: RawRows, line: Span, row: int, column: int) -> bool:
+        """A word where a node number belongs is taken for a label whose braces were forgotten."""
+        word = raw.words.get((row, column), "")
+        if column < 0 or self.columns[column].kind is not Kind.IDENT or (label := maybe_label(word)) is None:
+            return False
+        table.words[row, column] = label
+        place = row_fields(self.builder.text, line, len(self.columns))[column].span
+        message = f"{word!r} is no number: is it the label {label}? Labels stand in braces"
+        self.builder.problems.append(Problem(SYN016, message, place))
+        return True
 
-    def _tell_row(self, raw: Rows, row: int, faults: Sequence[int]) -> None:
-        """The faults of one row; of an unclosed bracket that alone, of text that is no row at all one fault."""
-        line = self.runs.line(row)
-        fields, problems = split(self.text, line)
-        if not problems and WHOLE_ROW in faults and self.text[line.start] not in _ROW_STARTS:
-            message = f"{shown(self.text[slice(*line)])} is no line of this keyword: expected {self.expected}"
-            problems = [Problem(SYN001, message, line)]
+    def _brackets(self, line: Span) -> bool:
+        """Whether the fault of a row is an unclosed bracket, which is then told instead."""
+        _, problems = split(self.builder.text, line)
         for problem in problems:
-            self._damage(problem)
-        for column in faults if not problems else ():
-            self._tell(raw, row, column, fields)
+            if problem.span != self.builder.unclosed:
+                self.builder.damage(self.path[:-1], problem)
+        return bool(problems)
 
-    def _tell(self, raw: Rows, row: int, column: int, fields: list[Field]) -> None:
-        message, place = explain(raw, self.columns, row, column), self.runs.cell(row, column)
-        if column == WHOLE_ROW:
-            if comma := decimal_comma(fields, self.columns):
-                self.findings.tell(comma)
-            self._damage(Problem(SYN003, message, place))
-        else:
-            missing = raw.words.get((row, column)) == ""
-            self._damage(Problem(SYN003 if missing else SYN002, message, place))
+    def _fault(self, line: Span, row: int, column: int, fault: str, raw: RawRows) -> None:
+        text = self.builder.text
+        self.builder.lost += column == 0
+        if column < 0:
+            fields, _ = split(text, line)
+            required = [column.required for column in self.columns]
+            if problem := decimal_comma(fields, [column.kind for column in self.columns], sum(required)):
+                self.builder.problems.append(problem)
+            wanted = row_format([column.label for column in self.columns], required)
+            place = Span(fields[0].span.start, fields[-1].span.end)
+            self.builder.damage(self.path[:-1], Problem(SYN003, f"{fault} (`{wanted}`)", place))
+            return
+        place = row_fields(text, line, len(self.columns))[column].span
+        word = raw.words.get((row, column))
+        if word:
+            fault = number_fault(word, self.columns[column].label)
+        self.builder.damage(self.path[:-1], Problem(SYN003 if word == "" else SYN002, fault, place))

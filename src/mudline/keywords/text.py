@@ -1,96 +1,153 @@
-"""Words for people: how a text of the deck is shown, what may have been meant, why something is no number."""
+"""The text of one field to its value, by the kind of the field."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from functools import lru_cache
 
-from mudline.keywords.values import is_not_finite
+from mudline.codes import SYN002, SYN005, SYN015, SYN016
+from mudline.diagnostics import Problem
+from mudline.keywords.model import Slot
+from mudline.keywords.values import Equation, Kind, Label
+from mudline.syntax.fields import Field
+from mudline.syntax.rows import read_number
 
-_LONGEST_SHOWN = 60
-_LONGEST_GUESSED = 60
+Value = float | int | str | None
+LARGEST_WHOLE = 2.0**53
+_REAL = (Kind.REAL, Kind.REAL_OR_NAME)
 
 
-def cut(text: str) -> str:
-    """A text of the deck, cut when long."""
-    return text if len(text) <= _LONGEST_SHOWN else text[: _LONGEST_SHOWN - 3] + "..."
+class UnreadableError(Exception):
+    """A field that gives no value; the problem is the reason."""
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
+        super().__init__(problem.message)
+
+
+def read_value(field: Field, slot: Slot, problems: list[Problem]) -> Value:
+    """The value of a field; raises UnreadableError. What is only doubtful is added to `problems`."""
+    if slot.choices:
+        return _choice(field, slot)
+    if slot.kind is Kind.NAME:
+        return field.text
+    if equation := Equation.match(field.text):
+        return equation
+    number = read_number(field.text)
+    if slot.kind is Kind.WHOLE:
+        return _whole(field, number, slot)
+    if slot.kind is Kind.IDENT:
+        return _ident(field, number, slot, problems)
+    return _real(field, number, slot)
+
+
+def _real(field: Field, number: float | None, slot: Slot) -> float | str:
+    if number is None:
+        if slot.kind is Kind.REAL_OR_NAME and not field.text.startswith("=["):
+            return field.text
+        raise UnreadableError(Problem(SYN002, number_fault(field.text, slot.label), field.span))
+    return number
+
+
+def maybe_label(text: str) -> Label | None:
+    """A text that is a label if its braces were forgotten: it begins with a letter, and is no NaN or infinity."""
+    if not text[:1].isalpha() or _not_finite(text):
+        return None
+    return Label.match("{" + text + "}")
+
+
+def _not_finite(text: str) -> bool:
+    return text.lower().lstrip("+-") in ("nan", "inf", "infinity")
+
+
+def number_fault(text: str, label: str) -> str:
+    """Why a text is no number, in words that say what to do."""
+    lower = text.lower().lstrip("+-")
+    if _not_finite(text):
+        return f"{text!r} is not a finite number: {label} needs a number"
+    if text.startswith(("[", "=")):
+        return f"{text!r} is no equation: write =[...] for {label}"
+    if lower[:1].isdigit() and any(mark in lower for mark in "ed"):
+        try:
+            float(lower.replace("d", "e"))
+        except ValueError:
+            pass
+        else:
+            return f"{text} is too large for a double-precision number: {label} must be below 1.8E308"
+    return f"{shown(text)} is no number: expected a number or an equation =[...] for {label}"
 
 
 def shown(text: str) -> str:
     """A text of the deck in quotes, cut when long."""
-    return repr(cut(text))
-
-
-def suggested(word: str, known: Iterable[str]) -> str:
-    """The known word that is nearest to one that is not known, case aside: within two edits, one for a short word."""
-    if not 1 < len(word) <= _LONGEST_GUESSED:
-        return ""
-    most = 1 if len(word) < 5 else 2
-    wanted, letters = word.casefold(), _letters(word)
-    near = (name for name in known if (letters ^ _letters(name)).bit_count() <= 2 * most)
-    distance, best = min(((edits(wanted, name.casefold(), most), name) for name in near), default=(most + 1, ""))
-    return best if distance <= most else ""
+    return repr(text if len(text) <= 60 else text[:57] + "...")
 
 
 def suggestion(word: str, known: Iterable[str]) -> str:
-    """` (did you mean X?)` for the nearest known word, or nothing."""
-    near = suggested(word, known)
-    return f" (did you mean {near}?)" if near else ""
-
-
-@lru_cache(maxsize=1024)
-def _letters(word: str) -> int:
-    """The set of letters of a word as bits; one edit changes two of them at most."""
-    bits = 0
-    for letter in word.casefold():
-        bits |= 1 << ord(letter) % 64
-    return bits
+    """` (did you mean X?)` for the nearest known word within two edits (one for a short word), or nothing."""
+    wanted = word.casefold()
+    most = 1 if len(wanted) < 5 else 2
+    near = min(((edits(wanted, name.casefold(), most), name) for name in known), default=(most + 1, ""))
+    return f" (did you mean {near[1]}?)" if near[0] <= most else ""
 
 
 def edits(one: str, other: str, most: int) -> int:
-    """How many letters have to be put in, taken out, changed or swapped with the next; above `most` just more."""
+    """Letters to change, insert, drop or swap with a neighbour to make one word of the other; `most` + 1 if more."""
     if abs(len(one) - len(other)) > most:
         return most + 1
-    above: list[int] = []
+    before: list[int] = []
     row = list(range(len(other) + 1))
-    for i, letter in enumerate(one):
-        above, row, before = row, [i + 1], above
-        for j, wanted in enumerate(other):
-            cost = min(row[j] + 1, above[j + 1] + 1, above[j] + (letter != wanted))
-            if i and j and letter == other[j - 1] and one[i - 1] == wanted:
-                cost = min(cost, before[j - 1] + 1)
+    for i, letter in enumerate(one, 1):
+        two_before, before, row = before, row, [i]
+        for j, target in enumerate(other, 1):
+            cost = min(before[j] + 1, row[j - 1] + 1, before[j - 1] + (letter != target))
+            if i > 1 and j > 1 and letter == other[j - 2] and one[i - 2] == target:
+                cost = min(cost, two_before[j - 2] + 1)
             row.append(cost)
         if min(row) > most:
             return most + 1
-    return row[-1]
+    return min(row[-1], most + 1)
 
 
-def either(words: Iterable[str]) -> str:
-    """`a`, `a or b`, `a, b or c`."""
-    *most, last = words
-    return f"{', '.join(most)} or {last}" if most else last
+def decimal_comma(values: list[Field], kinds: list[Kind | None], fewest: int) -> Problem | None:
+    """The finding about a row of whole numbers whose count is right if every real one takes two fields."""
+    for length in range(max(fewest, 1), len(kinds) + 1):
+        widths = [2 if kind in _REAL else 1 for kind in kinds[:length]]
+        numbers = [field for field in values if field.text.lstrip("+-").isdecimal()]
+        names = sum(kind is Kind.NAME for kind in kinds[:length])
+        if sum(widths) == len(values) > length and len(numbers) >= len(values) - names:
+            first = widths.index(2)
+            one, two = values[first : first + 2]
+            message = f"decimal comma? {one.text},{two.text} is two fields here: write {one.text}.{two.text}"
+            return Problem(SYN015, message, one.span._replace(end=two.span.end))
+    return None
 
 
-def number_fault(text: str, label: str, wanted: str = "a number or an equation =[...]") -> str:
-    """Why a text is no number, in words that say what to do; `wanted` may stand there."""
-    if is_not_finite(text):
-        return f"{shown(text)} is not a finite number: {label} needs {wanted}"
-    if text.startswith(("[", "=")):
-        return f"{shown(text)} is no equation: {label} needs {wanted}"
-    if _too_large(text.lower().lstrip("+-")):
-        return f"{shown(text)} is too large for a double-precision number: {label} must be below 1.8E308"
-    return f"{shown(text)} is no number: {label} needs {wanted}"
+def _choice(field: Field, slot: Slot) -> str:
+    word = " ".join(field.text.upper().split())
+    if word in slot.choices:
+        return word
+    known = list(slot.choices)
+    listed = ", ".join(known[:-1]) + f" or {known[-1]}" if len(known) > 1 else known[0]
+    message = f"{shown(field.text)} is not allowed for {slot.label}: expected {listed}{suggestion(word, known)}"
+    raise UnreadableError(Problem(SYN005, message, field.span))
 
 
-def whole_fault(text: str, label: str) -> str:
-    """Why a number cannot stand where a whole one is needed."""
-    return f"{shown(text)} is no whole number: {label} needs one"
+def _whole(field: Field, number: float | None, slot: Slot) -> int:
+    if number is None:
+        raise UnreadableError(Problem(SYN002, number_fault(field.text, slot.label), field.span))
+    if not number.is_integer() or abs(number) > LARGEST_WHOLE:
+        message = f"{field.text} is no whole number: {slot.label} needs one"
+        raise UnreadableError(Problem(SYN002, message, field.span))
+    return int(number)
 
 
-def _too_large(text: str) -> bool:
-    if not text[:1].isdigit() or "_" in text or not text.isascii():
-        return False
-    try:
-        return float(text.replace("d", "e")) == float("inf")
-    except ValueError:
-        return False
+def _ident(field: Field, number: float | None, slot: Slot, problems: list[Problem]) -> int | Label:
+    if number is not None:
+        return _whole(field, number, slot)
+    if label := Label.match(field.text):
+        return label
+    braced = maybe_label(field.text)
+    if braced is None:
+        raise UnreadableError(Problem(SYN002, number_fault(field.text, slot.label), field.span))
+    message = f"{shown(field.text)} is no number: is it the label {braced}? Labels stand in braces"
+    problems.append(Problem(SYN016, message, field.span))
+    return braced

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from enum import Enum
-from typing import Annotated, ClassVar, Self
+from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import Field, GetCoreSchemaHandler
 from pydantic_core import CoreSchema, core_schema
@@ -18,7 +17,7 @@ class _Pattern(str):
     form: ClassVar[str]
 
     @classmethod
-    def __get_pydantic_core_schema__(cls, source: object, handler: GetCoreSchemaHandler) -> CoreSchema:
+    def __get_pydantic_core_schema__(cls, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_after_validator_function(
             cls,
             core_schema.str_schema(pattern=cls.form, strict=True),
@@ -28,7 +27,7 @@ class _Pattern(str):
     @classmethod
     def match(cls, text: str) -> Self | None:
         """The text as this type, or None when it has not this form."""
-        return cls(text) if re.fullmatch(cls.form, text) else None
+        return cls(text) if re.search(cls.form, text) else None
 
 
 class Equation(_Pattern):
@@ -50,16 +49,6 @@ class Label(_Pattern):
     __slots__ = ()
 
 
-def unbraced_label(text: str) -> Label | None:
-    """The label that a text without braces stands for, or None when it is no likely one."""
-    return Label.match("{" + text + "}") if text[:1].isalpha() and not is_not_finite(text) else None
-
-
-def is_not_finite(text: str) -> bool:
-    """Whether a text spells what is no finite number."""
-    return text.lower().lstrip("+-") in ("nan", "inf", "infinity")
-
-
 class Kind(Enum):
     """How a field's text is read; the sentence says what is expected there."""
 
@@ -67,31 +56,15 @@ class Kind(Enum):
     WHOLE = "a whole number or an equation =[...]"
     IDENT = "a number or a {label}"
     REAL_OR_NAME = "a number, an equation =[...] or a name"
-    NAME = "a text of one line"
+    NAME = "a name"
 
-
-@dataclass(frozen=True, slots=True)
-class Expected:
-    """Beside a type: whatever is wrong with a value of it is told in these words."""
-
-    what: str
-
-    def __get_pydantic_core_schema__(self, source: object, handler: GetCoreSchemaHandler) -> CoreSchema:
-        return core_schema.custom_error_schema(
-            handler(source), custom_error_type="expected", custom_error_message=f"expected {self.what}"
-        )
-
-
-LARGEST_WHOLE = 2**53
-"""Above it not every whole number is a double."""
 
 Finite = Annotated[float, Field(strict=True, allow_inf_nan=False)]
-Integer = Annotated[int, Field(strict=True, ge=-LARGEST_WHOLE, le=LARGEST_WHOLE)]
-Text = Annotated[str, Field(strict=True, pattern=r"^[^\r\n]*$"), Expected(Kind.NAME.value)]
+Integer = Annotated[int, Field(strict=True, ge=-(2**53), le=2**53)]
+Text = Annotated[str, Field(strict=True, pattern=r"^[^\r\n]*$")]
 
-_IN_ORDER = Field(union_mode="left_to_right")
-Real = Annotated[Finite | Equation, _IN_ORDER, Expected(Kind.REAL.value), Kind.REAL]
-Whole = Annotated[Integer | Equation, _IN_ORDER, Expected(Kind.WHOLE.value), Kind.WHOLE]
-Ident = Annotated[Integer | Label, _IN_ORDER, Expected(Kind.IDENT.value), Kind.IDENT]
-RealOrName = Annotated[Finite | Equation | Text, _IN_ORDER, Expected(Kind.REAL_OR_NAME.value), Kind.REAL_OR_NAME]
+Real = Annotated[Finite | Equation, Field(union_mode="left_to_right"), Kind.REAL]
+Whole = Annotated[Integer | Equation, Field(union_mode="left_to_right"), Kind.WHOLE]
+Ident = Annotated[Integer | Label, Field(union_mode="left_to_right"), Kind.IDENT]
+RealOrName = Annotated[Finite | Equation | Text, Field(union_mode="left_to_right"), Kind.REAL_OR_NAME]
 Name = Annotated[Text, Kind.NAME]

@@ -2,98 +2,106 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import cast
+import math
+from collections.abc import Iterator
+from typing import Any
 
-from pydantic_core import to_json
-
-from mudline.keywords.layout import Slot
-from mudline.keywords.model import Block, Record, Row, given_values, layout
-from mudline.keywords.table import Column, Table
+from mudline.keywords.model import Block, Part, Record, Rows, Setting, Slot, columns_of, layout
+from mudline.keywords.table import Cell, Table
 
 
 def block_lines(block: Block) -> Iterator[str]:
-    """The lines of a block, from its `*KEYWORD` on; a piece may be several lines, parted by LF."""
+    """The lines of a block, from its `*KEYWORD` on, without line ends."""
     yield f"*{block.keyword}"
     yield from _with_comments(block, list(_items(block)))
-
-
-def table_text(table: Table, columns: Sequence[Column]) -> str:
-    """The rows of a table, a line each, fields parted by commas."""
-    rows = table.rows(columns)
-    numbers = to_json(rows)
-    if b'"' in numbers or b"null" in numbers or b"[]" in numbers:
-        return "\n".join(joined(row) for row in rows)
-    return numbers[2:-2].decode().replace("],[", "\n").replace(",", ", ")
-
-
-def joined(values: Sequence[object]) -> str:
-    """Fields of a line; a line of one empty field is a comma, as an empty line would be no line."""
-    return ", ".join(field_text(value) for value in values).rstrip(" ") or ","
-
-
-def field_text(value: object) -> str:
-    """A field: the shortest number that reads back to the same double, text as it is, nothing for an empty field."""
-    if value is None:
-        return ""
-    return to_json(value).decode() if isinstance(value, float | int) else str(value)
 
 
 def _record_lines(record: Record) -> Iterator[str]:
     """The opening setting of a record, if its first field is one, then its items."""
     items = list(_items(record))
-    given = (slot for slot in layout(type(record)).slots if getattr(record, slot.name) is not None)
-    if next(given).key:
-        yield items.pop(0)
+    if _opens(record) and items:
+        yield from items.pop(0)
     yield from _with_comments(record, items)
 
 
-def _with_comments(record: Record, items: Sequence[str]) -> Iterator[str]:
+def _opens(record: Record) -> bool:
+    found = layout(type(record))
+    first = next((slot for slot in found.slots if getattr(record, slot.name) is not None), None)
+    return first is not None and isinstance(first.about, Setting)
+
+
+def _with_comments(record: Record, items: list[list[str]]) -> Iterator[str]:
     comments = sorted(record.comments, key=lambda comment: comment.before)
     at = 0
-    for index, item in enumerate(items):
+    for index, lines in enumerate(items):
         while at < len(comments) and comments[at].before <= index:
             yield f"C{comments[at].text}"
             at += 1
-        yield item
+        yield from lines
     yield from (f"C{comment.text}" for comment in comments[at:])
 
 
-def _items(record: Record) -> Iterator[str]:
+def _items(record: Record) -> Iterator[list[str]]:
     """The items of a record in the order of its fields: a line each, or the lines of a record below it."""
     found = layout(type(record))
-    if found.plain_row:
-        yield " " + joined(given_values(record, found.columns))
-    pending = ""
+    plain = [slot for slot in found.columns if not slot.row]
+    own_row = plain if len(plain) == len(found.columns) else []
+    pending: str = ""
     for slot in found.slots:
         value = getattr(record, slot.name)
-        if pending and not slot.inline:
-            yield pending
+        setting = slot.about if isinstance(slot.about, Setting) else None
+        if pending and not (setting and setting.inline):
+            yield [pending]
             pending = ""
-        if value is None or (found.plain_row and slot in found.columns):
+        if slot in own_row:
+            if slot is own_row[0]:
+                yield [" " + _row(record, own_row)]
+        elif value is None:
             continue
-        if slot.key:
-            text = f"{slot.key}={_value(value)}"
-            pending = f"{pending}, {text}" if pending else f" {text}"
+        elif setting:
+            text = f"{setting.key}={_value(value)}"
+            pending = f"{pending}, {text}" if pending and setting.inline else f" {text}"
+        elif isinstance(slot.about, Rows):
+            yield from ([line] for line in table_lines(value, slot))
+        elif slot.record:
+            yield from (list(_record_lines(child)) for child in value)
         else:
-            yield from _contents(value, slot, whole=not record.comments)
+            yield [f" {_value(value)}"]
     if pending:
-        yield pending
+        yield [pending]
 
 
-def _contents(value: object, slot: Slot, *, whole: bool) -> Iterator[str]:
-    """A table (one item if it is `whole`, as no comment stands in it), records, or a row of its own."""
-    if isinstance(value, Table):
-        if len(value):
-            text = " " + table_text(value, cast("type[Row]", slot.row).table_columns()).replace("\n", "\n ")
-            yield from [text] if whole else text.split("\n")
-    elif slot.record:
-        yield from ("\n".join(_record_lines(record)) for record in cast("list[Record]", value))
-    else:
-        yield f" {_value(value)}"
+def table_lines(table: Table, slot: Slot) -> Iterator[str]:
+    """The rows of a table, one a line."""
+    for row in table.rows(columns_of(slot)):
+        yield " " + joined(row)
 
 
-def _value(value: object) -> str:
-    if isinstance(value, Row):
-        return joined(given_values(value, layout(type(value)).columns))
-    return joined(value) if isinstance(value, list) else field_text(value)
+def _value(value: Any) -> str:
+    if isinstance(value, Part):
+        return _row(value, layout(type(value)).columns)
+    if isinstance(value, list):
+        return joined(value)
+    return field_text(value)
+
+
+def _row(part: Part, columns: list[Slot]) -> str:
+    given = [slot.name in part.model_fields_set for slot in columns]
+    length = max((index + 1 for index, here in enumerate(given) if here), default=0)
+    values = [getattr(part, slot.name) for slot in columns[:length]]
+    if len(values) == 1 and isinstance(values[0], list):
+        values = values[0]
+    return joined(values)
+
+
+def joined(values: list[Cell]) -> str:
+    """Fields of a line; a line of one empty field is a comma, as an empty line would be no line."""
+    text = ", ".join(field_text(value) for value in values).rstrip(" ")
+    return text or ","
+
+
+def field_text(value: Cell) -> str:
+    """A field: the shortest number that reads back to the same double, text as it is, nothing for an empty field."""
+    if value is None or (isinstance(value, float) and math.isnan(value)):
+        return ""
+    return repr(value) if isinstance(value, float | int) else str(value)

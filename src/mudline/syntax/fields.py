@@ -13,7 +13,7 @@ from mudline.diagnostics import Problem, Span
 MOST_FIELDS = 100_000
 """Fields read from one line; more is refused, so that a stray file cannot fill the memory."""
 
-_KEY = re.compile(r"[ \t]*+([A-Za-z][\w \t-]*+)=")
+_KEY = re.compile(r"[ \t]*([A-Za-z][\w \t-]*)=")
 _BLANKS = re.compile(r"[ \t]+")
 _SPECIAL = re.compile(r'[\["{/]')
 _MARKS = ',"[{/'
@@ -72,7 +72,7 @@ def read_line(text: str, span: Span, *, slashes: bool = False) -> Line:
             continue
         start, end = field_.span
         groups.append(Group(canonical_key(match[1]), Span(start, end)))
-        groups[-1].fields.append(field_at(text, start + match.end(), end))
+        groups[-1].fields.append(_field(text, Span(start + match.end(), end)))
     for group in groups[1:]:
         group.span = Span(group.span.start, group.fields[-1].span.end)
     return Line(body, groups if groups[0].fields else groups[1:], problems)
@@ -84,9 +84,8 @@ def first_key(text: str, span: Span) -> str:
     return canonical_key(match[1]) if match else ""
 
 
-def field_at(text: str, start: int, end: int) -> Field:
-    """The field between two offsets, without outer blanks."""
-    span = trimmed(text, start, end)
+def _field(text: str, piece: Span) -> Field:
+    span = trimmed(text, *piece)
     return Field(text[span.start : span.end], span)
 
 
@@ -100,8 +99,8 @@ def split(text: str, span: Span, *, slashes: bool = False) -> tuple[list[Field],
     problems: list[Problem] = []
     if _SPECIAL.search(text, body.start, body.end):
         commas = _outside(commas, _protected(text, body, problems, slashes=slashes))
-    edges = [body.start - 1, *commas, body.end]
-    return [field_at(text, left + 1, right) for left, right in pairwise(edges)], problems
+    edges = pairwise([body.start - 1, *commas, body.end])
+    return [_field(text, Span(left + 1, right)) for left, right in edges], problems
 
 
 def _commas(text: str, body: Span) -> list[int]:

@@ -13,8 +13,6 @@ from mudline.diagnostics import Problem, Severity, Span
 _BOM = b"\xef\xbb\xbf"
 _LINE_END = re.compile(r"\r\n|\r|\n")
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f]")
-_CONTROL_BYTES = bytes({*range(9), 11, 12, *range(14, 32), 127})
-_UNUSUAL_BYTES = _CONTROL_BYTES.replace(b"\x0c", b"").replace(b"\x1a", b"")
 _LONE_CR = re.compile(r"\r(?!\n)")
 _NOT_UTF8 = "{} is not UTF-8; the file is read as {}: save it as UTF-8"
 _BINARY_SHARE = 0.1
@@ -46,7 +44,7 @@ class Source:
             problem = Problem(SYN012, refusal, Span(0, 0), Severity.ERROR)
             return cls(name, body.decode("latin-1"), "latin-1", bom, readable=False, problems=(problem,))
         text, encoding, problems = _decode(body)
-        return cls(name, text, encoding, bom, problems=(*problems, *_control_characters(text, body)))
+        return cls(name, text, encoding, bom, problems=(*problems, *_control_characters(text)))
 
     def to_bytes(self, text: str | None = None) -> bytes:
         """The bytes of `text` (default: the text as read) in the file's own encoding, with its mark if it had one.
@@ -87,7 +85,7 @@ def _refusal(body: bytes) -> str:
     if body.startswith((b"\xff\xfe", b"\xfe\xff")) or _looks_like_utf16(body[:_SAMPLE]):
         return "the file is UTF-16, which no deck reader takes: save it as UTF-8"
     sample = body[:_SAMPLE]
-    strange = len(sample) - len(sample.translate(None, _UNUSUAL_BYTES))
+    strange = len(sample) - len(sample.translate(None, bytes({*range(9), 11, *range(14, 26), *range(27, 32), 127})))
     if strange > max(_BINARY_SHARE * len(sample), _FEW):
         return f"the file looks like binary data ({strange} control characters in its first {len(sample)} bytes)"
     return ""
@@ -114,12 +112,12 @@ def _decode(body: bytes) -> tuple[str, str, list[Problem]]:
     raise AssertionError("Latin-1 decodes every byte")
 
 
-def _control_characters(text: str, body: bytes) -> list[Problem]:
-    """One finding for all control characters, at the first; in every encoding read here each is one byte."""
+def _control_characters(text: str) -> list[Problem]:
+    """One finding for all control characters, at the first."""
     first = _CONTROL.search(text)
     if first is None:
         return []
-    count = len(body) - len(body.translate(None, _CONTROL_BYTES))
+    count = sum(1 for _ in _CONTROL.finditer(text))
     more = f" (and {count - 1} more control characters)" if count > 1 else ""
     what = "NUL" if first.group() == "\0" else "end-of-file mark (Ctrl-Z)" if first.group() == "\x1a" else "control"
     message = f"{what} character U+{ord(first.group()):04X}{more}: remove it"

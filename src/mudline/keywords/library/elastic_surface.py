@@ -4,30 +4,40 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Literal
 
-from mudline.keywords import common
-from mudline.keywords.about import about
-from mudline.keywords.common import Surface
-from mudline.keywords.model import Row
+from mudline.keywords.common import CHARACTERISTIC_LENGTH, Surface
+from mudline.keywords.model import Row, about
 from mudline.keywords.values import Real
-
-_STIFFNESS = about("stiffness per unit length; without it *EMBEDMENT is required", unit="F/L2", at_least=0)
-_EXTENT = about("height of the suction zone above the bed", unit="L", at_least=0)
 
 
 class ElasticProperties(Row):
     """The first line."""
 
-    stiffness: Annotated[Real | None, _STIFFNESS] = None
-    longitudinal: Annotated[Real | None, common.AXIAL_FRICTION] = None
-    transverse: Annotated[Real | None, common.LATERAL_FRICTION] = None
+    stiffness: Annotated[
+        Real | None, about("stiffness per unit length; without it *EMBEDMENT is required", unit="F/L2", at_least=0)
+    ] = None
+    longitudinal: Annotated[
+        Real | None, about("longitudinal friction coefficient", unit="-", default="0", at_least=0)
+    ] = None
+    transverse: Annotated[Real | None, about("transverse friction coefficient", unit="-", default="0", at_least=0)] = (
+        None
+    )
     lateral: Annotated[Real | None, about("lateral stiffness", unit="F/L2", at_least=0)] = None
     suction_stiffness: Annotated[Real | None, about("suction stiffness", unit="F/L2", at_least=0)] = None
-    suction_extent: Annotated[Real | None, _EXTENT] = None
-    longitudinal_length: Annotated[Real | None, common.AXIAL_LENGTH] = None
-    transverse_length: Annotated[Real | None, common.LATERAL_LENGTH] = None
-    constant: Annotated[Real | None, common.CONSTANT_FRICTION] = None
-    longitudinal_mobilisation: Annotated[Real | None, common.AXIAL_MOBILISATION] = None
-    transverse_mobilisation: Annotated[Real | None, common.LATERAL_MOBILISATION] = None
+    suction_extent: Annotated[Real | None, about("height of the suction zone above the bed", unit="L", at_least=0)] = (
+        None
+    )
+    longitudinal_length: Annotated[
+        Real | None,
+        about("largest longitudinal characteristic length", unit="L", default=CHARACTERISTIC_LENGTH, above=0),
+    ] = None
+    transverse_length: Annotated[
+        Real | None, about("largest transverse characteristic length", unit="L", default=CHARACTERISTIC_LENGTH, above=0)
+    ] = None
+    constant: Annotated[Real | None, about("constant friction force coefficient", inferred="kept, not used")] = None
+    longitudinal_mobilisation: Annotated[Real | None, about("longitudinal mobilisation length", unit="L", above=0)] = (
+        None
+    )
+    transverse_mobilisation: Annotated[Real | None, about("transverse mobilisation length", unit="L", above=0)] = None
 
 
 class ElasticSurface(Surface):

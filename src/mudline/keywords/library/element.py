@@ -4,13 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import Field
-
-from mudline.keywords.about import about, setting
-from mudline.keywords.alternatives import ByField
-from mudline.keywords.model import Block, ListRow, Record, Row
+from mudline.keywords.model import Block, ListRow, Record, Row, about, rows, setting
 from mudline.keywords.table import Table
-from mudline.keywords.table_field import rows
 from mudline.keywords.values import Ident, Real, Whole
 
 _AXIS = "component {} of the vector that orients the local {} axis of the undeformed element"
@@ -62,7 +57,7 @@ class Elements(Block):
     example: ClassVar[str] = "*ELEMENT\n 1, 1, 2\n GEN=1, 10\n"
 
     keyword: Literal["ELEMENT"] = "ELEMENT"
-    entries: list[Annotated[ElementRows | ElementGenerate, ByField()]] = Field(default_factory=list)
+    entries: list[ElementRows | ElementGenerate] = []
 
 
 BLOCK = Elements

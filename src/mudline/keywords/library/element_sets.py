@@ -4,11 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import Field
-
-from mudline.keywords.about import about, setting
-from mudline.keywords.alternatives import ByField
-from mudline.keywords.model import Block, ListRow, Record
+from mudline.keywords.model import Block, ListRow, Record, about, setting
 from mudline.keywords.values import Ident, Name, Whole
 
 
@@ -46,7 +42,7 @@ class ElementSet(Record):
 
     rule: ClassVar[str] = "element_set"
     name: Annotated[Name, setting("SET", "set name: up to 256 characters, case does not count, blanks do")]
-    members: list[Annotated[SetList | SetGenerate | SetSubset, ByField()]] = Field(default_factory=list)
+    members: list[SetList | SetGenerate | SetSubset] = []
 
 
 class ElementSets(Block):
@@ -58,7 +54,7 @@ class ElementSets(Block):
     example: ClassVar[str] = "*ELEMENT SETS\n SET=Riser\n 1, 2, 3\n GEN=10, 20, 2\n SET=Everything\n SUBSET=Riser\n"
 
     keyword: Literal["ELEMENT SETS"] = "ELEMENT SETS"
-    sets: list[ElementSet] = Field(default_factory=list)
+    sets: list[ElementSet] = []
 
 
 BLOCK = ElementSets

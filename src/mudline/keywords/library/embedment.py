@@ -6,11 +6,9 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from mudline.keywords.about import setting
 from mudline.keywords.common import POINTS, CurvePoint
-from mudline.keywords.model import Block, Record
+from mudline.keywords.model import Block, Record, rows, setting
 from mudline.keywords.table import Table
-from mudline.keywords.table_field import rows
 from mudline.keywords.values import Name
 
 
@@ -37,7 +35,7 @@ class Embedment(Block):
     example: ClassVar[str] = "*EMBEDMENT\n SET=Flowline\n 0.0, 0.0\n 0.1, 1200.0\n 0.5, 10000.0\n"
 
     keyword: Literal["EMBEDMENT"] = "EMBEDMENT"
-    curves: list[EmbedmentCurve] = Field(default_factory=list)
+    curves: list[EmbedmentCurve] = []
 
 
 BLOCK = Embedment

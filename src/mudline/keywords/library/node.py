@@ -4,13 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import Field
-
-from mudline.keywords.about import about, setting
-from mudline.keywords.alternatives import ByField
-from mudline.keywords.model import Block, ListRow, Record, Row
+from mudline.keywords.model import Block, ListRow, Record, Row, about, rows, setting
 from mudline.keywords.table import Table
-from mudline.keywords.table_field import rows
 from mudline.keywords.values import Real, Whole
 
 
@@ -55,7 +50,7 @@ class Nodes(Block):
     example: ClassVar[str] = "*NODE\n 1, 0.0, 0.0\n 11, 0.0, 100.0\n GEN=1, 11\n"
 
     keyword: Literal["NODE"] = "NODE"
-    entries: list[Annotated[NodeRows | NodeGenerate, ByField()]] = Field(default_factory=list)
+    entries: list[NodeRows | NodeGenerate] = []
 
 
 BLOCK = Nodes

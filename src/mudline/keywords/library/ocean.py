@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Literal
 
-from mudline.keywords.about import about
-from mudline.keywords.model import Block
+from mudline.keywords.model import Block, about
 from mudline.keywords.values import Real
 
 

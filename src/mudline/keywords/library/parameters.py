@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import Field
-
-from mudline.keywords.about import about
-from mudline.keywords.model import Block, Record
+from mudline.keywords.model import Block, Record, about
 from mudline.keywords.values import Name, RealOrName
 
 
@@ -38,7 +35,7 @@ class Parameters(Block):
     )
 
     keyword: Literal["PARAMETERS"] = "PARAMETERS"
-    parameters: list[Parameter] = Field(default_factory=list)
+    parameters: list[Parameter] = []
 
 
 BLOCK = Parameters

@@ -4,23 +4,32 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Literal
 
-from mudline.keywords import common
-from mudline.keywords.about import about
-from mudline.keywords.common import Surface
-from mudline.keywords.model import Row
+from mudline.keywords.common import CHARACTERISTIC_LENGTH, Surface
+from mudline.keywords.model import Row, about
 from mudline.keywords.values import Real
 
 
 class RigidProperties(Row):
     """The first line."""
 
-    longitudinal: Annotated[Real | None, common.AXIAL_FRICTION] = None
-    transverse: Annotated[Real | None, common.LATERAL_FRICTION] = None
-    longitudinal_length: Annotated[Real | None, common.AXIAL_LENGTH] = None
-    transverse_length: Annotated[Real | None, common.LATERAL_LENGTH] = None
-    constant: Annotated[Real | None, common.CONSTANT_FRICTION] = None
-    longitudinal_mobilisation: Annotated[Real | None, common.AXIAL_MOBILISATION] = None
-    transverse_mobilisation: Annotated[Real | None, common.LATERAL_MOBILISATION] = None
+    longitudinal: Annotated[
+        Real | None, about("longitudinal friction coefficient", unit="-", default="0", at_least=0)
+    ] = None
+    transverse: Annotated[Real | None, about("transverse friction coefficient", unit="-", default="0", at_least=0)] = (
+        None
+    )
+    longitudinal_length: Annotated[
+        Real | None,
+        about("largest longitudinal characteristic length", unit="L", default=CHARACTERISTIC_LENGTH, above=0),
+    ] = None
+    transverse_length: Annotated[
+        Real | None, about("largest transverse characteristic length", unit="L", default=CHARACTERISTIC_LENGTH, above=0)
+    ] = None
+    constant: Annotated[Real | None, about("constant friction force coefficient", inferred="kept, not used")] = None
+    longitudinal_mobilisation: Annotated[Real | None, about("longitudinal mobilisation length", unit="L", above=0)] = (
+        None
+    )
+    transverse_mobilisation: Annotated[Real | None, about("transverse mobilisation length", unit="L", above=0)] = None
 
 
 class RigidSurface(Surface):

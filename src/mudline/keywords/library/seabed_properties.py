@@ -6,26 +6,34 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from mudline.keywords import common
-from mudline.keywords.about import about, setting
-from mudline.keywords.model import Block, Record, Row
+from mudline.keywords.model import Block, Record, Row, about, setting
 from mudline.keywords.values import Name, Real, RealOrName
 
-_STIFFNESS = "{} friction stiffness of modal and frequency runs"
+_RANGE = "the manual gives no range"
 
 
 class SeabedFriction(Row):
     """Values of FRICTION=."""
 
-    longitudinal: Annotated[Real | None, common.AXIAL_FRICTION] = None
-    transverse: Annotated[Real | None, common.LATERAL_FRICTION] = None
-    longitudinal_mobilisation: Annotated[Real | None, common.AXIAL_MOBILISATION] = None
-    transverse_mobilisation: Annotated[Real | None, common.LATERAL_MOBILISATION] = None
-    constant: Annotated[Real | None, common.CONSTANT_FRICTION] = None
-    longitudinal_stiffness: Annotated[
-        Real | None, about(_STIFFNESS.format("longitudinal"), unit="F/L2", at_least=0)
+    longitudinal: Annotated[
+        Real | None, about("longitudinal friction coefficient", unit="-", default="0", at_least=0)
     ] = None
-    transverse_stiffness: Annotated[Real | None, about(_STIFFNESS.format("transverse"), unit="F/L2", at_least=0)] = None
+    transverse: Annotated[Real | None, about("transverse friction coefficient", unit="-", default="0", at_least=0)] = (
+        None
+    )
+    longitudinal_mobilisation: Annotated[
+        Real | None, about("longitudinal mobilisation length", unit="L", above=0, inferred=_RANGE)
+    ] = None
+    transverse_mobilisation: Annotated[
+        Real | None, about("transverse mobilisation length", unit="L", above=0, inferred=_RANGE)
+    ] = None
+    constant: Annotated[Real | None, about("constant friction force coefficient", inferred="kept, not used")] = None
+    longitudinal_stiffness: Annotated[
+        Real | None, about("longitudinal friction stiffness of modal and frequency runs", unit="F/L2", at_least=0)
+    ] = None
+    transverse_stiffness: Annotated[
+        Real | None, about("transverse friction stiffness of modal and frequency runs", unit="F/L2", at_least=0)
+    ] = None
 
 
 class SeabedSuction(Row):
@@ -69,7 +77,7 @@ class SeabedProperties(Block):
     type_: Annotated[
         Literal["RIGID", "ELASTIC"] | None, setting("TYPE", "contact model; one type in a model; mandatory")
     ] = Field(default=None, alias="type")
-    sets: list[SeabedSet] = Field(default_factory=list)
+    sets: list[SeabedSet] = []
 
 
 BLOCK = SeabedProperties

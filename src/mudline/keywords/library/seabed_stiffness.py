@@ -4,13 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import Field
-
-from mudline.keywords.about import setting
 from mudline.keywords.common import POINTS, CurvePoint
-from mudline.keywords.model import Block, Record
+from mudline.keywords.model import Block, Record, rows, setting
 from mudline.keywords.table import Table
-from mudline.keywords.table_field import rows
 from mudline.keywords.values import Name
 
 
@@ -32,7 +28,7 @@ class SeabedStiffness(Block):
     example: ClassVar[str] = "*SEABED STIFFNESS\n CURVE=clay\n 0.0, 0.0\n 0.1, 1200.0\n 0.5, 10000.0\n"
 
     keyword: Literal["SEABED STIFFNESS"] = "SEABED STIFFNESS"
-    curves: list[StiffnessCurve] = Field(default_factory=list)
+    curves: list[StiffnessCurve] = []
 
 
 BLOCK = SeabedStiffness

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Literal
 
-from mudline.keywords.about import setting
-from mudline.keywords.model import Block
+from mudline.keywords.model import Block, setting
 
 
 class Units(Block):
