@@ -90,6 +90,11 @@ def test_written_csv_has_a_table_of_nodes_beside_it(place: Place, steps: str, fo
         assert (folder / name).read_bytes() == printed.output
 
 
+def test_quiet_writes_both_tables_and_says_nothing(place: Place, folder: Path) -> None:
+    assert run("evaluate", place(), "-o", "out.csv", "-q").err == ""
+    assert sorted(path.name for path in folder.glob("*.csv")) == ["out-nodes.csv", "out.csv"]
+
+
 def test_written_json_is_what_is_printed(place: Place, steps: str, folder: Path) -> None:
     assert run("evaluate", place(), "--positions", steps, "-o", "out.json", "-q").err == ""
     printed = run("evaluate", place(), "--positions", steps, "--output-format", "json")
@@ -163,6 +168,10 @@ def test_elements_from_a_file_without_lengths(folder: Path) -> None:
     outcome = run("evaluate", SAMPLES / "lines-deck.keyxm", *options)
     assert outcome.code == 0
     assert "mudline: the length of 80 elements comes from the first positions\n" in outcome.err
+
+    plan = run("evaluate", SAMPLES / "lines-deck.keyxm", "--elements", "bare.csv", "--plan")
+    assert (plan.code, plan.err) == (0, "")
+    assert "80 elements on 1 force-embedment curve" in plan.out
 
 
 def test_elements_from_a_file_have_no_coordinates() -> None:

@@ -7,6 +7,7 @@ import io
 import re
 import subprocess
 import sys
+from contextlib import redirect_stdout
 from pathlib import Path
 from unittest.mock import Mock
 
@@ -66,7 +67,8 @@ def test_no_command_shows_the_help_as_an_error() -> None:
 def test_unknown_command() -> None:
     outcome = run("lnit")
     assert (outcome.code, outcome.out) == (2, "")
-    assert outcome.err.endswith("mudline: No such command 'lnit'.\n")
+    assert outcome.err.endswith("mudline: there is no command 'lnit': did you mean lint?\n")
+    assert run("frobnicate").err.endswith("mudline: there is no command 'frobnicate'\n")
 
 
 @pytest.mark.parametrize("command", EVERY)
@@ -148,3 +150,10 @@ def test_output_that_is_full(monkeypatch: pytest.MonkeyPatch, place: Place, form
     monkeypatch.setattr(sys, "stderr", errors)
     assert main(["lint", place(BAD_NUMBER), "--output-format", form]) == 2
     assert errors.content() == b"mudline: the output cannot be written: no space left on device\n"
+
+
+def test_people_may_read_from_any_stream() -> None:
+    text = io.StringIO()
+    with redirect_stdout(text):
+        assert main(["rules", "SYN002"]) == 0
+    assert text.getvalue() == run("rules", "SYN002").out

@@ -217,7 +217,7 @@ def test_narrow_terminal_still_shows_something(place: Place, monkeypatch: pytest
 
 def test_message_is_not_broken_in_a_pipe(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COLUMNS", "20")
-    assert run("lint", place(BAD_NUMBER)).out.splitlines()[0].endswith("for y [bad-number]")
+    assert run("lint", place(BAD_NUMBER)).out.splitlines()[0].endswith(" [bad-number]")
 
 
 # --------------------------------------------------------------------------------------------------------------- tables

@@ -135,15 +135,13 @@ def _with_lengths(scene: Scene, positions: Positions | None) -> tuple[Scene, int
     unknown = np.isnan(scene.length)
     if not unknown.any():
         return scene, 0
-    length = np.where(unknown, 0.0, scene.length)
-    if positions is None:
-        filled = np.zeros(0, dtype=np.intp)
-    else:
-        filled = np.flatnonzero(unknown & positions.present[scene.element_nodes].all(axis=1))
-        ends = np.asarray(positions.values[0], dtype=np.float64)[scene.element_nodes[filled]]
-        with np.errstate(over="ignore", invalid="ignore"):
-            length[filled] = np.nan_to_num(np.sqrt(((ends[:, 1] - ends[:, 0]) ** 2).sum(axis=1)), posinf=np.inf)
-    return replace(scene, table=replace(scene.table, length=length)), len(filled)
+    given = scene.coordinates if positions is None else np.asarray(positions.values[0], dtype=np.float64)
+    ends = given[scene.element_nodes[unknown]]
+    with np.errstate(over="ignore", invalid="ignore"):
+        between = np.sqrt(((ends[:, 1] - ends[:, 0]) ** 2).sum(axis=1))
+    length = scene.length.copy()
+    length[unknown] = np.where(np.isnan(between), 0.0, between)
+    return replace(scene, table=replace(scene.table, length=length)), int((~np.isnan(between)).sum())
 
 
 def _require_coordinates(scene: Scene) -> None:
