@@ -1,0 +1,158 @@
+"""Nodes: tables, generators, later definitions."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mudline.scene.numbering import MOST_GENERATED
+from tests.scene.decks import all_told, messages, nodes_of, scene_of, told
+
+NODE = "$MODEL\n*NODE\n"
+
+
+def test_coordinates_are_those_of_the_table_and_z_is_0_unless_given() -> None:
+    scene = scene_of(NODE + " 3, -1.5, 2.0\n 1, 4.0, 5.0, 6.0\n 2, 7.0, 8.0,\n")
+    assert scene.node_ids.tolist() == [3, 1, 2]
+    assert scene.coordinates.tolist() == [[-1.5, 2.0, 0.0], [4.0, 5.0, 6.0], [7.0, 8.0, 0.0]]
+
+
+def test_generated_nodes_are_evenly_spaced_and_exact_where_the_spacing_is_whole() -> None:
+    scene = scene_of(NODE + " 1, -1.0, 0.0, 3.0\n 30, 28.0, 290.0, 3.0\n GEN=1, 30\n")
+    nodes = nodes_of(scene)
+    assert len(nodes) == 30
+    for number in range(1, 31):
+        assert nodes[number] == [number - 2.0, 10.0 * (number - 1), 3.0]
+
+
+def test_an_increment_spaces_the_numbers_and_the_nodes() -> None:
+    nodes = nodes_of(scene_of(NODE + " 10, 0, 0\n 50, 0, 8\n GEN=10, 50, 10\n"))
+    assert {number: y for number, (_, y, _) in nodes.items()} == {10: 0, 50: 8, 20: 2, 30: 4, 40: 6}
+
+
+def test_a_generator_between_neighbours_makes_nothing() -> None:
+    scene = scene_of(NODE + " 1, 0, 0\n 2, 0, 8\n GEN=1, 2\n")
+    assert scene.node_ids.tolist() == [1, 2]
+    assert scene.problems == []
+
+
+def test_generators_build_on_generated_nodes() -> None:
+    nodes = nodes_of(scene_of(NODE + " 1, 0, 0\n 5, 0, 8\n GEN=1, 5, 2\n GEN=1, 3\n"))
+    assert nodes[3][1] == 4.0
+    assert nodes[2][1] == 2.0
+
+
+def test_blocks_and_sections_add_up() -> None:
+    scene = scene_of(
+        "$MODEL\n*NODE\n 1, 0, 0\n$LOAD CASE\n*TIME\n$MODEL\n*NODE\n 5, 0, 4\n*OCEAN\n 9\n*NODE\n GEN=1, 5\n"
+    )
+    assert sorted(scene.node_ids.tolist()) == [1, 2, 3, 4, 5]
+    assert scene.problems == []
+
+
+def test_the_later_definition_holds_and_is_told_at_its_row() -> None:
+    text = NODE + " 1, 0, 0\n 2, 0, 1\n 1, 0, 9\n"
+    assert nodes_of(scene_of(text)) == {1: [0, 9, 0], 2: [0, 1, 0]}
+    assert told(text) == [("E", "REF007", 5, 2)]
+
+
+def test_a_generator_that_defines_nodes_again_is_told_once() -> None:
+    text = NODE + " 1, 0, 0\n 2, 7, 7\n 3, 7, 7\n 5, 0, 4\n GEN=1, 5\n"
+    assert nodes_of(scene_of(text))[2] == [0, 1, 0]
+    assert told(text) == [("E", "REF007", 7, 2)]
+    assert messages(text)[0].startswith("2 nodes (first: 2) are defined twice")
+
+
+def test_a_row_after_a_generator_holds() -> None:
+    text = NODE + " 1, 0, 0\n 5, 0, 4\n GEN=1, 5\n 3, -2, 2\n"
+    assert nodes_of(scene_of(text))[3] == [-2, 2, 0]
+    assert told(text) == [("E", "REF007", 6, 2)]
+
+
+def test_twice_in_two_model_sections_is_a_warning_because_that_is_inferred() -> None:
+    text = NODE + " 1, 0, 0\n$LOAD CASE\n*TIME\n" + NODE + " 1, 0, 2\n"
+    assert told(text) == [("W", "REF007", 8, 2)]
+    assert "inferred" in messages(text)[0]
+
+
+@pytest.mark.parametrize("line", ["GEN=5, 1", "GEN=1, 1", "GEN=1, 5, 3", "GEN=1, 5, 0", "GEN=1, 5, -1"])
+def test_generators_that_lead_nowhere(line: str) -> None:
+    text = NODE + f" 1, 0, 0\n 5, 0, 4\n {line}\n"
+    assert scene_of(text).node_ids.tolist() == [1, 5]
+    assert told(text) == [("E", "REF010", 5, 2)]
+
+
+def test_a_slip_of_a_digit_does_not_fill_the_memory() -> None:
+    text = NODE + f" 1, 0, 0\n {MOST_GENERATED * 3}, 0, 4\n GEN=1, {MOST_GENERATED * 3}\n"
+    assert told(text) == [("E", "REF010", 5, 2)]
+    assert f"more than {MOST_GENERATED}" in messages(text)[0]
+
+
+def test_the_limit_holds_for_all_generators_together(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("mudline.scene.nodes.MOST_GENERATED", 10)
+    ends = " 1, 0, 0\n 11, 0, 1\n 13, 0, 2\n 15, 0, 3\n"
+    text = NODE + ends + " GEN=1, 11\n GEN=11, 13\n GEN=13, 15\n"
+    assert told(text) == [("E", "REF010", 9, 2)]
+
+
+def test_ends_that_nothing_defines_are_told_each_and_the_nodes_still_have_numbers() -> None:
+    text = NODE + " 1, 0, 0\n GEN=1, 5\n GEN=7, 9\n*ELEMENT\n 1, 2, 8\n"
+    scene = scene_of(text)
+    assert scene.node_ids.tolist() == [1, 2, 3, 4, 8]
+    assert np.isnan(scene.coordinates[1:]).all()
+    assert told(text) == [("E", "REF006", 4, 9), ("E", "REF006", 5, 6), ("E", "REF006", 5, 9)]
+
+
+def test_ends_that_are_defined_later_are_taken_with_a_warning() -> None:
+    text = NODE + " 1, 0, 0\n GEN=1, 5\n 5, 0, 4\n"
+    assert nodes_of(scene_of(text))[2] == [0, 1, 0]
+    assert told(text) == [("W", "REF006", 4, 2)]
+    assert "inferred" in messages(text)[0]
+
+
+def test_a_row_with_a_bad_field_still_defines_its_number() -> None:
+    text = NODE + " 1, 0, 0\n 2, zero, 1\n 3, 0, 2\n*ELEMENT\n 1, 1, 2\n 2, 2, 3\n"
+    scene = scene_of(text)
+    assert scene.node_ids.tolist() == [1, 2, 3]
+    assert np.isnan(scene.coordinates[1, 0])
+    assert np.isnan(scene.length).all()
+    assert all_told(text) == [("E", "SYN002", 4, 5)]
+
+
+@pytest.mark.parametrize("number", ["1.5", "1E300", "9007199254740994"])
+def test_a_number_that_is_not_whole_defines_nothing(number: str) -> None:
+    scene = scene_of(NODE + f" {number}, 0, 0\n 1, 0, 1\n 9007199254740992, 0, 2\n")
+    assert scene.node_ids.tolist() == [1, 9007199254740992]
+    assert [scene.nodes.where(index).path for index in (0, 1)] == [("entries", 0, "nodes", row) for row in (1, 2)]
+
+
+def test_rows_keep_their_places_behind_one_without_a_number() -> None:
+    text = NODE + " 1, 0, 0\n x, 0, 0\n 1, 0, 3\n"
+    assert all_told(text) == [("E", "SYN002", 4, 2), ("E", "REF007", 5, 2)]
+
+
+def test_equations_give_coordinates_and_numbers() -> None:
+    text = "$PREPROCESSOR\n*PARAMETERS\n n, 4\n" + NODE + " =[n-3], 0, =[n/8]\n =[n], 0, 3\n GEN==[n-3], =[n], =[n-3]\n"
+    nodes = nodes_of(scene_of(text))
+    assert nodes[1] == [0, 0.5, 0]
+    assert sorted(nodes) == [1, 2, 3, 4]
+
+
+@pytest.mark.parametrize("increment", ["=[nothing]", "=[1/2]", "=[2^60]", "x"])
+def test_a_generator_of_which_a_value_is_not_known_makes_nothing(increment: str) -> None:
+    scene = scene_of(NODE + f" 1, 0, 0\n 5, 0, 4\n GEN=1, 5, {increment}\n")
+    assert scene.node_ids.tolist() == [1, 5]
+    assert "NODE" in scene.context.unread
+
+
+def test_coordinates_that_overflow_warn_of_nothing() -> None:
+    scene = scene_of(NODE + " 1, 1.7E308, 0\n 3, -1.7E308, 0\n GEN=1, 3\n*ELEMENT\n 1, 1, 3\n")
+    assert not np.isfinite(scene.length).any()
+
+
+def test_only_the_first_thousand_are_listed() -> None:
+    text = NODE + "".join(f" {1 + row % 10}, 0, {row}\n" for row in range(3000))
+    scene = scene_of(text)
+    assert len(scene.problems) == 1001
+    assert scene.problems[-1].message == "and more of the same: the first 1000 are listed"
+    assert scene.coordinates[:, 1].tolist() == list(range(2990, 3000))
