@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from rich.console import Console
+from rich.text import Text
 
 from mudline.cli.console import console
 from mudline.cli.options import View
@@ -50,7 +51,7 @@ def print_curves(scene: Scene, rows: list[dict[str, Any]], view: View) -> None:
                 "extrapolated",
             )
             _print_static(printer, row, columns)
-    printer.print(_GOES_ON, style="dim")
+    printer.print(Text(_GOES_ON, style="dim"), soft_wrap=False)
 
 
 def _title(row: dict[str, Any], sizes: list[float], *, embedment: bool) -> str:

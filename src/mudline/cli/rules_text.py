@@ -21,7 +21,7 @@ def print_rules(rules: Sequence[Rule], color: str) -> None:
     """A line a rule: code, severity, name, what it finds."""
     rows = [(rule.code.code, rule.code.severity.value, rule.code.slug, rule.title) for rule in rules]
     styles = {severity.value: style for severity, style in STYLES.items()}
-    print_table(console(color), f"{len(rows)} rules", _COLUMNS, rows, left=_COLUMNS, styles=styles)
+    print_table(console(color), f"{len(rows)} rules", _COLUMNS, rows, left=_COLUMNS, styles=styles, whole=_COLUMNS[:3])
 
 
 def print_rule(rule: Rule, color: str) -> None:

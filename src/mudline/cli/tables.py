@@ -28,20 +28,22 @@ def print_table(
     left: Sequence[str] = (),
     note: str = "",
     styles: Mapping[str, str] = _UNSTYLED,
+    whole: Sequence[str] = (),
 ) -> None:
     """Print texts under their headings, with a blank line behind.
 
-    Numbers stand to the right, the columns named in `left` to the left; only these are folded on a narrow terminal.
-    A heading may have several lines. `note` stands below the table; `styles` gives cells that hold just these words
-    a style. Deck text is printed as plain text.
+    Numbers stand to the right, the columns named in `left` to the left; only these are folded on a narrow terminal,
+    those named in `whole` not even then. A heading may have several lines. `note` stands below the table; `styles`
+    gives cells that hold just these words a style. Deck text is printed as plain text.
     """
     heads = [name.split("\n") for name in columns]
     cells = [[visible(cell, printer.encoding) for cell in row] for row in rows]
-    layout = _layout(heads, cells, [name in left for name in columns], printer.width)
+    widths = [max(map(cell_len, column)) for column in zip(*_filled(heads), *cells, strict=True)]
+    folds = [name in left and name not in whole for name in columns]
+    layout = _Layout(_fitted(widths, folds, printer.width), [name in left for name in columns])
     width = sum(layout.widths) + len(_GAP) * (len(columns) - 1)
-    printer.print(Text(visible(title, printer.encoding), style="bold"))
-    depth = max(len(head) for head in heads)
-    for names in zip(*([""] * (depth - len(head)) + head for head in heads), strict=True):
+    printer.print(Text(visible(title, printer.encoding), style="bold"), soft_wrap=False)
+    for names in _filled(heads):
         printer.print(Text(layout.line(names)))
     printer.print(Text(("\u2500" if printer.encoding.startswith("utf") else "-") * width, style="dim"))
     lines = (line for row in cells for line in layout.lines(row, printer))
@@ -51,7 +53,7 @@ def print_table(
     elif cells:
         printer.out("\n".join(map(layout.line, lines)), highlight=False)
     if note:
-        printer.print(Text(visible(note, printer.encoding), style="dim"))
+        printer.print(Text(visible(note, printer.encoding), style="dim"), soft_wrap=False)
     printer.print()
 
 
@@ -89,19 +91,19 @@ class _Layout(NamedTuple):
             yield cell + blanks if left else blanks + cell
 
 
-def _layout(heads: list[list[str]], cells: list[list[str]], to_left: list[bool], available: int) -> _Layout:
-    columns = zip(*cells, strict=True) if cells else [()] * len(heads)
-    widths = [max(cell_len(text) for text in (*head, *column)) for head, column in zip(heads, columns, strict=True)]
-    return _Layout(_fitted(widths, to_left, available), to_left)
+def _filled(heads: list[list[str]]) -> list[tuple[str, ...]]:
+    """The lines of the headings, which stand at the bottom."""
+    depth = max(len(head) for head in heads)
+    return list(zip(*([""] * (depth - len(head)) + head for head in heads), strict=True))
 
 
-def _fitted(widths: list[int], to_left: list[bool], available: int) -> list[int]:
+def _fitted(widths: list[int], folds: list[bool], available: int) -> list[int]:
     """Take from the widest column of text until the table fits or all of them are narrow."""
     fitted = list(widths)
     while sum(fitted) + len(_GAP) * (len(fitted) - 1) > available:
-        widest = max((width for width, text in zip(fitted, to_left, strict=True) if text), default=0)
+        widest = max((width for width, text in zip(fitted, folds, strict=True) if text), default=0)
         if widest <= _NARROWEST:
             return fitted
-        column = next(i for i, text in enumerate(to_left) if text and fitted[i] == widest)
+        column = next(i for i, text in enumerate(folds) if text and fitted[i] == widest)
         fitted[column] -= 1
     return fitted

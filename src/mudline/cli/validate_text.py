@@ -18,7 +18,7 @@ def print_verdicts(verdicts: Sequence[Verdict], total: dict[str, int], color: st
     """A row a deck, the file last as it may be long, and a total."""
     rows = [[str(getattr(verdict, name)) for name in _COLUMNS] for verdict in verdicts]
     printer = console(color)
-    print_table(printer, "Decks", _COLUMNS, rows, left=("verdict", "file"), styles=_STYLES)
+    print_table(printer, "Decks", _COLUMNS, rows, left=("verdict", "file"), styles=_STYLES, whole=("file",))
     style = "green" if total["legal"] == total["decks"] else "red"
     noun = "deck" if total["decks"] == 1 else "decks"
     printer.print(Text(f"{total['legal']} of {total['decks']} {noun} legal", style=style))
