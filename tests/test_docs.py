@@ -16,7 +16,7 @@ from mudline import codes
 from mudline.cli.main import COMMANDS, mudline
 from mudline.diagnostics import Code
 from mudline.expression import FORMS, FUNCTIONS
-from mudline.lint.registry import rules
+from mudline.linting.registry import rules
 from tests.docs.blocks import Page, agree
 from tests.docs.commands import output, run
 from tests.docs.make import BY_HAND, ROOT, documents, pages, rule_files

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from mudline.diagnostics import Severity
-from mudline.lint.engine import lint_bytes
-from mudline.lint.selection import select
+from mudline.linting.engine import lint_bytes
+from mudline.linting.selection import select
 from mudline.scene.build import resolve
 from mudline.syntax.source import Source
 from mudline.syntax.tree import parse

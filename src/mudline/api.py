@@ -15,8 +15,8 @@ from mudline.deck.loading import load_path
 from mudline.deck.yaml_form import from_yaml as _from_yaml
 from mudline.deck.yaml_form import to_yaml as _to_yaml
 from mudline.diagnostics import Diagnostic
-from mudline.lint.engine import lint_bytes
-from mudline.lint.selection import select as _chosen
+from mudline.linting.engine import lint_bytes
+from mudline.linting.selection import select as _chosen
 from mudline.scene.build import resolve
 from mudline.scene.model import Scene
 

@@ -7,10 +7,10 @@ import json
 import pytest
 
 from mudline.diagnostics import Diagnostic, Edit, Fix, Severity
-from mudline.lint.output.json_objects import json_array, json_lines
-from mudline.lint.output.statistics import statistics_lines
-from mudline.lint.output.text import Screen, excerpt, findings, summary
-from mudline.lint.output.visible import LONGEST, visible, visible_lines
+from mudline.linting.output.json_objects import json_array, json_lines
+from mudline.linting.output.statistics import statistics_lines
+from mudline.linting.output.text import Screen, excerpt, findings, summary
+from mudline.linting.output.visible import LONGEST, visible, visible_lines
 from mudline.syntax.source import Source
 from tests.cli.runner import assert_fits
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from jsonschema import Draft202012Validator
 
-from mudline.lint.registry import rules
+from mudline.linting.registry import rules
 from tests.cli.decks import CLEAN
 from tests.cli.runner import SAMPLES, assert_fits, run
 

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from mudline.lint.registry import rules
+from mudline.linting.registry import rules
 from tests.docs.keyword_page import keyword_page
 from tests.docs.refresh import copy_of_files, refreshed
 from tests.docs.rule_pages import rule_index, rule_page

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from mudline.lint.engine import lint_bytes
-from mudline.lint.registry import Rule
+from mudline.linting.engine import lint_bytes
+from mudline.linting.registry import Rule
 from tests.docs.marking import MADE, marked
 
 _INDEX = """{made}

@@ -14,10 +14,10 @@ from mudline.deck.json_form import to_json
 from mudline.deck.loading import load_bytes
 from mudline.deck.yaml_form import to_yaml
 from mudline.diagnostics import Diagnostic, Severity
-from mudline.lint.context import LintContext
-from mudline.lint.engine import lint_bytes, lint_context, lint_deck
-from mudline.lint.registry import rules
-from mudline.lint.selection import select
+from mudline.linting.context import LintContext
+from mudline.linting.engine import lint_bytes, lint_context, lint_deck
+from mudline.linting.registry import rules
+from mudline.linting.selection import select
 
 # A line and, behind the bar, the codes that are found in it.
 FAULTY = """\

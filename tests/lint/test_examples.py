@@ -8,15 +8,15 @@ from collections.abc import Iterator
 
 import pytest
 
-import mudline.lint.rules as rules_package
+import mudline.linting.rules as rules_package
 from mudline import codes
 from mudline.deck.json_form import to_json
 from mudline.deck.loading import load_bytes
 from mudline.deck.yaml_form import to_yaml
 from mudline.diagnostics import Code, Problem, Severity
-from mudline.lint.context import LintContext
-from mudline.lint.engine import lint_bytes
-from mudline.lint.registry import MODULES, Rule, rule, rules
+from mudline.linting.context import LintContext
+from mudline.linting.engine import lint_bytes
+from mudline.linting.registry import MODULES, Rule, rule, rules
 
 AGREED = """
 SYN001 unreadable-line E

@@ -7,10 +7,10 @@ from collections.abc import Iterator
 import pytest
 
 from mudline.diagnostics import Code, Problem, Severity
-from mudline.lint import registry, selection
-from mudline.lint.context import LintContext
-from mudline.lint.registry import Rule, rules
-from mudline.lint.selection import UnknownRule, select
+from mudline.linting import registry, selection
+from mudline.linting.context import LintContext
+from mudline.linting.registry import Rule, rules
+from mudline.linting.selection import UnknownRule, select
 
 
 def _codes(chosen: tuple[Rule, ...]) -> list[str]:

@@ -17,7 +17,7 @@ from mudline.cli.options import View
 from mudline.cli.streams import emit
 from mudline.cli.terminal import tell
 from mudline.cli.writing import writing
-from mudline.lint.output.visible import visible
+from mudline.linting.output.visible import visible
 from mudline.results.csv_lines import csv_lines
 from mudline.results.curves import curve_rows, point_table, static_table, value_table
 from mudline.scene.build import resolve

@@ -12,11 +12,11 @@ from mudline.cli.options import View
 from mudline.cli.streams import emit
 from mudline.cli.terminal import tell
 from mudline.diagnostics import Diagnostic, Severity
-from mudline.lint.engine import lint_bytes
-from mudline.lint.output.concise import concise
-from mudline.lint.output.json_objects import json_array, json_lines
-from mudline.lint.output.statistics import statistics_lines
-from mudline.lint.selection import UnknownRule, select
+from mudline.linting.engine import lint_bytes
+from mudline.linting.output.concise import concise
+from mudline.linting.output.json_objects import json_array, json_lines
+from mudline.linting.output.statistics import statistics_lines
+from mudline.linting.selection import UnknownRule, select
 from mudline.syntax.source import Source
 
 _PLAIN = {"concise": concise, "json": json_array, "jsonl": json_lines}

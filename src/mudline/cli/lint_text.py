@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from mudline.cli.console import EXCERPT_WIDTH, console, say
 from mudline.diagnostics import Diagnostic
-from mudline.lint.output.text import Screen, findings, summary
+from mudline.linting.output.text import Screen, findings, summary
 from mudline.syntax.source import Source
 
 

@@ -12,8 +12,8 @@ from mudline.cli.exits import DONE
 from mudline.cli.lazy import printing
 from mudline.cli.options import View
 from mudline.cli.streams import emit
-from mudline.lint.registry import Rule, rules
-from mudline.lint.selection import UnknownRule, select
+from mudline.linting.registry import Rule, rules
+from mudline.linting.selection import UnknownRule, select
 
 
 @click.command("rules")

@@ -9,9 +9,9 @@ from rich.text import Text
 
 from mudline.cli.console import console
 from mudline.cli.tables import print_table
-from mudline.lint.output.text import STYLES
-from mudline.lint.output.visible import visible_lines
-from mudline.lint.registry import Rule
+from mudline.linting.output.text import STYLES
+from mudline.linting.output.visible import visible_lines
+from mudline.linting.registry import Rule
 
 _PAGE = 100
 _COLUMNS = ("code", "severity", "name", "finds")

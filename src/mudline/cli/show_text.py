@@ -12,7 +12,7 @@ from rich.text import Text
 from mudline.cli.console import console
 from mudline.cli.options import View
 from mudline.cli.tables import print_table
-from mudline.lint.output.visible import visible
+from mudline.linting.output.visible import visible
 from mudline.results.numbers import shown
 from mudline.results.units import UnitNames, headed, unit_names
 

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
 
-from mudline.lint.output.visible import visible_lines
+from mudline.linting.output.visible import visible_lines
 
 
 def prepare() -> None:

@@ -11,7 +11,7 @@ from rich.cells import cell_len
 from rich.console import Console
 from rich.text import Text
 
-from mudline.lint.output.visible import visible
+from mudline.linting.output.visible import visible
 
 _GAP = "  "
 _UNSTYLED: Mapping[str, str] = MappingProxyType({})

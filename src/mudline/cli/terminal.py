@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import click
 
 from mudline.diagnostics import Diagnostic
-from mudline.lint.output.visible import visible, visible_lines
+from mudline.linting.output.visible import visible, visible_lines
 
 MOST_TOLD = 20
 """Reasons why a deck cannot be used; the rest is counted."""

@@ -17,9 +17,9 @@ from mudline.cli.verdict import Verdict
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import Deck
 from mudline.diagnostics import DeckError, Diagnostic, Severity
-from mudline.lint.context import LintContext
-from mudline.lint.output.json_objects import as_object
-from mudline.lint.registry import rules
+from mudline.linting.context import LintContext
+from mudline.linting.output.json_objects import as_object
+from mudline.linting.registry import rules
 from mudline.results.csv_lines import csv_lines
 from mudline.syntax.source import Source
 

@@ -129,7 +129,8 @@ class _Faults:
         known: dict[DocumentPath, list[str]] = {}
         for fault in error.errors(include_url=False):
             inner = self._real_path((*path, *fault["loc"]))
-            known.setdefault(inner, []).append(fault["msg"].removeprefix("Value error, "))
+            if fault["type"] != "is_instance_of":
+                known.setdefault(inner, []).append(fault["msg"].removeprefix("Value error, "))
         deepest = max(known, key=len)
         for inner, messages in known.items():
             if not any(other != inner and other[: len(inner)] == inner for other in known) or inner == deepest:

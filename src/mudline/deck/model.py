@@ -37,6 +37,9 @@ class Range(NamedTuple):
     end_column: int
 
 
+_LONGEST = 1000
+"""Characters of a message; names of the deck stand in it, and may be of any length."""
+
 START = Range(1, 1, 1, 1)
 
 
@@ -114,7 +117,7 @@ class Deck:
     def _diagnostic(self, problem: Problem) -> Diagnostic:
         code: Code = problem.code
         place = self.origin.place(problem)
-        message = problem.message
+        message = problem.message if len(problem.message) <= _LONGEST else problem.message[: _LONGEST - 3] + "..."
         if not message.isprintable():  # names of the deck stand in it as they are
             message = "".join(char if char.isprintable() else "\ufffd" for char in message)
         return Diagnostic(self.file, code.code, code.slug, problem.weight, message, *place)

@@ -136,7 +136,8 @@ class _Reader:
             code = SYN014 if self.last else SYN001
             where = "the file" if self.last else f"*{self.raw.name}"
             message = f"{where} ends too early: expected {wanted}"
-            span = trimmed(self.text, *(self.raw.leaves[-1] if self.raw.leaves else self.raw.head).span)
+            lines = [leaf for leaf in (self.raw.head, *self.raw.leaves) if leaf.kind is not Kind.BLANK]
+            span = trimmed(self.text, *lines[-1].span)
             self.problems.append(Problem(code, message, span))
             return
         span = trimmed(self.text, *mismatch.found.span)

@@ -124,7 +124,7 @@ def from_cells(cells: Sequence[Sequence[Cell]], columns: Sequence[Column]) -> Ta
     fewest = _fewest(columns)
     if width > len(columns) or (len(cells) and int(lengths.min()) < fewest):
         row = int(np.flatnonzero((lengths > len(columns)) | (lengths < fewest))[0])
-        raise ValueError(f"row {row}: {lengths[row]} fields, expected {_count(columns)}")
+        raise ValueError(f"row {row}: {_fields(lengths[row])}, expected {_count(columns)}")
     if len(cells) and int(lengths.min()) == width and _all_numbers(cells):
         values = np.array(cells, dtype=np.float64).reshape(len(cells), width)
     else:
@@ -165,7 +165,7 @@ def from_rows(raw: RawRows, columns: Sequence[Column]) -> tuple[Table, dict[tupl
             words[row, column] = _word(word)
     fewest = _fewest(columns)
     for row in np.flatnonzero((raw.lengths < fewest) | (raw.lengths > len(columns))).tolist():
-        faults[row, -1] = f"{raw.lengths[row]} fields, expected {_count(columns)}"
+        faults[row, -1] = f"{_fields(raw.lengths[row])}, expected {_count(columns)}"
         raw.values[row, 1:] = math.nan  # the row still defines its number
     table = Table(raw.values, lengths, words)
     return table, faults | _not_whole(table, columns)
@@ -177,6 +177,10 @@ def _word(text: str) -> Equation | Label | None:
 
 def _fewest(columns: Sequence[Column]) -> int:
     return max((index + 1 for index, column in enumerate(columns) if column.required), default=0)
+
+
+def _fields(count: int) -> str:
+    return "1 field" if count == 1 else f"{count} fields"
 
 
 def _count(columns: Sequence[Column]) -> str:

@@ -9,7 +9,7 @@ from mudline.diagnostics import Problem
 from mudline.keywords.model import Slot
 from mudline.keywords.values import Equation, Kind, Label
 from mudline.syntax.fields import Field
-from mudline.syntax.rows import read_number
+from mudline.syntax.rows import read_number, spells_number
 
 Value = float | int | str | None
 LARGEST_WHOLE = 2.0**53
@@ -42,7 +42,7 @@ def read_value(field: Field, slot: Slot, problems: list[Problem]) -> Value:
 
 def _real(field: Field, number: float | None, slot: Slot) -> float | str:
     if number is None:
-        if slot.kind is Kind.REAL_OR_NAME and not field.text.startswith("=["):
+        if slot.kind is Kind.REAL_OR_NAME and not field.text.startswith("=[") and not _looks_numeric(field.text):
             return field.text
         raise UnreadableError(Problem(SYN002, number_fault(field.text, slot.label), field.span))
     return number
@@ -53,6 +53,11 @@ def maybe_label(text: str) -> Label | None:
     if not text[:1].isalpha() or _not_finite(text):
         return None
     return Label.match("{" + text + "}")
+
+
+def _looks_numeric(text: str) -> bool:
+    """Whether a text that is no finite number was meant as one."""
+    return _not_finite(text) or spells_number(text)
 
 
 def _not_finite(text: str) -> bool:

@@ -58,6 +58,11 @@ def read_number(text: str) -> float | None:
     return value if math.isfinite(value) else None
 
 
+def spells_number(text: str) -> bool:
+    """Whether a text has the form of a number, whatever its size."""
+    return _NUMBER.fullmatch(text) is not None
+
+
 def read_rows(text: str, span: Span, columns: int) -> Rows:
     """Read the lines of a run into at most `columns` columns. `text` must have LF or CRLF line ends."""
     return read_rows_fast(text, span, columns) or read_rows_slow(text, span, columns)

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, cast
 
 from mudline.codes import SBD001, SBD002, SBD004, SBD005
 from mudline.diagnostics import Code, Problem, Severity, Where
-from mudline.lint.context import LintContext
-from mudline.lint.registry import rule
+from mudline.linting.context import LintContext
+from mudline.linting.registry import rule
 from mudline.scene.laws import typed_blocks
 
 if TYPE_CHECKING:

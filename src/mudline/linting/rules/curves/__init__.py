@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from mudline.lint.rules.curves import points, shape
+from mudline.linting.rules.curves import points, shape
 
 __all__ = ["points", "shape"]

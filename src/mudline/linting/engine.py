@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import Deck
 from mudline.diagnostics import DeckError, Diagnostic
-from mudline.lint.context import LintContext
-from mudline.lint.registry import Rule
+from mudline.linting.context import LintContext
+from mudline.linting.registry import Rule
 
 
 def lint_deck(deck: Deck, chosen: Sequence[Rule]) -> list[Diagnostic]:

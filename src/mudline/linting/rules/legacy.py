@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from mudline.diagnostics import Code, Problem, Severity
-from mudline.lint.context import LintContext
-from mudline.lint.registry import rule
+from mudline.linting.context import LintContext
+from mudline.linting.registry import rule
 
 LEG001 = Code("LEG001", "superseded-keyword", Severity.INFO)
 

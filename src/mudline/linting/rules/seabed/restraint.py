@@ -8,8 +8,8 @@ import numpy as np
 
 from mudline.contact.inputs import LawKind
 from mudline.diagnostics import Code, Problem, Severity
-from mudline.lint.context import LintContext
-from mudline.lint.registry import rule
+from mudline.linting.context import LintContext
+from mudline.linting.registry import rule
 from mudline.scene.left_out import left_out
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices

@@ -10,12 +10,12 @@ from functools import cache
 from importlib import import_module
 
 from mudline.diagnostics import Code, Problem
-from mudline.lint.context import LintContext
+from mudline.linting.context import LintContext
 
 Check = Callable[[LintContext], Iterable[Problem]]
 
 MODULES = ("syntax_lines", "syntax_fields", "syntax_words", "references", "curves", "seabed", "legacy")
-"""The modules of `mudline.lint.rules`."""
+"""The modules of `mudline.linting.rules`."""
 
 _HEADINGS = re.compile(r"^(Bad|Good|Finds|File|Bytes|Cut):[ \t]*(.*)$", re.MULTILINE)
 _RULES: dict[str, Rule] = {}
@@ -114,7 +114,7 @@ def _example(body: str) -> str:
 def rules() -> tuple[Rule, ...]:
     """All rules, by code."""
     for module in MODULES:
-        import_module(f"mudline.lint.rules.{module}")
+        import_module(f"mudline.linting.rules.{module}")
     return tuple(_RULES[code] for code in sorted(_RULES))
 
 

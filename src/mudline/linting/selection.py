@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from difflib import get_close_matches
 
-from mudline.lint.registry import Rule, find, rules
+from mudline.linting.registry import Rule, find, rules
 
 
 class UnknownRule(ValueError):  # noqa: N818 - the name of the fault, as callers catch it

@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from mudline.lint.rules.seabed import restraint, types, values
+from mudline.linting.rules.seabed import restraint, types, values
 
 __all__ = ["restraint", "types", "values"]

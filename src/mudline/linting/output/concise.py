@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from mudline.diagnostics import Diagnostic
-from mudline.lint.output.visible import visible
+from mudline.linting.output.visible import visible
 
 
 def concise(diagnostics: Iterable[Diagnostic]) -> Iterator[str]:

@@ -12,8 +12,8 @@ from mudline.deck.parameters import folded
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.text import shown
 from mudline.keywords.values import Equation
-from mudline.lint.context import LintContext
-from mudline.lint.registry import rule
+from mudline.linting.context import LintContext
+from mudline.linting.registry import rule
 from mudline.syntax.rows import read_number
 
 if TYPE_CHECKING:

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from mudline.diagnostics import Code, Problem, Severity
-from mudline.lint.context import LintContext
-from mudline.lint.registry import rule
+from mudline.linting.context import LintContext
+from mudline.linting.registry import rule
 from mudline.scene.context import MOST_TOLD
 from mudline.scene.force_curves import SceneCurve, clashes_and_repeats
 from mudline.scene.model import Scene

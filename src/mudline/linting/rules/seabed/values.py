@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from mudline.codes import SBD009, SBD010
 from mudline.diagnostics import Problem
-from mudline.lint.context import LintContext
-from mudline.lint.registry import rule
+from mudline.linting.context import LintContext
+from mudline.linting.registry import rule
 
 
 @rule(SBD009)

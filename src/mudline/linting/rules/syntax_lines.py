@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from mudline.codes import SYN001, SYN007, SYN008, SYN011, SYN012, SYN013, SYN014
 from mudline.diagnostics import Problem
-from mudline.lint.context import LintContext
-from mudline.lint.registry import rule
+from mudline.linting.context import LintContext
+from mudline.linting.registry import rule
 
 
 @rule(SYN001)

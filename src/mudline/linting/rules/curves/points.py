@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from mudline.codes import CRV001, CRV003, CRV011
 from mudline.diagnostics import Code, Problem, Severity
-from mudline.lint.context import LintContext
-from mudline.lint.registry import rule
+from mudline.linting.context import LintContext
+from mudline.linting.registry import rule
 from mudline.scene.context import MOST_TOLD
 from mudline.scene.force_curves import clashes_and_repeats
 

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, cast
 
 from mudline.codes import REF001, REF008, REF009, REF010
 from mudline.diagnostics import Code, Problem, Severity
-from mudline.lint.context import LintContext
-from mudline.lint.registry import rule
+from mudline.linting.context import LintContext
+from mudline.linting.registry import rule
 
 if TYPE_CHECKING:
     from mudline.keywords.library.element_sets import ElementSets
