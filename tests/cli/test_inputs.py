@@ -163,3 +163,13 @@ def test_standard_input_that_is_closed(command: str) -> None:
     done = subprocess.run([sys.executable, "-c", words], capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr.endswith("standard input is closed\n")
+
+
+@pytest.mark.parametrize("form", ["json", "yaml", "yml"])
+@pytest.mark.parametrize("command", ["show", "curves", "evaluate"])
+def test_document_gives_what_its_deck_gives(place: Place, command: str, form: str) -> None:
+    expected = run(command, place(), "--output-format", "json").out
+    text = run("convert", "deck.keyxm", "--to", "json" if form == "json" else "yaml").output
+    outcome = run(command, place(text, f"deck.{form}"), "--output-format", "json")
+    assert (outcome.code, outcome.err) == (0, "")
+    assert outcome.out == expected.replace("deck.keyxm", f"deck.{form}")

@@ -6,7 +6,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -66,12 +65,13 @@ def test_output_that_was_closed_before_the_start(arguments: list[str]) -> None:
     assert done.stderr == b""
 
 
-def test_interruption() -> None:
-    words = [sys.executable, "-m", "mudline", "lint", "-"]
+def test_interruption(folder: Path) -> None:
+    (folder / "deck.keyxm").write_text("$MODEL\n", encoding="utf-8")
+    words = [sys.executable, "-m", "mudline", "lint", "-v", "deck.keyxm", "-"]
     with subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as running:
         assert running.stderr is not None
         assert running.stdout is not None
-        time.sleep(1.5)
+        assert running.stderr.readline() == b"mudline: deck.keyxm: 0 findings\n"
         running.send_signal(signal.SIGINT)
         assert running.wait(TIMEOUT) == 130
         assert (running.stdout.read(), running.stderr.read()) == (b"", b"")
