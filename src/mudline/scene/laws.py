@@ -134,7 +134,7 @@ def typed_blocks(context: Context) -> Iterator[tuple[Where, SeabedProperties, st
 def _properties(context: Context, sets: Sets, laws: LawTable, named: list[SceneCurve]) -> Iterator[Grant]:
     curves = {folded(curve.name): index for index, curve in enumerate(named) if curve.named}
     for where, properties, type_ in typed_blocks(context):
-        if properties.type_ is not None:
+        if properties.type_ is not None and type_ is not None:
             laws.types.setdefault(properties.type_, []).append(where._replace(path=("type",)))
         reading = _Reading(context, laws, curves, type_)
         for index, entry in enumerate(properties.sets):

@@ -48,7 +48,7 @@ def _number(context: Context, value: float, slot: Slot, where: Where) -> None:
 
 def _name(slot: Slot) -> str:
     """The field in words: `FRICTION=`, `water depth`, `external diameter Do`."""
-    meaning = slot.about.meaning
+    meaning = slot.about.meaning.partition(";")[0]
     if slot.key:
         return slot.label
     return meaning if slot.label.lower() in meaning.lower().split() else f"{meaning} {slot.label}"

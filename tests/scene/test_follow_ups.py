@@ -1,0 +1,157 @@
+"""A fault leads to no second finding, and what may be defined elsewhere is no error."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.scene.decks import CLAY, PIPE, STEEL, all_told, messages, scene_of, told
+
+RESTART = "$LOAD CASE\n*RESTART\n LAST=static\n"
+
+
+# -------------------------------------------------------------------------------- what is not read may define a name
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        "*LINES\n LINE=SCR, SECTION=Top, 100.0, ADDITIONAL=Upper, Coated Pipe\n",
+        "*LINES\n LINE = SCR\n SECTION = Top\n ADDITIONAL= Upper , Coated Pipe\n",
+        "*LINE PATH SECTIONS\n LINE=scr\n SECTION=top, 0, 100\n ADDITIONAL=UPPER,COATED PIPE\n",
+        "*LINE SECTION GROUPS\n NAME=scr\n SECTION=Top, 100\n ADDITIONAL=Upper\n ADDITIONAL=Coated Pipe\n",
+    ],
+)
+@pytest.mark.parametrize("name", ["SCR", "Top", "upper", "COATED PIPE"])
+def test_names_of_lines_are_sets(lines: str, name: str) -> None:
+    text = f"$MODEL\n{lines}*SEABED PROPERTIES\n TYPE=ELASTIC\n SET={name}\n STIFFNESS=1\n"
+    assert told(text) == []
+    assert scene_of(text).laws.uncertain
+
+
+def test_a_set_of_the_deck_goes_before_one_of_a_line() -> None:
+    text = PIPE + "*LINES\n LINE=SCR\n*ELEMENT SETS\n SET=scr\n 1\n"
+    named = scene_of(text).set_table.named["scr"]
+    assert (named.name, named.elements.tolist(), named.open) == ("scr", [0], False)
+
+
+@pytest.mark.parametrize(
+    ("before", "supplier"),
+    [
+        ("*LINES\n LINE=SCR\n", "*LINES, which is not read, may define it"),
+        ("*CABLE\n 1, 2\n", "*CABLE, which is not read, may define it"),
+        ("*ELEMENT SETTS\n SET=a\n 1\n", "*ELEMENT SETTS, which is not known, may define it"),
+        ("*ELEMENT SETS\n SEET=a\n 1\n", "a line of *ELEMENT SETS that could not be used may define it"),
+    ],
+)
+def test_a_missing_set_is_a_warning_where_something_unread_may_define_it(before: str, supplier: str) -> None:
+    text = PIPE + before + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=b\n STIFFNESS=1\n"
+    assert [(severity, code) for severity, code, _, _ in told(text)] == [("W", "REF001")]
+    assert messages(text)[0].endswith(supplier)
+
+
+def test_keywords_astray_may_define_it() -> None:
+    seabed = "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=b\n STIFFNESS=1\n"
+    early = "*ELEMENT SETS\n SET=b\n 1\n" + PIPE + seabed
+    assert messages(early)[0].endswith("the *ELEMENT SETS before the first section may define it")
+    wrong = "$LOAD CASE\n*ELEMENT SETS\n SET=b\n 1\n" + PIPE + seabed
+    assert messages(wrong)[0].endswith("the *ELEMENT SETS in $LOAD CASE, where it does not belong, may define it")
+    right = "$CLEAR\n*ELEMENT SETS\n 1, 2\n" + PIPE + seabed
+    assert told(right)[0][:2] == ("E", "REF001")
+
+
+def test_lines_define_no_curves() -> None:
+    text = PIPE + "*LINES\n LINE=SCR\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=SCR\n STIFFNESS=Clay\n"
+    assert [(severity, code) for severity, code, _, _ in told(text)] == [("E", "REF002")]
+
+
+def test_a_deck_that_continues_another_needs_no_model() -> None:
+    assert told(RESTART) == []
+    model = "$MODEL\n*ELEMENT SETS\n SET=a\n 1, 2\n SUBSET=b\n*EMBEDMENT\n SET=c\n 0, 0\n 1, 1\n"
+    found = told(RESTART + model)
+    assert {severity for severity, _, _, _ in found} == {"W"}
+    assert [code for _, code, _, _ in found] == ["REF005", "REF005", "REF008", "SBD005", "REF001"]
+
+
+def test_all_is_open_where_elements_are_not_shown() -> None:
+    assert scene_of(RESTART + PIPE).set_table.everything.open
+    assert scene_of(PIPE + "*LINES\n LINE=a\n").set_table.everything.open
+    assert not scene_of(PIPE).set_table.everything.open
+
+
+# --------------------------------------------------------------------------------------------------------- follow-ups
+
+
+@pytest.mark.parametrize(
+    ("line", "expected"),
+    [
+        ("STIFFNESS=", ["SYN003"]),
+        ("STIFFNESS==[nothing]", ["REF013"]),
+        ("STIFFNESS=-5", ["SBD010"]),
+        ("STIFNESS=5", ["SYN004"]),
+        ("STIFFNESS=5, Clay", ["SYN003"]),
+    ],
+)
+def test_a_law_that_could_not_be_read_is_unknown(line: str, expected: list[str]) -> None:
+    text = PIPE + f"*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n {line}\n"
+    assert [code for _, code, _, _ in all_told(text)] == expected
+    grant = scene_of(text).laws.grants[0]
+    assert grant.unknown
+
+
+def test_a_law_beside_a_bad_friction_is_known() -> None:
+    text = PIPE + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=5\n FRICTION=O.3\n"
+    assert not scene_of(text).laws.grants[0].unknown
+
+
+def test_a_lost_line_of_one_set_leaves_the_others_known() -> None:
+    text = PIPE + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFNESS=5\n SET=ALL\n LATERAL=0\n"
+    assert [grant.unknown for grant in scene_of(text).laws.grants] == [True, False]
+    last = PIPE + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n LATERAL=0\n SET=ALL\n STIFNESS=5\n$MODES\n"
+    assert [grant.unknown for grant in scene_of(last).laws.grants] == [False, True]
+
+
+@pytest.mark.parametrize("type_", ["ELASTC", "", "RIGID, ELASTIC"])
+def test_a_type_that_could_not_be_read_is_told_once(type_: str) -> None:
+    text = PIPE + f"*SEABED PROPERTIES\n TYPE={type_}\n SET=ALL\n FRICTION=0.3\n*EMBEDMENT\n SET=ALL\n 0, 0\n 1, 1\n"
+    scene = scene_of(text)
+    assert len(scene.deck.problems) == 1
+    assert "SBD005" not in [problem.code.code for problem in scene.problems]
+
+
+def test_a_bad_type_does_not_take_over_the_one_before() -> None:
+    text = PIPE + "*SEABED PROPERTIES\n TYPE=RIGID\n*SEABED PROPERTIES\n TYPE=ELASTC\n SET=ALL\n LATERAL=5\n"
+    assert [code for _, code, _, _ in all_told(text)] == ["SYN005"]
+
+
+def test_a_curve_that_could_not_be_made_makes_its_law_unknown() -> None:
+    text = PIPE + STEEL + CLAY.replace(" 0.5, 4000.0\n", "") + "*SEABED PROPERTIES\n TYPE=ELASTIC\n"
+    scene = scene_of(text + " SET=ALL\n STIFFNESS=clay\n")
+    assert [problem.code.code for problem in scene.problems] == ["CRV001"]
+    assert scene.laws.grants[0].unknown
+
+
+def test_a_set_that_could_not_be_read_gives_its_law_to_nothing() -> None:
+    text = PIPE + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=\n STIFFNESS=5\n"
+    scene = scene_of(text)
+    assert scene.problems == []
+    assert scene.law_names == ["none"] * 10
+    assert scene.laws.uncertain
+
+
+# ------------------------------------------------------------------------------------------------------- suggestions
+
+
+def test_suggestions_ignore_case_and_end_with_the_patience() -> None:
+    names = "".join(f" SET=Flowline {i:03d}\n 1\n" for i in range(400))
+    uses = "".join(f" SET=FLOWLINE  {i:03d}\n STIFFNESS=1\n" for i in range(600))
+    found = messages(PIPE + "*ELEMENT SETS\n" + names + "*SEABED PROPERTIES\n TYPE=ELASTIC\n" + uses)
+    assert "did you mean Flowline" in found[0]
+    assert sum("did you mean" in message for message in found) == 498
+    assert len(found) == 600
+
+
+def test_a_very_long_name_gets_no_suggestion() -> None:
+    name = "x" * 300
+    text = PIPE + f"*ELEMENT SETS\n SET={name}\n 1\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET={name}y\n STIFFNESS=1\n"
+    assert "did you mean" not in messages(text)[0]
+    assert len(messages(text)[0]) < 150

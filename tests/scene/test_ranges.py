@@ -1,0 +1,61 @@
+"""Values outside the range of their field."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.scene.decks import messages, told
+
+
+@pytest.mark.parametrize(
+    ("lines", "column", "message"),
+    [
+        ("*OCEAN\n -5.0, 1025", 2, "water depth is -5.0: it must be greater than 0"),
+        ("*OCEAN\n 0.0, 1025", 2, "water depth is 0.0: it must be greater than 0"),
+        ("*OCEAN\n 5.0, -1", 7, "density of sea water is -1.0: it must not be less than 0"),
+        ("*ELASTIC SURFACE\n -1, 0.3", 2, "stiffness per unit length is -1.0"),
+        ("*RIGID SURFACE\n 0.3, -0.3", 7, "transverse friction coefficient is -0.3"),
+    ],
+)
+def test_values_of_rows(lines: str, column: int, message: str) -> None:
+    text = f"$MODEL\n{lines}\n"
+    assert told(text) == [("E", "SBD010", 3, column)]
+    assert message in messages(text)[0]
+
+
+@pytest.mark.parametrize(
+    ("line", "column"),
+    [
+        ("STIFFNESS=-1", 12),
+        ("FRICTION=0.3, 0.4, 0", 21),
+        ("LATERAL=-1", 10),
+        ("SUCTION=-1, 0.5", 10),
+        ("SUCTION=1, 0", 13),
+    ],
+)
+def test_values_of_settings(line: str, column: int) -> None:
+    text = f"$MODEL\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n {line}\n"
+    assert told(text) == [("E", "SBD010", 5, column)]
+
+
+def test_values_of_sections_are_named_by_their_symbol() -> None:
+    text = "$MODEL\n*GEOMETRIC SETS\n OPTION=RIGID\n SET=ALL\n 1, 1, 0.0, -0.2, 7850\n"
+    assert told(text) == [("E", "SBD010", 5, 8), ("E", "SBD010", 5, 13)]
+    assert messages(text) == [
+        "external diameter Do is 0.0: it must be greater than 0",
+        "internal diameter Di is -0.2: it must not be less than 0",
+    ]
+
+
+def test_the_value_of_an_equation_is_looked_at() -> None:
+    text = "$PREPROCESSOR\n*PARAMETERS\n k, -5\n$MODEL\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS==[k]\n"
+    assert told(text) == [("E", "SBD010", 8, 12)]
+
+
+def test_an_equation_without_a_value_is_told_once() -> None:
+    text = "$MODEL\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS==[k]\n"
+    assert told(text) == [("E", "REF013", 5, 12)]
+
+
+def test_other_sections_are_not_looked_at() -> None:
+    assert told("$PREPROCESSOR\n*PARAMETERS\n k, -5\n$ANALYSIS\n*UNITS\n UNITS=METRIC\n") == []

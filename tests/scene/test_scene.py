@@ -1,0 +1,186 @@
+"""A scene as users see it: names, units, what refuses it, and the evaluator that it makes."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mudline.codes import RUN001
+from mudline.contact.inputs import LawKind
+from mudline.deck.loading import load_bytes
+from mudline.diagnostics import DeckError
+from mudline.scene.build import resolve
+from tests.scene.decks import CLAY, PIPE, STEEL, scene_of
+
+FULL = PIPE + STEEL + CLAY + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=Clay\n"
+
+
+def refusal(text: str) -> list[tuple[str, int, str]]:
+    """Code, line and message of what keeps the evaluator from being made."""
+    with pytest.raises(DeckError) as raised:
+        scene_of(text).contact()
+    return [(found.code, found.line, found.message) for found in raised.value.diagnostics]
+
+
+@pytest.mark.parametrize(
+    ("name", "gravity", "units"),
+    [
+        ("a.keyxm", "32.2", "metric"),
+        ("a.keyxi", "9.81", "imperial"),
+        ("a.keyx", "32.2", "imperial"),
+        ("a", "1", "user"),
+    ],
+)
+def test_units_are_those_of_the_deck(name: str, gravity: str, units: str) -> None:
+    assert scene_of(f"$MODEL\n*OCEAN\n 100, 1025, {gravity}\n", name).units == units
+
+
+def test_what_a_scene_holds() -> None:
+    scene = scene_of(FULL)
+    assert scene.require() is scene
+    assert scene.node_ids.tolist()[:3] == [1, 11, 2]
+    assert scene.coordinates.shape == (11, 3)
+    assert scene.element_ids.tolist() == list(range(1, 11))
+    assert scene.element_nodes[0].tolist() == [0, 2]
+    assert scene.length.tolist() == [10.0] * 10
+    assert scene.diameter.tolist() == [0.25] * 10
+    assert scene.law.tolist() == [LawKind.CURVE] * 10
+    assert list(scene.sets) == ["ALL"]
+    assert list(scene.curves) == ["Clay"]
+
+
+def test_the_contact_of_a_scene() -> None:
+    """Ratio 0.05 / 0.25 = 0.2, force 0.2 * 8000 = 1600 per length, stiffness 8000 / 0.25 = 32000."""
+    result = scene_of(FULL).contact().evaluate()
+    assert np.allclose(result.ratio, 0.2, rtol=1e-15)
+    assert np.allclose(result.force, 1600.0, rtol=1e-15)
+    assert np.allclose(result.stiffness, 32000.0, rtol=1e-15)
+
+
+def test_curves_that_are_not_used_are_handed_over_and_do_not_shift_the_others() -> None:
+    deck = FULL.replace(" CURVE=Clay", " CURVE=Unused\n 0, 0\n 1, 1\n CURVE=Clay")
+    given = scene_of(deck).contact_input()
+    assert [curve.name for curve in given.curves] == ["Unused", "Clay"]
+    assert given.curve_index.tolist() == [1] * 10
+
+
+def test_elements_without_a_law_have_no_curve_and_no_stiffness() -> None:
+    deck = FULL.replace(" SET=ALL\n STIFFNESS", " SET=a\n STIFFNESS") + "*ELEMENT SETS\n SET=a\n 1, 2\n"
+    given = scene_of(deck).contact_input("cut")
+    assert given.law.tolist() == [LawKind.CURVE] * 2 + [LawKind.NONE] * 8
+    assert given.curve_index.tolist() == [0] * 2 + [-1] * 8
+    assert np.isnan(given.linear_stiffness).all()
+    assert given.tension == "cut"
+
+
+def test_an_empty_deck_has_an_evaluator_of_nothing() -> None:
+    assert scene_of("").contact().evaluate().force.shape == (0,)
+
+
+# --------------------------------------------------------------------------------------------------------- refusals
+
+
+def test_errors_of_reading_and_of_resolving_refuse_a_scene() -> None:
+    text = FULL.replace("-0.05, 100.0", "-0.05, 1OO.0").replace("STIFFNESS=Clay", "STIFFNESS=Sand")
+    scene = scene_of(text)
+    assert [problem.code.code for problem in scene.errors()] == ["SYN002", "REF002"]
+    assert [code for code, _, _ in refusal(text)] == ["SYN002", "REF002"]
+
+
+def test_a_number_defined_twice_refuses_nothing() -> None:
+    scene = scene_of(FULL.replace(" GEN=1, 11", " GEN=1, 11\n 5, -0.05, 40.0"))
+    assert [problem.code.code for problem in scene.problems] == ["REF007"]
+    assert scene.require() is scene
+
+
+def test_warnings_refuse_nothing() -> None:
+    scene = scene_of(FULL + "*ELEMENT SETS\n SET=a\n")
+    assert [problem.code.code for problem in scene.problems] == ["REF010"]
+    assert scene.require() is scene
+
+
+def test_elements_at_nodes_of_lines_are_refused() -> None:
+    text = "$MODEL\n*LINES\n LINE=SCR\n*NODE\n 1, 0, 0\n*ELEMENT\n 1, 1, 1\n 7, 1, {End}\n 8, 1, 5\n"
+    scene = scene_of(text)
+    assert scene.require() is scene
+    message = "2 elements (first: 7) end at nodes that are not known; this cannot be evaluated"
+    assert refusal(text) == [(RUN001.code, 8, message)]
+
+
+def test_a_law_that_the_deck_before_may_define_is_refused() -> None:
+    text = "$LOAD CASE\n*RESTART\n LAST=x\n" + FULL.replace("STIFFNESS=Clay", "STIFFNESS=Sand")
+    message = "the law given here is not known: 10 elements (first: 1); this cannot be evaluated"
+    assert refusal(text) == [(RUN001.code, 23, message)]
+    scene = scene_of(text)
+    assert scene.law_names == ["curve"] * 10
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "line", "message"),
+    [
+        ("STIFFNESS=Clay", "STIFFNESS==[cu(2)]", 20, "the law given here is not known: 10 elements (first: 1)"),
+        ("0.5, 4000.0", "0.5, =[cu(2)]", 20, "the law given here is not known: 10 elements (first: 1)"),
+        ("0.25, 0.22", "=[cu(2)], 0.22", 20, "a curve is given here, and the external diameter is not known: 10 elem"),
+        ("11, -0.05", "11, =[cu(2)]", 7, "10 elements (first: 1) have no known finite length"),
+    ],
+)
+def test_what_an_unknown_function_leaves_unknown_is_refused_where_it_is_needed(
+    old: str, new: str, line: int, message: str
+) -> None:
+    """An unknown function is a warning: the deck may be fine where it runs. A result cannot be made of it."""
+    text = FULL.replace(old, new)
+    scene = scene_of(text)
+    assert scene.require() is scene
+    code, at, found = refusal(text)[0]
+    assert (code, at) == (RUN001.code, line)
+    assert found.startswith(message)
+
+
+def test_a_length_that_overflows_is_refused_unless_nothing_needs_it() -> None:
+    far = "$MODEL\n*NODE\n 1, -1, 0\n 2, -1, 1.0E300\n*ELEMENT\n 1, 1, 2\n"
+    spring = "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=1\n"
+    assert refusal(far + spring) == [
+        (RUN001.code, 6, "element 1 has no known finite length; this cannot be evaluated"),
+    ]
+    assert scene_of(far).contact().evaluate().force.tolist() == [0.0]
+
+
+def test_one_element_without_a_law_is_named() -> None:
+    text = FULL.replace("SET=ALL\n STIFFNESS=Clay", "SET=a\n STIFFNESS==[cu(2)]") + "*ELEMENT SETS\n SET=a\n 4\n"
+    assert refusal(text)[0][2].startswith("the law given here is not known: element 4;")
+
+
+# -------------------------------------------------------------------------------------------------------- left out
+
+
+def left_out(lines: str) -> dict[str, str]:
+    plan = resolve(load_bytes((FULL + lines).encode(), "deck.keyxm")).contact().plan
+    return {stage.stage: stage.why for stage in plan if "not evaluated in this version" in stage.why}
+
+
+def test_a_plain_deck_leaves_nothing_out() -> None:
+    assert left_out("") == {}
+    assert left_out(" FRICTION=0, 0\n LATERAL=0\n SUCTION=0\n") == {}
+
+
+def test_what_is_not_evaluated_is_said_by_stage() -> None:
+    found = left_out(
+        " FRICTION=0.3, 0.4\n LATERAL=5\n SUCTION=5\n SET=ALL\n STIFFNESS=Clay\n FRICTION=0.3\n"
+        "*SEABED PROFILE\n TYPE=SLOPING\n SLOPE=3\n*SEABED TRENCH\n SET=ALL\n"
+    )
+    assert found == {
+        "floor": "one flat bed at X = 0; not evaluated in this version: *SEABED PROFILE",
+        "suction": "not evaluated in this version: SUCTION=",
+        "friction": "not evaluated in this version: FRICTION= (2 times), LATERAL=",
+        "trench": "not evaluated in this version: *SEABED TRENCH",
+    }
+
+
+def test_legacy_surfaces_leave_the_same_out() -> None:
+    text = PIPE + STEEL + "*ELASTIC SURFACE\n 500, 0.3, 0.4, 0, 7, 1\n 3.0\n"
+    plan = scene_of(text).contact().plan
+    assert plan["floor"].why.endswith("the slope or profile of *ELASTIC SURFACE")
+    assert plan["friction"].why.endswith("the friction of *ELASTIC SURFACE")
+    assert plan["suction"].why.endswith("the suction of *ELASTIC SURFACE")
+    profile = PIPE + "*RIGID SURFACE\n 0.3\n 0, 0\n 10, 1\n"
+    assert scene_of(profile).contact().plan["floor"].why.endswith("the slope or profile of *RIGID SURFACE")
