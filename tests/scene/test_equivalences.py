@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 from mudline.scene.model import Scene
 from tests.scene.decks import ends_of, members, nodes_of, scene_of
 
-
 _COORDINATES = st.floats(-1e6, 1e6).map(lambda value: value + 0.0)
 _STARTS = st.integers(1, 50)
 

@@ -168,3 +168,11 @@ def test_a_set_without_a_readable_name_may_be_the_one_that_is_missing() -> None:
 def test_sets_of_other_sections_are_no_sets_of_the_model() -> None:
     text = PIPE + "$DATABASE POSTPROCESSING\n*ELEMENT SETS\n SET=a\n 1, 99\n"
     assert members(scene_of(text)) == {"ALL": list(range(1, 11))}
+
+
+def test_only_the_first_thousand_are_listed() -> None:
+    lines = "".join(f" {number}\n" for number in range(100, 1600))
+    assert len(told(SETS + " SET=a\n" + lines)) == 1001
+    assert messages(SETS + " SET=a\n" + lines)[-1].endswith("the first 1000 are listed")
+    circles = "".join(f" SET=s{number}\n SUBSET=s{number}\n" for number in range(1500))
+    assert len(told(SETS + circles)) == 1001

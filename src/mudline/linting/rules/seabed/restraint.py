@@ -89,7 +89,8 @@ def _blocks(scene: Scene, elements: Indices) -> Iterator[Problem]:
     found = np.unique(scene.laws.covered[elements], return_index=True, return_counts=True)
     for index, first, count in zip(*(part.tolist() for part in found), strict=True):
         where = grants[index].where
-        if legacy_open or last_open > index or scene.context.lost_behind(where, "SEABED PROPERTIES"):
+        hidden = grants[index].unknown or scene.context.lost_behind(where, "SEABED PROPERTIES")
+        if legacy_open or last_open > index or hidden:
             continue
         which = _which(scene, elements[first], count, "gets", "get")
         message = f"{which} no stiffness from this block, which is taken whole: give STIFFNESS= here too"
