@@ -35,7 +35,6 @@ class Span(NamedTuple):
     end: int
 
 
-
 class Where(NamedTuple):
     """A place among the values of a deck: section, block in it, and the path inside the block; -1 stands for none."""
 
