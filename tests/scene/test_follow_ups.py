@@ -69,7 +69,7 @@ def test_a_deck_that_continues_another_needs_no_model() -> None:
     model = "$MODEL\n*ELEMENT SETS\n SET=a\n 1, 2\n SUBSET=b\n*EMBEDMENT\n SET=c\n 0, 0\n 1, 1\n"
     found = told(RESTART + model)
     assert {severity for severity, _, _, _ in found} == {"W"}
-    assert [code for _, code, _, _ in found] == ["REF005", "REF005", "REF008", "SBD005", "REF001"]
+    assert [code for _, code, _, _ in found] == ["REF005", "REF008", "SBD005", "REF001"]
 
 
 def test_all_is_open_where_elements_are_not_shown() -> None:
@@ -155,3 +155,9 @@ def test_a_very_long_name_gets_no_suggestion() -> None:
     text = PIPE + f"*ELEMENT SETS\n SET={name}\n 1\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET={name}y\n STIFFNESS=1\n"
     assert "did you mean" not in messages(text)[0]
     assert len(messages(text)[0]) < 150
+
+
+def test_elements_out_of_sight_are_told_once_for_a_list() -> None:
+    text = "$MODEL\n*LINES\n LINE=SCR\n*ELEMENT SETS\n SET=a\n 1, 2, 3\n 4\n GEN=5, 9\n"
+    assert told(text) == [("W", "REF005", 6, 2), ("W", "REF005", 7, 2)]
+    assert messages(text)[0].startswith("3 elements of this list (first: 1) are not defined; *LINES")

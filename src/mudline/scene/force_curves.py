@@ -64,7 +64,7 @@ def read_curves(context: Context) -> tuple[list[SceneCurve], list[SceneCurve]]:
         for index, entry in enumerate(cast("SeabedStiffness", block).curves)
     ]
     by_set = [
-        _curve(context, _set_name(context, entry.set_name, place), entry.points, place, embedment=True)
+        _curve(context, set_name(context, entry.set_name, place), entry.points, place, embedment=True)
         for where, block in context.deck.blocks("EMBEDMENT")
         for index, entry in enumerate(cast("Embedment", block).curves)
         for place in (where._replace(path=("curves", index)),)
@@ -72,9 +72,11 @@ def read_curves(context: Context) -> tuple[list[SceneCurve], list[SceneCurve]]:
     return named, by_set
 
 
-def _set_name(context: Context, name: str | None, where: Where) -> str | None:
-    """Points before any SET= hold for ALL; a SET= that could not be read names nothing."""
-    return None if name is None and context.lacks_value(where, "set") else name or "ALL"
+def set_name(context: Context, name: str | None, where: Where) -> str | None:
+    """The name that a SET= of a seabed law gives: ALL without a SET=, None where it could not be read."""
+    if name is None:
+        return None if context.lacks_value(where, "set") else "ALL"
+    return name
 
 
 def _curve(context: Context, name: str | None, table: Table, where: Where, *, embedment: bool) -> SceneCurve:

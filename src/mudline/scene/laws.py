@@ -14,7 +14,7 @@ from mudline.deck.parameters import folded
 from mudline.diagnostics import Where
 from mudline.keywords.text import shown
 from mudline.scene.context import Context
-from mudline.scene.force_curves import SceneCurve
+from mudline.scene.force_curves import SceneCurve, set_name
 from mudline.scene.numbering import Indices
 from mudline.scene.sets import NamedSet, Sets, later_wins
 
@@ -139,10 +139,9 @@ def _properties(context: Context, sets: Sets, laws: LawTable, named: list[SceneC
         reading = _Reading(context, laws, curves, type_)
         for index, entry in enumerate(properties.sets):
             place = where._replace(path=("sets", index))
-            unnamed = entry.set_name is None and context.lacks_value(place, "set")
-            title = place._replace(path=(*place.path, "set"))
-            found = None if unnamed else sets.find(entry.set_name or "ALL", title)
-            yield reading.grant(entry, place, found or _unknown(entry.set_name))
+            name = set_name(context, entry.set_name, place)
+            found = None if name is None else sets.find(name, place._replace(path=(*place.path, "set")))
+            yield reading.grant(entry, place, found or _unknown(name))
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,7 +14,7 @@ from mudline.diagnostics import Severity, Where
 from mudline.keywords.text import shown
 from mudline.scene.context import Context
 from mudline.scene.external import ExternalElements
-from mudline.scene.numbering import Indices, Numbered
+from mudline.scene.numbering import Ids, Indices, Numbered
 
 if TYPE_CHECKING:
     from mudline.keywords.library.element_sets import ElementRange, ElementSet, ElementSets, SetList
@@ -174,18 +174,24 @@ class _Reader:
         positions = [position for position, element in enumerate(member.elements) if isinstance(element, int)]
         numbers = np.array([member.elements[position] for position in positions], dtype=np.int64)
         indices = self.elements.indices(numbers)
-        for missing in np.flatnonzero(indices < 0).tolist():
-            place = where._replace(path=(*where.path, "elements", positions[missing]))
-            number = int(numbers[missing])
-            self.context.tell_missing(
-                REF005, f"element {number} is not defined: define it in *ELEMENT", place, "ELEMENT", number
-            )
+        self._missing(numbers, indices, [where._replace(path=(*where.path, "elements", at)) for at in positions])
         for position, element in enumerate(member.elements):
             if isinstance(element, str):
                 self._label(element, where._replace(path=(*where.path, "elements", position)))
         found = indices[indices >= 0]
         whole = len(found) == len(member.elements)
         return np.unique(found), whole and not self.context.disturbed(where._replace(path=(*where.path, "elements")))
+
+    def _missing(self, numbers: Ids, indices: Indices, places: list[Where]) -> None:
+        """Elements of a list that are not defined; where they may be defined out of sight, a word for a list."""
+        missing = np.flatnonzero(indices < 0).tolist()
+        if len(missing) > 1 and (self.context.definers or self.context.restart):
+            message = f"{len(missing)} elements of this list (first: {numbers[missing[0]]}) are not defined"
+            self.context.tell_missing(REF005, message, places[missing[0]], "ELEMENT")
+            return
+        for at in missing:
+            message = f"element {numbers[at]} is not defined: define it in *ELEMENT"
+            self.context.tell_missing(REF005, message, places[at], "ELEMENT", int(numbers[at]))
 
     def _label(self, label: str, where: Where) -> None:
         if not self.context.definers and not self.context.doubted(where):
