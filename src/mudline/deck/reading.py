@@ -8,7 +8,7 @@ from pathlib import PurePath
 from mudline.codes import SYN002, SYN006, SYN007, SYN008, SYN009, SYN010, SYN011, SYN014
 from mudline.deck.model import START, Deck, Opaque, Range, Section
 from mudline.deck.units import units_of
-from mudline.diagnostics import Problem, Severity, Span, Where
+from mudline.diagnostics import Code, Problem, Severity, Span, Where
 from mudline.keywords import catalogue
 from mudline.keywords.model import Comment
 from mudline.keywords.reader import ReadBlock, read_block
@@ -16,6 +16,9 @@ from mudline.keywords.text import suggestion
 from mudline.syntax.fields import trimmed
 from mudline.syntax.source import Source
 from mudline.syntax.tree import Kind, Leaf, RawBlock, RawSection, SyntaxTree, parse
+
+MOST_TOLD = 1000
+"""Findings of one code about lines, blocks or sections told one by one."""
 
 
 @dataclass
@@ -75,6 +78,7 @@ class _Reader:
         self.text = tree.source.unified
         self.origin = TextOrigin(tree)
         self.problems: list[Problem] = list(tree.source.problems)
+        self.told: dict[str, int] = {}
         self.deck = Deck(tree.source.name, PurePath(tree.source.name).name, origin=self.origin)
 
     def read(self, units: str | None) -> Deck:
@@ -86,6 +90,13 @@ class _Reader:
         self.deck.units = units or units_of(self.deck)
         return self.deck
 
+    def _tells(self, code: Code, span: Span) -> bool:
+        """Whether one more finding of a code is told: a file of another kind would have as many as it has lines."""
+        count = self.told[code.code] = self.told.get(code.code, 0) + 1
+        if count == MOST_TOLD + 1:
+            self.problems.append(Problem(code, "and more of the same: only the first are listed", span))
+        return count <= MOST_TOLD
+
     def _lines(self, span: Span) -> list[str]:
         lines = self.text[slice(*span)].replace("\r\n", "\n").removesuffix("\n").split("\n")
         return [line.removesuffix("\r") for line in lines]
@@ -95,6 +106,8 @@ class _Reader:
         if self.tree.source.readable:
             self._stray(preamble.leaves, "before the first section")
         for block in preamble.blocks:
+            if not self._tells(SYN007, trimmed(self.text, *block.head.span)):
+                break
             message = f"*{block.name} stands before any $SECTION: put it in its section, {self._belongs(block.name)}"
             self.problems.append(Problem(SYN007, message, trimmed(self.text, *block.head.span)))
         first = self.tree.sections[0].head if self.tree.sections else None
@@ -108,7 +121,7 @@ class _Reader:
     def _stray(self, leaves: list[Leaf], where: str) -> None:
         """One finding for all data lines of a place."""
         data = [leaf for leaf in leaves if leaf.kind not in (Kind.BLANK, Kind.COMMENT)]
-        if not data:
+        if not data or not self._tells(SYN011, trimmed(self.text, *data[0].span)):
             return
         count = sum(len(self._lines(leaf.span)) for leaf in data)
         lines = "1 line" if count == 1 else f"{count} lines"
@@ -136,6 +149,8 @@ class _Reader:
             self._block(section, index, block)
 
     def _unknown_section(self, index: int, name: str) -> None:
+        if not self._tells(SYN010, self.origin.heads[Where(index)]):
+            return
         hint = suggestion(name, list(catalogue.SECTIONS))
         message = f"section ${name} is not known{hint}: it is kept as it is"
         severity = Severity.WARNING if hint else None
@@ -165,10 +180,14 @@ class _Reader:
         section.blocks.append(Opaque(keyword=raw.name, lines=lines))
         sections = catalogue.sections_of(raw.name)
         if sections is None:
+            if not self._tells(SYN009, self.origin.heads[where]):
+                return
             hint = suggestion(raw.name, list(catalogue.keywords()))
             message = f"keyword *{raw.name} is not known{hint}: the block is kept as it is"
             self.problems.append(Problem(SYN009, message, None, Severity.WARNING if hint else None, where))
         elif sections and section.name not in sections and section.name in catalogue.SECTIONS:
+            if not self._tells(SYN008, self.origin.heads[where]):
+                return
             message = f"*{raw.name} does not belong in ${section.name}: it belongs in {self._belongs(raw.name)}"
             self.problems.append(Problem(SYN008, message, None, None, where))
 
