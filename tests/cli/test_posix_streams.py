@@ -65,10 +65,21 @@ def test_output_that_was_closed_before_the_start(arguments: list[str]) -> None:
     assert done.stderr == b""
 
 
+def heed_interrupts() -> None:
+    """What a shell's foreground job starts with."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 def test_interruption(folder: Path) -> None:
     (folder / "deck.keyxm").write_text("$MODEL\n", encoding="utf-8")
     words = [sys.executable, "-m", "mudline", "lint", "-v", "deck.keyxm", "-"]
-    with subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as running:
+    with subprocess.Popen(
+        words,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        preexec_fn=heed_interrupts,  # noqa: PLW1509 - no threads here, and a suite in the background ignores Ctrl-C
+    ) as running:
         assert running.stderr is not None
         assert running.stdout is not None
         assert running.stderr.readline() == b"mudline: deck.keyxm: 0 findings\n"
