@@ -1,0 +1,42 @@
+"""What rules find in a deck."""
+
+from __future__ import annotations
+
+from mudline.linting.engine import lint_bytes
+from mudline.linting.registry import rules
+from mudline.linting.selection import select
+
+PIPE = """\
+$MODEL
+*NODE
+ 1, -0.05, 0.0
+ 11, -0.05, 100.0
+ GEN=1, 11
+*ELEMENT
+ 1, 1, 2
+ GEN=1, 10
+*GEOMETRIC SETS
+ OPTION=RIGID
+ SET=ALL
+ 207.0E9, 79.6E9, 0.25, 0.22, 7850.0
+"""
+PROPERTIES = "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n"
+CURVES = "$MODEL\n*SEABED STIFFNESS\n"
+RESTART = "$LOAD CASE\n*RESTART\n LAST=static\n"
+
+
+def found(text: str, *codes: str) -> list[tuple[str, int, int]]:
+    """Code, line and column of the findings of some rules; of all without codes."""
+    findings = lint_bytes(text.encode(), "deck.keyxm", select(codes) if codes else rules())
+    return [(finding.code, finding.line, finding.column) for finding in findings]
+
+
+def messages(text: str, code: str) -> list[str]:
+    return [finding.message for finding in lint_bytes(text.encode(), "deck.keyxm", select([code]))]
+
+
+def curve(name: str, *points: tuple[float, float]) -> str:
+    return f" CURVE={name}\n" + "".join(f" {ratio}, {force}\n" for ratio, force in points)
+
+
+CLAY = curve("Clay", (0.0, 0.0), (0.5, 4000.0))

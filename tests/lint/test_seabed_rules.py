@@ -1,0 +1,105 @@
+"""Rules over the seabed: where they find something, and above all where they do not."""
+
+from __future__ import annotations
+
+import pytest
+
+from mudline.linting.engine import lint_bytes
+from mudline.linting.selection import select
+from tests.lint.findings import PIPE, PROPERTIES, RESTART, found
+
+
+@pytest.mark.parametrize(
+    ("lines", "expected"),
+    [
+        ("*SEABED PROPERTIES\n SET=ALL\n STIFFNESS=1\n*SEABED PROPERTIES\n SET=ALL\n", [2]),
+        ("*SEABED PROPERTIES\n SET=ALL\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=1\n", [2]),
+        ("*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=1\n*SEABED PROPERTIES\n SET=ALL\n STIFFNESS=1\n", []),
+        ("*SEABED PROPERTIES\n TYPE=ELASTC\n SET=ALL\n STIFFNESS=1\n", []),
+        ("*SEABED PROPERTIES\n TYPE=\n SET=ALL\n STIFFNESS=1\n", []),
+        ("*SEABED PROPERTIES\n TYPE=ELASTIC\n STIFFNESS=1\n SET=ALL\n STIFFNESS=2\n", [4]),
+        ("*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=\n STIFFNESS=2\n", []),
+        ("*ELASTIC SURFACE\n 1\n*EMBEDMENT\n 0, 0\n 1, 1\n SET=ALL\n 0, 0\n 1, 2\n", [5]),
+        ("*ELASTIC SURFACE\n 1\n*EMBEDMENT\n SET=\n 0, 0\n 1, 2\n", []),
+    ],
+)
+def test_types_and_sets_that_are_missing(lines: str, expected: list[int]) -> None:
+    assert [line for _, line, _ in found("$MODEL\n" + lines, "SBD003")] == expected
+
+
+def restraint(text: str) -> list[tuple[int, str]]:
+    """Line of each finding of SBD006, and the elements it counts."""
+    findings = lint_bytes(text.encode(), "deck.keyxm", select(["SBD006"]))
+    return [(finding.line, finding.message.partition(")")[0]) for finding in findings]
+
+
+def test_blocks_without_stiffness_are_told_each_with_their_elements() -> None:
+    sets = "*ELEMENT SETS\n SET=a\n GEN=1, 4\n SET=b\n 4, 5\n SET=c\n 5\n"
+    text = PIPE + sets + PROPERTIES + " STIFFNESS=1\n SET=a\n FRICTION=1\n SET=b\n LATERAL=1\n SET=c\n STIFFNESS=2\n"
+    assert restraint(text) == [
+        (24, "3 elements (first: 1"),
+        (26, "element 4 gets no stiffness from this block, which is taken whole: give STIFFNESS= here too"),
+    ]
+
+
+def test_elements_on_the_bed_without_a_law_are_counted_once() -> None:
+    sets = "*ELEMENT SETS\n SET=a\n GEN=1, 4\n"
+    text = PIPE + sets + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=a\n STIFFNESS=1\n"
+    assert restraint(text) == [(8, "6 elements (first: 5")]
+    assert restraint(text.replace("-0.05", "0.0")) == [(8, "6 elements (first: 5")]
+    assert restraint(text.replace("-0.05", "0.05")) == []
+    assert restraint(text.replace("11, -0.05", "11, 0.05")) == [(8, "element 5 lies at or below the bed (X = 0")]
+
+
+def test_without_a_seabed_only_elements_below_it_count() -> None:
+    assert restraint(PIPE) == [(7, "10 elements (first: 1")]
+    assert restraint(PIPE.replace("-0.05", "0.0")) == []
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        "*RIGID SURFACE\n 0.3\n",
+        "*SEABED PROPERTIES\n TYPE=RIGID\n SET=ALL\n FRICTION=0.3\n",
+        "*ELASTIC SURFACE\n 100\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n FRICTION=0.3\n",
+        "*P-Y\n SET=ALL\n DEPTH=0\n 0, 0\n 100, 0.1\n",
+        "*SEABED PROFILE\n TYPE=SLOPING\n SLOPE=3\n",
+        "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=5\n",
+        "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=5\n" + PROPERTIES + " FRICTION=0.3\n",
+        "*ELASTIC SURFACE\n x, 0.3\n",
+        "*ELASTIC SURFACE\n",
+        "*ELASTIC SURFAC\n 100\n",
+        PROPERTIES + " STIFFNESS=\n",
+        PROPERTIES + " STIFNESS=100\n",
+        PROPERTIES + " STIFFNESS=Clay\n",
+        PROPERTIES + " FRICTION=0.3\n SEET=ALL\n STIFFNESS=5\n",
+        "*SEABED PROPERTIES\n TYPE=ELASTIC\n SEET=ALL\n STIFFNESS=5\n",
+        "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=b\n STIFFNESS=5\n",
+        PROPERTIES + " FRICTION=0.3\n SET=b\n STIFFNESS=5\n",
+        "*SEABED PROPERTIES\n SET=ALL\n FRICTION=0.3\n",
+        "*EMBEDMENT\n SET=ALL\n 0, 0\n",
+        "*EMBEDMENT\n SET=b\n 0, 0\n 1, 1\n*ELASTIC SURFACE\n ,\n" + PROPERTIES + " FRICTION=0.3\n",
+        "*LINES\n LINE=SCR\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=SCR\n STIFFNESS=5\n",
+        "*LINES\n LINE=SCR\n" + PROPERTIES + " FRICTION=0.3\n SET=SCR\n STIFFNESS=5\n",
+        RESTART,
+        "$LOAD CASE\n" + PROPERTIES + " STIFFNESS=5\n",
+    ],
+)
+def test_elements_that_are_held_or_may_be(lines: str) -> None:
+    assert restraint(PIPE + lines) == []
+
+
+def test_a_block_before_those_that_are_not_known_may_be_the_last() -> None:
+    """The law of the set that is not defined stands before: whatever it holds for, the later block wins."""
+    text = PIPE + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=b\n STIFFNESS=5\n SET=ALL\n FRICTION=0.3\n"
+    assert restraint(text) == [(17, "10 elements (first: 1")]
+
+
+def test_a_line_lost_before_a_block_says_nothing_of_it() -> None:
+    text = PIPE + PROPERTIES + " STIFNESS=5\n SET=ALL\n FRICTION=0.3\n"
+    assert restraint(text) == [(17, "10 elements (first: 1")]
+
+
+def test_elements_of_which_a_node_is_not_known_lie_nowhere() -> None:
+    text = "$MODEL\n*NODE\n 1, -5, 0\n*ELEMENT\n 1, 1, 2\n"
+    assert restraint(text) == []
