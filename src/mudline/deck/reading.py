@@ -94,7 +94,7 @@ class _Reader:
         """Whether one more finding of a code is told: a file of another kind would have as many as it has lines."""
         count = self.told[code.code] = self.told.get(code.code, 0) + 1
         if count == MOST_TOLD + 1:
-            self.problems.append(Problem(code, "and more of the same: only the first are listed", span))
+            self.problems.append(Problem(code, f"and more of the same: the first {MOST_TOLD} are listed", span))
         return count <= MOST_TOLD
 
     def _lines(self, span: Span) -> list[str]:
