@@ -76,7 +76,7 @@ def lint(
     when the file cannot be read, ValueError for a word that names no rule.
     """
     file = Path(path)
-    return lint_bytes(file.read_bytes(), file.as_posix(), _chosen(select, ignore), units=units)
+    return lint_bytes(file.read_bytes(), file.as_posix(), _chosen(select, ignore), units=units, folder=file.parent)
 
 
 def _offered(deck: model.Deck) -> Deck:

@@ -27,6 +27,11 @@ class Input:
     name: str
     path: str | None
 
+    @property
+    def folder(self) -> Path | None:
+        """Where files that the deck names stand; None for standard input, which names no place."""
+        return None if self.path is None else Path(self.path).parent
+
     def read(self) -> bytes:
         """The content; raises OSError."""
         if self.path is not None:
@@ -102,4 +107,4 @@ def load(given: str, *, form: str | None = None, units: str | None = None, stdin
         data = file.read()
     except OSError as error:
         raise click.ClickException(f"{given}: {reason(error)}") from error
-    return load_bytes(data, file.name, form=form, units=units)
+    return load_bytes(data, file.name, form=form, units=units, folder=file.folder)

@@ -72,7 +72,7 @@ def command(
     inputs = collect(paths, stdin_name)
     report = _Report(output_format, view, statistics=statistics)
     for file, data in inputs.contents():
-        report.add(file, data, lint_bytes(data, file.name, rules, units=units))
+        report.add(file, data, lint_bytes(data, file.name, rules, units=units, folder=file.folder))
     report.finish()
     return _exit_code(inputs, report.found, Severity(fail_on), exit_zero=exit_zero)
 

@@ -9,7 +9,7 @@ import click
 
 from mudline.cli import options
 from mudline.cli.exits import DONE, FOUND
-from mudline.cli.inputs import collect
+from mudline.cli.inputs import Input, collect
 from mudline.cli.lazy import printing
 from mudline.cli.options import View
 from mudline.cli.streams import emit
@@ -45,7 +45,7 @@ def command(
     inputs = collect(paths, stdin_name)
     judged: list[tuple[Verdict, list[Diagnostic]]] = []
     for file, data in inputs.contents():
-        verdict, found = _judge(data, file.name, units)
+        verdict, found = _judge(data, file, units)
         judged.append((verdict, found))
         if output_format == "text" and not view.quiet and found:
             printing("lint").print_findings(found, Source.from_bytes(data, file.name), view.color)
@@ -53,11 +53,11 @@ def command(
     return max(inputs.code, DONE if all(verdict.verdict == "legal" for verdict, _ in judged) else FOUND)
 
 
-def _judge(data: bytes, name: str, units: str | None) -> tuple[Verdict, list[Diagnostic]]:
+def _judge(data: bytes, file: Input, units: str | None) -> tuple[Verdict, list[Diagnostic]]:
     try:
-        deck = load_bytes(data, name, units=units)
+        deck = load_bytes(data, file.name, units=units, folder=file.folder)
     except DeckError as error:
-        return Verdict(name, 0, 0, 0, 0, len(error.diagnostics), "illegal"), list(error.diagnostics)
+        return Verdict(file.name, 0, 0, 0, 0, len(error.diagnostics), "illegal"), list(error.diagnostics)
     context = LintContext(deck)
     problems = [problem for rule in rules() for problem in rule.check(context)]
     found = deck.diagnose([problem for problem in problems if problem.weight is Severity.ERROR])

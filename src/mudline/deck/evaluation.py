@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 from mudline.codes import SYN002
@@ -25,7 +26,7 @@ def evaluated(deck: Deck) -> tuple[Deck, list[Problem]]:
             for j, block in enumerate(section.blocks):
                 blocks[j] = evaluator.part(block, Where(i, j))
         sections.append(type(section)(section.name, blocks, section.comments, section.lines))
-    ready = Deck(deck.file, deck.source, deck.units, deck.preamble, sections, deck.comments, deck.problems, deck.origin)
+    ready = replace(deck, sections=sections)
     return ready, parameters.problems + evaluator.problems
 
 

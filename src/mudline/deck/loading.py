@@ -22,17 +22,23 @@ def form_of(name: str) -> str:
 
 def load_path(path: Path, name: str | None = None, *, form: str | None = None, units: str | None = None) -> Deck:
     """The deck of a file; raises OSError, or DeckError for a JSON or YAML file that holds no deck."""
-    return load_bytes(path.read_bytes(), name or path.as_posix(), form=form, units=units)
+    return load_bytes(path.read_bytes(), name or path.as_posix(), form=form, units=units, folder=path.parent)
 
 
-def load_bytes(data: bytes, name: str, *, form: str | None = None, units: str | None = None) -> Deck:
-    """The deck of a file's content. A keyword text never fails: what is wrong is in the deck's problems."""
+def load_bytes(
+    data: bytes, name: str, *, form: str | None = None, units: str | None = None, folder: Path | None = None
+) -> Deck:
+    """The deck of a file's content. A keyword text never fails: what is wrong is in the deck's problems.
+
+    `folder` is where files that the deck names stand; without it none of them is looked for.
+    """
     form = form or form_of(name)
     if form == "keyword":
-        return read_source(Source.from_bytes(data, name), units=units)
-    deck = cast("Deck", _form(form).read(data, name))
-    if units:
-        deck.units = units
+        deck = read_source(Source.from_bytes(data, name), units=units)
+    else:
+        deck = cast("Deck", _form(form).read(data, name))
+        deck.units = units or deck.units
+    deck.folder = folder
     return deck
 
 

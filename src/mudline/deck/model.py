@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any, NamedTuple, Protocol, Self
 
 from mudline.diagnostics import Code, DeckError, Diagnostic, Problem, Severity, Where
@@ -83,7 +84,8 @@ class Nowhere:
 class Deck:
     """The models of one file. `file` is the name for messages, `source` the file's own name.
 
-    `units` is "metric", "imperial" or "user". `problems` holds what was noticed while reading.
+    `folder` is where files that the deck names are looked for; None for a deck that came from no path: nothing is then
+    read but the deck itself. `units` is "metric", "imperial" or "user". `problems` holds what reading noticed.
     """
 
     file: str
@@ -94,6 +96,7 @@ class Deck:
     comments: list[Comment] = field(default_factory=list)
     problems: list[Problem] = field(default_factory=list, compare=False)
     origin: Origin = field(default_factory=Nowhere, compare=False, repr=False)
+    folder: Path | None = field(default=None, compare=False)
 
     def blocks(self, keyword: str, section: str = "MODEL") -> Iterator[tuple[Where, Any]]:
         """The modelled blocks of a keyword in all sections of a name, in the order of the file.

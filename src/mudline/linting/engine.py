@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
 
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import Deck
@@ -21,14 +22,18 @@ def lint_context(context: LintContext, chosen: Sequence[Rule]) -> list[Diagnosti
     return context.deck.diagnose([problem for rule in chosen for problem in rule.check(context)])
 
 
-def lint_bytes(data: bytes, name: str, chosen: Sequence[Rule], *, units: str | None = None) -> list[Diagnostic]:
+def lint_bytes(
+    data: bytes, name: str, chosen: Sequence[Rule], *, units: str | None = None, folder: Path | None = None
+) -> list[Diagnostic]:
     """All findings in a file's content, in its order; `name` tells its form and stands in the findings.
+
+    `folder` is where files that the deck names stand; without it none of them is looked for.
 
     Never raises for content: a JSON or YAML file that holds no deck gives the reasons (DOC001, DOC002), whatever rules
     are chosen, as nothing else can be said of it.
     """
     try:
-        deck = load_bytes(data, name, units=units)
+        deck = load_bytes(data, name, units=units, folder=folder)
     except DeckError as error:
         return list(error.diagnostics)
     return lint_deck(deck, chosen)
