@@ -182,7 +182,7 @@ def test_commas_behind_the_last_field(row: str) -> None:
 def test_equations_and_opaque_lines_stay_as_written() -> None:
     lines = [
         " =[ a +  B*( c ) ], 1025.0",
-        "*SEABED PROFILE",
+        "*HYDRODYNAMIC SETS",
         "\t 1 ,2;x  ",
         "",
         "C-- kept",

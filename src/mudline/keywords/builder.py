@@ -157,7 +157,7 @@ class Builder:
     def _setting(self, built: Built, slot: Slot, group: Group, path: Path) -> None:
         self.places.spans[path] = group.span
         fields = group.fields
-        if slot.row:
+        if slot.row and not (slot.choices and len(fields) == 1):
             self.lost += issubclass(slot.row, ListRow) and path[:-1] in self.places.damaged
             built.values[slot.json] = self._row_values(slot.row, fields, path)
             return

@@ -37,10 +37,14 @@ class About:
 
 @dataclass(frozen=True, slots=True)
 class Setting(About):
-    """A field written `KEY=value`; `inline` ones follow on the line of the setting before them."""
+    """A field written `KEY=value`; `inline` ones follow on the line of the setting before them.
+
+    `behind` names the only setting whose line an inline one may follow on; without that it has a line of its own.
+    """
 
     key: str = ""
     inline: bool = False
+    behind: str = ""
 
 
 @dataclass(frozen=True, slots=True)

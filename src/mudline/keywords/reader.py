@@ -73,8 +73,11 @@ class _Reader:
                 return self.declared.model_validate(built.values)
             except ValidationError as error:
                 for fault in error.errors():
+                    place = tuple(fault["loc"])
                     message = fault["msg"].removeprefix("Value error, ")
-                    span = builder.places.find(tuple(fault["loc"]))
+                    if fault["type"] == "missing":
+                        message = f"{_label(self.declared, place)} is missing here"
+                    span = builder.places.find(place)
                     self.problems.append(Problem(SYN001, message, span))
         return cast("Block", construct(built))
 
@@ -154,6 +157,17 @@ class _Reader:
             formats = dict.fromkeys(row_formats(self.declared))
             return "a row " + " or ".join(f"`{shape}`" for shape in formats)
         return next(f"{key}=" for key in self.keys if grammar.terminal_of(key) == terminal)
+
+
+def _label(part: type[Part], place: tuple[str | int, ...]) -> str:
+    """The name, for a reader, of the field at a place of a block."""
+    label = ""
+    for step in place:
+        slot = next((slot for slot in layout(part).slots if slot.json == step), None)
+        if slot is not None:
+            label = slot.label
+            part = slot.row or next(iter(slot.record.values()), part)
+    return label
 
 
 def all_keys(part: type[Part]) -> frozenset[str]:

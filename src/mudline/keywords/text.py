@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from mudline.codes import SYN002, SYN005, SYN015, SYN016
 from mudline.diagnostics import Problem
-from mudline.keywords.model import Slot
+from mudline.keywords.model import Slot, layout
 from mudline.keywords.values import Equation, Kind, Label
 from mudline.syntax.fields import Field
 from mudline.syntax.rows import read_number, spells_number
@@ -26,12 +26,14 @@ class UnreadableError(Exception):
 
 def read_value(field: Field, slot: Slot, problems: list[Problem]) -> Value:
     """The value of a field; raises UnreadableError. What is only doubtful is added to `problems`."""
-    if slot.choices:
-        return _choice(field, slot)
     if slot.kind is Kind.NAME:
         return field.text
-    if equation := Equation.match(field.text):
-        return equation
+    if slot.choices and (slot.kind is None or not _maybe_number(field.text)):
+        return _choice(field, slot)
+    return Equation.match(field.text) or _number(field, slot, problems)
+
+
+def _number(field: Field, slot: Slot, problems: list[Problem]) -> Value:
     number = read_number(field.text)
     if slot.kind is Kind.WHOLE:
         return _whole(field, number, slot)
@@ -53,6 +55,11 @@ def maybe_label(text: str) -> Label | None:
     if not text[:1].isalpha() or _not_finite(text):
         return None
     return Label.match("{" + text + "}")
+
+
+def _maybe_number(text: str) -> bool:
+    """Whether a text is a number or an equation, or was meant as one."""
+    return text.startswith("=") or read_number(text) is not None or _looks_numeric(text)
 
 
 def _looks_numeric(text: str) -> bool:
@@ -131,6 +138,7 @@ def _choice(field: Field, slot: Slot) -> str:
     if word in slot.choices:
         return word
     known = list(slot.choices)
+    known = [*(["a number"] if slot.kind else []), *known, *([layout(slot.row).wanted] if slot.row else [])]
     listed = ", ".join(known[:-1]) + f" or {known[-1]}" if len(known) > 1 else known[0]
     message = f"{shown(field.text)} is not allowed for {slot.label}: expected {listed}{suggestion(word, known)}"
     raise UnreadableError(Problem(SYN005, message, field.span))

@@ -50,7 +50,8 @@ def _items(record: Record) -> Iterator[list[str]]:
     for slot in found.slots:
         value = getattr(record, slot.name)
         setting = slot.about if isinstance(slot.about, Setting) else None
-        if pending and not (setting and setting.inline):
+        joins = bool(pending) and setting is not None and _joins(setting, pending)
+        if pending and not joins:
             yield [pending]
             pending = ""
         if slot in own_row:
@@ -60,7 +61,7 @@ def _items(record: Record) -> Iterator[list[str]]:
             continue
         elif setting:
             text = f"{setting.key}={_value(value)}"
-            pending = f"{pending}, {text}" if pending and setting.inline else f" {text}"
+            pending = f"{pending}, {text}" if joins else f" {text}"
         elif isinstance(slot.about, Rows):
             yield from ([line] for line in table_lines(value, slot))
         elif slot.record:
@@ -69,6 +70,11 @@ def _items(record: Record) -> Iterator[list[str]]:
             yield [f" {_value(value)}"]
     if pending:
         yield [pending]
+
+
+def _joins(setting: Setting, line: str) -> bool:
+    """Whether a setting goes on the line before it."""
+    return setting.inline and (not setting.behind or line.startswith(f" {setting.behind}="))
 
 
 def table_lines(table: Table, slot: Slot) -> Iterator[str]:

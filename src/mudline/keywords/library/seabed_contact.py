@@ -1,0 +1,56 @@
+"""`*SEABED CONTACT`: nodal normal stiffness and smoothing of the contact law (extension)."""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field
+
+from mudline.keywords.model import Block, Record, setting
+from mudline.keywords.values import Name, Real
+
+
+class ContactSet(Record):
+    """What one SET= gets, taken whole."""
+
+    rule: ClassVar[str] = "contact_set"
+    set_name: Annotated[Name, setting("SET", "element set")] = Field(alias="set")
+    nodal_stiffness: Annotated[
+        Real | None,
+        setting(
+            "NODAL STIFFNESS",
+            "normal stiffness of a node; replaces the stiffness or curve per unit length of this set",
+            unit="F/L",
+            at_least=0,
+        ),
+    ] = None
+    smoothing: Annotated[
+        Real | Literal["AUTO", "NONE"] | None,
+        setting(
+            "SMOOTHING",
+            "half width of the quadratic zone; AUTO takes the smaller of a tenth of the static penetration and a "
+            "hundredth of the diameter",
+            unit="L",
+            default="AUTO",
+            above=0,
+        ),
+    ] = None
+    form: Annotated[
+        Literal["CENTRED", "ONE-SIDED"] | None,
+        setting("FORM", "place of the quadratic zone: about the bed, or below it", default="CENTRED"),
+    ] = None
+
+
+class SeabedContact(Block):
+    """Nodal stiffness and smoothing by set."""
+
+    rule: ClassVar[str] = "seabed_contact"
+    names: ClassVar[tuple[str, ...]] = ("SEABED CONTACT",)
+    summary: ClassVar[str] = "Nodal normal stiffness, and smoothing of linear contact laws, by element set (extension)."
+    example: ClassVar[str] = "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=50000.0\n SMOOTHING=0.005\n FORM=CENTRED\n"
+
+    keyword: Literal["SEABED CONTACT"] = "SEABED CONTACT"
+    sets: list[ContactSet] = []
+
+
+BLOCK = SeabedContact

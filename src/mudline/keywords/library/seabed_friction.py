@@ -1,0 +1,65 @@
+"""`*SEABED FRICTION`: friction in two directions, each with its own limit (extension)."""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field
+
+from mudline.keywords.model import Block, Record, Row, about, setting
+from mudline.keywords.values import Name, Real
+
+
+class Coefficients(Row):
+    """Values of COEFFICIENTS=."""
+
+    first: Annotated[Real, about("friction coefficient along u1", unit="-", at_least=0)]
+    second: Annotated[Real, about("friction coefficient along u2", unit="-", at_least=0)]
+
+
+class TangentialStiffness(Row):
+    """Values of STIFFNESS=."""
+
+    first: Annotated[Real, about("tangential spring of a node along u1", unit="F/L", above=0)]
+    second: Annotated[
+        Real | None, about("tangential spring of a node along u2", unit="F/L", default="as along u1", above=0)
+    ] = None
+
+
+class FrictionSet(Record):
+    """What one SET= gets, taken whole."""
+
+    rule: ClassVar[str] = "friction_set"
+    set_name: Annotated[Name, setting("SET", "element set")] = Field(alias="set")
+    coefficients: Annotated[Coefficients, setting("COEFFICIENTS", "Coulomb coefficients")]
+    stiffness: Annotated[TangentialStiffness, setting("STIFFNESS", "tangential springs below the limit")]
+    directions: Annotated[
+        Real | Literal["AXIAL"] | None,
+        setting(
+            "DIRECTIONS",
+            "AXIAL: u1 along the line in the plane of the bed; an angle: u1 from +Y about the normal of the bed",
+            unit="deg",
+            default="AXIAL",
+        ),
+    ] = None
+    criterion: Annotated[
+        Literal["BOX", "ELLIPSE"] | None,
+        setting("CRITERION", "each direction by itself, or both on one ellipse", default="BOX"),
+    ] = None
+
+
+class SeabedFriction(Block):
+    """Friction by set."""
+
+    rule: ClassVar[str] = "seabed_friction"
+    names: ClassVar[tuple[str, ...]] = ("SEABED FRICTION",)
+    summary: ClassVar[str] = "Friction in two directions with constant tangential springs, by element set (extension)."
+    example: ClassVar[str] = (
+        "*SEABED FRICTION\n SET=ALL\n COEFFICIENTS=0.3, 0.6\n STIFFNESS=20000.0, 40000.0\n DIRECTIONS=AXIAL\n"
+    )
+
+    keyword: Literal["SEABED FRICTION"] = "SEABED FRICTION"
+    sets: list[FrictionSet] = []
+
+
+BLOCK = SeabedFriction

@@ -1,0 +1,71 @@
+"""`*SEABED PROFILE`: a bed that is not flat."""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field, model_validator
+
+from mudline.keywords.model import Block, setting
+from mudline.keywords.values import Name, Real
+
+_SETTINGS = ("INTERPOLATION", "SLOPE", "FILE")
+_NEEDS = {"SLOPING": ("SLOPE",), "2D": ("FILE",), "3D": ("FILE",)}
+_TAKES = {"SLOPING": ("SLOPE",), "2D": ("INTERPOLATION", "FILE"), "3D": ("INTERPOLATION", "FILE")}
+_CUBIC = {"2D": ("CUBIC SPLINE", "CUBIC BESSEL"), "3D": ("CUBIC",)}
+
+
+class SeabedProfile(Block):
+    """A slope, or a profile from a file."""
+
+    rule: ClassVar[str] = "seabed_profile"
+    names: ClassVar[tuple[str, ...]] = ("SEABED PROFILE",)
+    summary: ClassVar[str] = "A bed that is not flat: a uniform slope, or a profile from a file; without it X = 0."
+    example: ClassVar[str] = "*SEABED PROFILE\n TYPE=SLOPING\n DIRECTION=30.0\n SLOPE=2.5\n"
+
+    keyword: Literal["SEABED PROFILE"] = "SEABED PROFILE"
+    type_: Annotated[
+        Literal["SLOPING", "2D", "3D"], setting("TYPE", "uniform slope, profile in a plane, or surface")
+    ] = Field(alias="type")
+    interpolation: Annotated[
+        Literal["LINEAR", "CUBIC SPLINE", "CUBIC BESSEL", "CUBIC"] | None,
+        setting("INTERPOLATION", "between points: 2D takes CUBIC SPLINE and CUBIC BESSEL, 3D CUBIC", default="LINEAR"),
+    ] = None
+    direction: Annotated[
+        Real | None,
+        setting(
+            "DIRECTION",
+            "turns the profile counter-clockwise about X",
+            unit="deg",
+            default="0",
+            inline=True,
+            behind="INTERPOLATION",
+            inferred="described for an elastic bed; the turned coordinate is Y cos + Z sin",
+        ),
+    ] = None
+    slope: Annotated[
+        Real | None,
+        setting("SLOPE", "slope of a plane through the origin, positive when it rises towards +Y", unit="deg"),
+    ] = None
+    file: Annotated[
+        Name | None,
+        setting("FILE", "compiled profile (.fcsbd); a linear 2D one may be a text file of lines `Y, elevation`"),
+    ] = None
+
+    @model_validator(mode="after")
+    def _fits(self) -> SeabedProfile:
+        """Each type has its own settings."""
+        given = [key for key in _SETTINGS if getattr(self, key.lower()) is not None]
+        for key in _NEEDS[self.type_]:
+            if key not in given:
+                raise ValueError(f"TYPE={self.type_} needs {key}=")
+        for key in given:
+            if key not in _TAKES[self.type_]:
+                raise ValueError(f"TYPE={self.type_} takes no {key}=")
+        allowed = ("LINEAR", *_CUBIC.get(self.type_, ()))
+        if self.interpolation and self.interpolation not in allowed:
+            raise ValueError(f"TYPE={self.type_} takes INTERPOLATION={' or '.join(allowed)}, not {self.interpolation}")
+        return self
+
+
+BLOCK = SeabedProfile

@@ -1,0 +1,79 @@
+"""`*SEABED SUCTION`: resistance of the seabed to uplift (extension)."""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field
+
+from mudline.keywords.model import Block, Record, Row, about, setting
+from mudline.keywords.values import Name, Real
+
+
+class MaximumForce(Row):
+    """Values of FORCE=: largest suction per unit length, factor times velocity to a power."""
+
+    factor: Annotated[Real, about("factor of the largest suction force per unit length", unit="F/L", at_least=0)]
+    exponent: Annotated[Real, about("power of the pull-out velocity", unit="-", at_least=0)]
+
+
+class SuctionDepth(Row):
+    """Values of DEPTH=: uplift at breakout, factor times velocity to a power."""
+
+    factor: Annotated[Real, about("factor of the uplift at breakout", unit="L", above=0)]
+    exponent: Annotated[Real, about("power of the pull-out velocity", unit="-", at_least=0)]
+
+
+class CutOff(Row):
+    """Values of CUTOFF=: corners of the trapezoid as fractions of the uplift at breakout."""
+
+    first: Annotated[Real, about("end of the rise", unit="-", default="0.2")]
+    second: Annotated[Real, about("begin of the fall", unit="-", default="0.8")]
+
+
+class SuctionSet(Record):
+    """What one SET= gets, taken whole."""
+
+    rule: ClassVar[str] = "suction_set"
+    set_name: Annotated[Name, setting("SET", "element set")] = Field(alias="set")
+    cohesion: Annotated[
+        Real | None,
+        setting(
+            "COHESION",
+            "undrained shear strength of the soil; gives force and depth after Bridge et al. (2004)",
+            unit="F/L2",
+            at_least=0,
+        ),
+    ] = None
+    force: Annotated[MaximumForce | None, setting("FORCE", "law of the largest suction force")] = None
+    depth: Annotated[SuctionDepth | None, setting("DEPTH", "law of the uplift at breakout")] = None
+    cutoff: Annotated[CutOff | None, setting("CUTOFF", "corners of the trapezoid", default="0.2, 0.8")] = None
+    cyclic: Annotated[
+        Real | None,
+        setting("CYCLIC", "factor on the largest force for cyclic loading", unit="-", default="1", at_least=0),
+    ] = None
+    regularisation: Annotated[
+        Real | None,
+        setting(
+            "REGULARISATION",
+            "velocity below which the law of the largest force is capped",
+            unit="L/T",
+            default="1e-3 m/s",
+            above=0,
+        ),
+    ] = None
+
+
+class SeabedSuction(Block):
+    """Suction by set."""
+
+    rule: ClassVar[str] = "seabed_suction"
+    names: ClassVar[tuple[str, ...]] = ("SEABED SUCTION",)
+    summary: ClassVar[str] = "Resistance of the seabed to uplift, with mobilisation, plateau and breakout (extension)."
+    example: ClassVar[str] = "*SEABED SUCTION\n SET=ALL\n COHESION=5000.0\n CUTOFF=0.2, 0.8\n"
+
+    keyword: Literal["SEABED SUCTION"] = "SEABED SUCTION"
+    sets: list[SuctionSet] = []
+
+
+BLOCK = SeabedSuction

@@ -1,0 +1,38 @@
+"""`*SEABED UNLOADING`: the path of the reaction on reversal (extension)."""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field
+
+from mudline.keywords.model import Block, Record, setting
+from mudline.keywords.values import Name, Real
+
+
+class UnloadingSet(Record):
+    """What one SET= gets."""
+
+    rule: ClassVar[str] = "unloading_set"
+    set_name: Annotated[Name, setting("SET", "element set")] = Field(alias="set")
+    stiffness: Annotated[
+        Real,
+        setting("STIFFNESS", "stiffness of unloading and reloading per unit length", unit="F/L2"),
+    ]
+
+
+class SeabedUnloading(Block):
+    """Unloading stiffness by set."""
+
+    rule: ClassVar[str] = "seabed_unloading"
+    names: ClassVar[tuple[str, ...]] = ("SEABED UNLOADING",)
+    summary: ClassVar[str] = (
+        "The full cycle of penetration, unloading and re-penetration: stiffness on reversal (extension)."
+    )
+    example: ClassVar[str] = "*SEABED UNLOADING\n SET=ALL\n STIFFNESS=500000.0\n"
+
+    keyword: Literal["SEABED UNLOADING"] = "SEABED UNLOADING"
+    sets: list[UnloadingSet] = []
+
+
+BLOCK = SeabedUnloading
