@@ -195,7 +195,7 @@ def test_equations_and_opaque_lines_stay_as_written() -> None:
     assert dump(deck, "keyword") == text
     assert json.loads(dump(deck, "json"))["sections"][0]["blocks"] == [
         {"keyword": "OCEAN", "depth": "=[ a +  B*( c ) ]", "density": 1025.0},
-        {"keyword": "SEABED PROFILE", "lines": lines[2:]},
+        {"keyword": "HYDRODYNAMIC SETS", "lines": lines[2:]},
     ]
 
 
