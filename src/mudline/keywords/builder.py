@@ -161,6 +161,9 @@ class Builder:
             self.lost += issubclass(slot.row, ListRow) and path[:-1] in self.places.damaged
             built.values[slot.json] = self._row_values(slot.row, fields, path)
             return
+        if slot.many and any(given.text for given in fields):
+            built.values[slot.json] = self._list(slot, fields, path)
+            return
         while len(fields) > 1 and not fields[-1].text:
             fields.pop()
         if len(fields) > 1:
