@@ -166,7 +166,7 @@ def test_a_plain_deck_leaves_nothing_out() -> None:
 def test_what_is_not_evaluated_is_said_by_stage() -> None:
     found = left_out(
         " FRICTION=0.3, 0.4\n LATERAL=5\n SUCTION=5\n SET=ALL\n STIFFNESS=Clay\n FRICTION=0.3\n"
-        "*SEABED PROFILE\n TYPE=SLOPING\n SLOPE=3\n*SEABED TRENCH\n SET=ALL\n"
+        "*SEABED PROFILE\n TYPE=SLOPING\n SLOPE=3\n*SEABED TRENCH\n SET=ALL\n GEOMETRY=1, 2, 3\n PEAK=5\n"
     )
     assert found == {
         "floor": "one flat bed at X = 0; not evaluated in this version: *SEABED PROFILE",

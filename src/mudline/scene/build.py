@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from mudline.deck.evaluation import evaluated
 from mudline.deck.model import Deck
+from mudline.scene.bed import read_bed
 from mudline.scene.context import Context
 from mudline.scene.elements import read_elements
+from mudline.scene.extensions import read_extensions
 from mudline.scene.external import ExternalElements
+from mudline.scene.floor import read_floor
 from mudline.scene.force_curves import read_curves
 from mudline.scene.law_checks import check_diameters, check_laws
 from mudline.scene.laws import read_laws
@@ -33,7 +36,10 @@ def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:
     sections = read_sections(context, sets, elements.numbered, external)
     named, by_set = read_curves(context)
     laws = read_laws(context, sets, named, by_set, count)
+    bed = read_bed(context, laws)
+    extensions = read_extensions(context, sets, count)
+    floor = read_floor(context)
     check_laws(context, laws)
     check_diameters(context, laws, sections, elements.numbered)
     check_ranges(context)
-    return Scene(ready, nodes, elements, sets, sections, laws, context.problems)
+    return Scene(ready, nodes, elements, sets, sections, laws, bed, extensions, floor, context.problems)

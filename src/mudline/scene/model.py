@@ -15,8 +15,11 @@ from mudline.contact.model import ContactModel
 from mudline.deck.model import Deck
 from mudline.deck.parameters import folded
 from mudline.diagnostics import DeckError, Problem, Severity
+from mudline.scene.bed import Bed
 from mudline.scene.context import Context
 from mudline.scene.elements import ElementTable
+from mudline.scene.extensions import Extension
+from mudline.scene.floor import Floor
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.laws import Grant, LawTable
 from mudline.scene.left_out import left_out
@@ -45,6 +48,9 @@ class Scene:
     set_table: Sets
     section_table: SectionTable
     laws: LawTable
+    bed: Bed
+    extensions: dict[str, Extension]
+    floor: Floor
     problems: list[Problem]
 
     @property

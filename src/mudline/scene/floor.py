@@ -1,0 +1,159 @@
+"""The shape of the bed that a deck describes: flat, a slope, a profile, a surface or planes."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from enum import Enum
+from pathlib import Path
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+
+from mudline.codes import SBD023
+from mudline.diagnostics import Where
+from mudline.keywords.text import shown
+from mudline.scene.context import Context
+from mudline.scene.deck_files import file_name, find_file
+from mudline.scene.numbering import Floats
+from mudline.scene.profile_file import COMPILED, ProfileError, read_profile
+
+if TYPE_CHECKING:
+    from mudline.keywords.common import Surface
+    from mudline.keywords.library.seabed_planes import Plane, SeabedPlanes
+    from mudline.keywords.library.seabed_profile import SeabedProfile
+    from mudline.keywords.model import Part
+
+_NO_POINTS = np.zeros((0, 2))
+
+
+class FloorKind(Enum):
+    """How the bed is given."""
+
+    FLAT = "flat"
+    SLOPING = "sloping"
+    PROFILE = "2D profile"
+    SURFACE = "3D surface"
+    PLANES = "planes"
+
+
+@dataclass(frozen=True, slots=True)
+class FloorPlane:
+    """A plane: a point (elevation, Y, Z), slope and direction in degrees, bounds (Y and Z, infinite where open)."""
+
+    name: str
+    point: tuple[float, float, float]
+    slope: float
+    direction: float
+    bounds: tuple[float, float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Floor:
+    """The bed, angles in degrees, lengths in the deck's units.
+
+    `points` (k, 2) are Y and elevation of a profile, (k, 3) elevation, Y and Z of a surface, in the order of the deck.
+    `missing` says why they are not known, "" when they are.
+    """
+
+    kind: FloorKind = FloorKind.FLAT
+    slope: float = 0.0
+    direction: float = 0.0
+    interpolation: str = "LINEAR"
+    points: Floats = field(default_factory=lambda: _NO_POINTS)
+    planes: tuple[FloorPlane, ...] = ()
+    file: str = ""
+    missing: str = ""
+    where: Where = field(default_factory=Where)
+
+    def same(self, other: Floor) -> bool:
+        """Whether both are the same bed, number by number; files of points that are not known must be the same file."""
+        return (
+            (self.kind, self.slope, self.direction, self.interpolation, self.planes, self.missing)
+            == (other.kind, other.slope, other.direction, other.interpolation, other.planes, other.missing)
+            and np.array_equal(self.points, other.points)
+            and (not self.missing or self.file == other.file)
+        )
+
+
+def read_floor(context: Context) -> Floor:
+    """The bed of a deck: the last `*SEABED PLANES`, else the last `*SEABED PROFILE`, else that of the surface."""
+    found = Floor()
+    for keyword in ("RIGID SURFACE", "ELASTIC SURFACE"):
+        for where, block in context.deck.blocks(keyword):
+            found = _surface(cast("Surface", block), where, found)
+    for where, block in context.deck.blocks("SEABED PROFILE"):
+        found = _profile(context, cast("SeabedProfile", block), where)
+    planes = [
+        _plane(plane)
+        for _, block in context.deck.blocks("SEABED PLANES")
+        for plane in cast("SeabedPlanes", block).planes
+    ]
+    if planes:
+        where = next(where for where, _ in context.deck.blocks("SEABED PLANES"))
+        found = Floor(FloorKind.PLANES, planes=tuple(planes), where=where)
+    return found
+
+
+def _number(part: Part | None, name: str, default: float = math.nan) -> float:
+    value = getattr(part, name, None)
+    return float(value) if isinstance(value, float | int) else default
+
+
+def _surface(surface: Surface, where: Where, before: Floor) -> Floor:
+    if surface.profile is not None:
+        points = np.column_stack([surface.profile.column(0), surface.profile.column(1)])
+        return Floor(FloorKind.PROFILE, points=points, where=where._replace(path=("profile",)))
+    if surface.slope is not None:
+        return Floor(FloorKind.SLOPING, _number(surface, "slope"), where=where._replace(path=("slope",)))
+    return before
+
+
+def _profile(context: Context, block: SeabedProfile, where: Where) -> Floor:
+    direction = _number(block, "direction", 0.0)
+    if block.type_ == "SLOPING":
+        return Floor(FloorKind.SLOPING, _number(block, "slope"), direction, where=where)
+    kind, columns = (FloorKind.SURFACE, 3) if block.type_ == "3D" else (FloorKind.PROFILE, 2)
+    name = file_name(block.file or "")
+    points, missing = _points(context, name, columns, where._replace(path=("file",)))
+    return Floor(
+        kind,
+        direction=direction,
+        interpolation=block.interpolation or "LINEAR",
+        points=points,
+        file=name,
+        missing=missing,
+        where=where,
+    )
+
+
+def _points(context: Context, name: str, columns: int, where: Where) -> tuple[Floats, str]:
+    """The points of a file, or why they are not known; a file that is not there is told elsewhere."""
+    path = find_file(context.deck.folder, name)
+    try:
+        if path is None and not name.lower().endswith(COMPILED):
+            return _NO_POINTS, f"{shown(name)} is not there"
+        return read_profile(path or Path(name), columns), ""
+    except ProfileError as fault:
+        context.tell(SBD023, f"the profile {shown(name)} cannot be read: {fault}", where)
+        return _NO_POINTS, str(fault)
+    except OSError as error:
+        context.tell(SBD023, f"the profile {shown(name)} cannot be read: {error.strerror}", where)
+        return _NO_POINTS, str(error.strerror)
+
+
+def _plane(plane: Plane) -> FloorPlane:
+    point = tuple(_number(plane.point, axis) for axis in ("x", "y", "z"))
+    bounds = plane.bounds
+    return FloorPlane(
+        plane.name,
+        cast("tuple[float, float, float]", point),
+        _number(plane, "slope"),
+        _number(plane, "direction", 0.0),
+        (
+            _number(bounds, "y_min", -math.inf),
+            _number(bounds, "y_max", math.inf),
+            _number(bounds, "z_min", -math.inf),
+            _number(bounds, "z_max", math.inf),
+        ),
+    )
