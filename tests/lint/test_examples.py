@@ -93,6 +93,7 @@ SBD019 short-mobilisation W
 SBD020 unused-characteristic-length I
 SBD021 one-constrained-dof W
 SBD022 deep-node W
+SBD023 unreadable-profile W
 EXT001 extension-needs-elastic E
 EXT002 floor-conflict E
 EXT003 bad-trench E

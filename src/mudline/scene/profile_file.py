@@ -28,7 +28,9 @@ def read_profile(path: Path, columns: int) -> Floats:
     a compiled file and for the first line that is no point.
     """
     if path.suffix.lower() == COMPILED:
-        raise ProfileError(f"a compiled profile ({COMPILED}) is binary, and its format is not public: it is not read")
+        raise ProfileError(
+            f"a compiled profile ({COMPILED}) is binary and not public: it is kept; give a text file to have it read"
+        )
     if path.stat().st_size > LARGEST_FILE:
         raise ProfileError(f"the file has more than {LARGEST_FILE // 10**6} million bytes: is it a profile?")
     return parse_profile(path.read_bytes(), path.name, columns)

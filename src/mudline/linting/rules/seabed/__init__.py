@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from mudline.linting.rules.seabed import restraint, types, values
+from mudline.linting.rules.seabed import profile, restraint, types, values
 
-__all__ = ["restraint", "types", "values"]
+__all__ = ["profile", "restraint", "types", "values"]
