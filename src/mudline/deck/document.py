@@ -12,6 +12,7 @@ from mudline.codes import DOC001, DOC002
 from mudline.deck.model import START, Deck, Opaque, Range, Section
 from mudline.diagnostics import DeckError, Diagnostic, Problem, Where
 from mudline.keywords import catalogue
+from mudline.keywords.listing import AS_TABLES
 from mudline.keywords.model import Block, Comment
 from mudline.syntax.tree import canonical_name
 
@@ -27,7 +28,7 @@ _LINES = TypeAdapter(list[str])
 
 
 def to_document(deck: Deck) -> Document:
-    """The deck as dicts and lists; empty things are left out."""
+    """The deck as dicts and lists, its tables as listings; empty things are left out."""
     document: Document = {"format": FORMAT, "source": deck.source, "units": deck.units}
     if deck.preamble:
         document["preamble"] = deck.preamble
@@ -45,7 +46,7 @@ def _section(section: Section) -> Document:
 
 
 def _block(block: Block | Opaque) -> Document:
-    values = block.model_dump(mode="json", exclude_unset=True)
+    values = block.model_dump(exclude_unset=True, context=AS_TABLES)
     return {"keyword": values.pop("keyword"), **values}
 
 

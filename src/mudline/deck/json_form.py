@@ -11,6 +11,7 @@ from pydantic_core import to_json as compact
 from mudline.deck.document import decoded, from_document, refusal, to_document
 from mudline.deck.model import Deck, Range
 from mudline.deck.node_places import compose_json, locator
+from mudline.keywords.listing import Listing
 
 _INDENT = " "
 
@@ -29,6 +30,12 @@ def _pretty(value: Any, indent: str) -> Iterator[str]:
             yield from _pretty(item, inner)
             mark = ",\n"
         yield f"\n{indent}}}"
+    elif isinstance(value, Listing) and len(value):
+        mark = f"[\n{inner}["
+        for piece in value.lines(_cells):
+            yield mark + piece.replace("\n", f"],\n{inner}[")
+            mark = f"],\n{inner}["
+        yield f"]\n{indent}]"
     elif isinstance(value, list) and value and isinstance(value[0], dict | list):
         mark = "[\n"
         for item in value:
@@ -41,10 +48,14 @@ def _pretty(value: Any, indent: str) -> Iterator[str]:
 
 
 def _inline(value: Any) -> str:
-    """A scalar, or a list of scalars, on one line."""
-    if isinstance(value, list):
-        return "[" + ", ".join(_inline(item) for item in value) + "]"
+    """A scalar, a list of scalars, or a table without rows, on one line."""
+    if isinstance(value, list | Listing):
+        return f"[{_cells(value)}]" if isinstance(value, list) else "[]"
     return compact(value, inf_nan_mode="constants").decode()
+
+
+def _cells(row: list[Any]) -> str:
+    return ", ".join(map(_inline, row))
 
 
 def write(deck: Deck) -> str:

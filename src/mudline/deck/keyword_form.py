@@ -11,7 +11,7 @@ from mudline.keywords.writer import block_lines
 
 def to_keyword(deck: Deck) -> str:
     """The deck as keyword text with LF line ends; blank lines and the spelling of numbers are not carried."""
-    return "".join(f"{line}\n" for line in _lines(deck))
+    return "\n".join([*_lines(deck), ""])
 
 
 def write(deck: Deck) -> str:

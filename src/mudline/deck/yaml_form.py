@@ -11,6 +11,7 @@ from mudline.deck.model import Deck
 from mudline.deck.node_places import locator, mark_range
 from mudline.deck.yaml_core import CoreDumper, CoreLoader, scalar
 from mudline.diagnostics import DeckError
+from mudline.keywords.listing import Listing
 from mudline.keywords.writer import joined
 
 DEEPEST = 100
@@ -53,15 +54,21 @@ def _node(value: Any) -> Any:
     """The document with its tables and rows marked for the dumper."""
     if isinstance(value, dict):
         return {key: _node(item) for key, item in value.items()}
+    if isinstance(value, Listing):
+        return _table(value)
     if not isinstance(value, list) or not value:
         return value
-    if isinstance(value[0], list) and len(value) > SHORT_TABLE:
-        return _Literal("".join(f"{joined(row)}\n" for row in value))
     if isinstance(value[0], str):
         return value
     if isinstance(value[0], dict | list):
         return [_node(item) for item in value]
     return _Flow(value)
+
+
+def _table(listing: Listing) -> Any:
+    if len(listing) > SHORT_TABLE:
+        return _Literal("".join(f"{piece}\n" for piece in listing.lines(joined)))
+    return [_Flow(row) for row in listing.rows()]
 
 
 def write(deck: Deck) -> str:

@@ -13,13 +13,15 @@ from pydantic import (
     Field,
     GetCoreSchemaHandler,
     GetJsonSchemaHandler,
+    SerializationInfo,
     model_serializer,
     model_validator,
 )
 from pydantic.fields import FieldInfo
 from pydantic_core import CoreSchema, core_schema
 
-from mudline.keywords.table import Column, Table, from_cells, from_text
+from mudline.keywords.listing import AS_TABLES, Listing, read_table
+from mudline.keywords.table import Cell, Column, Table
 from mudline.keywords.values import Equation, Integer, Kind, Label, Text
 
 
@@ -58,26 +60,16 @@ class Rows(About):
         return table_columns(self.row) if self.row else []
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        cell = core_schema.union_schema(
-            [
-                core_schema.float_schema(strict=True, allow_inf_nan=False),
-                core_schema.str_schema(strict=True),
-                core_schema.none_schema(),
-            ],
-            mode="left_to_right",
+        return core_schema.no_info_plain_validator_function(
+            lambda given: read_table(given, self.columns()),
+            serialization=core_schema.plain_serializer_function_ser_schema(self._written, info_arg=True),
         )
-        cells = core_schema.list_schema(core_schema.list_schema(cell, strict=True), strict=True)
-        return core_schema.union_schema(
-            [
-                core_schema.is_instance_schema(Table),
-                core_schema.no_info_after_validator_function(lambda given: from_cells(given, self.columns()), cells),
-                core_schema.no_info_after_validator_function(
-                    lambda given: from_text(given, self.columns()), core_schema.str_schema(strict=True)
-                ),
-            ],
-            mode="left_to_right",
-            serialization=core_schema.plain_serializer_function_ser_schema(lambda table: table.rows(self.columns())),
-        )
+
+    def _written(self, table: Table | None, info: SerializationInfo) -> Listing | list[list[Cell]] | None:
+        if table is None:  # of a block that could not be read
+            return None
+        listing = Listing(table, self.columns())
+        return listing if info.context == AS_TABLES else listing.rows()
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         columns = self.columns()
@@ -155,7 +147,8 @@ class ListRow(Row):
     @model_serializer
     def _to_list(self) -> list[object]:
         given = [slot.name for slot in layout(type(self)).columns if slot.name in self.model_fields_set]
-        return [getattr(self, name) for name in given]
+        values = (getattr(self, name) for name in given)
+        return [str(value) if isinstance(value, str) else value for value in values]
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:

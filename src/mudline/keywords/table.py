@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Iterator, Sequence
+from itertools import chain
+from typing import NamedTuple, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,22 @@ from mudline.syntax.rows import read_rows
 
 Cell = float | int | str | None
 LARGEST_WHOLE = 2.0**53
+_PART = 8192
+
+
+class CellError(ValueError):
+    """A cell or, without a column, a row of a list that a table cannot hold."""
+
+    def __init__(self, message: str, row: int, column: int | None = None) -> None:
+        self.place = (row,) if column is None else (row, column)
+        super().__init__(message)
+
+
+class Part(NamedTuple):
+    """Some rows of a table as lists; `plain`: all cells are numbers, all rows as long as the table is wide."""
+
+    rows: list[list[Cell]]
+    plain: bool
 
 
 class Column(NamedTuple):
@@ -96,57 +113,106 @@ class Table:
 
     def rows(self, columns: Sequence[Column]) -> list[list[Cell]]:
         """The rows as lists: whole numbers as int, empty fields None, equations and labels as text."""
-        width = self.values.shape[1]
-        lists: list[list[Cell]] = []
-        bad = np.isnan(self.values)
-        for index in range(width):
-            whole = columns[index].whole and not bad[:, index].any()
-            lists.append(self.values[:, index].astype(np.int64).tolist() if whole else self.values[:, index].tolist())
-        found = [list(row) for row in zip(*lists, strict=True)]
-        if self.words or (self.lengths != width).any():
-            for (row, column), word in self.words.items():
-                found[row][column] = None if word is None else str(word)
-            for row, length in enumerate(self.lengths.tolist()):
-                del found[row][length:]
-                for column in range(length):
-                    cell = found[row][column]
-                    if columns[column].whole and isinstance(cell, float) and cell.is_integer():
-                        found[row][column] = int(cell)
-        return found
+        return [row for part in self.parts(columns) for row in part.rows]
+
+    def parts(self, columns: Sequence[Column]) -> Iterator[Part]:
+        """The rows as lists, some thousand at a time."""
+        odd = (self.lengths != self.values.shape[1]) | np.isnan(self.values).any(axis=1)
+        words: dict[int, list[tuple[int, int]]] = {}
+        for place in self.words:
+            words.setdefault(place[0] // _PART, []).append(place)
+        for number, start in enumerate(range(0, len(self), _PART)):
+            part = slice(start, start + _PART)
+            plain = not odd[part].any()
+            rows = _lists(self.values[part], columns)
+            if not plain:
+                for row, column in words.get(number, ()):
+                    word = self.words[row, column]
+                    rows[row - start][column] = None if word is None else str(word)
+                for cells, length in zip(rows, self.lengths[part].tolist(), strict=True):
+                    del cells[length:]
+            yield Part(rows, plain)
 
 
-def from_cells(cells: Sequence[Sequence[Cell]], columns: Sequence[Column]) -> Table:
-    """A table from lists, as JSON holds them. Raises ValueError naming row and column."""
-    width = max((len(row) for row in cells), default=0)
-    values = np.full((len(cells), width), math.nan)
-    lengths = np.fromiter((len(row) for row in cells), dtype=np.intp, count=len(cells))
-    words: dict[tuple[int, int], Equation | Label | None] = {}
-    fewest = _fewest(columns)
-    if width > len(columns) or (len(cells) and int(lengths.min()) < fewest):
+def _lists(values: NDArray[np.float64], columns: Sequence[Column]) -> list[list[Cell]]:
+    """Rows of numbers as lists."""
+    whole = [column.whole for column in columns[: values.shape[1]]]
+    if not any(whole):
+        return cast("list[list[Cell]]", values.tolist())
+    by_column: list[list[Cell]] = []
+    for column, needed in zip(values.T, whole, strict=True):
+        exact = needed and not np.isnan(column).any()
+        cells = (column.astype(np.int64) if exact else column).tolist()
+        by_column.append([cell if math.isnan(cell) else int(cell) for cell in cells] if needed and not exact else cells)
+    return [list(row) for row in zip(*by_column, strict=True)]
+
+
+def from_cells(cells: list[object], columns: Sequence[Column]) -> Table:
+    """A table from lists, as JSON holds them. Raises CellError for the first row or cell that does not fit."""
+    for row, fields in enumerate(cells):
+        if type(fields) is not list:
+            raise CellError(f"expected a row: a list of {_count(columns)} values", row)
+    rows = cast("list[list[object]]", cells)
+    lengths = np.fromiter(map(len, rows), dtype=np.intp, count=len(rows))
+    fewest, width = _fewest(columns), int(lengths.max(initial=0))
+    if width > len(columns) or (len(rows) and int(lengths.min()) < fewest):
         row = int(np.flatnonzero((lengths > len(columns)) | (lengths < fewest))[0])
-        raise ValueError(f"row {row}: {_fields(lengths[row])}, expected {_count(columns)}")
-    if len(cells) and int(lengths.min()) == width and _all_numbers(cells):
-        values = np.array(cells, dtype=np.float64).reshape(len(cells), width)
-    else:
-        for row, fields in enumerate(cells):
-            for column, cell in enumerate(fields):
-                if isinstance(cell, int | float):
-                    values[row, column] = cell
-                    continue
-                if fault := columns[column].fault(cell or ""):
-                    raise ValueError(f"row {row}, column {column}: {fault}")
-                words[row, column] = _word(cell or "")
-    table = Table(values, lengths, words)
+        raise CellError(f"{_fields(lengths[row])}, expected {_count(columns)}", row)
+    table = _numbers(rows, lengths, width) or _cells(rows, lengths, width, columns)
     for (row, column), fault in _not_whole(table, columns).items():
-        raise ValueError(f"row {row}, column {column}: {fault}")
+        raise CellError(fault, row, column)
     return table
 
 
+def _numbers(rows: list[list[object]], lengths: NDArray[np.intp], width: int) -> Table | None:
+    """The table of rows that hold finite numbers only; None for others."""
+    if not set(map(type, chain.from_iterable(rows))) <= {int, float}:
+        return None
+    try:
+        flat = np.fromiter(chain.from_iterable(rows), dtype=np.float64, count=int(lengths.sum()))
+    except OverflowError:
+        return None
+    if not np.isfinite(flat).all():
+        return None
+    if len(flat) == len(rows) * width:
+        return Table(flat.reshape(len(rows), width), lengths)
+    values = np.full((len(rows), width), math.nan)
+    values[np.arange(width) < lengths[:, np.newaxis]] = flat
+    return Table(values, lengths)
+
+
+def _cells(rows: list[list[object]], lengths: NDArray[np.intp], width: int, columns: Sequence[Column]) -> Table:
+    """The table of rows among whose cells are words."""
+    values = np.full((len(rows), width), math.nan)
+    words: dict[tuple[int, int], Equation | Label | None] = {}
+    for row, fields in enumerate(rows):
+        for column, cell in enumerate(fields):
+            if isinstance(cell, int | float) and not isinstance(cell, bool):
+                values[row, column] = _finite(cell, row, column)
+            elif cell is not None and (not isinstance(cell, str) or not cell):
+                raise CellError(f"{cell!r} cannot stand here: expected {columns[column].kind.value}", row, column)
+            elif fault := columns[column].fault(cell or ""):
+                raise CellError(fault, row, column)
+            else:
+                words[row, column] = _word(cell or "")
+    return Table(values, lengths, words)
+
+
+def _finite(cell: float, row: int, column: int) -> float:
+    try:
+        value = float(cell)
+    except OverflowError:
+        value = math.inf
+    if not math.isfinite(value):
+        raise CellError("the number is not finite, or too large for double precision", row, column)
+    return value
+
+
 def from_text(text: str, columns: Sequence[Column]) -> Table:
-    """A table from a block of rows, as YAML holds a long one. Raises ValueError naming row and column."""
+    """A table from a block of rows, as YAML holds a long one. Raises CellError for the first fault."""
     table, faults = from_rows(read_rows(text, Span(0, len(text)), len(columns)), columns)
     for (row, column), fault in sorted(faults.items()):
-        raise ValueError(f"row {row}, column {column}: {fault}" if column >= 0 else f"row {row}: {fault}")
+        raise CellError(fault, row, column if column >= 0 else None)
     return table
 
 
@@ -186,10 +252,6 @@ def _fields(count: int) -> str:
 def _count(columns: Sequence[Column]) -> str:
     fewest, most = _fewest(columns), len(columns)
     return f"{fewest}" if fewest == most else f"{fewest} to {most}"
-
-
-def _all_numbers(cells: Sequence[Sequence[Cell]]) -> bool:
-    return {type(cell) for row in cells for cell in row} <= {int, float}
 
 
 def _not_whole(table: Table, columns: Sequence[Column]) -> dict[tuple[int, int], str]:

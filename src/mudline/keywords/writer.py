@@ -6,8 +6,14 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
+from pydantic_core import to_json
+
+from mudline.keywords.listing import Listing
 from mudline.keywords.model import Block, Part, Record, Rows, Setting, Slot, columns_of, layout
 from mudline.keywords.table import Cell, Table
+
+Item = tuple[list[str], int]
+"""Lines that comments can stand before, and how many items they count for: a line each of a table, else one."""
 
 
 def block_lines(block: Block) -> Iterator[str]:
@@ -20,7 +26,7 @@ def _record_lines(record: Record) -> Iterator[str]:
     """The opening setting of a record, if its first field is one, then its items."""
     items = list(_items(record))
     if _opens(record) and items:
-        yield from items.pop(0)
+        yield from items.pop(0)[0]
     yield from _with_comments(record, items)
 
 
@@ -30,19 +36,24 @@ def _opens(record: Record) -> bool:
     return first is not None and isinstance(first.about, Setting)
 
 
-def _with_comments(record: Record, items: list[list[str]]) -> Iterator[str]:
+def _with_comments(record: Record, items: list[Item]) -> Iterator[str]:
     comments = sorted(record.comments, key=lambda comment: comment.before)
-    at = 0
-    for index, lines in enumerate(items):
-        while at < len(comments) and comments[at].before <= index:
+    at = index = 0
+    for lines, count in items:
+        done = 0
+        while at < len(comments) and comments[at].before < index + count:
+            before = max(comments[at].before - index, done)
+            yield from lines[done:before]
             yield f"C{comments[at].text}"
+            done = before
             at += 1
-        yield from lines
+        yield from lines[done:] if done else lines
+        index += count
     yield from (f"C{comment.text}" for comment in comments[at:])
 
 
-def _items(record: Record) -> Iterator[list[str]]:
-    """The items of a record in the order of its fields: a line each, or the lines of a record below it."""
+def _items(record: Record) -> Iterator[Item]:
+    """The items of a record in the order of its fields: a line each, a record below it, rows of a table."""
     found = layout(type(record))
     plain = [slot for slot in found.columns if not slot.row]
     own_row = plain if len(plain) == len(found.columns) else []
@@ -52,24 +63,24 @@ def _items(record: Record) -> Iterator[list[str]]:
         setting = slot.about if isinstance(slot.about, Setting) else None
         joins = bool(pending) and setting is not None and _joins(setting, pending)
         if pending and not joins:
-            yield [pending]
+            yield [pending], 1
             pending = ""
         if slot in own_row:
             if slot is own_row[0]:
-                yield [" " + _row(record, own_row)]
+                yield [" " + _row(record, own_row)], 1
         elif value is None:
             continue
         elif setting:
             text = f"{setting.key}={_value(value)}"
             pending = f"{pending}, {text}" if joins else f" {text}"
         elif isinstance(slot.about, Rows):
-            yield from ([line] for line in table_lines(value, slot))
+            yield from ((lines, len(lines)) for lines in table_lines(value, slot))
         elif slot.record:
-            yield from (list(_record_lines(child)) for child in value)
+            yield from ((list(_record_lines(child)), 1) for child in value)
         else:
-            yield [f" {_value(value)}"]
+            yield [f" {_value(value)}"], 1
     if pending:
-        yield [pending]
+        yield [pending], 1
 
 
 def _joins(setting: Setting, line: str) -> bool:
@@ -77,10 +88,10 @@ def _joins(setting: Setting, line: str) -> bool:
     return setting.inline and (not setting.behind or line.startswith(f" {setting.behind}="))
 
 
-def table_lines(table: Table, slot: Slot) -> Iterator[str]:
-    """The rows of a table, one a line."""
-    for row in table.rows(columns_of(slot)):
-        yield " " + joined(row)
+def table_lines(table: Table, slot: Slot) -> Iterator[list[str]]:
+    """The rows of a table, one a line, some thousand at a time."""
+    for piece in Listing(table, columns_of(slot)).lines(joined):
+        yield f" {piece}".replace("\n", "\n ").split("\n")
 
 
 def _value(value: Any) -> str:
@@ -110,4 +121,4 @@ def field_text(value: Cell) -> str:
     """A field: the shortest number that reads back to the same double, text as it is, nothing for an empty field."""
     if value is None or (isinstance(value, float) and math.isnan(value)):
         return ""
-    return repr(value) if isinstance(value, float | int) else str(value)
+    return to_json(value).decode() if isinstance(value, float | int) else str(value)
