@@ -6,6 +6,7 @@ from functools import cache
 from importlib import import_module
 from typing import cast
 
+from mudline.keywords.kept import Kept
 from mudline.keywords.model import Block
 
 _LIBRARY = "mudline.keywords.library"
@@ -37,6 +38,8 @@ _MODULES = {
     ("MODEL", "NODE"): "node",
     ("MODEL", "ELEMENT"): "element",
     ("MODEL", "ELEMENT SETS"): "element_sets",
+    ("MODEL", "LINE SECTION GROUPS"): "line_section_groups",
+    ("MODEL", "LINE PATH SECTIONS"): "line_path_sections",
     ("MODEL", "GEOMETRIC SETS"): "geometric_sets",
     ("MODEL", "SEABED PROPERTIES"): "seabed_properties",
     ("MODEL", "SEABED STIFFNESS"): "seabed_stiffness",
@@ -52,6 +55,15 @@ _MODULES = {
     ("MODEL", "RIGID SURFACE"): "rigid_surface",
 }
 
+_KEPT = {
+    ("MODEL", "LINES"): "lines",
+    ("MODEL", "LINE LOCATIONS"): "line_locations",
+    ("MODEL", "LINE PATHS"): "line_paths",
+    ("MODEL", "CABLE"): "cable",
+    ("MODEL", "NODE,CURVILINEAR"): "node_curvilinear",
+}
+"""Keywords whose lines are kept, and of which a module says what they are for."""
+
 _POST = ("DATABASE POSTPROCESSING", "POSTPROCESSING")
 _ANY: tuple[str, ...] = ()
 
@@ -61,13 +73,6 @@ _OPAQUE: dict[str, tuple[str, ...]] = {
     "EXCEL VARIATIONS": ("PREPROCESSOR",),
     **dict.fromkeys(
         (
-            "NODE,CURVILINEAR",
-            "CABLE",
-            "LINES",
-            "LINE LOCATIONS",
-            "LINE SECTION GROUPS",
-            "LINE PATHS",
-            "LINE PATH SECTIONS",
             "HYDRODYNAMIC SETS",
             "PROPERTIES",
             "PIP SECTION",
@@ -173,6 +178,27 @@ def load(module: str) -> type[Block]:
     return cast("type[Block]", import_module(f"{_LIBRARY}.{module}").BLOCK)
 
 
+def kept_of(section: str, keyword: str) -> Kept | None:
+    """What is known of a keyword that is kept as it is, or None when that is its name at most."""
+    module = _KEPT.get((section, keyword))
+    return _load_kept(module) if module else None
+
+
+@cache
+def _load_kept(module: str) -> Kept:
+    return cast("Kept", import_module(f"{_LIBRARY}.{module}").KEPT)
+
+
+def kept_keywords(section: str) -> list[str]:
+    """The keywords of a section that `kept_of` knows, in the order of the catalogue."""
+    return [keyword for where, keyword in _KEPT if where == section]
+
+
+def kept() -> list[Kept]:
+    """Every keyword that `kept_of` knows, in the order of the catalogue."""
+    return [_load_kept(module) for module in dict.fromkeys(_KEPT.values())]
+
+
 def modules() -> list[str]:
     """Names of all library modules, in the order of the catalogue."""
     return list(_MODULES.values())
@@ -181,13 +207,13 @@ def modules() -> list[str]:
 @cache
 def sections_of(keyword: str) -> tuple[str, ...] | None:
     """The sections where a keyword belongs; () when not confirmed, None for an unknown keyword."""
-    modelled = tuple(section for section, name in _MODULES if name == keyword)
-    if modelled:
-        return modelled + _ALSO_OPAQUE_IN.get(keyword, ())
+    declared = tuple(section for section, name in (*_MODULES, *_KEPT) if name == keyword)
+    if declared:
+        return declared + _ALSO_OPAQUE_IN.get(keyword, ())
     return _OPAQUE.get(keyword)
 
 
 @cache
 def keywords() -> tuple[str, ...]:
     """Every known keyword."""
-    return tuple(sorted({name for _, name in _MODULES} | set(_OPAQUE)))
+    return tuple(sorted({name for _, name in (*_MODULES, *_KEPT)} | set(_OPAQUE)))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import sys
 from bisect import bisect_left
 from collections.abc import Collection, Iterator
@@ -17,25 +16,13 @@ from mudline.deck.parameters import folded
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords import catalogue
 from mudline.keywords.model import ListRow
+from mudline.scene.harvest import definers, harvested_labels, harvested_sets, may_define
 from mudline.scene.numbering import LARGEST
 from mudline.syntax.tree import canonical_name
 
 MOST_TOLD = 1000
 """Findings of one code told one by one; the rest is left out."""
 
-DEFINERS = (
-    "LINES",
-    "LINE LOCATIONS",
-    "LINE PATHS",
-    "LINE PATH SECTIONS",
-    "LINE SECTION GROUPS",
-    "CABLE",
-    "NODE,CURVILINEAR",
-)
-"""Blocks without a model that make nodes, elements or sets."""
-
-_MADE_BY_DEFINERS = ("NODE", "ELEMENT", "ELEMENT SETS")
-_NAMING = re.compile(r"\b(LINE|SECTION|NAME|ADDITIONAL)[ \t]*=[ \t]*([^=\r\n]*?)(?=,[^,=]*=|$)", re.IGNORECASE)
 _NEAR = 0.75
 _LONGEST_MISSPELT = 256
 _MOST_COMPARED = 200_000
@@ -88,8 +75,8 @@ class Context:
 
     def supplier(self, keyword: str, number: int | None = None) -> str:
         """What could define a thing of a keyword that is missing, in words, or ""; `number` None stands for any."""
-        if self.definers and keyword in _MADE_BY_DEFINERS:
-            return f"*{self.definers[0]}, which is not read, may define it"
+        if words := next(filter(None, (may_define(definer, keyword) for definer in self.definers)), ""):
+            return words
         if self.restart:
             return "the deck that *RESTART continues may define it"
         if keyword in self.unread:
@@ -179,9 +166,8 @@ class Context:
 
     @cached_property
     def definers(self) -> list[str]:
-        """Keywords of the model that make nodes, elements or sets and are not read."""
-        present = self.deck.keywords()
-        return [keyword for keyword in DEFINERS if keyword in present]
+        """Keywords of the model that make nodes, elements or sets which the deck does not show."""
+        return definers(self.deck)
 
     @cached_property
     def restart(self) -> bool:
@@ -212,12 +198,10 @@ class Context:
 
     @cached_property
     def harvested(self) -> dict[str, str]:
-        """Names of lines, sections and additional sets in the blocks that are not read, by their folded form."""
-        names: dict[str, str] = {}
-        for section in self.deck.sections:
-            for block in section.blocks:
-                if section.name == "MODEL" and isinstance(block, Opaque) and block.keyword in DEFINERS:
-                    for key, value in (match for line in block.lines for match in _NAMING.findall(line)):
-                        parts = value.split(",") if key.upper() == "ADDITIONAL" else value.split(",")[:1]
-                        names |= {folded(part): part.strip(" \t") for part in parts if part.strip(" \t")}
-        return names
+        """Names of the element sets that lines make, by their folded form."""
+        return harvested_sets(self.deck)
+
+    @cached_property
+    def labels(self) -> dict[str, str]:
+        """What may be labels of nodes that lines make, by their folded form."""
+        return harvested_labels(self.deck)

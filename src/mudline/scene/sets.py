@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
@@ -14,6 +15,7 @@ from mudline.diagnostics import Severity, Where
 from mudline.keywords.text import shown
 from mudline.scene.context import Context
 from mudline.scene.external import ExternalElements
+from mudline.scene.harvest import bare
 from mudline.scene.numbering import Ids, Indices, Numbered
 
 if TYPE_CHECKING:
@@ -51,7 +53,7 @@ class Sets:
 
     def find(self, name: str, where: Where) -> NamedSet | None:
         """The set that a SET= names; None, and a problem, when there is no such set."""
-        found = self.named.get(folded(name))
+        found = self.named.get(folded(name)) or self.named.get(folded(bare(name)))
         if found is None:
             near = self.context.near(name, self.named)
             hint = f" (did you mean {self.named[near].name}?)" if near else ""
@@ -124,17 +126,27 @@ class _Reader:
     def _needed(self, key: str, unfinished: set[str]) -> Iterator[str]:
         """The subsets that are to be expanded before a set; those that cannot be are told."""
         for name, where in self._subsets(key):
-            other = folded(name)
+            other = self._key(name)
             if other in unfinished:
                 message = f"set {shown(name)} contains itself: SUBSET= leads back to it; remove one of these lines"
                 self.context.tell(REF008, message, where)
             elif other in self.definitions:
                 yield other
             elif other not in self.sets.named:
-                near = self.context.near(name, self.definitions)
-                hint = f" (did you mean {self.definitions[near][0][0].name}?)" if near else ""
+                near = self.context.near(name, self._names)
+                hint = f" (did you mean {self._names[near]}?)" if near else ""
                 message = f"SUBSET= names no set: {shown(name)} is not defined{hint}; define it"
                 self.context.tell_missing(REF008, message, where, "ELEMENT SETS")
+
+    @cached_property
+    def _names(self) -> dict[str, str]:
+        """Every name of a set, by its folded form."""
+        return self.context.harvested | {key: entries[0][0].name for key, entries in self.definitions.items()}
+
+    def _key(self, name: str) -> str:
+        """What a name is known by; a set that a line makes also answers to its name in quotes."""
+        plain = folded(bare(name))
+        return plain if plain in self.context.harvested and folded(name) not in self.definitions else folded(name)
 
     def _subsets(self, key: str) -> Iterator[tuple[str, Where]]:
         for entry, where in self.definitions[key]:
@@ -166,7 +178,7 @@ class _Reader:
             self.context.tell(REF010, f"set {shown(first.name)} has no element: give it some, or remove it", place)
 
     def _subset(self, name: str | None) -> tuple[Indices, bool]:
-        found = None if name is None else self.sets.named.get(folded(name))
+        found = None if name is None else self.sets.named.get(self._key(name))
         return (_NOTHING, False) if found is None else (found.elements, not found.open)
 
     def _listed(self, member: SetList, where: Where) -> tuple[Indices, bool]:

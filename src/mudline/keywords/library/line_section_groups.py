@@ -1,0 +1,65 @@
+"""`*LINE SECTION GROUPS`: sections of given lengths, in groups that are repeated along a line."""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field
+
+from mudline.keywords.line_parts import AdditionalSets
+from mudline.keywords.model import Block, Record, Row, about, setting
+from mudline.keywords.values import Name, Real
+
+_RANGE = "the manual gives no range"
+
+
+class SectionLength(Row):
+    """Values of SECTION=."""
+
+    set_name: Annotated[Name, about("element set that the section makes")] = Field(alias="set")
+    length: Annotated[Real, about("length of the section", unit="L", at_least=0, inferred=_RANGE)]
+
+
+class SectionMesh(Row):
+    """Element lengths along a section."""
+
+    start: Annotated[Real | None, about("shortest element at the start", unit="L", at_least=0, inferred=_RANGE)] = None
+    longest: Annotated[Real | None, about("longest element", unit="L", at_least=0, inferred=_RANGE)] = None
+    end: Annotated[Real | None, about("shortest element at the end", unit="L", at_least=0, inferred=_RANGE)] = None
+
+
+class GroupSection(Record):
+    """A section of a group."""
+
+    rule: ClassVar[str] = "group_section"
+    section: Annotated[SectionLength, setting("SECTION", "element set and length of the section")]
+    additional: list[AdditionalSets] = []
+    mesh: Annotated[SectionMesh | None, about("element lengths along the section")] = None
+
+
+class SectionGroup(Record):
+    """A group."""
+
+    rule: ClassVar[str] = "section_group"
+    name: Annotated[Name, setting("NAME", "name of the group", inferred="it is an element set too")]
+    sections: list[GroupSection] = []
+
+
+class LineSectionGroups(Block):
+    """Groups of line sections."""
+
+    rule: ClassVar[str] = "line_section_groups"
+    names: ClassVar[tuple[str, ...]] = ("LINE SECTION GROUPS",)
+    summary: ClassVar[str] = "Groups of line sections, one behind the other, for the REPEAT= of *LINE PATH SECTIONS."
+    example: ClassVar[str] = (
+        "*LINE SECTION GROUPS\n"
+        " NAME=Joint\n"
+        " SECTION=Pipe Joint, 11.8\n ADDITIONAL=Coated Pipe, Riser\n 0.5, 2.0, 0.5\n"
+        " SECTION=Field Joint, 0.4\n"
+    )
+
+    keyword: Literal["LINE SECTION GROUPS"] = "LINE SECTION GROUPS"
+    groups: list[SectionGroup] = []
+
+
+BLOCK = LineSectionGroups

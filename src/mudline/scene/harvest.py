@@ -1,0 +1,143 @@
+"""Names from the blocks of lines: the element sets and labels that they make without mudline making the elements."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+
+from mudline.deck.model import Deck, Opaque
+from mudline.deck.parameters import folded
+from mudline.diagnostics import Span
+from mudline.keywords import catalogue
+from mudline.keywords.kept import LINE_SETS, Names
+from mudline.keywords.model import Block, Part, Row, layout
+from mudline.syntax.fields import Group, read_line
+from mudline.syntax.rows import read_number
+
+LAID = ("LINE PATH SECTIONS", "LINE SECTION GROUPS")
+"""Keywords that are read; the lines that they are about make nodes and elements which the deck does not show."""
+
+_COMMENT = re.compile(r"[Cc](?:[ \t]|[-*=#_.~+]{2}|$)|C[A-Za-z]")
+_KEY = re.compile(r"[ \t]*[A-Za-z][\w \t-]*")
+_PIECE = re.compile(r'(?:[^,"{]++|"[^"]*+"|\{[^}]*+\}|["{].*+)++')
+_MANY = 1000
+_WORD = re.compile(r"[^-+.,0-9 \t]")
+
+
+def definers(deck: Deck) -> list[str]:
+    """Keywords of the model that make nodes, elements or sets which the deck does not show."""
+    present = deck.keywords()
+    kept = [keyword for keyword in catalogue.kept_keywords("MODEL") if keyword in present]
+    return [keyword for keyword in kept if _makes(keyword)] + [keyword for keyword in LAID if keyword in present]
+
+
+def may_define(definer: str, keyword: str) -> str:
+    """How a definer may define a thing that is a matter of `keyword`, in words; "" when it cannot."""
+    if definer not in LAID:
+        return f"*{definer}, which is not read, may define it" if keyword in _makes(definer) else ""
+    made = keyword in ("NODE", "ELEMENT", "ELEMENT SETS")
+    return f"the lines of *{definer}, which this deck does not show, may define it" if made else ""
+
+
+def _makes(keyword: str) -> tuple[str, ...]:
+    kept = catalogue.kept_of("MODEL", keyword)
+    return kept.makes if kept else ()
+
+
+def harvested_sets(deck: Deck) -> dict[str, str]:
+    """Names of the element sets that lines make, as first written, by their folded form."""
+    return _first_written(name for block in _model(deck) for name in _sets(block))
+
+
+def harvested_labels(deck: Deck) -> dict[str, str]:
+    """Texts among the lines of kept blocks that may be labels of nodes, as first written, by their folded form."""
+    return _first_written(text for block in _model(deck) for text in _texts(block))
+
+
+def bare(name: str) -> str:
+    """A name without blanks, quotes or braces around it."""
+    text = name.strip(" \t")
+    if len(text) > 1 and text[0] + text[-1] in ('""', "{}"):
+        text = text[1:-1].strip(" \t")
+    return text
+
+
+def _first_written(names: Iterable[str]) -> dict[str, str]:
+    found: dict[str, str] = {}
+    for name in names:
+        if text := bare(name):
+            found.setdefault(folded(text), text)
+    return found
+
+
+def _model(deck: Deck) -> Iterator[Block | Opaque]:
+    return (block for section in deck.sections if section.name == "MODEL" for block in section.blocks)
+
+
+def _sets(block: Block | Opaque) -> Iterator[str]:
+    """The element sets that a block of lines names."""
+    if isinstance(block, Opaque):
+        kept = catalogue.kept_of("MODEL", block.keyword)
+        keys = kept.harvest if kept else LINE_SETS if block.keyword in LAID else {}
+        if keys:
+            yield from _given_in_lines(block.lines, keys)
+    elif block.keyword in LAID:
+        yield from _given_in_parts(block)
+
+
+def _given_in_lines(lines: Iterable[str], keys: Mapping[str, Names]) -> Iterator[str]:
+    for line in _data(lines):
+        if "=" not in line:
+            continue
+        for key, values in _groups(line):
+            if kind := keys.get(key):
+                yield from values if kind is Names.SETS else values[:1]
+
+
+def _given_in_parts(part: Part) -> Iterator[str]:
+    """The same settings of a keyword that is read; what could not be read of it is None."""
+    for slot in layout(type(part)).slots:
+        value = getattr(part, slot.name)
+        if slot.record:
+            for child in value:
+                yield from _given_in_parts(child)
+        elif slot.key in LINE_SETS:
+            if isinstance(value, Row):
+                value = getattr(value, layout(type(value)).columns[0].name)
+            yield from (name for name in (value if isinstance(value, list) else [value]) if name)
+
+
+def _texts(block: Block | Opaque) -> Iterator[str]:
+    """Every value of a block that is neither a number nor an equation."""
+    kept = catalogue.kept_of("MODEL", block.keyword)
+    if not isinstance(block, Opaque) or kept is None or not kept.labels:
+        return
+    for line in _data(block.lines):
+        if _WORD.search(line):
+            for _, values in _groups(line):
+                yield from (text for text in values if read_number(text) is None and not text.startswith("=["))
+
+
+def _groups(line: str) -> Iterator[tuple[str, list[str]]]:
+    """The KEYs of a line with their values, "" for values without one. What `read_line` says, in less time."""
+    if "[" in line or line.count(",") > _MANY:
+        yield from ((group.key, [given.text for given in group.fields]) for group in _slowly(line))
+        return
+    key, values = "", list[str]()
+    for piece in _PIECE.findall(line) if '"' in line or "{" in line else line.split(","):
+        head, equals, value = piece.partition("=")
+        if equals and _KEY.fullmatch(head):
+            yield key, values
+            key, values = " ".join(head.split()).upper(), [value.strip(" \t")]
+        else:
+            values.append(piece.strip(" \t"))
+    yield key, values
+
+
+def _slowly(line: str) -> list[Group]:
+    return read_line(line, Span(0, len(line))).groups
+
+
+def _data(lines: Iterable[str]) -> Iterator[str]:
+    """The lines that are no comments. One with C and a letter in column 1 is one: no key that counts here begins so."""
+    return (line for line in lines if not _COMMENT.match(line))
