@@ -6,8 +6,8 @@ from collections import Counter
 
 import pytest
 
+from mudline.deck.findings import MOST_TOLD
 from mudline.deck.loading import load_bytes
-from mudline.deck.reading import MOST_TOLD
 
 
 @pytest.mark.parametrize(

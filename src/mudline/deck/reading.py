@@ -5,20 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from pathlib import PurePath
 
-from mudline.codes import SYN002, SYN006, SYN007, SYN008, SYN009, SYN010, SYN011, SYN014
+from mudline.codes import SYN002, SYN006, SYN014
+from mudline.deck.findings import Findings
 from mudline.deck.model import START, Deck, Opaque, Range, Section
 from mudline.deck.units import units_of
-from mudline.diagnostics import Code, Problem, Severity, Span, Where
+from mudline.diagnostics import Problem, Span, Where
 from mudline.keywords import catalogue
 from mudline.keywords.model import Comment
 from mudline.keywords.reader import ReadBlock, read_block
-from mudline.keywords.text import suggestion
 from mudline.syntax.fields import trimmed
 from mudline.syntax.source import Source
 from mudline.syntax.tree import Kind, Leaf, RawBlock, RawSection, SyntaxTree, parse
-
-MOST_TOLD = 1000
-"""Findings of one code about lines, blocks or sections told one by one."""
 
 
 @dataclass
@@ -78,7 +75,7 @@ class _Reader:
         self.text = tree.source.unified
         self.origin = TextOrigin(tree)
         self.problems: list[Problem] = list(tree.source.problems)
-        self.told: dict[str, int] = {}
+        self.findings = Findings(self.problems)
         self.deck = Deck(tree.source.name, PurePath(tree.source.name).name, origin=self.origin)
 
     def read(self, units: str | None) -> Deck:
@@ -90,13 +87,6 @@ class _Reader:
         self.deck.units = units or units_of(self.deck)
         return self.deck
 
-    def _tells(self, code: Code, span: Span) -> bool:
-        """Whether one more finding of a code is told: a file of another kind would have as many as it has lines."""
-        count = self.told[code.code] = self.told.get(code.code, 0) + 1
-        if count == MOST_TOLD + 1:
-            self.problems.append(Problem(code, f"and more of the same: the first {MOST_TOLD} are listed", span))
-        return count <= MOST_TOLD
-
     def _lines(self, span: Span) -> list[str]:
         lines = self.text[slice(*span)].replace("\r\n", "\n").removesuffix("\n").split("\n")
         return [line.removesuffix("\r") for line in lines]
@@ -106,29 +96,19 @@ class _Reader:
         if self.tree.source.readable:
             self._stray(preamble.leaves, "before the first section")
         for block in preamble.blocks:
-            if not self._tells(SYN007, trimmed(self.text, *block.head.span)):
-                break
-            message = f"*{block.name} stands before any $SECTION: put it in its section, {self._belongs(block.name)}"
-            self.problems.append(Problem(SYN007, message, trimmed(self.text, *block.head.span)))
+            self.findings.before_sections(block.name, trimmed(self.text, *block.head.span))
         first = self.tree.sections[0].head if self.tree.sections else None
         end = first.span.start if first else len(self.text)
         self.deck.preamble = self._lines(Span(0, end)) if end else []
 
-    def _belongs(self, keyword: str) -> str:
-        sections = catalogue.sections_of(keyword)
-        return " or ".join(f"${name}" for name in sections) if sections else "such as $MODEL"
-
     def _stray(self, leaves: list[Leaf], where: str) -> None:
         """One finding for all data lines of a place."""
         data = [leaf for leaf in leaves if leaf.kind not in (Kind.BLANK, Kind.COMMENT)]
-        if not data or not self._tells(SYN011, trimmed(self.text, *data[0].span)):
-            return
-        count = sum(len(self._lines(leaf.span)) for leaf in data)
-        lines = "1 line" if count == 1 else f"{count} lines"
-        message = f"{lines} {where} under no keyword: not read. A title can stand in a comment, C and a blank"
-        first = data[0].span
-        end = self.text.find("\n", first.start, first.end)
-        self.problems.append(Problem(SYN011, message, trimmed(self.text, first.start, first.end if end < 0 else end)))
+        if data:
+            first = data[0].span
+            end = self.text.find("\n", *first)
+            count = sum(len(self._lines(leaf.span)) for leaf in data)
+            self.findings.stray(count, where, trimmed(self.text, first.start, first.end if end < 0 else end))
 
     def _section(self, index: int, raw: RawSection) -> None:
         section = Section(raw.name)
@@ -136,7 +116,7 @@ class _Reader:
         if raw.head:
             self.origin.heads[Where(index)] = trimmed(self.text, *raw.head.span)
         if raw.name not in catalogue.SECTIONS:
-            self._unknown_section(index, raw.name)
+            self.findings.unknown_section(raw.name, Where(index))
         self._stray(raw.leaves, f"of ${raw.name}")
         for leaf in raw.leaves:
             line = self._lines(leaf.span)
@@ -147,14 +127,6 @@ class _Reader:
         for number, block in enumerate(raw.blocks):
             self.origin.heads[Where(index, number)] = trimmed(self.text, *block.head.span)
             self._block(section, index, block)
-
-    def _unknown_section(self, index: int, name: str) -> None:
-        if not self._tells(SYN010, self.origin.heads[Where(index)]):
-            return
-        hint = suggestion(name, list(catalogue.SECTIONS))
-        message = f"section ${name} is not known{hint}: it is kept as it is"
-        severity = Severity.WARNING if hint else None
-        self.problems.append(Problem(SYN010, message, None, severity, Where(index)))
 
     def _block(self, section: Section, index: int, raw: RawBlock) -> None:
         number = len(section.blocks)
@@ -178,18 +150,7 @@ class _Reader:
     def _opaque(self, section: Section, where: Where, raw: RawBlock) -> None:
         lines = [line for leaf in raw.leaves for line in self._lines(leaf.span)]
         section.blocks.append(Opaque(keyword=raw.name, lines=lines))
-        sections = catalogue.sections_of(raw.name)
-        if sections is None:
-            if not self._tells(SYN009, self.origin.heads[where]):
-                return
-            hint = suggestion(raw.name, list(catalogue.keywords()))
-            message = f"keyword *{raw.name} is not known{hint}: the block is kept as it is"
-            self.problems.append(Problem(SYN009, message, None, Severity.WARNING if hint else None, where))
-        elif sections and section.name not in sections and section.name in catalogue.SECTIONS:
-            if not self._tells(SYN008, self.origin.heads[where]):
-                return
-            message = f"*{raw.name} does not belong in ${section.name}: it belongs in {self._belongs(raw.name)}"
-            self.problems.append(Problem(SYN008, message, None, None, where))
+        self.findings.no_model(raw.name, section.name, where)
 
     def _truncated(self) -> None:
         """A fault in the very last token of a file without a last line end means that the file was cut."""

@@ -1,0 +1,70 @@
+"""What is told of sections and keywords that are unknown or in a wrong place, whatever form the deck has."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+from mudline.codes import SYN007, SYN008, SYN009, SYN010, SYN011
+from mudline.diagnostics import Code, Problem, Severity, Span, Where
+from mudline.keywords import catalogue
+from mudline.keywords.text import suggestion
+
+MOST_TOLD = 1000
+"""Findings of one code about lines, blocks or sections told one by one."""
+
+
+class Findings:
+    """Adds to the problems of a deck; each method takes the place as a span of the text or as one among the values."""
+
+    def __init__(self, problems: list[Problem]) -> None:
+        self.problems = problems
+        self.told: Counter[str] = Counter()
+
+    def unknown_section(self, name: str, where: Where) -> None:
+        """A section that is not in the catalogue."""
+        if not self._tells(SYN010, None, where):
+            return
+        hint = suggestion(name, list(catalogue.SECTIONS))
+        message = f"section ${name} is not known{hint}: it is kept as it is"
+        self.problems.append(Problem(SYN010, message, None, Severity.WARNING if hint else None, where))
+
+    def no_model(self, keyword: str, section: str, where: Where) -> None:
+        """A block that is kept as it is: nothing to tell if its keyword is known and may stand in the section."""
+        sections = catalogue.sections_of(keyword)
+        if sections is None:
+            if self._tells(SYN009, None, where):
+                hint = suggestion(keyword, list(catalogue.keywords()))
+                message = f"keyword *{keyword} is not known{hint}: the block is kept as it is"
+                self.problems.append(Problem(SYN009, message, None, Severity.WARNING if hint else None, where))
+        elif (
+            sections and section not in sections and section in catalogue.SECTIONS and self._tells(SYN008, None, where)
+        ):
+            message = f"*{keyword} does not belong in ${section}: it belongs in {_belongs(keyword)}"
+            self.problems.append(Problem(SYN008, message, None, None, where))
+
+    def before_sections(self, keyword: str, span: Span | None = None, where: Where | None = None) -> None:
+        """A block before the first section."""
+        if self._tells(SYN007, span, where):
+            message = f"*{keyword} stands before any $SECTION: put it in its section, {_belongs(keyword)}"
+            self.problems.append(Problem(SYN007, message, span, None, where))
+
+    def stray(self, count: int, place: str, span: Span | None = None, where: Where | None = None) -> None:
+        """Data lines of a place under no keyword, the first of which is given: one finding for all of them."""
+        if self._tells(SYN011, span, where):
+            lines = "1 line" if count == 1 else f"{count} lines"
+            message = f"{lines} {place} under no keyword: not read. A title can stand in a comment, C and a blank"
+            self.problems.append(Problem(SYN011, message, span, None, where))
+
+    def _tells(self, code: Code, span: Span | None, where: Where | None) -> bool:
+        """Whether one more finding of a code is told: a file of another kind would have as many as it has lines."""
+        self.told[code.code] += 1
+        count = self.told[code.code]
+        if count == MOST_TOLD + 1:
+            message = f"and more of the same: the first {MOST_TOLD} are listed"
+            self.problems.append(Problem(code, message, span, None, where))
+        return count <= MOST_TOLD
+
+
+def _belongs(keyword: str) -> str:
+    sections = catalogue.sections_of(keyword)
+    return " or ".join(f"${name}" for name in sections) if sections else "such as $MODEL"
