@@ -1,0 +1,106 @@
+"""The lines of a block that has a model, in canonical layout."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from mudline.diagnostics import Span
+from mudline.formatting.places import RowKind, reading_of
+from mudline.formatting.rows import Rows, Run, Single
+from mudline.keywords.reader import ReadBlock, all_keys
+from mudline.syntax.fields import Group, first_key, read_line, split
+from mudline.syntax.rows import blank_separated, line_spans
+from mudline.syntax.tree import Kind, Leaf, RawBlock
+
+Laid = tuple[Span, str]
+"""Lines, each with a LF, and the span in whose place they are put."""
+
+
+def comment_line(text: str, span: Span) -> str:
+    """A comment without blanks at its end."""
+    return text[slice(*span)].rstrip(" \t\r\n") + "\n"
+
+
+def block_lines(text: str, raw: RawBlock, read: ReadBlock) -> Iterator[Laid]:
+    """Everything of a block but its head and its blank lines."""
+    block = _Block(text, read)
+    for leaf in raw.leaves:
+        yield from block.lines(leaf)
+    yield from block.flush()
+
+
+class _Block:
+    def __init__(self, text: str, read: ReadBlock) -> None:
+        self.text = text
+        self.declared = type(read.model)
+        self.keys = all_keys(self.declared)
+        self.reading = reading_of(read.model, read.places)
+        self.rows: Rows | None = None
+
+    def lines(self, leaf: Leaf) -> Iterator[Laid]:
+        """What is known to be laid out when this leaf is reached: rows wait for those that follow."""
+        if leaf.kind in (Kind.RUN, Kind.TEXT):
+            for span in self._row_spans(leaf.span):
+                yield from self._row(span)
+        elif leaf.kind is Kind.SETTING or (
+            leaf.kind is Kind.UNDECIDED and first_key(self.text, leaf.span) in self.keys
+        ):
+            yield from self.flush()
+            yield leaf.span, self._setting(leaf.span)
+        elif leaf.kind is not Kind.BLANK:
+            yield leaf.span, comment_line(self.text, leaf.span)
+
+    def flush(self) -> Iterator[Laid]:
+        """The rows that wait."""
+        if self.rows:
+            yield from self.rows.laid_out()
+        self.rows = None
+
+    def _row_spans(self, run: Span) -> Iterator[Span]:
+        """The whole run where it belongs to a table, else its lines with their ends."""
+        if self.declared.tabular:
+            yield run
+            return
+        for line in line_spans(self.text, run):
+            yield Span(line.start, min(line.end + 1, run.end))
+
+    def _row(self, span: Span) -> Iterator[Laid]:
+        """Add a row, or a run of them, to those that wait if it is of their kind; else begin anew."""
+        kind = self.reading.kind_at(span.start)
+        if kind is None:  # nothing of the model stands there: it is kept as it is
+            return
+        if self.rows is None or self.rows.kind.slot is not kind.slot:
+            yield from self.flush()
+            self.rows = Rows(kind)
+        self.rows.members.append(Run(self.text, span) if kind.table else Single(self._fields(kind, span), span))
+
+    def _fields(self, kind: RowKind, span: Span) -> list[str]:
+        """The fields of a row that is no table's."""
+        fields, _ = split(self.text, span, slashes=self.declared.slashes)
+        texts = [self.reading.choices.get(given.span.start, given.text) for given in fields]
+        return kind.cut(apart(texts))
+
+    def _setting(self, span: Span) -> str:
+        line = read_line(self.text, span, slashes=self.declared.slashes)
+        texts = [text for group in line.groups for text in self._group(group)]
+        return " " + ", ".join(texts).rstrip(" ") + "\n"
+
+    def _group(self, group: Group) -> list[str]:
+        """`KEY=` with its first value, then the others.
+
+        A value that begins with a bracket keeps a blank before it: without that it would be an equation.
+        """
+        texts = [self.reading.choices.get(given.span.start, given.text) for given in group.fields]
+        kind = self.reading.kinds.get(group.span.start)
+        if kind:
+            texts = kind.cut(apart(texts) if len(kind.columns) > 1 else texts)
+        while not kind and len(texts) > 1 and not texts[-1]:
+            texts.pop()
+        first = group.fields[0].span.start
+        blank = " " if texts[0].startswith("[") and self.text[first - 1] != "=" else ""
+        return [f"{group.key}={blank}{texts[0]}", *texts[1:]]
+
+
+def apart(texts: list[str]) -> list[str]:
+    """Numbers that are parted by blanks alone, each a field."""
+    return texts[0].split() if len(texts) == 1 and blank_separated(texts[0]) else texts
