@@ -57,8 +57,8 @@ _MODULES = {
 
 _KEPT = {
     ("MODEL", "LINES"): "lines",
-    ("MODEL", "LINE LOCATIONS"): "line_locations",
     ("MODEL", "LINE PATHS"): "line_paths",
+    ("MODEL", "LINE LOCATIONS"): "line_locations",
     ("MODEL", "CABLE"): "cable",
     ("MODEL", "NODE,CURVILINEAR"): "node_curvilinear",
 }

@@ -13,6 +13,7 @@ from mudline.scene.floor import read_floor
 from mudline.scene.force_curves import read_curves
 from mudline.scene.law_checks import check_diameters, check_laws
 from mudline.scene.laws import read_laws
+from mudline.scene.line_checks import check_lines
 from mudline.scene.model import Scene
 from mudline.scene.nodes import read_nodes
 from mudline.scene.ranges import check_ranges
@@ -39,6 +40,7 @@ def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:
     bed = read_bed(context, laws)
     extensions = read_extensions(context, sets, count)
     floor = read_floor(context)
+    check_lines(context)
     check_laws(context, laws)
     check_diameters(context, laws, sections, elements.numbered)
     check_ranges(context)

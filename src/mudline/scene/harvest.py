@@ -39,6 +39,12 @@ def may_define(definer: str, keyword: str) -> str:
     return f"the lines of *{definer}, which this deck does not show, may define it" if made else ""
 
 
+def may_label(definer: str) -> bool:
+    """Whether a definer gives labels to nodes."""
+    kept = catalogue.kept_of("MODEL", definer)
+    return kept is not None and kept.labels
+
+
 def _makes(keyword: str) -> tuple[str, ...]:
     kept = catalogue.kept_of("MODEL", keyword)
     return kept.makes if kept else ()
@@ -46,12 +52,12 @@ def _makes(keyword: str) -> tuple[str, ...]:
 
 def harvested_sets(deck: Deck) -> dict[str, str]:
     """Names of the element sets that lines make, as first written, by their folded form."""
-    return _first_written(name for block in _model(deck) for name in _sets(block))
+    return _first_written(name for block in model_blocks(deck) for name in _sets(block))
 
 
 def harvested_labels(deck: Deck) -> dict[str, str]:
     """Texts among the lines of kept blocks that may be labels of nodes, as first written, by their folded form."""
-    return _first_written(text for block in _model(deck) for text in _texts(block))
+    return _first_written(text for block in model_blocks(deck) for text in _texts(block))
 
 
 def bare(name: str) -> str:
@@ -70,7 +76,8 @@ def _first_written(names: Iterable[str]) -> dict[str, str]:
     return found
 
 
-def _model(deck: Deck) -> Iterator[Block | Opaque]:
+def model_blocks(deck: Deck) -> Iterator[Block | Opaque]:
+    """Every block of `$MODEL`, read or not."""
     return (block for section in deck.sections if section.name == "MODEL" for block in section.blocks)
 
 
