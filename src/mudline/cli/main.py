@@ -21,6 +21,7 @@ COMMANDS = {
     "lint": "Find faults in decks.",
     "validate": "Say of each deck whether it is legal and complete.",
     "convert": "Convert a deck between keyword text, JSON and YAML.",
+    "migrate": "Rewrite the legacy seabed keywords as the new family.",
     "show": "Summarise a deck: sections, keywords, sets, curves, diameters.",
     "curves": "Show the force-embedment curves that a deck really gives.",
     "evaluate": "Contact forces and stiffnesses of a deck.",

@@ -24,6 +24,12 @@ def writing(path: Path) -> Iterator[BinaryIO]:
         raise click.ClickException(f"{path}: cannot be written: {reason(error)}") from error
 
 
+def write_bytes(path: Path, data: bytes) -> None:
+    """Write a file's content."""
+    with writing(path) as stream:
+        stream.write(data)
+
+
 def write_text(path: Path, pieces: Iterable[str]) -> None:
     """Write a text in pieces, as UTF-8."""
     with writing(path) as stream:

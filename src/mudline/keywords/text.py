@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from mudline.codes import SYN002, SYN005, SYN015, SYN016
-from mudline.diagnostics import Problem
+from mudline.diagnostics import Problem, Span
 from mudline.keywords.model import Slot, layout
 from mudline.keywords.values import Equation, Kind, Label
-from mudline.syntax.fields import Field
+from mudline.syntax.fields import Field, split
 from mudline.syntax.rows import read_number, spells_number
 
 Value = float | int | str | None
@@ -48,6 +48,13 @@ def _real(field: Field, number: float | None, slot: Slot) -> float | str:
             return field.text
         raise UnreadableError(Problem(SYN002, number_fault(field.text, slot.label), field.span))
     return number
+
+
+def reads_as_name(text: str) -> bool:
+    """Whether a field where a number or a name belongs takes this text, as it stands, for a name."""
+    fields, problems = split(text, Span(0, len(text)))
+    alone = len(fields) == 1 and not problems and fields[0].text == text
+    return alone and not _maybe_number(text)
 
 
 def maybe_label(text: str) -> Label | None:

@@ -163,6 +163,10 @@ class Scene:
         self.require()
         if problems := list(refusals(self)):
             raise DeckError(self.deck.diagnose(problems))
+        return self.inputs(tension)
+
+    def inputs(self, tension: Literal["keep", "cut"] = "keep") -> ContactInput:
+        """The same without asking whether all is known: an element that lacks something is an ElementError."""
         usable = [index for index, entry in enumerate(self.laws.curves) if entry.curve is not None]
         number = {index: position for position, index in enumerate(usable)}
         curve_of_grant = np.array([*(number.get(grant.curve, -1) for grant in self.laws.grants), -1], dtype=np.intp)

@@ -1,0 +1,124 @@
+"""A deck in any form to one without legacy seabed keywords, checked against what it was."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+
+from mudline.codes import MIG001
+from mudline.deck.keyword_form import to_keyword
+from mudline.deck.loading import dump, form_of
+from mudline.deck.model import Deck, Opaque
+from mudline.deck.reading import TextOrigin, read_source
+from mudline.diagnostics import DeckError, Problem, Severity, Where
+from mudline.keywords.model import Record
+from mudline.migration.refusals import LEGACY, refusals
+from mudline.migration.rewriting import Rewriting, rewrite
+from mudline.scene.build import resolve
+from mudline.scene.model import Scene
+from mudline.syntax.edits import edited_bytes
+from mudline.syntax.source import Source
+
+
+@dataclass(frozen=True, slots=True)
+class Migration:
+    """What became of a deck: the scenes before and after, the new deck and content, new files by name beside it.
+
+    `replaced` counts the legacy blocks by keyword; without any the content is what it was.
+    """
+
+    before: Scene
+    after: Scene
+    deck: Deck
+    content: bytes
+    files: dict[str, bytes] = field(default_factory=dict)
+    replaced: Counter[str] = field(default_factory=Counter)
+
+
+def legacy_blocks(deck: Deck) -> Counter[str]:
+    """How many blocks of each legacy keyword the model has."""
+    return Counter({keyword: count for keyword in LEGACY if (count := sum(1 for _ in deck.blocks(keyword)))})
+
+
+def migrate(deck: Deck) -> Migration:
+    """The deck with its legacy seabed keywords in the new family, in the form that it has.
+
+    Raises DeckError for a deck with errors, and (MIG001) for what the new family cannot say.
+    """
+    before = resolve(deck).require()
+    if problems := list(refusals(deck, before)):
+        raise DeckError(deck.diagnose(problems))
+    text = _as_text(deck)
+    made = rewrite(text)
+    origin = text.origin
+    assert isinstance(origin, TextOrigin)  # noqa: S101 - `_as_text` gives no other
+    content = edited_bytes(origin.source, made.edits)
+    changed = read_source(Source.from_bytes(content, deck.file), units=deck.units)
+    changed = replace(changed, source=deck.source, folder=deck.folder)
+    after = _checked(deck, before, changed, made)
+    if not isinstance(deck.origin, TextOrigin):
+        content = dump(changed, form_of(deck.file)).encode()
+    files = {name: lines.encode() for name, lines in made.files.items()}
+    return Migration(before, after, changed, content, files, legacy_blocks(deck))
+
+
+def _as_text(deck: Deck) -> Deck:
+    """The deck as read from keyword text: a JSON or YAML deck is written as one first."""
+    if isinstance(deck.origin, TextOrigin):
+        return deck
+    source = Source.from_bytes(to_keyword(deck).encode(), deck.file)
+    return replace(read_source(source, units=deck.units), source=deck.source, folder=deck.folder)
+
+
+def _checked(deck: Deck, before: Scene, changed: Deck, made: Rewriting) -> Scene:
+    """The scene of the new deck; raises DeckError when it lost anything or has faults that the old one had not."""
+    after = resolve(changed)
+    faults = [problem.message for problem in after.errors()]
+    lost = Counter(_comments(deck)) - Counter(_comments(changed))
+    faults += [f"the comment {text!r} would be lost or read as data" for text in lost]
+    if _others(deck) != _others(changed):
+        faults.append("a block of another keyword would change")
+    expected = Counter(problem.code.code for problem in [*deck.problems, *before.problems])
+    new = Counter(problem.code.code for problem in [*changed.problems, *after.problems])
+    for code in (new - expected) - Counter({"REF015": len(made.files)}):
+        faults.append(f"it would have a new finding {code}")
+    if faults:
+        where = next(where for keyword in LEGACY for where, _ in deck.blocks(keyword))
+        raise DeckError(deck.diagnose([_refused(fault, where) for fault in faults]))
+    return after
+
+
+def _refused(fault: str, where: Where) -> Problem:
+    return Problem(MIG001, f"the deck is kept as it is: {fault}", None, Severity.ERROR, where)
+
+
+def _others(deck: Deck) -> list[object]:
+    """Everything but the blocks that a migration touches, without the comments."""
+    touched = (*LEGACY, "SEABED PROPERTIES", "SEABED STIFFNESS", "SEABED PROFILE")
+    return [
+        (section.name, section.lines, block)
+        for section in deck.sections
+        for block in section.blocks
+        if section.name != "MODEL" or block.keyword not in touched
+    ]
+
+
+def _comments(deck: Deck) -> Iterator[str]:
+    """The text of every comment."""
+    yield from deck.preamble
+    yield from (comment.text for comment in deck.comments)
+    for section in deck.sections:
+        yield from (comment.text for comment in section.comments)
+        for block in section.blocks:
+            if not isinstance(block, Opaque):
+                yield from _of_record(block)
+
+
+def _of_record(record: Record) -> Iterator[str]:
+    yield from (comment.text for comment in record.comments)
+    for name in type(record).model_fields:
+        value = getattr(record, name)
+        for item in value if isinstance(value, list) else ():
+            if isinstance(item, Record):
+                yield from _of_record(item)

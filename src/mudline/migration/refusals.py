@@ -1,0 +1,92 @@
+"""What of a legacy model the new family cannot say, or would say otherwise: it stops the migration."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, cast
+
+from mudline.codes import MIG001
+from mudline.deck.model import Deck
+from mudline.diagnostics import Problem, Where
+from mudline.keywords.common import Surface
+from mudline.keywords.values import Equation
+from mudline.migration.surface import lengths_in_force
+from mudline.scene.model import Scene
+
+SURFACES = ("ELASTIC SURFACE", "RIGID SURFACE")
+LEGACY = (*SURFACES, "EMBEDMENT")
+_DEFAULT_LENGTH = {"metric": 3.048, "imperial": 10.0}
+
+
+def surfaces(deck: Deck) -> list[tuple[Where, Surface]]:
+    """The legacy surfaces of a deck, in the order of the file."""
+    return sorted((found for keyword in SURFACES for found in deck.blocks(keyword)), key=lambda found: found[0])
+
+
+def refusals(deck: Deck, scene: Scene) -> Iterator[Problem]:
+    """The reasons why a deck is left as it is; `deck` has its equations as written, `scene` is its scene."""
+    yield from _other_family(deck)
+    yield from _other_deck(deck)
+    found = surfaces(deck)
+    for where, block in found[1:]:
+        yield _told(f"a second surface: remove all but one, then migrate *{block.keyword}", where)
+    for where, block in found[:1]:
+        evaluated = scene.deck.sections[where.section].blocks[where.block]
+        yield from _lengths(block, cast("Surface", evaluated), where, deck.units)
+        yield from _bed(deck, block, where)
+
+
+def _told(message: str, where: Where) -> Problem:
+    return Problem(MIG001, message, where=where)
+
+
+def _other_family(deck: Deck) -> Iterator[Problem]:
+    """Which of two families holds for an element is a question that no rewriting answers."""
+    for where, _ in deck.blocks("SEABED PROPERTIES"):
+        message = (
+            "*SEABED PROPERTIES stands beside legacy keywords: which holds where must be decided by hand; remove one"
+        )
+        yield _told(message, where)
+
+
+def _other_deck(deck: Deck) -> Iterator[Problem]:
+    """A deck that goes on from another one, whose seabed is part of what it says."""
+    for section, found in enumerate(deck.sections):
+        for block, restart in enumerate(found.blocks):
+            if found.name == "LOAD CASE" and restart.keyword == "RESTART":
+                message = (
+                    "*RESTART continues another deck, whose seabed counts too: keep one model in one deck to migrate it"
+                )
+                yield _told(message, Where(section, block))
+
+
+def _lengths(block: Surface, evaluated: Surface, where: Where, units: str) -> Iterator[Problem]:
+    """Largest characteristic lengths that bound the mobilisation length and are not the default."""
+    written: dict[str, str] = {
+        name: "given" for name in type(block.properties).model_fields if getattr(block.properties, name) is not None
+    }
+    values: Any = evaluated.properties
+    frictionless = {name: not getattr(values, name) for name in ("longitudinal", "transverse")}
+    for name in lengths_in_force(written, frictionless):
+        if getattr(values, name) != _DEFAULT_LENGTH.get(units):
+            direction = name.removesuffix("_length")
+            message = (
+                f"the largest {direction} characteristic length bounds the mobilisation length of each element, "
+                "and the new family has no field for it: give the mobilisation length instead"
+            )
+            yield _told(message, where._replace(path=("properties", name)))
+
+
+def _bed(deck: Deck, block: Surface, where: Where) -> Iterator[Problem]:
+    """A slope or profile that has no single place in `*SEABED PROFILE`."""
+    shaped = block.slope is not None or block.profile is not None
+    if block.slope is not None and block.profile is not None:
+        yield _told("a slope and a profile: remove one of them", where._replace(path=("slope",)))
+    for keyword in ("SEABED PROFILE", "SEABED PLANES"):
+        for other, _ in deck.blocks(keyword):
+            if shaped:
+                yield _told(f"*{keyword} and the slope or profile of *{block.keyword}: remove one of them", other)
+    for (row, column), word in (block.profile.words if block.profile is not None else {}).items():
+        if isinstance(word, Equation):
+            message = "an equation in a profile, which goes to a file of its own: write the number"
+            yield _told(message, where._replace(path=("profile", row, column)))

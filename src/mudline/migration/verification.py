@@ -1,0 +1,180 @@
+"""The proof that a migrated deck means what it meant: every law over a sweep of positions, bit by bit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations, pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from mudline.contact.inputs import ContactInput
+from mudline.contact.model import ContactModel
+from mudline.deck.parameters import folded
+from mudline.migration.migrating import Migration
+from mudline.migration.sweep import depths_of
+from mudline.scene.bed import BedValues
+from mudline.scene.build import resolve
+from mudline.scene.external import ExternalElements
+from mudline.scene.floor import Floor
+from mudline.scene.model import Scene
+from mudline.scene.numbering import Floats, Indices
+from mudline.scene.profile_file import parse_profile
+
+_ALL_PAIRS = 40
+_DIAMETERS = (0.2731, 0.5)
+_STAND_INS = "stand-ins"
+
+
+class Difference(NamedTuple):
+    """An element, or a set of stand-ins for elements, for which the two decks say different things."""
+
+    what: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """What was compared: elements, those of them that stand for a kind each, positions; and what differs."""
+
+    elements: int
+    kinds: int
+    positions: int
+    stand_ins: int
+    differences: tuple[Difference, ...]
+
+
+def verify(migration: Migration) -> Verdict:
+    """Compare the decks before and after.
+
+    Elements that differ in nothing but their number and place have the same law in both decks; one of each kind is
+    evaluated over a sweep that covers every segment of its curve and both ends, and its forces and stiffnesses must be
+    bitwise equal; so must its friction, mobilisation, lateral resistance and suction, and the shape of the bed. Then
+    the same for stand-ins: one for every set that a seabed block names and for pairs of them, which shows for elements
+    that the deck does not show, those of `*LINES`, that the same block wins.
+    """
+    before, after = migration.before, migration.after
+    differences = [*_floors(before, after, migration.files)]
+    kinds, positions, found = _compare(before, after)
+    differences += found
+    names = _sets(before)
+    stand_ins = _stand_ins(names)
+    _, more, found = _compare(resolve(before.deck, stand_ins), resolve(after.deck, stand_ins))
+    differences += (difference._replace(what=f"an element of {difference.what}") for difference in found)
+    return Verdict(len(before.element_ids), kinds, positions + more, len(stand_ins.ids), tuple(differences))
+
+
+def _floors(before: Scene, after: Scene, files: dict[str, bytes]) -> Iterator[Difference]:
+    floor = after.floor
+    if floor.file in files:
+        floor = replace(floor, points=parse_profile(files[floor.file], floor.file, 2), missing="", file="")
+    if not before.floor.same(floor):
+        yield Difference("the bed", f"{_shape(before.floor)} before, {_shape(floor)} after")
+
+
+def _shape(floor: Floor) -> str:
+    return f"{floor.kind.value} (slope {floor.slope!r}, {len(floor.points)} points)"
+
+
+def _compare(before: Scene, after: Scene) -> tuple[int, int, list[Difference]]:
+    """Number of kinds and of positions, and the differences."""
+    chosen = _kinds(before, after)
+    if not len(chosen):
+        return 0, 0, []
+    old, new = _part(before.inputs(), chosen), _part(after.inputs(), chosen)
+    depths = depths_of([old, new])
+    differences = list(_beds(before, after, chosen))
+    positions = np.repeat(-depths, 2, axis=1)[:, :, np.newaxis] * np.array([1.0, 0.0, 0.0])
+    one, other = ContactModel(old).evaluate(positions), ContactModel(new).evaluate(positions)
+    for name in ("force", "stiffness", "slope", "ratio"):
+        here, there = getattr(one, name), getattr(other, name)
+        for element in np.flatnonzero(~_same_bits(here, there).all(axis=0)).tolist():
+            step = int(np.flatnonzero(~_same_bits(here[:, element], there[:, element]))[0])
+            depth = float(depths[step, element])
+            values = f"{float(here[step, element])!r} before, {float(there[step, element])!r} after"
+            what = f"element {before.element_ids[chosen[element]]}"
+            differences.append(Difference(what, f"{name} at depth {depth!r}: {values}"))
+    return len(chosen), depths.size, differences
+
+
+def _same_bits(one: Floats, other: Floats) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
+    same: np.ndarray[tuple[int, ...], np.dtype[np.bool_]] = one.view(np.uint64) == other.view(np.uint64)
+    return same
+
+
+def _kinds(before: Scene, after: Scene) -> Indices:
+    """One element of each kind: what gives it its law before and after, its bed before and after, its diameter."""
+    columns = [
+        before.laws.of_element,
+        after.laws.of_element,
+        before.bed.of_element,
+        after.bed.of_element,
+        before.diameter.view(np.int64),
+        after.diameter.view(np.int64),
+    ]
+    _, first = np.unique(np.column_stack(columns), axis=0, return_index=True)
+    return np.sort(first)
+
+
+def _part(inputs: ContactInput, chosen: Indices) -> ContactInput:
+    """The chosen elements (k), each with two nodes of its own."""
+    count = len(chosen)
+    return replace(
+        inputs,
+        node_ids=np.arange(1, 2 * count + 1),
+        coordinates=np.zeros((2 * count, 3)),
+        element_ids=inputs.element_ids[chosen],
+        element_nodes=np.arange(2 * count, dtype=np.intp).reshape(count, 2),
+        length=np.ones(count),
+        diameter=inputs.diameter[chosen],
+        law=inputs.law[chosen],
+        curve_index=inputs.curve_index[chosen],
+        linear_stiffness=inputs.linear_stiffness[chosen],
+    )
+
+
+def _beds(before: Scene, after: Scene, chosen: Indices) -> Iterator[Difference]:
+    """Friction, lateral resistance and suction: a coefficient, resistance or suction that is not given is 0."""
+    for name in BedValues._fields:
+        if name == "characteristic":  # checked before: those in force are the default, which the new family has as well
+            continue
+        one, other = (np.asarray(scene.bed.column(name)[chosen], dtype=np.float64) for scene in (before, after))
+        if name in ("friction", "lateral", "suction"):
+            one, other = (np.where(np.isnan(values), 0.0, values) for values in (one, other))
+        same = _same_bits(one, other).reshape(len(chosen), -1).all(axis=1)
+        for element in np.flatnonzero(~same).tolist():
+            what = f"element {before.element_ids[chosen[element]]}"
+            yield Difference(what, f"{name.replace('_', ' ')}: {one[element]} before, {other[element]} after")
+
+
+def _sets(scene: Scene) -> list[str]:
+    """The sets that laws name, each once, in the order of the last block that names it."""
+    names = [grant.set_.name for grant in scene.laws.grants if grant.set_ is not scene.set_table.everything]
+    last = {folded(name): name for name in names}
+    order = {folded(name): position for position, name in enumerate(names)}
+    return [last[key] for key in sorted(last, key=lambda key: order[key])]
+
+
+def _stand_ins(names: Sequence[str]) -> ExternalElements:
+    """Elements in no set, in each set, and in two sets; of many sets only those that follow each other.
+
+    The last block that holds an element wins: an order of blocks, which is the same in two decks when it is the same
+    for every two blocks that follow each other.
+    """
+    pairs = list(combinations(names, 2) if len(names) <= _ALL_PAIRS else pairwise(names))
+    memberships: list[tuple[str, ...]] = [(), *((name,) for name in names), *pairs]
+    count = len(memberships) * len(_DIAMETERS)
+    first = 2**40
+    members: dict[str, list[int]] = {name: [] for name in names}
+    for index in range(count):
+        for name in memberships[index // len(_DIAMETERS)]:
+            members[name].append(first + index)
+    return ExternalElements(
+        _STAND_INS,
+        first + np.arange(count),
+        first + np.arange(2 * count).reshape(count, 2),
+        np.array(_DIAMETERS * len(memberships)),
+        np.ones(count),
+        {name: np.array(ids, dtype=np.int64) for name, ids in members.items()},
+    )
