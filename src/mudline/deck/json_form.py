@@ -8,9 +8,11 @@ from typing import Any
 
 from pydantic_core import to_json as compact
 
-from mudline.deck.document import decoded, from_document, refusal, to_document
+from mudline.deck.document import to_document
+from mudline.deck.document_reading import decoded, from_document
+from mudline.deck.faults import refusal
+from mudline.deck.json_places import JsonPlaces
 from mudline.deck.model import Deck, Range
-from mudline.deck.node_places import compose_json, locator
 from mudline.keywords.listing import Listing
 
 _INDENT = " "
@@ -79,7 +81,7 @@ def from_json(text: str, file: str = "<json>") -> Deck:
         raise refusal(file, "nested too deeply: is this a deck?") from error
     except ValueError as error:
         raise refusal(file, str(error)) from error
-    return from_document(document, file, locator(text, lambda: compose_json(text)))
+    return from_document(document, file, JsonPlaces(text).locate)
 
 
 def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

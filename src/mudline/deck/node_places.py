@@ -1,16 +1,13 @@
-"""Where the values of a YAML or JSON text stand, by their paths."""
+"""Where the values of a YAML text stand, by their paths."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import cache
-from typing import Protocol
+from typing import Protocol, cast
 
 import yaml
 
-from mudline.deck.document import DocumentPath, Locate
+from mudline.deck.faults import DocumentPath, Locate
 from mudline.deck.model import START, Range
-from mudline.deck.yaml_core import CoreLoader
 
 
 class Mark(Protocol):
@@ -33,38 +30,39 @@ def _range(start: Mark, end: Mark, lines: int, width: int) -> Range:
     return Range(*places[0], *places[1])
 
 
-def locator(text: str, compose: Callable[[], yaml.Node | None]) -> Locate:
-    """A function that finds the place of a path, or of the nearest thing around it; it looks when first asked."""
+def locator(text: str, root: yaml.Node | None) -> Locate:
+    """A function that finds the place of a path, or of the nearest thing around it."""
+    lines, width = text.count("\n") + 1, len(text) - text.rfind("\n")
+    known: dict[int, dict[str, yaml.Node]] = {}
 
-    @cache
-    def found() -> dict[DocumentPath, Range]:
-        root = compose()
-        return {} if root is None else _places(root, text)
+    def inner(node: yaml.Node, part: str | int) -> yaml.Node | None:
+        if isinstance(node, yaml.MappingNode) and isinstance(part, str):
+            if id(node) not in known:
+                known[id(node)] = {key.value: value for key, value in node.value if isinstance(key, yaml.ScalarNode)}
+            return known[id(node)].get(part)
+        if isinstance(node, yaml.SequenceNode) and isinstance(part, int) and part < len(node.value):
+            return cast("yaml.Node", node.value[part])
+        return None
 
     def locate(path: DocumentPath) -> Range:
-        known = found()
-        return next((known[path[:n]] for n in range(len(path), -1, -1) if path[:n] in known), START)
+        node = root
+        if node is None:
+            return START
+        for part in path:
+            below = inner(node, part)
+            if below is None:
+                if isinstance(node, yaml.ScalarNode) and node.style == "|" and isinstance(part, int):
+                    return _row(node, part)
+                break
+            node = below
+        return _range(node.start_mark, node.end_mark, lines, width)
 
     return locate
 
 
-def compose_json(text: str) -> yaml.Node | None:
-    """The nodes of a JSON text, JSON being YAML; None where the YAML parser does not take it."""
-    try:
-        return yaml.compose(text, Loader=CoreLoader)
-    except (yaml.YAMLError, RecursionError):
-        return None
-
-
-def _places(root: yaml.Node, text: str) -> dict[DocumentPath, Range]:
-    lines, width = text.count("\n") + 1, len(text) - text.rfind("\n")
-    found: dict[DocumentPath, Range] = {}
-    stack: list[tuple[DocumentPath, yaml.Node]] = [((), root)]
-    while stack:
-        path, node = stack.pop()
-        found[path] = _range(node.start_mark, node.end_mark, lines, width)
-        if isinstance(node, yaml.MappingNode):
-            stack += [((*path, key.value), value) for key, value in node.value if isinstance(key, yaml.ScalarNode)]
-        elif isinstance(node, yaml.SequenceNode):
-            stack += [((*path, index), value) for index, value in enumerate(node.value)]
-    return found
+def _row(block: yaml.ScalarNode, row: int) -> Range:
+    """The line of a row of a table that is a block of text; blank lines are no rows."""
+    lines = block.value.split("\n")
+    written = [number for number, line in enumerate(lines) if line.strip()]
+    number = block.start_mark.line + 2 + (written[row] if row < len(written) else 0)
+    return Range(number, 1, number, 1)

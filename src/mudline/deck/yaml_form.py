@@ -6,7 +6,9 @@ from typing import Any, cast
 
 import yaml
 
-from mudline.deck.document import decoded, from_document, refusal, to_document
+from mudline.deck.document import to_document
+from mudline.deck.document_reading import decoded, from_document
+from mudline.deck.faults import refusal
 from mudline.deck.model import Deck
 from mudline.deck.node_places import locator, mark_range
 from mudline.deck.yaml_core import CoreDumper, CoreLoader, scalar
@@ -95,7 +97,7 @@ def from_yaml(text: str, file: str = "<yaml>") -> Deck:
     except yaml.YAMLError as error:
         raise refusal(file, f"no YAML: {str(error).partition(chr(10))[0]}") from error
     document = None if root is None else _Reader(file, text).value(root)
-    return from_document(document, file, locator(text, lambda: root))
+    return from_document(document, file, locator(text, root))
 
 
 def _look_over(text: str, file: str) -> None:

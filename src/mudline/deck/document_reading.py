@@ -1,0 +1,178 @@
+"""A document of plain values to a deck; everything that breaks the schema is told with its path and place."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+from pydantic import TypeAdapter, ValidationError
+
+from mudline.deck.document import FORMAT, UNITS
+from mudline.deck.faults import DocumentPath, Faults, Locate, refusal, shown
+from mudline.deck.findings import Findings
+from mudline.deck.model import START, Deck, Nowhere, Opaque, Range, Section
+from mudline.diagnostics import Problem, Where
+from mudline.keywords import catalogue
+from mudline.keywords.model import Block, Comment
+from mudline.keywords.values import Text
+from mudline.syntax.source import Source
+from mudline.syntax.tree import Kind, Leaf, canonical_name, parse
+
+
+class DocumentOrigin(Nowhere):
+    """Where the values of a deck stand in a JSON or YAML text. A document is whole or refused."""
+
+    def __init__(self, locate: Locate) -> None:
+        self.locate = locate
+
+    def place(self, problem: Problem) -> Range:
+        """Lines and columns of a problem."""
+        if problem.where is None:
+            return START
+        section, block, path = problem.where
+        start: DocumentPath = () if section < 0 else ("sections", section)
+        return self.locate(start + (() if block < 0 else ("blocks", block)) + path)
+
+
+def decoded(data: bytes, file: str, form: str) -> str:
+    """The text of a JSON or YAML file; raises DeckError when it is not UTF-8."""
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        message = f"byte 0x{data[error.start]:02X} is not UTF-8: {form} files are"
+        raise refusal(file, message, Range(line, 1, line, 1)) from error
+
+
+def from_document(document: object, file: str, locate: Locate) -> Deck:
+    """The deck of a document; raises DeckError with the path and place of everything that breaks the schema."""
+    return _Reader(document, file, locate).read()
+
+
+@cache
+def _adapter(wanted: Any) -> TypeAdapter[Any]:
+    return TypeAdapter(wanted)
+
+
+class _Reader:
+    def __init__(self, document: object, file: str, locate: Locate) -> None:
+        self.document = document
+        self.faults = Faults(file, locate, document)
+        self.deck = Deck(file, origin=DocumentOrigin(locate))
+        self.findings = Findings(self.deck.problems)
+
+    def read(self) -> Deck:
+        document = self._format()
+        deck = self.deck
+        self._only(document, ("format", "source", "units", "preamble", "comments", "sections"), ())
+        deck.source = self._checked(str, document.get("source", ""), ("source",), "")
+        deck.units = document.get("units", "user")
+        if deck.units not in UNITS:
+            self.faults.add(("units",), f"expected one of {', '.join(UNITS)}, found {shown(deck.units)}")
+        deck.preamble = self._lines(document.get("preamble", []), ("preamble",), "$")
+        self._stray(deck.preamble, "before the first section", Where(path=("preamble",)))
+        deck.comments = self._checked(list[Comment], document.get("comments", []), ("comments",), [])
+        sections = document.get("sections")
+        if isinstance(sections, list):
+            for index, given in enumerate(sections):
+                deck.sections.append(self._section(given, index))
+        else:
+            self.faults.add(("sections",), "expected a list of sections")
+        self.faults.raise_any()
+        return deck
+
+    def _format(self) -> dict[str, Any]:
+        if isinstance(self.document, dict):
+            found = self.document.get("format")
+            if found == FORMAT:
+                return self.document
+            self.faults.add(("format",), f"expected {FORMAT!r}, found {shown(found)}")
+        else:
+            found = type(self.document).__name__
+            self.faults.add((), f"expected an object whose format is {FORMAT!r}, found {found}")
+        self.faults.raise_any()
+        raise AssertionError
+
+    def _only(self, given: dict[str, Any], known: tuple[str, ...], path: DocumentPath) -> None:
+        for key in given:
+            if key not in known:
+                self.faults.add((*path, key), f"unknown key: expected {', '.join(known)}")
+
+    def _checked(self, wanted: Any, value: object, path: DocumentPath, otherwise: Any) -> Any:
+        """The value as a type; `otherwise` when it is none."""
+        try:
+            return _adapter(wanted).validate_python(value, strict=True)
+        except ValidationError as error:
+            self.faults.extend(path, error)
+            return otherwise
+
+    def _lines(self, value: object, path: DocumentPath, openers: str) -> list[str]:
+        """Raw lines, none of which opens a section or a block."""
+        lines: list[str] = self._checked(list[Text], value, path, [])
+        for index, line in enumerate(lines):
+            first = line.lstrip(" \t")[:1]
+            if first and first in openers:
+                self.faults.add((*path, index), f"a line that begins with {first} opens a section or a block")
+        return lines
+
+    def _stray(self, lines: list[str], words: str, where: Where) -> None:
+        """Tell of data lines, and of blocks, that stand under no keyword or in no section."""
+        if not lines:
+            return
+        text = "\n".join(lines)
+        tree = parse(Source("", text)).preamble
+
+        def place(leaf: Leaf) -> Where:
+            return where._replace(path=(*where.path, text.count("\n", 0, leaf.span.start)))
+
+        data = [leaf for leaf in tree.leaves if leaf.kind not in (Kind.BLANK, Kind.COMMENT)]
+        if data:
+            count = sum(len(text[slice(*leaf.span)].removesuffix("\n").split("\n")) for leaf in data)
+            self.findings.stray(count, words, None, place(data[0]))
+        for block in tree.blocks:
+            self.findings.before_sections(block.name, None, place(block.head))
+
+    def _section(self, given: object, index: int) -> Section:
+        path: DocumentPath = ("sections", index)
+        section = Section("")
+        if not isinstance(given, dict):
+            self.faults.add(path, "expected a section: an object with name and blocks")
+            return section
+        self._only(given, ("name", "lines", "comments", "blocks"), path)
+        section.name = canonical_name("$" + self._checked(Text, given.get("name"), (*path, "name"), ""))
+        section.lines = self._lines(given.get("lines", []), (*path, "lines"), "$*")
+        section.comments = self._checked(list[Comment], given.get("comments", []), (*path, "comments"), [])
+        if section.name not in catalogue.SECTIONS:
+            self.findings.unknown_section(section.name, Where(index))
+        self._stray(section.lines, f"of ${section.name}", Where(index, -1, ("lines",)))
+        blocks = given.get("blocks")
+        if not isinstance(blocks, list):
+            self.faults.add((*path, "blocks"), "expected a list of blocks")
+            return section
+        for number, block in enumerate(blocks):
+            read = self._block(section.name, block, (*path, "blocks", number))
+            if isinstance(read, Opaque):
+                self.findings.no_model(read.keyword, section.name, Where(index, number))
+            if read is not None:
+                section.blocks.append(read)
+        return section
+
+    def _block(self, section: str, given: object, path: DocumentPath) -> Block | Opaque | None:
+        if not isinstance(given, dict) or not isinstance(given.get("keyword"), str):
+            self.faults.add(path, "expected a block: an object with its keyword")
+            return None
+        declared = None if "lines" in given else catalogue.block_class(section, given["keyword"])
+        if declared is None and "lines" not in given:
+            message = f"*{given['keyword']} in ${section} has no model: expected its raw lines under `lines`"
+            self.faults.add(path, message)
+            return None
+        try:
+            if declared:
+                return declared.model_validate(given)
+            block = Opaque.model_validate(given)
+        except ValidationError as error:
+            self.faults.extend(path, error)
+            return None
+        block.keyword = canonical_name("*" + block.keyword)
+        self._lines(block.lines, (*path, "lines"), "$*")
+        return block

@@ -1,0 +1,109 @@
+"""What breaks the schema in a document: every fault with its path and its place in the file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NoReturn
+
+from pydantic import ValidationError
+
+from mudline.codes import DOC001, DOC002
+from mudline.deck.model import START, Deck, Nowhere, Range
+from mudline.diagnostics import DeckError, Diagnostic, Problem, Span
+
+DocumentPath = tuple[str | int, ...]
+Locate = Callable[[DocumentPath], Range]
+
+MOST_TOLD = 1000
+"""Faults of a document told one by one."""
+
+_LONGEST = 200
+
+
+def refusal(file: str, message: str, place: Range = START) -> DeckError:
+    """Why a text is no document at all."""
+    return DeckError([Diagnostic(file, DOC001.code, DOC001.slug, DOC001.severity, message, *place)])
+
+
+def path_text(path: DocumentPath) -> str:
+    """A path as people write it: `sections[0].blocks[2].curves[0].points`."""
+    text = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path)
+    return text.removeprefix(".") or "the document"
+
+
+def shown(value: object) -> str:
+    """A value of a document in a message, cut when long."""
+    if isinstance(value, dict | list):
+        return "an object" if isinstance(value, dict) else "a list"
+    text = repr(value[:_LONGEST] if isinstance(value, str) else value)
+    return text if len(text) <= _LONGEST else text[:_LONGEST] + "..."
+
+
+class _Numbered(Nowhere):
+    """Places of problems whose span is the number of the place."""
+
+    def __init__(self, places: list[Range]) -> None:
+        self.places = places
+
+    def place(self, problem: Problem) -> Range:
+        return self.places[problem.span.start] if problem.span else START
+
+
+class Faults:
+    """Collects the faults of a document; when there are too many, it is refused at once."""
+
+    def __init__(self, file: str, locate: Locate, document: object) -> None:
+        self.file = file
+        self.locate = locate
+        self.document = document
+        self.found: list[tuple[Range, str]] = []
+
+    def add(self, path: DocumentPath, message: str) -> None:
+        """One fault; raises DeckError when it is one too many."""
+        if len(self.found) == MOST_TOLD:
+            self.found.append((self.locate(path), f"and more of the same: the first {MOST_TOLD} are listed"))
+            self._refuse()
+        self.found.append((self.locate(path), f"{path_text(path)}: {message}"))
+
+    def extend(self, path: DocumentPath, error: ValidationError) -> None:
+        """The faults of a model; of a choice between forms, those of the form that fits best."""
+        known: dict[DocumentPath, list[str]] = {}
+        for fault in error.errors(include_url=False, include_input=False):
+            inner = self._real_path((*path, *fault["loc"]))
+            known.setdefault(inner, []).append(fault["msg"].removeprefix("Value error, "))
+        deepest = max(known, key=len)
+        around = {inner[:length] for inner in known for length in range(len(inner))}
+        for inner, messages in known.items():
+            if inner not in around or inner == deepest:
+                self.add(inner, "; or ".join(dict.fromkeys(messages)))
+
+    def raise_any(self) -> None:
+        """DeckError when there were any."""
+        if self.found:
+            self._refuse()
+
+    def _refuse(self) -> NoReturn:
+        places = [place for place, _ in self.found]
+        problems = [Problem(DOC002, message, Span(number, number)) for number, (_, message) in enumerate(self.found)]
+        raise DeckError(Deck(self.file, origin=_Numbered(places)).diagnose(problems))
+
+    def _real_path(self, loc: DocumentPath) -> DocumentPath:
+        """The path without the names of alternatives that pydantic puts in."""
+        found: list[str | int] = []
+        value: Any = self.document
+        for part in loc:
+            if _holds(value, part):
+                value = value[part]
+            elif isinstance(value, str) and isinstance(part, int):
+                pass  # a row or a cell of a table that is a text
+            elif part != loc[-1] or not isinstance(value, dict):
+                continue
+            found.append(part)
+        return tuple(found)
+
+
+def _holds(value: object, part: str | int) -> bool:
+    """Whether a document has something at a key or an index."""
+    if isinstance(value, dict):
+        return part in value
+    return isinstance(value, list) and isinstance(part, int) and part < len(value)
