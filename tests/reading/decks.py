@@ -74,6 +74,33 @@ def element_sets(draw: st.DrawFn) -> Lines:
     return lines
 
 
+@st.composite
+def line_sections(draw: st.DrawFn, most: int, *, mesh: bool) -> Lines:
+    """Lines of SECTION= with up to `most` distances, each with what stands below it."""
+    lines: Lines = []
+    for name in draw(st.lists(names, max_size=3)):
+        distances = draw(st.lists(reals, min_size=1, max_size=most))
+        group = [f"Repeat = {draw(names)}"] if not mesh and draw(st.booleans()) else []
+        lines.append(draw(setting("SECTION", ", ".join([name, *distances, *group]))))
+        for _ in range(draw(st.integers(0, 2))):
+            lines.append(draw(setting("ADDITIONAL", ", ".join(draw(st.lists(names, min_size=1, max_size=3))))))
+        if mesh and draw(st.booleans()):
+            lines.append(draw(rows(draw(padded(0, 3)), spare=True)))
+    return lines
+
+
+@st.composite
+def line_section_groups(draw: st.DrawFn) -> Lines:
+    groups = draw(st.lists(names, max_size=2))
+    return [line for name in groups for line in (draw(setting("NAME", name)), *draw(line_sections(1, mesh=True)))]
+
+
+@st.composite
+def line_path_sections(draw: st.DrawFn) -> Lines:
+    paths = draw(st.lists(names, max_size=2))
+    return [line for name in paths for line in (draw(setting("LINE", name)), *draw(line_sections(2, mesh=False)))]
+
+
 _FORMATS = {"FLEXIBLE": (9, 11, 4), "RIGID": (5, 11, 1), "MOORING": (3, 5, 0), "TRUSS": (3, 7, 1)}
 _INLINE = ("EIYY", "EIZZ", "GJ", "EA", "EI", "EI_HYSTERESIS", "E", "PLASTIC HARDENING")
 
@@ -162,6 +189,8 @@ MODELLED: dict[str, tuple[str, st.SearchStrategy[Lines]]] = {
     "NODE": ("MODEL", nodes()),
     "ELEMENT": ("MODEL", elements()),
     "ELEMENT SETS": ("MODEL", element_sets()),
+    "LINE SECTION GROUPS": ("MODEL", line_section_groups()),
+    "LINE PATH SECTIONS": ("MODEL", line_path_sections()),
     "GEOMETRIC SETS": ("MODEL", geometric_sets()),
     "SEABED PROPERTIES": ("MODEL", seabed_properties()),
     "SEABED STIFFNESS": ("MODEL", seabed_stiffness()),

@@ -103,6 +103,23 @@ LINES = {
     "NODE": [" 1, -0.0, =[y]", " =[n], 1, 2, 3,", " GEN=1, 3", " 5 6 7"],
     "ELEMENT": [" 1, {a, b}, 2", " 2, 2, 3, , , 1", " GEN=1, 3, 2"],
     "ELEMENT SETS": [" SET=x", " 1, {l}", " GEN=1, 2", " SUBSET=ALL", " SET=y"],
+    "LINE SECTION GROUPS": [
+        " NAME=x",
+        " SECTION=a b, =[l]",
+        " ADDITIONAL=c, d",
+        " ADDITIONAL=e",
+        " ,2,",
+        " SECTION=f, 3",
+        " 1",
+        " NAME=y",
+    ],
+    "LINE PATH SECTIONS": [
+        " LINE=x",
+        " SECTION=a, 0, -1.5, REPEAT=g",
+        " SECTION=b, -1, repeat=h",
+        " ADDITIONAL=c,d",
+        " LINE=y",
+    ],
     "GEOMETRIC SETS": [
         " SET=x, EIYY=c",
         " ,,,,1,2,3,4,5",

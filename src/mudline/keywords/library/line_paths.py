@@ -13,8 +13,8 @@ KEPT = Kept(
     example="*LINE PATHS\n LINE=Flowline\n 0.0, 0.0, 0.0\n 0.0, 850.0, 0.0\n",
     certain="It defines the lines that *LINE PATH SECTIONS divides into sections, with bends.",
     inferred=(
-        "LINE= or NAME= gives the line's name, which is an element set too; the line makes nodes, elements, and labels "
-        "as those of *LINES do; any text in its lines may be a label."
+        "LINE= or NAME= gives the line's name, which is an element set too; SECTION= and ADDITIONAL= give such sets if "
+        "they stand here; a line makes nodes, elements and labels as those of *LINES do; any text may be a label."
     ),
     harvest=LINE_SETS,
     labels=True,

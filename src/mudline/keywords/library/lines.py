@@ -16,8 +16,8 @@ KEPT = Kept(
         "for each section, and for each name in ADDITIONAL=."
     ),
     inferred=(
-        "LINE= or NAME= gives the line's name and SECTION= that of a section, each as the first value; any text in its "
-        "lines may be a label."
+        "LINE= or NAME= gives the line's name and SECTION= that of a section, each as the first value, ADDITIONAL= has "
+        "names only; any text in its lines may be a label."
     ),
     harvest=LINE_SETS,
     labels=True,

@@ -1,0 +1,181 @@
+"""The keywords of lines: two with models, five that are kept as they are."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mudline.deck.loading import dump
+from mudline.deck.model import Opaque
+from mudline.keywords import catalogue
+from mudline.keywords.kept import Kept, Names
+from tests.reading.spellings import texts
+from tests.reading.test_forms import held, read
+
+KEPT = catalogue.kept()
+MODELLED = ("line_section_groups", "line_path_sections")
+
+GROUPS = """\
+$MODEL
+*LINE SECTION GROUPS
+ NAME=Joint
+ SECTION=Pipe Joint, =[length]
+C thicker
+ ADDITIONAL=Coated Pipe, Riser
+ ADDITIONAL=Upper
+ 0.5, , 0.25
+ SECTION=Field Joint, 0.4
+"""
+PATHS = """\
+$MODEL
+*LINE PATH SECTIONS
+ LINE=Flowline
+ SECTION=Start Zone, 0.0, 150.0, REPEAT=Joint
+ ADDITIONAL=Coated Pipe
+ SECTION=End Zone, -50.0
+ LINE=Jumper
+"""
+
+
+def block(text: str) -> dict[str, object]:
+    """The only block of a deck as it stands in a document; reading it finds nothing."""
+    deck = read(text)
+    assert deck.problems == []
+    held(deck)
+    (found,) = deck.sections[0].blocks
+    return found.model_dump(mode="json", exclude_defaults=True)
+
+
+def faults(text: str) -> list[str]:
+    deck = read(text)
+    return [f"{found.line}:{found.column} {found.code} {found.message}" for found in deck.diagnose(deck.problems)]
+
+
+# ------------------------------------------------------------------------------------------------------------- models
+
+
+@pytest.mark.parametrize("module", MODELLED)
+def test_examples(module: str) -> None:
+    declared = catalogue.load(module)
+    text = "$MODEL\n" + declared.example
+    assert dump(read(text), "keyword") == text
+    assert list(block(text)) != []
+
+
+def test_groups() -> None:
+    joint: dict[str, object] = {
+        "section": {"set": "Pipe Joint", "length": "=[length]"},
+        "additional": [{"sets": ["Coated Pipe", "Riser"]}, {"sets": ["Upper"]}],
+        "mesh": {"start": 0.5, "end": 0.25},
+        "comments": [{"before": 0, "text": " thicker"}],
+    }
+    field = {"section": {"set": "Field Joint", "length": 0.4}}
+    assert block(GROUPS) == {"groups": [{"name": "Joint", "sections": [joint, field]}]}
+
+
+def test_paths() -> None:
+    start: dict[str, object] = {
+        "section": {"set": "Start Zone", "start": 0.0, "end": 150.0},
+        "repeat": "Joint",
+        "additional": [{"sets": ["Coated Pipe"]}],
+    }
+    end = {"section": {"set": "End Zone", "start": -50.0}}
+    assert block(PATHS) == {"paths": [{"line": "Flowline", "sections": [start, end]}, {"line": "Jumper"}]}
+
+
+@pytest.mark.parametrize("text", [GROUPS, PATHS])
+def test_written_as_read(text: str) -> None:
+    assert dump(read(text), "keyword") == text
+
+
+def test_mesh_before_the_additional_sets() -> None:
+    before = "$MODEL\n*LINE SECTION GROUPS\n NAME=a\n SECTION=b, 1.0\n 0.5\n ADDITIONAL=c,\n"
+    after = "$MODEL\n*LINE SECTION GROUPS\n NAME=a\n SECTION=b, 1.0\n ADDITIONAL=c\n 0.5\n"
+    assert dump(read(before), "keyword") == after
+
+
+@pytest.mark.parametrize(
+    ("lines", "fault"),
+    [
+        (
+            "*LINE SECTION GROUPS\n SECTION=a, 1\n",
+            "3:2 SYN001 expected NAME= before this line",
+        ),
+        (
+            "*LINE SECTION GROUPS\n NAME=g\n SECTION=a\n",
+            "4:10 SYN003 2 fields expected (`set, length`), found 1",
+        ),
+        (
+            "*LINE SECTION GROUPS\n NAME=g\n SECTION=a, 1\n 1, 2, 3, 4\n",
+            "5:2 SYN003 0 to 3 fields expected (`[start] [, longest] [, end]`), found 4",
+        ),
+        (
+            "*LINE SECTION GROUPS\n NAME=g\n SECTION=a, 1\n ADDITIONAL= ,\n",
+            "5:2 SYN003 ADDITIONAL= has no value",
+        ),
+        (
+            "*LINE PATH SECTIONS\n LINE=x\n SECTION=, 1\n",
+            "4:10 SYN003 set is missing",
+        ),
+        (
+            "*LINE PATH SECTIONS\n LINE=x\n SECTION=a, 0, 1, REPAT=g\n",
+            "4:19 SYN004 REPAT= does not belong on this line (did you mean REPEAT?): expected SECTION=, REPEAT=",
+        ),
+        (
+            "*LINE PATH SECTIONS\n LINE=x\n 1, 2\n",
+            "4:2 SYN001 *LINE PATH SECTIONS has no place for a row here: expected LINE= or SECTION=",
+        ),
+    ],
+)
+def test_faults(lines: str, fault: str) -> None:
+    assert fault in faults("$MODEL\n" + lines)
+
+
+def test_blocks_with_faults_keep_what_could_be_read() -> None:
+    deck = read("$MODEL\n*LINE SECTION GROUPS\n NAME=g\n SECTION=a\n SECTION=b, 2.0\n")
+    (_, found), *_ = deck.blocks("LINE SECTION GROUPS")
+    assert [section.section.set_name for section in found.groups[0].sections] == ["a", "b"]
+
+
+# --------------------------------------------------------------------------------------------------------------- kept
+
+
+@pytest.mark.parametrize("kept", KEPT, ids=lambda kept: kept.names[0])
+def test_what_a_kept_keyword_says_of_itself(kept: Kept) -> None:
+    (name,) = kept.names
+    assert kept.sections == ("MODEL",) == catalogue.sections_of(name)
+    assert catalogue.kept_of("MODEL", name) is kept
+    assert catalogue.block_class("MODEL", name) is None
+    assert name in catalogue.keywords()
+    assert name in catalogue.kept_keywords("MODEL")
+    assert all(words.endswith(".") for words in (kept.summary, kept.certain, kept.inferred))
+    assert set(kept.makes) <= {"NODE", "ELEMENT", "ELEMENT SETS"}
+    assert all(key in kept.inferred for key in (f"{key}=" for key in kept.harvest))
+    assert ("ELEMENT SETS" in kept.makes) <= (Names.SET in kept.harvest.values())
+
+
+@pytest.mark.parametrize("kept", KEPT, ids=lambda kept: kept.names[0])
+def test_examples_of_kept_keywords(kept: Kept) -> None:
+    text = "$MODEL\n" + kept.example
+    deck = read(text)
+    assert deck.problems == []
+    assert deck.sections[0].blocks == [Opaque(keyword=kept.names[0], lines=kept.example.splitlines()[1:])]
+    assert dump(deck, "keyword") == text
+
+
+def test_other_keywords_are_not_kept_with_a_module() -> None:
+    assert catalogue.kept_of("MODEL", "P-X") is None
+    assert catalogue.kept_of("LOAD CASE", "LINES") is None
+    assert catalogue.kept_keywords("LOAD CASE") == []
+
+
+@given(st.sampled_from([kept.names[0] for kept in KEPT]), st.lists(texts, max_size=5))
+@settings(max_examples=100)
+def test_nothing_of_a_kept_block_is_lost(keyword: str, lines: list[str]) -> None:
+    lines = [line if line.lstrip(" \t")[:1] not in ("$", "*") else "x" + line for line in lines]
+    text = f"$MODEL\n*{keyword}\n" + "".join(f"{line}\n" for line in lines)
+    deck = read(text)
+    assert deck.problems == []
+    held(deck)
+    assert dump(deck, "keyword") == text
