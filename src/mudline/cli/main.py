@@ -20,6 +20,7 @@ from mudline.cli.terminal import reason, tell
 COMMANDS = {
     "lint": "Find faults in decks.",
     "validate": "Say of each deck whether it is legal and complete.",
+    "format": "Rewrite decks in canonical layout, or say which are not in it.",
     "convert": "Convert a deck between keyword text, JSON and YAML.",
     "migrate": "Rewrite the legacy seabed keywords as the new family.",
     "show": "Summarise a deck: sections, keywords, sets, curves, diameters.",

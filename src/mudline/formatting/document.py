@@ -16,6 +16,9 @@ from mudline.syntax.source import Source
 class AlteredError(Exception):
     """The canonical text would mean something else: a fault of the formatter."""
 
+    def __init__(self) -> None:
+        super().__init__("formatting would change its meaning: this is a fault of mudline, please report it")
+
 
 def formatted(data: bytes, name: str) -> bytes:
     """The content of a deck file in canonical layout, in its own encoding and line ends; `name` tells its form.

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mudline.formatting.columns import LONGEST, Columns
+from mudline.formatting.columns import LONGEST, Columns, Shape
 
 _PLAIN = b"0123456789+-.eEdD, \t\r\n"
 _GAP = re.compile(rb"(?<=[^ \t\r\n])[ \t]+(?=[^ \t\r\n])")
@@ -78,12 +79,12 @@ class PlainRows:
         for number, column in enumerate(columns.upto(int(self.column.max()) + 1)):
             here = short & (self.column == number)
             lefts = self.lefts[here]
-            column.take_number(int(lefts.max(initial=0)), int((self.sizes[here] - lefts).max(initial=0)))
+            column.take_numbers(int(lefts.max(initial=0)), int((self.sizes[here] - lefts).max(initial=0)))
 
-    def lines(self, columns: Columns) -> str:
+    def lines(self, shapes: Sequence[Shape]) -> str:
         """The lines of the rows, each with a LF."""
-        width = np.array([column.width for column in columns.columns])[self.column]
-        point = np.array([column.point for column in columns.columns])[self.column]
+        width = np.array([shape.width for shape in shapes])[self.column]
+        point = np.array([shape.point for shape in shapes])[self.column]
         before = np.maximum(point - self.lefts, 0)
         after = np.maximum(width - before - self.sizes, 0) + 1
         hollow = self.last & (self.sizes == 0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import NamedTuple
@@ -13,6 +14,7 @@ from mudline.formatting.plain import PlainRows
 from mudline.syntax.rows import line_spans, row_fields
 
 _PIECE = 256 * 1024
+_HELD_TOGETHER = re.compile(r'[\["{]')
 
 
 class Run(NamedTuple):
@@ -33,8 +35,14 @@ class Run(NamedTuple):
 
 def word_rows(text: str, most: int) -> WordRows:
     """The rows of some whole lines, cut to `most` fields, whatever stands in them."""
-    spans = line_spans(text, Span(0, len(text)))
-    return WordRows([[given.text for given in row_fields(text, span, most)] for span in spans])
+    rows: list[list[str]] = []
+    for line in line_spans(text, Span(0, len(text))):
+        body = text[slice(*line)]
+        if "," not in body or _HELD_TOGETHER.search(body):
+            rows.append([given.text for given in row_fields(text, line, most)])
+        else:
+            rows.append([piece.strip(" \t\r") for piece in body.split(",")[:most]])
+    return WordRows(rows)
 
 
 class Single(NamedTuple):
@@ -61,5 +69,6 @@ class Rows:
         for member in self.members:
             for part in member.parts(self.kind):
                 part.measure(columns)
+        shapes = columns.shapes()
         for member in self.members:
-            yield member.span, "".join(part.lines(columns) for part in member.parts(self.kind))
+            yield member.span, "".join(part.lines(shapes) for part in member.parts(self.kind))
