@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator
 from typing import Any
 
@@ -10,12 +11,13 @@ from pydantic_core import to_json as compact
 
 from mudline.deck.document import to_document
 from mudline.deck.document_reading import decoded, from_document
-from mudline.deck.faults import refusal
+from mudline.deck.faults import DocumentPath, path_text, refusal
 from mudline.deck.json_places import JsonPlaces
 from mudline.deck.model import Deck, Range
 from mudline.keywords.listing import Listing
 
 _INDENT = " "
+_HALF_PAIR = re.compile(r"[\ud800-\udfff]")
 
 
 def to_json(deck: Deck) -> str:
@@ -81,7 +83,24 @@ def from_json(text: str, file: str = "<json>") -> Deck:
         raise refusal(file, "nested too deeply: is this a deck?") from error
     except ValueError as error:
         raise refusal(file, str(error)) from error
-    return from_document(document, file, JsonPlaces(text).locate)
+    places = JsonPlaces(text)
+    if "\\ud" in text or "\\uD" in text:
+        _refuse_half_pairs(document, file, places)
+    return from_document(document, file, places.locate)
+
+
+def _refuse_half_pairs(document: object, file: str, places: JsonPlaces) -> None:
+    """Refuse escapes that are half of a surrogate pair, which no file can hold."""
+    stack: list[tuple[DocumentPath, object]] = [((), document)]
+    while stack:
+        path, value = stack.pop()
+        if isinstance(value, dict):
+            stack += [((*path, key), item) for key, item in value.items()]
+            value = "".join(value)
+        elif isinstance(value, list):
+            stack += [((*path, index), item) for index, item in enumerate(value)]
+        if isinstance(value, str) and not value.isascii() and _HALF_PAIR.search(value):
+            raise refusal(file, f"{path_text(path)}: \\uD800 to \\uDFFF stand in pairs only", places.locate(path))
 
 
 def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from array import array
+from collections.abc import Iterator
+from functools import cached_property
 from json import JSONDecoder
 
 from mudline.deck.faults import DocumentPath
@@ -16,14 +18,18 @@ _decode = JSONDecoder().raw_decode
 class JsonPlaces:
     """Finds places in a text that is JSON.
 
-    What stands beside a path is passed over by the decoder, which is as fast as reading it; what was found is kept.
+    What stands before a path is passed over by the decoder, which is as fast as reading it; what was found is kept.
     """
 
     def __init__(self, text: str) -> None:
         self.text = text
-        self.source = Source("", text)
-        self.keys: dict[int, dict[str, int]] = {}
-        self.items: dict[int, array[int]] = {}
+        self.keys: dict[int, tuple[dict[str, int], Iterator[tuple[str, int]]]] = {}
+        self.items: dict[int, tuple[array[int], Iterator[int]]] = {}
+        self.ends: dict[int, int] = {}
+
+    @cached_property
+    def _source(self) -> Source:
+        return Source("", self.text)
 
     def locate(self, path: DocumentPath) -> Range:
         """The place of a path, or of the nearest thing around it."""
@@ -33,38 +39,55 @@ class JsonPlaces:
             if below is None:
                 break
             at = below
-        end: int = _decode(self.text, at)[1]
-        return Range(*self.source.position(at), *self.source.position(end))
+        if at not in self.ends:
+            self.ends[at] = _decode(self.text, at)[1]
+        return Range(*self._source.position(at), *self._source.position(self.ends[at]))
 
     def _below(self, at: int, part: str | int) -> int | None:
         """Where a value in an object or a list begins."""
         if self.text[at] == "{" and isinstance(part, str):
-            if at not in self.keys:
-                self.keys[at] = self._object(at)
-            return self.keys[at].get(part)
+            return self._value(at, part)
         if self.text[at] == "[" and isinstance(part, int):
-            if at not in self.items:
-                self.items[at] = self._list(at)
-            found = self.items[at]
-            return found[part] if part < len(found) else None
+            return self._item(at, part)
         return None
 
-    def _object(self, at: int) -> dict[str, int]:
-        found: dict[str, int] = {}
+    def _value(self, at: int, wanted: str) -> int | None:
+        if at not in self.keys:
+            self.keys[at] = {}, self._members(at)
+        known, further = self.keys[at]
+        while wanted not in known:
+            key, start = next(further, ("", -1))
+            if start < 0:
+                return None
+            known[key] = start
+        return known[wanted]
+
+    def _item(self, at: int, wanted: int) -> int | None:
+        if at not in self.items:
+            self.items[at] = array("q"), self._starts(at)
+        known, further = self.items[at]
+        while len(known) <= wanted:
+            start = next(further, -1)
+            if start < 0:
+                return None
+            known.append(start)
+        return known[wanted]
+
+    def _members(self, at: int) -> Iterator[tuple[str, int]]:
+        """Keys of an object, and where their values begin."""
         at = self._skipped(at + 1)
         while self.text[at] != "}":
             key, at = _decode(self.text, at)
-            found[key] = at = self._skipped(self._skipped(at) + 1)
+            at = self._skipped(self._skipped(at) + 1)
+            yield key, at
             at = self._next(at)
-        return found
 
-    def _list(self, at: int) -> array[int]:
-        found = array("q")
+    def _starts(self, at: int) -> Iterator[int]:
+        """Where the values of a list begin."""
         at = self._skipped(at + 1)
         while self.text[at] != "]":
-            found.append(at)
+            yield at
             at = self._next(at)
-        return found
 
     def _next(self, at: int) -> int:
         """Behind a value and its comma."""

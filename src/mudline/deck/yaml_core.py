@@ -15,6 +15,7 @@ except ImportError:  # PyYAML without its C library
     from yaml import SafeDumper as _Dumper  # type: ignore[assignment]
     from yaml import SafeLoader as _Loader  # type: ignore[assignment]
 
+_MOST_DIGITS = 400
 _TAG = "tag:yaml.org,2002:"
 # the tables of section 10.3.2 of the YAML 1.2.2 specification
 _CORE: dict[str, tuple[str, list[str]]] = {
@@ -59,6 +60,8 @@ def scalar(node: yaml.ScalarNode) -> Any:
         case "bool":
             return text.lower() == "true"
         case "int":
+            if len(text) > _MOST_DIGITS:
+                raise ValueError(f"a whole number of {len(text)} digits is too large")
             return int(text, 8 if text.startswith("0o") else 16 if text.startswith("0x") else 10)
         case "float":
             value = float(text) if "n" not in text.lower() else math.nan
