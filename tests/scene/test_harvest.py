@@ -1,0 +1,311 @@
+"""Names that lines give: element sets and labels are known, and what is nearly one of them is told."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Iterator
+
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+
+from mudline.deck.loading import load_bytes
+from mudline.deck.model import Deck
+from mudline.deck.parameters import folded
+from mudline.diagnostics import Span
+from mudline.keywords.kept import LINE_SETS, Names
+from mudline.scene.build import resolve
+from mudline.scene.harvest import bare, definers, harvested_labels, harvested_sets, may_define
+from mudline.syntax.fields import read_line
+from tests.reading.spellings import names, pads, setting, texts
+from tests.scene.decks import PIPE, all_told, messages, told
+
+LINES = "*LINES\n LINE=SCR\n"
+LOCATIONS = "*LINE LOCATIONS\n LINE=SCR\n Seabed End, 0.0\n {Hang-off}, 1200.0\n"
+
+
+def deck_of(text: str) -> Deck:
+    return load_bytes(f"$MODEL\n{text}".encode(), "deck.keyxm")
+
+
+def sets_of(text: str) -> list[str]:
+    return list(harvested_sets(deck_of(text)).values())
+
+
+def labels_of(text: str) -> list[str]:
+    return list(harvested_labels(deck_of(text)).values())
+
+
+# --------------------------------------------------------------------------------------------------------------- sets
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ("*LINES\n LINE=SCR\n SECTION=Top, 100.0\n ADDITIONAL=Upper, Coated Pipe\n", "SCR Top Upper Coated_Pipe"),
+        ("*LINES\n LINE=SCR, SECTION=Top, 100.0, ADDITIONAL=Upper, Coated Pipe,\n", "SCR Top Upper Coated_Pipe"),
+        ("*LINES\n  line =  SCR  ,\n Section\t=\tTop\t, 100.0\n", "SCR Top"),
+        ("*LINES\n LINE=SCR\n LINE=scr\n SECTION=ScR, 2\n", "SCR"),
+        ("*LINES\n NAME=SCR, TYPE=CATENARY, START={Hang-off}\n", "SCR"),
+        ('*LINES\n LINE="SCR", SECTION={Top}, 1\n ADDITIONAL="a, b" , {c, d}, e\n', "SCR Top a,_b c,_d e"),
+        ("*LINES\n LINE==[if(a, b, c)], 2\n SECTION=A=B, 3\n", "=[if(a,_b,_c)] A=B"),
+        ("*LINES\n LINE=\n SECTION=, 3\n ADDITIONAL=, ,\n ADDITIONAL=,a, ,b\n", "a b"),
+        ("*LINES\nC LINE=a\nc LINE=b\nC-- LINE=c\nCLINE=d\nC\n100.0, LINE=e\n", "e"),
+        ("*LINES\n LINE={open, 2\n", "{open,_2"),
+        ("*LINE LOCATIONS\n LINE=SCR\n SECTION=no set, 3\n", "SCR"),
+        ("*LINE PATHS\n LINE=Flowline\n 0, 0, 0\n", "Flowline"),
+        ("*CABLE\n NAME=a\n", "a"),
+        ("*NODE,CURVILINEAR\n LINE=a\n", ""),
+        ("*LINE PATH SECTIONS\n LINE=a\n SECTION=b, 0, 1, REPEAT=no\n ADDITIONAL=c, d\n", "a b c d"),
+        ("*LINE SECTION GROUPS\n NAME=a\n SECTION=b, 1\n ADDITIONAL=c, d\n 1, 2, 3\n", "a b c d"),
+        ("*LINE SECTION GROUPS\n NAME=a\n SECTION=b\n SECTIN=c, 1\n ADDITIONAL=d\n", "a b d"),
+        ("*LINE PATH SECTIONS\n SECTION=b, 1\n LINE=\n LINE=c\n", "b c"),
+        ("*P-Y\n LINE=a\n", ""),
+        ("$LOAD CASE\n*LINES\n LINE=a\n", ""),
+    ],
+)
+def test_sets(text: str, found: str) -> None:
+    assert [name.replace(" ", "_") for name in sets_of(text)] == found.split()
+
+
+def test_names_of_a_keyword_with_a_model_that_a_document_gives_as_lines() -> None:
+    block = {"keyword": "LINE PATH SECTIONS", "lines": [" LINE=a", " SECTION=b, 0, 1", " ADDITIONAL=c, d"]}
+    document = {"format": "mudline-deck/1", "sections": [{"name": "MODEL", "blocks": [block]}]}
+    assert list(harvested_sets(load_bytes(json.dumps(document).encode(), "deck.json"))) == ["a", "b", "c", "d"]
+
+
+_KEYWORDS = st.sampled_from(["LINES", "LINE PATHS", "CABLE", "LINE PATH SECTIONS", "LINE SECTION GROUPS"])
+_CASES = st.sampled_from([str.upper, str.lower, str.title])
+
+
+@given(_KEYWORDS, names, names, st.lists(names, min_size=1, max_size=4), st.data())
+@settings(max_examples=150)
+def test_any_name_is_found(keyword: str, line: str, section: str, more: list[str], data: st.DataObject) -> None:
+    key = "NAME" if keyword == "LINE SECTION GROUPS" else "LINE"
+    listed = ",".join(data.draw(pads) + name + data.draw(pads) for name in more)
+    lines = [
+        data.draw(setting(key, line)),
+        data.draw(setting("SECTION", f"{section}{data.draw(pads)}, 1.0")),
+        data.draw(setting("ADDITIONAL", listed + data.draw(st.sampled_from(["", ",", " , ,"])))),
+    ]
+    block = "".join(f"{text}\n" for text in (f"*{keyword}", *lines))
+    found = harvested_sets(deck_of(block))
+    for name in (line, section, *more):
+        assert folded(bare(name)) in found
+        seabed = f"*SEABED PROPERTIES\n TYPE=ELASTIC\n SET={data.draw(_CASES)(name)}\n STIFFNESS=1.0\n"
+        assert told(f"$MODEL\n{block}{seabed}") == []
+
+
+def _slowly(line: str) -> Iterator[str]:
+    """The sets of a line of `*LINES`, by the reader of fields."""
+    for group in read_line(line, Span(0, len(line))).groups:
+        if kind := LINE_SETS.get(group.key):
+            yield from (given.text for given in (group.fields if kind is Names.SETS else group.fields[:1]))
+
+
+_pieces = st.lists(
+    st.sampled_from(
+        ["LINE", "section", " ADDITIONAL ", "x y", "=", "=", ",", ",", '"', "{", "}", "[", "]", " ", "1.5"]
+    ),
+    max_size=14,
+).map("".join)
+
+
+@given(_pieces | texts)
+@example('ADDITIONAL=a, "b, c" d, {e, "f}, g, LINE={h')
+@settings(max_examples=300)
+def test_lines_are_cut_as_the_reader_of_fields_does(line: str) -> None:
+    line = " " + line.replace("$", "").replace("*", "")
+    wanted = {folded(bare(name)) for name in _slowly(line)} - {""}
+    assert set(harvested_sets(deck_of(f"*LINES\n{line}\n"))) == wanted
+
+
+def test_a_line_of_very_many_names() -> None:
+    some = ", ".join(f"Set {index}" for index in range(5000))
+    assert len(sets_of(f"*LINES\n ADDITIONAL={some}\n")) == 5000
+
+
+def test_a_hundred_thousand_lines() -> None:
+    section = " SECTION=Joint {0}, 12.2, ADDITIONAL=Riser, Joints {0}\n"
+    deck = deck_of("*LINES\n LINE=SCR\n" + "".join(section.format(index) for index in range(100_000)))
+    start = time.perf_counter()
+    assert len(harvested_sets(deck)) == 200_002
+    assert time.perf_counter() - start < 2.0
+
+
+@pytest.mark.parametrize("unit", ["a=", "a ", '"', "{", '{"', "= ", "LINE=", "[=", "=[", "a,"])
+def test_no_line_takes_long(unit: str) -> None:
+    deck = deck_of(f"*LINES\n LINE={unit * 200_000}\n LINE=SCR\n")
+    start = time.perf_counter()
+    assert "scr" in harvested_sets(deck)
+    assert "scr" in harvested_labels(deck)
+    assert time.perf_counter() - start < 2.0
+
+
+# ------------------------------------------------------------------------------------------------ sets that are named
+
+
+@pytest.mark.parametrize("name", ["scr", '"SCR"', "{scr}", "Riser"])
+def test_a_subset_of_a_line(name: str) -> None:
+    lines = PIPE + "*LINES\n LINE=SCR, ADDITIONAL=Riser\n"
+    assert told(f"{lines}*ELEMENT SETS\n SET=a\n SUBSET={name}\n") == []
+
+
+def test_names_of_lines_are_suggested() -> None:
+    text = (
+        PIPE + LINES + " SECTION=Touchdown\n*ELEMENT SETS\n SET=a\n SUBSET=Touchdwn\n*GEOMETRIC SETS\n SET=Touchdow\n"
+    )
+    text += " ,,,, 100, 1, 0.2, 0.3, 0.3\n"
+    suffix = "*LINES, which is not read, may define it"
+    assert messages(text) == [
+        f"SUBSET= names no set: 'Touchdwn' is not defined (did you mean Touchdown?); define it; {suffix}",
+        f"set 'Touchdow' is not defined (did you mean Touchdown?): define it in *ELEMENT SETS; {suffix}",
+    ]
+
+
+def test_a_set_in_quotes_that_the_deck_defines_itself() -> None:
+    text = PIPE + '*LINES\n LINE=a\n*ELEMENT SETS\n SET="a"\n 1\n SET=b\n SUBSET="a"\n'
+    sets = resolve(load_bytes(text.encode(), "deck.keyxm")).set_table.named
+    assert (sets["b"].elements.tolist(), sets["b"].open, sets["a"].open) == ([0], False, True)
+
+
+# ------------------------------------------------------------------------------------------------- what lines may make
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ("*CABLE\n 1\n*LINE SECTION GROUPS\n NAME=a\n*LINES\n LINE=b\n", ["LINES", "CABLE", "LINE SECTION GROUPS"]),
+        ("*NODE,CURVILINEAR\n 1, 2\n*P-Y\n x\n", ["NODE,CURVILINEAR"]),
+        ("*SEABED STIFFNESS\n CURVE=a\n", []),
+    ],
+)
+def test_definers(text: str, found: list[str]) -> None:
+    assert definers(deck_of(text)) == found
+
+
+@pytest.mark.parametrize(
+    ("definer", "made"),
+    [
+        ("LINES", {"NODE", "ELEMENT", "ELEMENT SETS"}),
+        ("LINE PATHS", {"NODE", "ELEMENT", "ELEMENT SETS"}),
+        ("CABLE", {"NODE", "ELEMENT", "ELEMENT SETS"}),
+        ("LINE PATH SECTIONS", {"NODE", "ELEMENT", "ELEMENT SETS"}),
+        ("LINE LOCATIONS", {"NODE"}),
+        ("NODE,CURVILINEAR", {"NODE"}),
+        ("OCEAN", set[str]()),
+    ],
+)
+def test_what_may_define_what(definer: str, made: set[str]) -> None:
+    kinds = ("NODE", "ELEMENT", "ELEMENT SETS", "SEABED STIFFNESS")
+    assert {keyword for keyword in kinds if may_define(definer, keyword)} == made
+
+
+def test_the_block_that_may_define_it_is_named() -> None:
+    seabed = "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=b\n STIFFNESS=1\n"
+    sections = "*LINE PATH SECTIONS\n LINE=x\n"
+    assert messages(PIPE + "*LINE LOCATIONS\n x, 2\n*CABLE\n 1\n" + seabed)[0].endswith(
+        "*CABLE, which is not read, may define it"
+    )
+    ending = "the lines of *LINE PATH SECTIONS, which this deck does not show, may define it"
+    assert messages(PIPE + sections + seabed)[0].endswith(ending)
+    assert told(PIPE + "*NODE,CURVILINEAR\n 1\n" + seabed) == [("E", "REF001", 13, 6)]
+
+
+# -------------------------------------------------------------------------------------------------------------- labels
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ("*LINE LOCATIONS\n LINE=SCR\n Seabed End, 0.0, 1E3\n {Hang-off}, =[x]\n", ["SCR", "Seabed End", "Hang-off"]),
+        ('*LINES\n LINE=SCR, START="Seabed End", {Top}\nC {no}\n 1, 2\n', ["SCR", "Seabed End", "Top"]),
+        ("*LINE PATHS\n LABEL=a b\n", ["a b"]),
+        ("*CABLE\n {no}\n*P-Y\n {no}\n", []),
+        ("*LINE SECTION GROUPS\n NAME=no\n", []),
+    ],
+)
+def test_labels(text: str, found: list[str]) -> None:
+    assert labels_of(text) == found
+
+
+def nodes(*labels: str) -> str:
+    return "".join(f" {index}, {label}, {label}\n" for index, label in enumerate(labels, 1))
+
+
+def test_labels_that_lines_make() -> None:
+    text = "$MODEL\n" + LINES + LOCATIONS + "*ELEMENT\n" + nodes("{Seabed End}", "{HANG-OFF}", "{Elsewhere}")
+    assert told(text) == []
+
+
+def test_labels_that_are_nearly_so() -> None:
+    text = "$MODEL\n" + LINES + LOCATIONS + "*ELEMENT\n 1, {Seabed Ende}, 2\n*ELEMENT SETS\n SET=a\n 1, {Hangoff}\n"
+    found = {message for message in messages(text) if message.startswith("label")}
+    stands = "does not stand in *LINES or *LINE LOCATIONS"
+    assert found == {
+        f"label '{{Seabed Ende}}' {stands} (did you mean {{Seabed End}}?): correct it",
+        f"label '{{Hangoff}}' {stands} (did you mean {{Hang-off}}?): correct it",
+    }
+    assert [entry for entry in told(text) if entry[3] > 2] == [
+        ("W", "REF006", 9, 5),
+        ("W", "REF006", 9, 20),
+        ("W", "REF005", 12, 5),
+    ]
+
+
+def test_a_label_with_another_number_is_another_label() -> None:
+    text = "$MODEL\n*LINES\n LINE=a\n {End 1}\n*ELEMENT\n" + nodes("{End 1}", "{End 2}")
+    assert told(text) == []
+
+
+def test_a_word_without_braces_is_told_once() -> None:
+    text = "$MODEL\n" + LINES + LOCATIONS + "*ELEMENT\n 1, Seabed Ende, {Seabed End}\n"
+    assert [code for _, code, _, _ in all_told(text)] == ["SYN016"]
+
+
+def test_labels_where_nothing_makes_any() -> None:
+    assert told("$MODEL\n*ELEMENT\n" + nodes("{End}"))[0][:2] == ("E", "REF006")
+
+
+# ----------------------------------------------------------------------------------------------- lines and their groups
+
+SECTIONS = "*LINE PATH SECTIONS\n LINE=Flowline\n SECTION=a, 0, 100, REPEAT=Joint\n"
+GROUPS = "*LINE SECTION GROUPS\n NAME=Joint\n SECTION=b, 12.0\n"
+ROUTE = "*LINE PATHS\n LINE=Flowline\n 0, 0, 0\n"
+
+
+def test_names_that_lines_use_of_each_other() -> None:
+    for text in (SECTIONS + GROUPS + ROUTE, ROUTE + SECTIONS.upper() + GROUPS, SECTIONS + GROUPS):
+        assert told("$MODEL\n" + text) == []
+
+
+def test_a_group_that_is_not_defined() -> None:
+    assert told("$MODEL\n" + SECTIONS) == [("W", "REF001", 4, 28)]
+    text = "$MODEL\n" + SECTIONS + GROUPS.replace("Joint", "Joints")
+    wanted = "REPEAT= names no group: 'Joint' is not defined (did you mean Joints?); define it in *LINE SECTION GROUPS"
+    assert messages(text) == [wanted]
+    later = "$LOAD CASE\n*RESTART\n LAST=static\n"
+    assert messages(text + later) == [wanted + "; the deck that *RESTART continues may define it"]
+
+
+def test_a_line_that_is_not_defined() -> None:
+    text = "$MODEL\n" + ROUTE.replace("Flowline", "Flow Line") + SECTIONS + GROUPS
+    assert told(text) == [("W", "REF001", 6, 7)]
+    assert messages(text) == [
+        "LINE= names no line: 'Flowline' is not defined (did you mean Flow Line?); define it in *LINE PATHS"
+    ]
+
+
+def test_groups_that_a_document_gives_as_lines() -> None:
+    groups = {"keyword": "LINE SECTION GROUPS", "lines": [" NAME=Joint"]}
+    path = {"line": "a", "sections": [{"section": {"set": "b", "start": 0.0}, "repeat": "Joint"}]}
+    blocks = [groups, {"keyword": "LINE PATH SECTIONS", "paths": [path]}]
+    document = {"format": "mudline-deck/1", "sections": [{"name": "MODEL", "blocks": blocks}]}
+    deck = load_bytes(json.dumps(document).encode(), "deck.json")
+    assert deck.problems == resolve(deck).problems == []
+
+
+def test_sections_that_could_not_be_read() -> None:
+    sections = "*LINE PATH SECTIONS\n LINE=\n SECTION=, 1\n LINE=a\n SECTION=b, 1, REPEAT=\n"
+    assert told(f"$MODEL\n{sections}*LINE SECTION GROUPS\n NAME=\n") == []
