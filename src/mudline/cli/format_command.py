@@ -17,7 +17,7 @@ from mudline.cli.terminal import reason, tell, tell_diagnostics
 from mudline.diagnostics import DeckError
 from mudline.files import write_atomically
 from mudline.formatting.changes import unified_diff
-from mudline.formatting.document import AlteredError, formatted
+from mudline.formatting.document import FormatError, formatted
 from mudline.syntax.source import Source
 
 
@@ -59,7 +59,7 @@ class _Run:
         except DeckError as error:
             tell_diagnostics(error.diagnostics)
             self.failed += 1
-        except AlteredError as error:
+        except FormatError as error:
             tell(f"{file.name}: {error}")
             self.failed += 1
         else:

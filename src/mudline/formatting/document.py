@@ -12,36 +12,43 @@ from mudline.formatting.meaning import same_meaning
 from mudline.syntax.edits import apply_edits
 from mudline.syntax.source import Source
 
+_ALTERED = "formatting would change its meaning: this is a fault of mudline, please report it"
+_REMARKS = "it has YAML comments (#), which belong to no part of a deck and would be lost: it is left as it is"
 
-class AlteredError(Exception):
-    """The canonical text would mean something else: a fault of the formatter."""
 
-    def __init__(self) -> None:
-        super().__init__("formatting would change its meaning: this is a fault of mudline, please report it")
+class FormatError(Exception):
+    """A file without an error that is left as it is nevertheless; the message says why."""
 
 
 def formatted(data: bytes, name: str) -> bytes:
-    """The content of a deck file in canonical layout, in its own encoding and line ends; `name` tells its form.
+    """The content of a deck file in canonical form; `name` tells whether it is keyword text, JSON or YAML.
 
-    A deck in JSON or YAML becomes what `dump` writes. Raises DeckError for a deck that has an error, and AlteredError
-    rather than to give back a deck that is not the same.
+    A keyword text keeps its encoding and its prevailing line end; a deck in JSON or YAML becomes what `dump` writes.
+    Raises DeckError for a deck that has an error, and FormatError where something would be lost or changed.
     """
     form = form_of(name)
     if form != "keyword":
-        deck = load_bytes(data, name).require()
-        after = dump(deck, form).encode()
-        return _checked(deck, after, load_bytes(after, name))
+        return _document(data, name, form)
     source = Source.from_bytes(data, name)
-    deck = read_source(source)
-    edits = layout_edits(cast("TextOrigin", deck.require().origin))
+    deck = read_source(source).require()
+    edits = layout_edits(cast("TextOrigin", deck.origin))
     if not edits:
         return data
     after = source.to_bytes(apply_edits(source.text, edits))
     return _checked(deck, after, read_source(Source.from_bytes(after, name)))
 
 
+def _document(data: bytes, name: str, form: str) -> bytes:
+    deck = load_bytes(data, name).require()
+    after = dump(deck, form).encode()
+    if data.count(b"#") != after.count(b"#") and form == "yaml":  # those of the deck's texts are written again
+        raise FormatError(_REMARKS)
+    return _checked(deck, after, load_bytes(after, name))
+
+
 def _checked(deck: Deck, after: bytes, again: Deck) -> bytes:
-    faults = [problem.code for problem in deck.problems]
-    if not same_meaning(deck, again) or faults != [problem.code for problem in again.problems]:
-        raise AlteredError
+    """The new content, if it gives the same deck with the same findings."""
+    findings = [[problem.code for problem in read.problems] for read in (deck, again)]
+    if findings[0] != findings[1] or not same_meaning(deck, again):
+        raise FormatError(_ALTERED)
     return after

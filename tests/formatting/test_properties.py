@@ -1,0 +1,81 @@
+"""Whatever is formatted: the deck stays the same, twice is once, and nothing but layout is touched."""
+
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mudline.deck.loading import load_bytes
+from mudline.deck.model import Opaque
+from mudline.diagnostics import DeckError, Severity
+from mudline.formatting.document import formatted
+from mudline.formatting.meaning import same_meaning
+from tests.reading.decks import deck_texts, mutated
+from tests.samples import SAMPLES
+
+FILES = sorted(path for path in SAMPLES.iterdir() if path.is_file())
+BOM = b"\xef\xbb\xbf"
+
+
+def check(data: bytes, name: str = "deck.keyxm") -> bytes:
+    """Format, and hold what came out against what went in."""
+    before = load_bytes(data, name)
+    if any(problem.weight is Severity.ERROR for problem in before.problems):
+        with pytest.raises(DeckError):
+            formatted(data, name)
+        return data
+    new = formatted(data, name)
+    after = load_bytes(new, name)
+    assert same_meaning(before, after)
+    assert Counter(problem.code for problem in after.problems) == Counter(problem.code for problem in before.problems)
+    assert formatted(new, name) == new
+    opaque = [block for section in before.sections for block in section.blocks if isinstance(block, Opaque)]
+    assert opaque == [block for section in after.sections for block in section.blocks if isinstance(block, Opaque)]
+    ends = (new.count(b"\r\n"), new.count(b"\n") - new.count(b"\r\n"), new.count(b"\r") - new.count(b"\r\n"))
+    assert sum(count > 0 for count in ends) <= 1
+    assert not new.removeprefix(BOM) or new.endswith((b"\n", b"\r"))
+    assert new.startswith(BOM) == data.startswith(BOM)
+    return new
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
+@pytest.mark.parametrize("end", [b"\n", b"\r\n", b"\r"], ids=["LF", "CRLF", "CR"])
+@pytest.mark.parametrize("mark", [b"", BOM], ids=["plain", "BOM"])
+def test_samples(path: Path, end: bytes, mark: bytes) -> None:
+    data = path.read_bytes()
+    expected = check(data)
+    assert check(mark + data.replace(b"\n", end)) == mark + expected.replace(b"\n", end)
+    check(mark + data.replace(b"\n", end).rstrip())
+
+
+@given(deck_texts(), st.booleans())
+@settings(max_examples=250)
+def test_decks(text: str, bom: bool) -> None:
+    check((BOM if bom else b"") + text.encode())
+
+
+@given(deck_texts())
+@settings(max_examples=60)
+def test_decks_in_other_encodings(text: str) -> None:
+    check(text.encode("cp1252", errors="ignore") + b"C \xe9\n")
+
+
+_sample_bytes = st.sampled_from([path.read_bytes()[:6000] for path in FILES if path.suffix.startswith(".key")])
+
+
+@given(mutated(st.one_of(deck_texts().map(str.encode), _sample_bytes)))
+@settings(max_examples=150)
+def test_mutated_decks(data: bytes) -> None:
+    check(data)
+
+
+@given(st.text(st.sampled_from('$*C c=1-,.\t\r\nx[]{}"/\x85\u2028\u0660\x0b\x0c\xdf'), max_size=60))
+@settings(max_examples=250)
+def test_random_lines(text: str) -> None:
+    check(text.encode())
+    check(b"$MODEL\n*SEABED STIFFNESS\nCURVE=x\n" + text.encode())
+    check(b"$PREPROCESSOR\n*PARAMETERS\n" + text.encode())
