@@ -22,6 +22,9 @@ from tests.reading.spellings import names, pads, setting, texts
 from tests.scene.decks import PIPE, all_told, messages, told
 
 LINES = "*LINES\n LINE=SCR\n"
+AGES = 10.0
+"""Seconds: much more than anything here takes, much less than time that grows with the square of the text."""
+
 LOCATIONS = "*LINE LOCATIONS\n LINE=SCR\n Seabed End, 0.0\n {Hang-off}, 1200.0\n"
 
 
@@ -129,18 +132,18 @@ def test_a_line_of_very_many_names() -> None:
 def test_a_hundred_thousand_lines() -> None:
     section = " SECTION=Joint {0}, 12.2, ADDITIONAL=Riser, Joints {0}\n"
     deck = deck_of("*LINES\n LINE=SCR\n" + "".join(section.format(index) for index in range(100_000)))
-    start = time.perf_counter()
+    start = time.process_time()
     assert len(harvested_sets(deck)) == 200_002
-    assert time.perf_counter() - start < 2.0
+    assert time.process_time() - start < AGES
 
 
 @pytest.mark.parametrize("unit", ["a=", "a ", '"', "{", '{"', "= ", "LINE=", "[=", "=[", "a,"])
 def test_no_line_takes_long(unit: str) -> None:
     deck = deck_of(f"*LINES\n LINE={unit * 200_000}\n LINE=SCR\n")
-    start = time.perf_counter()
+    start = time.process_time()
     assert "scr" in harvested_sets(deck)
     assert "scr" in harvested_labels(deck)
-    assert time.perf_counter() - start < 2.0
+    assert time.process_time() - start < AGES
 
 
 # ------------------------------------------------------------------------------------------------ sets that are named
@@ -235,7 +238,14 @@ def nodes(*labels: str) -> str:
 
 
 def test_labels_that_lines_make() -> None:
-    text = "$MODEL\n" + LINES + LOCATIONS + "*ELEMENT\n" + nodes("{Seabed End}", "{HANG-OFF}", "{Elsewhere}")
+    text = (
+        "$MODEL\n"
+        + LINES
+        + LOCATIONS
+        + "*ELEMENT\n"
+        + nodes("{Seabed End}", "{HANG-OFF}", "{Elsewhere}")
+        + " GEN=1, 2\n"
+    )
     assert told(text) == []
 
 
