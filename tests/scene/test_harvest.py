@@ -244,7 +244,7 @@ def test_labels_that_lines_make() -> None:
         + LOCATIONS
         + "*ELEMENT\n"
         + nodes("{Seabed End}", "{HANG-OFF}", "{Elsewhere}")
-        + " GEN=1, 2\n"
+        + " GEN=3, 2\n"
     )
     assert told(text) == []
 
