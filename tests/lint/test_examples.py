@@ -125,7 +125,7 @@ STY010 unused-suppression W
 
 SEVERITIES = {"E": Severity.ERROR, "W": Severity.WARNING, "I": Severity.INFO}
 TABLE = {words[0]: words[1:] for words in (line.split() for line in AGREED.strip().split("\n"))}
-NO_RULE = {"DOC001", "DOC002", "DAT001", "RUN001"}
+NO_RULE = {"DOC001", "DOC002", "DAT001", "EXP001", "MIG001", "RUN001"}
 """What is said of other files than keyword decks, and of runs."""
 
 ADVICE = re.compile(

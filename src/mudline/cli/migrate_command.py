@@ -107,8 +107,8 @@ class _Run:
             tell(f"{self.file.name}: left as it is: {_count(verdict.differences)} between the old deck and the new one")
         else:
             self._note(
-                f"verified: {verdict.elements} elements of {verdict.kinds} kinds, and {verdict.stand_ins} stand-ins for "
-                f"its sets, at {verdict.positions} positions: forces, stiffnesses, friction, lateral resistance, "
+                f"verified: {verdict.elements} elements of {verdict.kinds} kinds, and {verdict.stand_ins} stand-ins "
+                f"for its sets, at {verdict.positions} positions: forces, stiffnesses, friction, lateral resistance, "
                 "suction and bed are bitwise equal"
             )
         return not verdict.differences

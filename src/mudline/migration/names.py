@@ -25,8 +25,9 @@ def curve_names(sets: Iterable[str], taken: Iterable[str]) -> list[str]:
 
 def _candidates(name: str) -> Iterable[str]:
     yield name
-    yield f"{name} curve"
+    base = f"{name} curve" if reads_as_name(f"{name} curve") else "curve"
+    yield base
     number = 2
     while True:
-        yield f"{name} curve {number}"
+        yield f"{base} {number}"
         number += 1

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from itertools import combinations, pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -13,18 +12,14 @@ from mudline.contact.inputs import ContactInput
 from mudline.contact.model import ContactModel
 from mudline.deck.parameters import folded
 from mudline.migration.migrating import Migration
+from mudline.migration.stand_ins import StandIns
 from mudline.migration.sweep import depths_of
 from mudline.scene.bed import BedValues
 from mudline.scene.build import resolve
-from mudline.scene.external import ExternalElements
 from mudline.scene.floor import Floor
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices
 from mudline.scene.profile_file import parse_profile
-
-_ALL_PAIRS = 40
-_DIAMETERS = (0.2731, 0.5)
-_STAND_INS = "stand-ins"
 
 
 class Difference(NamedTuple):
@@ -56,13 +51,12 @@ def verify(migration: Migration) -> Verdict:
     """
     before, after = migration.before, migration.after
     differences = [*_floors(before, after, migration.files)]
-    kinds, positions, found = _compare(before, after)
+    kinds, positions, found = _compare(before, after, {})
     differences += found
-    names = _sets(before)
-    stand_ins = _stand_ins(names)
-    _, more, found = _compare(resolve(before.deck, stand_ins), resolve(after.deck, stand_ins))
-    differences += (difference._replace(what=f"an element of {difference.what}") for difference in found)
-    return Verdict(len(before.element_ids), kinds, positions + more, len(stand_ins.ids), tuple(differences))
+    stand_ins = StandIns(_sets(before))
+    external = stand_ins.elements()
+    _, more, found = _compare(resolve(before.deck, external), resolve(after.deck, external), stand_ins.names())
+    return Verdict(len(before.element_ids), kinds, positions + more, len(external.ids), (*differences, *found))
 
 
 def _floors(before: Scene, after: Scene, files: dict[str, bytes]) -> Iterator[Difference]:
@@ -77,14 +71,18 @@ def _shape(floor: Floor) -> str:
     return f"{floor.kind.value} (slope {floor.slope!r}, {len(floor.points)} points)"
 
 
-def _compare(before: Scene, after: Scene) -> tuple[int, int, list[Difference]]:
-    """Number of kinds and of positions, and the differences."""
+def _compare(before: Scene, after: Scene, names: Mapping[int, str]) -> tuple[int, int, list[Difference]]:
+    """Number of kinds and of positions, and the differences; `names` has what an element is called, by its number."""
     chosen = _kinds(before, after)
     if not len(chosen):
         return 0, 0, []
     old, new = _part(before.inputs(), chosen), _part(after.inputs(), chosen)
     depths = depths_of([old, new])
-    differences = list(_beds(before, after, chosen))
+    called = [names.get(number, f"element {number}") for number in before.element_ids[chosen].tolist()]
+    differences = [
+        Difference(called[index], text)
+        for index, text in [*_laws(before, after, chosen), *_beds(before, after, chosen)]
+    ]
     positions = np.repeat(-depths, 2, axis=1)[:, :, np.newaxis] * np.array([1.0, 0.0, 0.0])
     one, other = ContactModel(old).evaluate(positions), ContactModel(new).evaluate(positions)
     for name in ("force", "stiffness", "slope", "ratio"):
@@ -93,8 +91,7 @@ def _compare(before: Scene, after: Scene) -> tuple[int, int, list[Difference]]:
             step = int(np.flatnonzero(~_same_bits(here[:, element], there[:, element]))[0])
             depth = float(depths[step, element])
             values = f"{float(here[step, element])!r} before, {float(there[step, element])!r} after"
-            what = f"element {before.element_ids[chosen[element]]}"
-            differences.append(Difference(what, f"{name} at depth {depth!r}: {values}"))
+            differences.append(Difference(called[element], f"{name} at depth {depth!r}: {values}"))
     return len(chosen), depths.size, differences
 
 
@@ -134,7 +131,14 @@ def _part(inputs: ContactInput, chosen: Indices) -> ContactInput:
     )
 
 
-def _beds(before: Scene, after: Scene, chosen: Indices) -> Iterator[Difference]:
+def _laws(before: Scene, after: Scene, chosen: Indices) -> Iterator[tuple[int, str]]:
+    """The kind of law, as a rigid bed and none at all give no force of their own."""
+    for index in np.flatnonzero(before.law[chosen] != after.law[chosen]).tolist():
+        element = int(chosen[index])
+        yield index, f"law: {before.law_names[element]} before, {after.law_names[element]} after"
+
+
+def _beds(before: Scene, after: Scene, chosen: Indices) -> Iterator[tuple[int, str]]:
     """Friction, lateral resistance and suction: a coefficient, resistance or suction that is not given is 0."""
     for name in BedValues._fields:
         if name == "characteristic":  # checked before: those in force are the default, which the new family has as well
@@ -143,9 +147,8 @@ def _beds(before: Scene, after: Scene, chosen: Indices) -> Iterator[Difference]:
         if name in ("friction", "lateral", "suction"):
             one, other = (np.where(np.isnan(values), 0.0, values) for values in (one, other))
         same = _same_bits(one, other).reshape(len(chosen), -1).all(axis=1)
-        for element in np.flatnonzero(~same).tolist():
-            what = f"element {before.element_ids[chosen[element]]}"
-            yield Difference(what, f"{name.replace('_', ' ')}: {one[element]} before, {other[element]} after")
+        for index in np.flatnonzero(~same).tolist():
+            yield index, f"{name.replace('_', ' ')}: {one[index]} before, {other[index]} after"
 
 
 def _sets(scene: Scene) -> list[str]:
@@ -154,27 +157,3 @@ def _sets(scene: Scene) -> list[str]:
     last = {folded(name): name for name in names}
     order = {folded(name): position for position, name in enumerate(names)}
     return [last[key] for key in sorted(last, key=lambda key: order[key])]
-
-
-def _stand_ins(names: Sequence[str]) -> ExternalElements:
-    """Elements in no set, in each set, and in two sets; of many sets only those that follow each other.
-
-    The last block that holds an element wins: an order of blocks, which is the same in two decks when it is the same
-    for every two blocks that follow each other.
-    """
-    pairs = list(combinations(names, 2) if len(names) <= _ALL_PAIRS else pairwise(names))
-    memberships: list[tuple[str, ...]] = [(), *((name,) for name in names), *pairs]
-    count = len(memberships) * len(_DIAMETERS)
-    first = 2**40
-    members: dict[str, list[int]] = {name: [] for name in names}
-    for index in range(count):
-        for name in memberships[index // len(_DIAMETERS)]:
-            members[name].append(first + index)
-    return ExternalElements(
-        _STAND_INS,
-        first + np.arange(count),
-        first + np.arange(2 * count).reshape(count, 2),
-        np.array(_DIAMETERS * len(memberships)),
-        np.ones(count),
-        {name: np.array(ids, dtype=np.int64) for name, ids in members.items()},
-    )

@@ -1,0 +1,129 @@
+"""`mudline migrate` through the command line."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from unittest.mock import patch
+
+import pytest
+
+from mudline.deck.loading import load_bytes, load_path
+from mudline.migration.verification import Difference, Verdict
+from tests.cli.conftest import Place
+from tests.cli.decks import CLEAN
+from tests.cli.runner import SAMPLES, run
+from tests.migration.test_migrating import MIGRATED, SAMPLE
+
+PROFILE = CLEAN.partition("*SEABED")[0] + "*RIGID SURFACE\n 0.3\n 0, 0\n 10, 1\n"
+
+
+def test_in_place(place: Place) -> None:
+    outcome = run("migrate", place(SAMPLE))
+    assert outcome.code == 0
+    assert outcome.out == ""
+    assert outcome.err == "mudline: deck.keyxm: 1 *ELASTIC SURFACE, 1 *EMBEDMENT -> deck.keyxm\n"
+    assert Path("deck.keyxm").read_text(encoding="utf-8") == MIGRATED
+
+
+def test_a_second_time_changes_nothing(place: Place) -> None:
+    name = place(MIGRATED)
+    stamp = Path(name).stat().st_mtime_ns
+    outcome = run("migrate", name)
+    assert (outcome.code, outcome.err) == (0, "mudline: deck.keyxm: no legacy seabed keyword\n")
+    assert Path(name).stat().st_mtime_ns == stamp
+    assert run("migrate", "-q", name).err == ""
+
+
+def test_to_another_file_in_another_form(place: Place) -> None:
+    name = place(SAMPLE)
+    assert run("migrate", name, "-o", "new.json").code == 0
+    assert Path(name).read_text(encoding="utf-8") == SAMPLE
+    assert load_path(Path("new.json")).sections == load_bytes(MIGRATED.encode(), "deck.keyxm").sections
+    assert run("migrate", place(MIGRATED), "-o", "same.keyxm").code == 0
+    assert Path("same.keyxm").read_text(encoding="utf-8") == MIGRATED
+
+
+def test_standard_input() -> None:
+    assert run("migrate", "-", stdin=SAMPLE.encode()).out == MIGRATED
+    assert run("migrate", "-", stdin=MIGRATED.encode()).out == MIGRATED
+    outcome = run("migrate", "-", stdin=PROFILE.encode())
+    assert (outcome.code, outcome.out) == (1, "")
+    assert "give the deck as a file" in outcome.err
+    assert list(Path().iterdir()) == []
+
+
+def test_diff_writes_nothing(place: Place) -> None:
+    name = place(PROFILE)
+    outcome = run("migrate", "--diff", name)
+    assert outcome.code == 0
+    assert "-*RIGID SURFACE\n" in outcome.out
+    assert "+ FILE=deck-profile.txt\n" in outcome.out
+    assert "--- /dev/null\n+++ deck-profile.txt\n@@ -0,0 +1,3 @@\n+C Y, elevation" in outcome.out
+    assert Path(name).read_text(encoding="utf-8") == PROFILE
+    assert [path.name for path in Path().iterdir()] == ["deck.keyxm"]
+
+
+def test_diff_in_colours(place: Place) -> None:
+    outcome = run("migrate", "--diff", "--color", "always", place(SAMPLE))
+    assert "\x1b[32m+*SEABED PROPERTIES\x1b[0m\n" in outcome.out
+    assert "\x1b[31m-*ELASTIC SURFACE\x1b[0m\n" in outcome.out
+
+
+def test_a_profile_is_written_beside_the_new_deck(place: Place) -> None:
+    Path("out").mkdir()
+    outcome = run("migrate", place(PROFILE), "-o", "out/new.keyxm")
+    assert outcome.err == "mudline: deck.keyxm: 1 *RIGID SURFACE -> out/new.keyxm, out/deck-profile.txt\n"
+    assert Path("out/deck-profile.txt").read_text(encoding="utf-8").endswith("0.0, 0.0\n10.0, 1.0\n")
+    assert run("lint", "out/new.keyxm").code == 0
+    place("C other\n0, 0\n", "deck-profile.txt")
+    run("migrate", "deck.keyxm")
+    assert "FILE=deck-profile-2.txt" in Path("deck.keyxm").read_text(encoding="utf-8")
+    assert Path("deck-profile.txt").read_text(encoding="utf-8") == "C other\n0, 0\n"
+
+
+def test_verify(place: Place) -> None:
+    outcome = run("migrate", "--verify", place(SAMPLE))
+    assert outcome.code == 0
+    assert "deck.keyxm: verified: 12 elements of " in outcome.err
+    assert "are bitwise equal\n" in outcome.err
+
+
+def test_a_deck_that_would_change_its_meaning_is_left_as_it_is(place: Place) -> None:
+    name = place(SAMPLE)
+    verdict = Verdict(12, 4, 100, 8, (Difference("element 3", "force at depth 0.1: 1.0 before, 2.0 after"),))
+    with patch("mudline.cli.migrate_command.verify", return_value=verdict):
+        outcome = run("migrate", "--verify", name)
+    assert outcome.code == 1
+    assert outcome.err == (
+        "mudline: deck.keyxm: element 3: force at depth 0.1: 1.0 before, 2.0 after\n"
+        "mudline: deck.keyxm: left as it is: 1 difference between the old deck and the new one\n"
+    )
+    assert Path(name).read_text(encoding="utf-8") == SAMPLE
+
+
+def test_a_refused_deck_does_not_stop_the_others(place: Place) -> None:
+    place(SAMPLE, "b.keyxm")
+    bad = place(SAMPLE.replace("*EMBEDMENT\n", "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=7\n*EMBEDMENT\n"), "a.keyxm")
+    outcome = run("migrate", ".")
+    assert outcome.code == 1
+    assert f"{bad}:" in outcome.err
+    assert "MIG001" in outcome.err
+    assert Path("b.keyxm").read_text(encoding="utf-8") == MIGRATED
+
+
+def test_one_output_takes_one_deck(place: Place) -> None:
+    outcome = run("migrate", place(SAMPLE, "a.keyxm"), place(SAMPLE, "b.keyxm"), "-o", "c.keyxm")
+    assert outcome.code == 2
+    assert "-o takes one deck" in outcome.err
+
+
+@pytest.mark.parametrize("sample", sorted(path.name for path in SAMPLES.glob("*.keyx*")))
+def test_samples(sample: str, place: Place) -> None:
+    """Every sample is migrated with a proof, or has nothing to migrate."""
+    text = (SAMPLES / sample).read_bytes()
+    outcome = run("migrate", "--verify", place(text, sample))
+    assert outcome.code == 0
+    if b"*EMBEDMENT" in text or b"SURFACE" in text:
+        assert "are bitwise equal" in outcome.err
+    else:
+        assert Path(sample).read_bytes() == text

@@ -1,0 +1,178 @@
+"""Legacy decks become decks of the new family that mean the same."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from hypothesis import given, settings
+
+from mudline.deck.json_form import to_json
+from mudline.deck.loading import load_bytes
+from mudline.deck.model import Deck
+from mudline.deck.yaml_form import to_yaml
+from mudline.linting.engine import lint_deck
+from mudline.linting.registry import rules
+from mudline.migration.migrating import Migration, legacy_blocks, migrate
+from mudline.migration.verification import verify
+from tests.migration.decks import PIPE, deck_of, legacy_decks
+
+SAMPLE = (
+    PIPE
+    + """\
+C the old seabed
+*ELASTIC SURFACE
+C stiffness first
+ 5.0D4, 0.3, , 200, 100.0, 0.25, , , 12, 0.05
+C sloping
+ 2.5
+*EMBEDMENT
+ SET=East Bank
+ 0.0, 0.0
+C the point of rev B
+ 0.5, 4000.0
+ SET=7
+ 0.0, 0.0
+ 1.0, 100.0
+"""
+)
+
+MIGRATED = (
+    PIPE
+    + """\
+C the old seabed
+*SEABED PROPERTIES
+C stiffness first
+ TYPE=ELASTIC
+ SET=ALL
+ STIFFNESS=5.0D4
+ FRICTION=0.3, 0, 0.05, , 12
+ LATERAL=200
+ SUCTION=100.0, 0.25
+ SET=East Bank
+ STIFFNESS=East Bank
+ FRICTION=0.3, 0, 0.05, , 12
+ LATERAL=200
+ SUCTION=100.0, 0.25
+ SET=7
+ STIFFNESS=7 curve
+ FRICTION=0.3, 0, 0.05, , 12
+ LATERAL=200
+ SUCTION=100.0, 0.25
+*SEABED PROFILE
+C sloping
+ TYPE=SLOPING
+ SLOPE=2.5
+*SEABED STIFFNESS
+ CURVE=East Bank
+ 0.0, 0.0
+C the point of rev B
+ 0.5, 4000.0
+ CURVE=7 curve
+ 0.0, 0.0
+ 1.0, 100.0
+"""
+)
+
+
+def migrated(text: str | bytes, name: str = "deck.keyxm") -> Migration:
+    return migrate(deck_of(text, name))
+
+
+def comments_of(deck: Deck) -> list[str]:
+    return sorted(re.findall(r'"text": "(.*)"', to_json(deck)))
+
+
+def test_every_field_goes_to_its_place() -> None:
+    found = migrated(SAMPLE)
+    assert found.content.decode() == MIGRATED
+    assert found.files == {}
+    assert dict(found.replaced) == {"ELASTIC SURFACE": 1, "EMBEDMENT": 1}
+    assert verify(found).differences == ()
+
+
+def test_the_new_deck_is_clean_where_the_old_one_was() -> None:
+    codes = {one.code for one in lint_deck(deck_of(MIGRATED), rules())}
+    assert codes <= {one.code for one in lint_deck(deck_of(SAMPLE), rules())}
+    assert "LEG001" not in codes
+
+
+@pytest.mark.parametrize("end", ["\r\n", "\r"])
+def test_line_ends_and_encoding_stay(end: str) -> None:
+    text = SAMPLE.replace("the old seabed", "Böschung").replace("\n", end)
+    found = migrated(text.encode("cp1252"))
+    assert found.content == MIGRATED.replace("the old seabed", "Böschung").replace("\n", end).encode("cp1252")
+
+
+@pytest.mark.parametrize("form", ["json", "yaml"])
+def test_documents_are_migrated_in_their_own_form(form: str) -> None:
+    text = (to_json if form == "json" else to_yaml)(deck_of(SAMPLE))
+    found = migrated(text, f"deck.{form}")
+    again = load_bytes(found.content, f"deck.{form}")
+    assert again.sections == deck_of(MIGRATED).sections
+    assert verify(found).differences == ()
+
+
+def test_points_before_any_set_mean_all() -> None:
+    found = migrated(PIPE + "*ELASTIC SURFACE\n 1e4\n*EMBEDMENT\n0, 0\n 1, 5\n SET=West\n 0, 0\n 1, 7\n")
+    text = found.content.decode()
+    assert " CURVE=ALL\n0, 0\n" in text
+    assert text.index("STIFFNESS=1e4") < text.index("STIFFNESS=ALL") < text.index("STIFFNESS=West")
+    assert verify(found).differences == ()
+
+
+def test_keys_in_column_one_stay_clear_of_comments() -> None:
+    """CURVE= in column 1 begins with C; tools that drop such lines as comments must not meet one."""
+    found = migrated(PIPE + "*ELASTIC SURFACE\n1e4, 0.3\n*EMBEDMENT\nSET=West\n0, 0\n1, 5\n")
+    assert b"\n CURVE=West\n0, 0\n" in found.content
+    assert b"\n TYPE=ELASTIC\n SET=ALL\n" in found.content
+
+
+def test_equations_are_carried_as_written() -> None:
+    head = "$PREPROCESSOR\n*PARAMETERS\n k, 2e4\n"
+    found = migrated(head + PIPE + "*ELASTIC SURFACE\n =[k * 2], =[if(k > 1, 0.3, 0)]\n =[k/1e4]\n")
+    text = found.content.decode()
+    assert " STIFFNESS==[k * 2]\n FRICTION==[if(k > 1, 0.3, 0)], 0\n" in text
+    assert " SLOPE==[k/1e4]\n" in text
+    assert verify(found).differences == ()
+
+
+def test_a_profile_goes_to_a_file_beside_the_deck() -> None:
+    deck = PIPE + "*RIGID SURFACE\n 0.3\n 100.0, 30.0\nC shore\n 0.0, 0.1D0\n"
+    found = migrated(deck, "Pipe 7 (rev B).keyxm")
+    assert b"TYPE=2D\n INTERPOLATION=LINEAR\n FILE=Pipe-7-rev-B-profile.txt\nC shore\n" in found.content
+    head = b"C Y, elevation: profile of *RIGID SURFACE of Pipe 7 (rev B).keyxm\n"
+    assert found.files == {"Pipe-7-rev-B-profile.txt": head + b"100.0, 30.0\n0.0, 0.1\n"}
+    assert verify(found).differences == ()
+
+
+def test_largest_characteristic_lengths_without_effect_are_left_in_a_comment() -> None:
+    found = migrated(PIPE + "*ELASTIC SURFACE\n 1e4, 0.3, 0.5, , , , 3.048, 9.0, , , 0.1\n")
+    listed = b"C largest characteristic lengths (longitudinal 3.048, transverse 9.0) left out: the default, or without"
+    assert listed in found.content
+    assert b" FRICTION=0.3, 0.5, , 0.1\n" in found.content
+
+
+@settings(max_examples=150, deadline=None)
+@given(legacy_decks())
+def test_any_legacy_deck_means_the_same_afterwards(text: str) -> None:
+    deck = deck_of(text)
+    found = migrate(deck)
+    assert verify(found).differences == ()
+    assert not legacy_blocks(found.deck)
+    left = comments_of(deck)
+    for comment in comments_of(found.deck):
+        if comment in left:
+            left.remove(comment)
+    assert left == []
+
+
+@settings(max_examples=50, deadline=None)
+@given(legacy_decks())
+def test_bytes_outside_the_legacy_blocks_stay(text: str) -> None:
+    content = migrate(deck_of(text)).content.decode()
+    before = re.split(r"\*(?:ELASTIC|RIGID|EMBEDMENT|SEABED)", text)[0]
+    assert content.startswith(before)
+    assert content.endswith(text[text.index("$LOAD CASE") :] if "$LOAD CASE" in text else "")
+    ends = {"\r\n", "\r", "\n"} - {"\r\n" if "\r\n" in text else "\r" if "\r" in text else "\n"}
+    assert not any(re.search(f"(?<!\r){end}(?!\n)" if len(end) == 1 else end, content) for end in ends)

@@ -1,0 +1,69 @@
+"""What the new family cannot say stops the migration, with a place and a reason."""
+
+from __future__ import annotations
+
+import pytest
+
+from mudline.diagnostics import DeckError
+from mudline.migration.migrating import migrate
+from mudline.migration.names import curve_names
+from tests.migration.decks import PIPE, deck_of
+
+LINES = PIPE.count("\n")
+SURFACE = "*ELASTIC SURFACE\n 1e4, 0.3, 0.5"
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "column", "words"),
+    [
+        (f"{SURFACE}, , , , 2.0\n", 2, 23, "the largest longitudinal characteristic length"),
+        (f"{SURFACE}, , , , , 10\n", 2, 25, "the largest transverse characteristic length"),
+        ("*RIGID SURFACE\n 0.3, 0.5, 2.0\n", 2, 12, "give the mobilisation length instead"),
+        (f"{SURFACE}\n*ELASTIC SURFACE\n 2e4\n", 3, 1, "a second surface"),
+        (f"{SURFACE}\n 2.5\n 0, 0\n 1, 1\n", 3, 2, "a slope and a profile"),
+        (f"{SURFACE}\n 0, 0\n =[1+1], 1\n", 4, 2, "an equation in a profile"),
+        (f"{SURFACE}\n 2.5\n*SEABED PROFILE\n TYPE=SLOPING\n SLOPE=1\n", 4, 1, "*SEABED PROFILE and the slope"),
+        (f"{SURFACE}\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=West\n STIFFNESS=1\n", 3, 1, "stands beside legacy"),
+        (f"{SURFACE}\n$LOAD CASE\n*RESTART\n LAST=base\n", 4, 1, "*RESTART continues another deck"),
+        (f"{SURFACE}\n*EMBEDMENT\nCURVE=x\n SET=West\n 0, 0\n 1, 1\n", 1, 1, "would be lost or read as data"),
+    ],
+)
+def test_the_reason_and_its_place(text: str, line: int, column: int, words: str) -> None:
+    with pytest.raises(DeckError) as caught:
+        migrate(deck_of(PIPE + text))
+    (found,) = [one for one in caught.value.diagnostics if words in one.message]
+    assert (found.code, found.line, found.column) == ("MIG001", LINES + line, column)
+
+
+def test_a_deck_with_errors_is_left_alone() -> None:
+    with pytest.raises(DeckError) as caught:
+        migrate(deck_of(PIPE + SURFACE.replace("1e4", "-1e4") + "\n"))
+    assert [found.code for found in caught.value.diagnostics] == ["SBD010"]
+
+
+def test_default_lengths_of_the_unit_system_are_no_obstacle() -> None:
+    imperial = (PIPE + f"{SURFACE}, , , , 10.0, 10.0\n").encode()
+    assert b"left out" in migrate(deck_of(imperial, "deck.keyxi")).content
+    with pytest.raises(DeckError):
+        migrate(deck_of(imperial, "deck.keyxm"))
+
+
+def test_a_length_in_a_direction_without_friction_is_no_obstacle() -> None:
+    found = migrate(deck_of(PIPE + "*ELASTIC SURFACE\n 1e4, 0.0, , , , , 2.0, 2.0\n"))
+    assert b"(longitudinal 2.0, transverse 2.0) left out" in found.content
+
+
+def test_names_of_curves() -> None:
+    names = ["Clay", "clay", "12", "1e5", "nan", "=[x]", "CLAY curve", "Sand", "3 m"]
+    found = curve_names(names, ["SAND", "12 curve"])
+    assert found == [
+        "Clay",
+        "clay curve",
+        "12 curve 2",
+        "1e5 curve",
+        "nan curve",
+        "curve",
+        "CLAY curve curve",
+        "Sand curve",
+        "3 m",
+    ]

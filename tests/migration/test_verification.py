@@ -1,0 +1,92 @@
+"""The proof finds what a wrong migration would change."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from mudline.deck.loading import load_bytes
+from mudline.migration.migrating import Migration, migrate
+from mudline.migration.verification import verify
+from mudline.scene.build import resolve
+from tests.migration.decks import PIPE, deck_of
+from tests.migration.test_migrating import MIGRATED, SAMPLE
+
+ULP = "4000.0000000000005"
+
+
+def tampered(old: str, new: str, *, text: str = SAMPLE) -> Migration:
+    """A migration whose new deck is not what it should be."""
+    found = migrate(deck_of(text))
+    content = found.content.decode()
+    assert old in content
+    changed = load_bytes(content.replace(old, new).encode(), "deck.keyxm")
+    return replace(found, after=resolve(changed), content=content.replace(old, new).encode())
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "name"),
+    [
+        ("STIFFNESS=5.0D4", "STIFFNESS=50000.000000000007", "force"),
+        ("0.5, 4000.0", f"0.5, {ULP}", "force"),
+        ("STIFFNESS=East Bank", "STIFFNESS=7 curve", "force"),
+        ("STIFFNESS=East Bank", "STIFFNESS=5e4", "force"),
+        ("TYPE=ELASTIC", "TYPE=RIGID", "law"),
+        ("FRICTION=0.3,", "FRICTION=0.30000000000000004,", "friction"),
+        ("0, 0.05, , 12", "0, , 0.05, 12", "mobilisation"),
+        (", , 12", ", , 12.5", "constant"),
+        ("LATERAL=200", "LATERAL=0", "lateral"),
+        ("SUCTION=100.0, 0.25", "SUCTION=100.0", "extent"),
+        ("SUCTION=100.0,", "SUCTION=100.00001,", "suction"),
+        ("SLOPE=2.5", "SLOPE=-2.5", "slope"),
+        ("TYPE=SLOPING", "TYPE=SLOPING\n DIRECTION=90", "sloping"),
+    ],
+)
+def test_every_value_counts(old: str, new: str, name: str) -> None:
+    differences = verify(tampered(old, new)).differences
+    assert differences
+    assert any(name in difference.text for difference in differences)
+
+
+def test_the_order_of_blocks_counts() -> None:
+    """Element 9 lies in both sets: the later block wins."""
+    east = MIGRATED[MIGRATED.index(" SET=East Bank\n STIFFNESS") : MIGRATED.index(" SET=7\n STIFFNESS")]
+    seven = MIGRATED[MIGRATED.index(" SET=7\n STIFFNESS") : MIGRATED.index("*SEABED PROFILE")]
+    differences = verify(tampered(east + seven, seven + east)).differences
+    assert {difference.what for difference in differences} >= {"element 9"}
+
+
+def test_a_lost_block_counts() -> None:
+    differences = verify(tampered(" SET=7\n STIFFNESS=7 curve\n", " SET=7\n")).differences
+    assert {difference.what for difference in differences} >= {"element 3", "element 9"}
+
+
+def test_elements_that_the_deck_does_not_show_are_stood_in_for() -> None:
+    """With *LINES no element is known; the sets are, and so is which of two blocks wins."""
+    lines = "$MODEL\n*LINES\n LINE=Riser\n SECTION=A, 10\n SECTION=B, 10\n"
+    curves = "*EMBEDMENT\n SET=A\n 0, 0\n 1, 5\n SET=B\n 0, 0\n 1, 7\n"
+    text = lines + "*ELASTIC SURFACE\n 1e4, 0.3\n" + curves
+    assert verify(migrate(deck_of(text))).differences == ()
+    blocks = [f" SET={name}\n STIFFNESS={name}\n FRICTION=0.3, 0\n" for name in "AB"]
+    differences = verify(tampered("".join(blocks), "".join(reversed(blocks)), text=text)).differences
+    assert {difference.what for difference in differences} == {"an element of A and B"}
+
+
+def test_a_changed_profile_counts() -> None:
+    found = migrate(deck_of(PIPE + "*RIGID SURFACE\n 0.3\n 100.0, 30.0\n 0.0, 0.0\n"))
+    assert verify(found).differences == ()
+    ((name, data),) = found.files.items()
+    changed = replace(found, files={name: data.replace(b"30.0", b"30.000000000000004")})
+    assert [difference.what for difference in verify(changed).differences] == ["the bed"]
+
+
+def test_many_sets_are_compared_one_after_the_other() -> None:
+    names = [f"S{index}" for index in range(60)]
+    sets = "".join(f" SET={name}\n 1\n" for name in names)
+    curves = "".join(f" SET={name}\n 0, 0\n 1, {index + 1}\n" for index, name in enumerate(names))
+    text = PIPE + "*ELEMENT SETS\n" + sets + "*ELASTIC SURFACE\n 1e4\n*EMBEDMENT\n" + curves
+    verdict = verify(migrate(deck_of(text)))
+    assert verdict.differences == ()
+    assert verdict.stand_ins == 2 * (1 + 60 + 59)
+    assert verdict.kinds == 3
