@@ -19,13 +19,11 @@ from mudline.scene.build import resolve
 from mudline.scene.harvest import bare, definers, harvested_labels, harvested_sets, may_define
 from mudline.syntax.fields import read_line
 from tests.reading.spellings import names, pads, setting, texts
-from tests.scene.decks import PIPE, all_told, messages, told
+from tests.scene.decks import PIPE, messages, told
 
 LINES = "*LINES\n LINE=SCR\n"
 AGES = 10.0
 """Seconds: much more than anything here takes, much less than time that grows with the square of the text."""
-
-LOCATIONS = "*LINE LOCATIONS\n LINE=SCR\n Seabed End, 0.0\n {Hang-off}, 1200.0\n"
 
 
 def deck_of(text: str) -> Deck:
@@ -40,7 +38,7 @@ def labels_of(text: str) -> list[str]:
     return list(harvested_labels(deck_of(text)).values())
 
 
-# --------------------------------------------------------------------------------------------------------------- sets
+# ----------------------------------------------------------------------------------------------------------------- sets
 
 
 @pytest.mark.parametrize(
@@ -146,7 +144,7 @@ def test_no_line_takes_long(unit: str) -> None:
     assert time.process_time() - start < AGES
 
 
-# ------------------------------------------------------------------------------------------------ sets that are named
+# -------------------------------------------------------------------------------------------------- sets that are named
 
 
 @pytest.mark.parametrize("name", ["scr", '"SCR"', "{scr}", "Riser"])
@@ -173,7 +171,7 @@ def test_a_set_in_quotes_that_the_deck_defines_itself() -> None:
     assert (sets["b"].elements.tolist(), sets["b"].open, sets["a"].open) == ([0], False, True)
 
 
-# ------------------------------------------------------------------------------------------------- what lines may make
+# -------------------------------------------------------------------------------------------------- what lines may make
 
 
 @pytest.mark.parametrize(
@@ -216,7 +214,7 @@ def test_the_block_that_may_define_it_is_named() -> None:
     assert told(PIPE + "*NODE,CURVILINEAR\n 1\n" + seabed) == [("E", "REF001", 13, 6)]
 
 
-# -------------------------------------------------------------------------------------------------------------- labels
+# --------------------------------------------------------------------------------------------------------------- labels
 
 
 @pytest.mark.parametrize(
@@ -231,91 +229,3 @@ def test_the_block_that_may_define_it_is_named() -> None:
 )
 def test_labels(text: str, found: list[str]) -> None:
     assert labels_of(text) == found
-
-
-def nodes(*labels: str) -> str:
-    return "".join(f" {index}, {label}, {label}\n" for index, label in enumerate(labels, 1))
-
-
-def test_labels_that_lines_make() -> None:
-    text = (
-        "$MODEL\n"
-        + LINES
-        + LOCATIONS
-        + "*ELEMENT\n"
-        + nodes("{Seabed End}", "{HANG-OFF}", "{Elsewhere}")
-        + " GEN=3, 2\n"
-    )
-    assert told(text) == []
-
-
-def test_labels_that_are_nearly_so() -> None:
-    text = "$MODEL\n" + LINES + LOCATIONS + "*ELEMENT\n 1, {Seabed Ende}, 2\n*ELEMENT SETS\n SET=a\n 1, {Hangoff}\n"
-    found = {message for message in messages(text) if message.startswith("label")}
-    stands = "does not stand in *LINES or *LINE LOCATIONS"
-    assert found == {
-        f"label '{{Seabed Ende}}' {stands} (did you mean {{Seabed End}}?): correct it",
-        f"label '{{Hangoff}}' {stands} (did you mean {{Hang-off}}?): correct it",
-    }
-    assert [entry for entry in told(text) if entry[3] > 2] == [
-        ("W", "REF006", 9, 5),
-        ("W", "REF006", 9, 20),
-        ("W", "REF005", 12, 5),
-    ]
-
-
-def test_a_label_with_another_number_is_another_label() -> None:
-    text = "$MODEL\n*LINES\n LINE=a\n {End 1}\n*ELEMENT\n" + nodes("{End 1}", "{End 2}")
-    assert told(text) == []
-
-
-def test_a_word_without_braces_is_told_once() -> None:
-    text = "$MODEL\n" + LINES + LOCATIONS + "*ELEMENT\n 1, Seabed Ende, {Seabed End}\n"
-    assert [code for _, code, _, _ in all_told(text)] == ["SYN016"]
-
-
-def test_labels_where_nothing_makes_any() -> None:
-    assert told("$MODEL\n*ELEMENT\n" + nodes("{End}"))[0][:2] == ("E", "REF006")
-
-
-# ----------------------------------------------------------------------------------------------- lines and their groups
-
-SECTIONS = "*LINE PATH SECTIONS\n LINE=Flowline\n SECTION=a, 0, 100, REPEAT=Joint\n"
-GROUPS = "*LINE SECTION GROUPS\n NAME=Joint\n SECTION=b, 12.0\n"
-ROUTE = "*LINE PATHS\n LINE=Flowline\n 0, 0, 0\n"
-
-
-def test_names_that_lines_use_of_each_other() -> None:
-    for text in (SECTIONS + GROUPS + ROUTE, ROUTE + SECTIONS.upper() + GROUPS, SECTIONS + GROUPS):
-        assert told("$MODEL\n" + text) == []
-
-
-def test_a_group_that_is_not_defined() -> None:
-    assert told("$MODEL\n" + SECTIONS) == [("W", "REF001", 4, 28)]
-    text = "$MODEL\n" + SECTIONS + GROUPS.replace("Joint", "Joints")
-    wanted = "REPEAT= names no group: 'Joint' is not defined (did you mean Joints?); define it in *LINE SECTION GROUPS"
-    assert messages(text) == [wanted]
-    later = "$LOAD CASE\n*RESTART\n LAST=static\n"
-    assert messages(text + later) == [wanted + "; the deck that *RESTART continues may define it"]
-
-
-def test_a_line_that_is_not_defined() -> None:
-    text = "$MODEL\n" + ROUTE.replace("Flowline", "Flow Line") + SECTIONS + GROUPS
-    assert told(text) == [("W", "REF001", 6, 7)]
-    assert messages(text) == [
-        "LINE= names no line: 'Flowline' is not defined (did you mean Flow Line?); define it in *LINE PATHS"
-    ]
-
-
-def test_groups_that_a_document_gives_as_lines() -> None:
-    groups = {"keyword": "LINE SECTION GROUPS", "lines": [" NAME=Joint"]}
-    path = {"line": "a", "sections": [{"section": {"set": "b", "start": 0.0}, "repeat": "Joint"}]}
-    blocks = [groups, {"keyword": "LINE PATH SECTIONS", "paths": [path]}]
-    document = {"format": "mudline-deck/1", "sections": [{"name": "MODEL", "blocks": blocks}]}
-    deck = load_bytes(json.dumps(document).encode(), "deck.json")
-    assert deck.problems == resolve(deck).problems == []
-
-
-def test_sections_that_could_not_be_read() -> None:
-    sections = "*LINE PATH SECTIONS\n LINE=\n SECTION=, 1\n LINE=a\n SECTION=b, 1, REPEAT=\n"
-    assert told(f"$MODEL\n{sections}*LINE SECTION GROUPS\n NAME=\n") == []
