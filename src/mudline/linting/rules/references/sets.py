@@ -25,7 +25,8 @@ def undefined_set(context: LintContext) -> Iterator[Problem]:
     What stands below the SET= would reach no element: no stiffness, no diameter, no curve. Mostly the name is spelt
     differently in two places: case does not count in names, but blanks do. Define the set in *ELEMENT SETS, or correct
     the name. Where *LINES, which makes sets of its own, or the deck that *RESTART continues could define the set, this
-    is a warning.
+    is a warning. Two more names are told here, as warnings too: a REPEAT= of *LINE PATH SECTIONS that names no group of
+    *LINE SECTION GROUPS, and a LINE= there that *LINE PATHS does not name.
 
     Bad:
         $MODEL
