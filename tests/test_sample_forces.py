@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from mudline.deck.loading import load_bytes
-from mudline.deck.model import Opaque
 from mudline.deck.parameters import Parameters
 from mudline.keywords.library.geometric_sets import FlexibleSection, GeometricSets
 from mudline.scene.build import resolve
@@ -193,13 +192,6 @@ def test_parametric_values() -> None:
         [force, penetration(0.5, outer, 2000.0, 1400.0)], rel=1e-12
     )
     assert scene.coordinates[-1].tolist()[1:] == [360.0 + 9 * 4.0, 0.0]
-
-
-def test_parametric_deck_keeps_its_variations() -> None:
-    deck = sample("parametric.keyxm")
-    opaque = {block.keyword: block.lines for block in deck.sections[0].blocks if isinstance(block, Opaque)}
-    assert set(opaque) == {"VARIATION", "COMBINATIONS"}
-    assert opaque["VARIATION"][:2] == [" NAME=Low Clay", " PARA=Soil Case, VALUE=1"]
 
 
 @pytest.mark.parametrize("soil", [1, 2, 3])

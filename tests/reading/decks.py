@@ -44,6 +44,36 @@ def parameters(draw: st.DrawFn) -> Lines:
 
 
 @st.composite
+def variation(draw: st.DrawFn) -> Lines:
+    lines: Lines = []
+    for name in draw(st.lists(names, max_size=3)):
+        lines.append(draw(setting("NAME", name)))
+        for _ in range(draw(st.integers(0, 3))):
+            values = ", ".join(draw(st.lists(st.one_of(names, numbers, equations), min_size=1, max_size=3)))
+            span = ", ".join(draw(st.lists(reals, min_size=2, max_size=3)))
+            chosen = [
+                ("PARA", f"{draw(names)}, VALUE = {values}"),
+                ("PARA", f"{draw(names)}, Gen={span}"),
+                ("ACTION", f"{draw(cased('ADD'))}, KEYWORD={draw(names)}, FILE={draw(names)}, SECTION={draw(names)}"),
+                ("ACTION", "REMOVE, KEYWORD=VESSEL,INTEGRATED"),
+            ]
+            lines.append(draw(setting(*draw(st.sampled_from(chosen)))))
+    return lines
+
+
+@st.composite
+def combinations(draw: st.DrawFn) -> Lines:
+    lines = [draw(setting("DIRECTORY", draw(names)))] if draw(st.booleans()) else []
+    for text in draw(st.lists(names, max_size=3)):
+        folder = f", SUBDIRECTORY={draw(names)} %{draw(names)}%" if draw(st.booleans()) else ""
+        file = f", FileName=%{draw(names)}%s" if draw(st.booleans()) else ""
+        lines.append(draw(setting("DESCRIPTION", f"{text}{folder}{file}")))
+        for called in draw(st.lists(st.lists(names, min_size=1, max_size=3), max_size=2)):
+            lines += [draw(setting("VARIATIONS", ", ".join(called)))]
+    return lines
+
+
+@st.composite
 def ocean(draw: st.DrawFn) -> Lines:
     return [draw(rows(draw(padded(1, 4)), spare=True))]
 
@@ -170,7 +200,7 @@ def surface(draw: st.DrawFn, most: int) -> Lines:
 
 _OPAQUE = {
     "MODEL": ("HYDRODYNAMIC SETS", "NODE, CURVILINEAR", "LINES", "p-y", "TITLE", "NEW THING", "Gel\u00e4nde"),
-    "PREPROCESSOR": ("VARIATION", "TITLE"),
+    "PREPROCESSOR": ("EXCEL VARIATIONS", "TITLE"),
     "ANALYSIS": ("ANALYSIS TYPE", "NEW THING"),
     "LOAD CASE": ("BOUNDARY", "TIME,DISCONNECT", "WAVE-REGULAR", ""),
 }
@@ -185,6 +215,8 @@ def opaque(draw: st.DrawFn) -> Lines:
 MODELLED: dict[str, tuple[str, st.SearchStrategy[Lines]]] = {
     "UNITS": ("ANALYSIS", units()),
     "PARAMETERS": ("PREPROCESSOR", parameters()),
+    "VARIATION": ("PREPROCESSOR", variation()),
+    "COMBINATIONS": ("PREPROCESSOR", combinations()),
     "OCEAN": ("MODEL", ocean()),
     "NODE": ("MODEL", nodes()),
     "ELEMENT": ("MODEL", elements()),

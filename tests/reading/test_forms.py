@@ -135,6 +135,14 @@ LINES = {
     "EMBEDMENT": [" 0,0", " 1,1", " SET=x", " 2,2"],
     "ELASTIC SURFACE": [" ,0.3", " 1.5"],
     "RIGID SURFACE": [" 0.3", " 1,2", " 3,4"],
+    "VARIATION": [
+        " NAME=x",
+        ' PARA=a, VALUE=08, "b, c"',
+        " PARA=d, GEN=1, 3",
+        " ACTION=REMOVE, KEYWORD=VESSEL,INTEGRATED",
+        " NAME=y",
+    ],
+    "COMBINATIONS": [" DIRECTORY=d", " DESCRIPTION=t u, FILENAME=%a%s", " VARIATIONS=x, y", " VARIATIONS=z"],
 }
 
 

@@ -34,6 +34,8 @@ SECTIONS = (
 _MODULES = {
     ("ANALYSIS", "UNITS"): "units",
     ("PREPROCESSOR", "PARAMETERS"): "parameters",
+    ("PREPROCESSOR", "VARIATION"): "variation",
+    ("PREPROCESSOR", "COMBINATIONS"): "combinations",
     ("MODEL", "OCEAN"): "ocean",
     ("MODEL", "NODE"): "node",
     ("MODEL", "ELEMENT"): "element",
@@ -68,8 +70,6 @@ _POST = ("DATABASE POSTPROCESSING", "POSTPROCESSING")
 _ANY: tuple[str, ...] = ()
 
 _OPAQUE: dict[str, tuple[str, ...]] = {
-    "VARIATION": ("PREPROCESSOR",),
-    "COMBINATIONS": ("PREPROCESSOR",),
     "EXCEL VARIATIONS": ("PREPROCESSOR",),
     **dict.fromkeys(
         (

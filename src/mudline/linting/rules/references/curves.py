@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, cast
 
 from mudline.codes import REF002
 from mudline.contact.inputs import LawKind
-from mudline.deck.model import Opaque
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.text import shown
@@ -18,6 +17,7 @@ from mudline.syntax.rows import read_number
 
 if TYPE_CHECKING:
     from mudline.keywords.library.seabed_properties import SeabedProperties
+    from mudline.keywords.library.variation import Variation
 
 REF003 = Code("REF003", "unused-curve", Severity.WARNING)
 REF004 = Code("REF004", "duplicate-curve", Severity.WARNING)
@@ -121,11 +121,11 @@ def _chosen_elsewhere(context: LintContext) -> bool:
     if scene.context.astray("SEABED PROPERTIES") or (scene.context.restart and not scene.laws.referenced):
         return True
     return any(
-        "SEABED PROPERTIES" in line.upper()
-        for section in scene.deck.sections
-        for block in section.blocks
-        if isinstance(block, Opaque) and block.keyword == "VARIATION"
-        for line in block.lines
+        folded(" ".join(varied.keyword or [])) == "seabed properties"  # None in a line that could not be read
+        for _, block in scene.deck.blocks("VARIATION", "PREPROCESSOR")
+        for variation in cast("Variation", block).variations
+        for varied in variation.blocks
+        if varied.action == "ADD"
     )
 
 

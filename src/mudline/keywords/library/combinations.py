@@ -1,0 +1,56 @@
+"""`*COMBINATIONS`: the decks that are made from variations, and their files."""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar, Literal
+
+from mudline.keywords.model import Block, Record, setting
+from mudline.keywords.values import Name
+
+_BEHIND = "DESCRIPTION"
+
+
+class CombinedVariations(Record):
+    """A line of names; the language allows 20 on it."""
+
+    rule: ClassVar[str] = "combined_variations"
+    names: Annotated[list[Name], setting("VARIATIONS", "names of variations, or ALL for every one of the deck")]
+
+
+class Combination(Record):
+    """One deck for every combination of the cases of some variations."""
+
+    rule: ClassVar[str] = "combination"
+    description: Annotated[Name, setting("DESCRIPTION", "what the decks show")]
+    subdirectory: Annotated[
+        Name | None,
+        setting("SUBDIRECTORY", "folder of the decks; %name% stands for a parameter", inline=True, behind=_BEHIND),
+    ] = None
+    filename: Annotated[
+        Name | None,
+        setting("FILENAME", "name of their files; %name% stands for a parameter", inline=True, behind=_BEHIND),
+    ] = None
+    variations: list[CombinedVariations] = []
+
+
+class Combinations(Block):
+    """Combinations."""
+
+    rule: ClassVar[str] = "combinations"
+    names: ClassVar[tuple[str, ...]] = ("COMBINATIONS",)
+    sections: ClassVar[tuple[str, ...]] = ("PREPROCESSOR",)
+    summary: ClassVar[str] = "The decks that `mudline expand` makes from variations, and the names of their files."
+    example: ClassVar[str] = (
+        "*COMBINATIONS\n DIRECTORY=Soils\n DESCRIPTION=All soils, SUBDIRECTORY=Case %case%, FILENAME=su %su%\n"
+        " VARIATIONS=ALL\n"
+    )
+
+    keyword: Literal["COMBINATIONS"] = "COMBINATIONS"
+    directory: Annotated[
+        Name | None,
+        setting("DIRECTORY", "folder of all decks; %name% stands for a parameter", inferred="in the folder of -o"),
+    ] = None
+    combinations: list[Combination] = []
+
+
+BLOCK = Combinations
