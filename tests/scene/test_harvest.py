@@ -211,6 +211,8 @@ def test_the_block_that_may_define_it_is_named() -> None:
     )
     ending = "the lines of *LINE PATH SECTIONS, which this deck does not show, may define it"
     assert messages(PIPE + sections + seabed)[0].endswith(ending)
+    ending = "a line of *LINE PATH SECTIONS that could not be used may define it"
+    assert messages(PIPE + LINES + sections + " SECTIN=b, 1\n" + seabed)[0].endswith(ending)
     assert told(PIPE + "*NODE,CURVILINEAR\n 1\n" + seabed) == [("E", "REF001", 13, 6)]
 
 

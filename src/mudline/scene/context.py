@@ -16,7 +16,7 @@ from mudline.deck.parameters import folded
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords import catalogue
 from mudline.keywords.model import ListRow
-from mudline.scene.harvest import definers, harvested_labels, harvested_sets, may_define
+from mudline.scene.harvest import LAID, definers, harvested_labels, harvested_sets, may_define
 from mudline.scene.numbering import LARGEST
 from mudline.syntax.tree import canonical_name
 
@@ -75,6 +75,9 @@ class Context:
 
     def supplier(self, keyword: str, number: int | None = None) -> str:
         """What could define a thing of a keyword that is missing, in words, or ""; `number` None stands for any."""
+        lost = [definer for definer in LAID if definer in self.unread and keyword == "ELEMENT SETS"]
+        if lost:
+            return f"a line of *{lost[0]} that could not be used may define it"
         if words := next(filter(None, (may_define(definer, keyword) for definer in self.definers)), ""):
             return words
         if self.restart:
