@@ -7,8 +7,9 @@ from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
+from mudline.deck.comments import settle
 from mudline.deck.document import FORMAT, UNITS
-from mudline.deck.faults import DocumentPath, Faults, Locate, refusal, shown
+from mudline.deck.faults import DocumentPath, Faults, Locate, document_path, refusal, shown
 from mudline.deck.findings import Findings
 from mudline.deck.model import START, Deck, Nowhere, Opaque, Range, Section
 from mudline.diagnostics import Problem, Where
@@ -27,11 +28,7 @@ class DocumentOrigin(Nowhere):
 
     def place(self, problem: Problem) -> Range:
         """Lines and columns of a problem."""
-        if problem.where is None:
-            return START
-        section, block, path = problem.where
-        start: DocumentPath = () if section < 0 else ("sections", section)
-        return self.locate(start + (() if block < 0 else ("blocks", block)) + path)
+        return self.locate(document_path(problem.where)) if problem.where else START
 
 
 def decoded(data: bytes, file: str, form: str) -> str:
@@ -79,6 +76,7 @@ class _Reader:
         else:
             self.faults.add(("sections",), "expected a list of sections")
         self.faults.raise_any()
+        settle(deck)
         return deck
 
     def _format(self) -> dict[str, Any]:

@@ -9,7 +9,7 @@ from pydantic import ValidationError
 
 from mudline.codes import DOC001, DOC002
 from mudline.deck.model import START, Deck, Nowhere, Range
-from mudline.diagnostics import DeckError, Diagnostic, Problem, Span
+from mudline.diagnostics import DeckError, Diagnostic, Problem, Span, Where
 
 DocumentPath = tuple[str | int, ...]
 Locate = Callable[[DocumentPath], Range]
@@ -29,6 +29,13 @@ def path_text(path: DocumentPath) -> str:
     """A path as people write it: `sections[0].blocks[2].curves[0].points`."""
     text = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path)
     return text.removeprefix(".") or "the document"
+
+
+def document_path(where: Where) -> DocumentPath:
+    """The path of a place in a document."""
+    section, block, path = where
+    start: DocumentPath = () if section < 0 else ("sections", section)
+    return (*start, *(() if block < 0 else ("blocks", block)), *path)
 
 
 def shown(value: object) -> str:
