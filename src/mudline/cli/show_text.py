@@ -39,13 +39,19 @@ def print_summary(summary: dict[str, Any], view: View) -> None:
         )
     if summary["laws"]:
         _print_laws(printer, summary["laws"], names)
+    if summary["bed"]:
+        _print_bed(printer, summary["bed"], names)
+    if summary["extensions"]:
+        rows = [(f"*{row['keyword']}", row["set"] or "", str(row["elements"])) for row in summary["extensions"]]
+        print_table(printer, "Extensions", ("keyword", "set", "elements"), rows, left=("keyword", "set"))
 
 
 def _print_head(printer: Console, summary: dict[str, Any], names: UnitNames) -> None:
     length = f", {shown(summary['length'])} {names.length}".rstrip() + " long" if summary["length"] is not None else ""
     seabed = " and ".join(summary["seabed"]) or "no"
     counts = f"{summary['nodes']} nodes, {summary['elements']} elements{length}"
-    head = f"{summary['file']}: {summary['units']} units, {counts}, {seabed} seabed"
+    bed = _bed(summary["floor"])
+    head = f"{summary['file']}: {summary['units']} units, {counts}, {seabed} seabed{bed}"
     printer.print(Text(visible(head, printer.encoding), style="bold"), soft_wrap=False)
     for section in summary["sections"]:
         keywords = section["keywords"]
@@ -56,6 +62,20 @@ def _print_head(printer: Console, summary: dict[str, Any], names: UnitNames) -> 
         if kept:
             _print_folded(printer, f"kept as they are: {kept}", "    ")
     printer.print()
+
+
+def _bed(floor: dict[str, Any]) -> str:
+    """The shape of a bed that is not flat."""
+    turned = f", turned by {shown(floor['direction'])} degrees" if floor["direction"] else ""
+    if floor["kind"] == "flat":
+        return ""
+    if floor["kind"] == "sloping":
+        return f", sloping {shown(floor['slope'])} degrees{turned}"
+    if floor["kind"] == "planes":
+        return f", {floor['planes']} plane{'s' * (floor['planes'] != 1)}"
+    points = f"{floor['points']} points" if floor["missing"] is None else "not known"
+    source = f" of {floor['file']}" if floor["file"] else ""
+    return f", {floor['kind']}{source}: {points}{turned}"
 
 
 def _listed(printer: Console, keywords: list[str]) -> str:
@@ -102,6 +122,27 @@ def _print_curves(printer: Console, curves: list[dict[str, Any]], names: UnitNam
 
 def _range(ends: list[float] | None) -> str:
     return "" if ends is None else f"{shown(ends[0])} to {shown(ends[1])}"
+
+
+def _print_bed(printer: Console, bed: list[dict[str, Any]], names: UnitNames) -> None:
+    """Friction and suction; a column that no row fills is left out."""
+    columns = [
+        ("friction\ncoefficients", [_pair(row["friction"]) for row in bed]),
+        (headed("mobilisation\nlengths", names.length), [_pair(row["mobilisation"]) for row in bed]),
+        (headed("lateral\nstiffness", names.stiffness), [shown(row["lateral"]) for row in bed]),
+        (headed("suction\nstiffness", names.stiffness), [shown(row["suction"]) for row in bed]),
+        (headed("suction\nzone", names.length), [shown(row["extent"]) for row in bed]),
+    ]
+    filled = [(head, cells) for head, cells in columns if any(cells)]
+    sets = [row["set"] for row in bed]
+    counts = [str(row["elements"]) for row in bed]
+    rows = list(zip(sets, counts, *(cells for _, cells in filled), strict=True))
+    heads = ("set", "elements", *(head for head, _ in filled))
+    print_table(printer, "Friction, lateral resistance, suction", heads, rows, left=("set",))
+
+
+def _pair(values: list[float | None]) -> str:
+    return ", ".join(shown(value) or "-" for value in values) if values != [None, None] else ""
 
 
 def _print_laws(printer: Console, laws: list[dict[str, Any]], names: UnitNames) -> None:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from mudline.contact import LawKind
 from mudline.deck.model import Opaque
+from mudline.results.bed_summary import bed_summary, extension_summary, floor_summary
 from mudline.results.numbers import finite
 from mudline.scene.model import Scene
 
@@ -34,6 +35,9 @@ def summarise(scene: Scene) -> dict[str, Any]:
         "diameters": _diameters(scene),
         "laws": _laws(scene),
         "seabed": sorted(name.lower() for name in scene.laws.types),
+        "floor": floor_summary(scene.floor),
+        "bed": bed_summary(scene),
+        "extensions": extension_summary(scene),
     }
 
 
