@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -12,9 +13,10 @@ from mudline.deck.document import FORMAT, UNITS
 from mudline.deck.faults import DocumentPath, Faults, Locate, document_path, refusal, shown
 from mudline.deck.findings import Findings
 from mudline.deck.model import START, Deck, Nowhere, Opaque, Range, Section
-from mudline.diagnostics import Problem, Where
+from mudline.diagnostics import Problem, Severity, Where
 from mudline.keywords import catalogue
 from mudline.keywords.model import Block, Comment
+from mudline.keywords.reader import read_block
 from mudline.keywords.values import Text
 from mudline.syntax.source import Source
 from mudline.syntax.tree import Kind, Leaf, canonical_name, parse
@@ -150,10 +152,29 @@ class _Reader:
         for number, block in enumerate(blocks):
             read = self._block(section.name, block, (*path, "blocks", number))
             if isinstance(read, Opaque):
-                self.findings.no_model(read.keyword, section.name, Where(index, number))
+                read = self._with_model(read, section, Where(index, number))
             if read is not None:
                 section.blocks.append(read)
         return section
+
+    def _with_model(self, block: Opaque, section: Section, where: Where) -> Block | Opaque:
+        """The model that raw lines describe, as keyword text is read, if their keyword has one."""
+        declared = catalogue.block_class(section.name, block.keyword)
+        if declared is None:
+            self.findings.no_model(block.keyword, section.name, where)
+            return block
+        source = Source("", "\n".join(["$S", f"*{block.keyword}", *block.lines, ""]))
+        raw = parse(source).sections[0].blocks[0]
+        read = read_block(source.text, raw, declared, last=False)
+        for problem in read.problems:
+            line = source.position(problem.span.start)[0] if problem.span else 0
+            inside = where._replace(path=("lines", max(line - 3, 0)))
+            if problem.weight is Severity.ERROR:
+                self.faults.add(document_path(inside), problem.message)
+            else:
+                self.deck.problems.append(replace(problem, span=None, where=inside))
+        section.comments[:0] = [Comment(before=where.block + 1, text=text) for text in read.trailing]
+        return read.model
 
     def _block(self, section: str, given: object, path: DocumentPath) -> Block | Opaque | None:
         if not isinstance(given, dict) or not isinstance(given.get("keyword"), str):

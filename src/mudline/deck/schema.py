@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
-from pydantic import BaseModel
+from pydantic import BaseModel, TypeAdapter
 from pydantic.json_schema import models_json_schema
 
 from mudline.deck.document import FORMAT, UNITS
 from mudline.deck.model import Opaque
 from mudline.keywords import catalogue
 from mudline.keywords.model import Comment
+from mudline.keywords.values import Text
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 _REFERENCE = "#/$defs/{model}"
@@ -30,10 +31,11 @@ def json_schema() -> dict[str, Any]:
         definition["required"] = sorted({"keyword", *definition.get("required", [])})
         definition["description"] = block.summary
     comments = {"type": "array", "items": references[Comment]}
-    lines = {"type": "array", "items": {"type": "string"}}
+    line = TypeAdapter(Text).json_schema()
+    lines = {"type": "array", "items": line}
     section = _object(
         {
-            "name": {"type": "string", "description": "section name without the $"},
+            "name": {**line, "description": "section name without the $"},
             "lines": {**lines, "description": "stray lines before the first keyword"},
             "comments": comments,
             "blocks": {

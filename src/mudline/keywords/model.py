@@ -21,8 +21,8 @@ from pydantic.fields import FieldInfo
 from pydantic_core import CoreSchema, core_schema
 
 from mudline.keywords.listing import AS_TABLES, Listing, read_table
-from mudline.keywords.table import Cell, Column, Table
-from mudline.keywords.values import Equation, Integer, Kind, Label, Text
+from mudline.keywords.table import LARGEST_WHOLE, Cell, Column, Table
+from mudline.keywords.values import Count, Equation, Kind, Label, Text
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,11 +90,9 @@ class Rows(About):
 
 
 def _cell_schema(column: Column) -> dict[str, Any]:
-    word = Label.form if column.kind is Kind.IDENT else Equation.form
-    options: list[dict[str, Any]] = [
-        {"type": "integer" if column.whole else "number"},
-        {"type": "string", "pattern": word},
-    ]
+    word = Label if column.kind is Kind.IDENT else Equation
+    number = {"type": "integer", "minimum": -LARGEST_WHOLE, "maximum": LARGEST_WHOLE}
+    options = [number if column.whole else {"type": "number"}, word.json_schema()]
     return {"description": column.label, "anyOf": options if column.required else [*options, {"type": "null"}]}
 
 
@@ -117,7 +115,7 @@ class Comment(BaseModel):
     """A comment line; `before` is the index of the item that it precedes, `text` what follows the C."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
-    before: Annotated[Integer, Field(ge=0)]
+    before: Count
     text: Text
 
 
@@ -158,17 +156,21 @@ class ListRow(Row):
 
 
 class Record(Part):
-    """Lines that belong together; `rule` is the grammar rule that says in what order they stand."""
+    """Lines that belong together; `rule` is the grammar rule that says in what order they stand.
+
+    `sticky` names a field that also holds for later records of the list, until one of them gives it anew.
+    """
 
     rule: ClassVar[str]
+    sticky: ClassVar[str] = ""
     comments: list[Comment] = Field(default_factory=list)
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], siblings: list[dict[str, object]]) -> str:
+    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
         """Which field the row `number` of this record fills; `fields` is how many values stand on it.
 
-        `given` holds what was read of the record so far, `siblings` the records before it. Only records with several
-        kinds of row need to say.
+        `given` holds what was read of the record so far, `last` what the `sticky` field of the records before it gave.
+        Only records with several kinds of row need to say.
         """
         return layout(cls).row_names[0]
 

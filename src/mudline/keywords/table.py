@@ -16,7 +16,7 @@ from mudline.syntax.rows import Rows as RawRows
 from mudline.syntax.rows import read_rows
 
 Cell = float | int | str | None
-LARGEST_WHOLE = 2.0**53
+LARGEST_WHOLE = 2**53
 _PART = 8192
 
 

@@ -6,8 +6,11 @@ import re
 from enum import Enum
 from typing import Annotated, Any, ClassVar, Self
 
-from pydantic import Field, GetCoreSchemaHandler
+from pydantic import BeforeValidator, Field, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, core_schema
+
+_NO_LINE_END = {"not": {"pattern": "[\\r\\n]"}}
+"""Said apart in JSON Schema: in some dialects of patterns $ matches also before a line end."""
 
 
 class _Pattern(str):
@@ -25,9 +28,18 @@ class _Pattern(str):
         )
 
     @classmethod
+    def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        return cls.json_schema()
+
+    @classmethod
+    def json_schema(cls) -> dict[str, Any]:
+        """The form in JSON Schema."""
+        return {"type": "string", "pattern": cls.form, **_NO_LINE_END}
+
+    @classmethod
     def match(cls, text: str) -> Self | None:
         """The text as this type, or None when it has not this form."""
-        return cls(text) if re.search(cls.form, text) else None
+        return cls(text) if re.search(cls.form, text) and not text.endswith("\n") else None
 
 
 class Equation(_Pattern):
@@ -59,9 +71,15 @@ class Kind(Enum):
     NAME = "a name"
 
 
+def _whole(given: object) -> object:
+    """1.0 is a whole number in JSON."""
+    return int(given) if isinstance(given, float) and given.is_integer() else given
+
+
 Finite = Annotated[float, Field(strict=True, allow_inf_nan=False)]
-Integer = Annotated[int, Field(strict=True, ge=-(2**53), le=2**53)]
-Text = Annotated[str, Field(strict=True, pattern=r"^[^\r\n]*$")]
+Integer = Annotated[int, Field(strict=True, ge=-(2**53), le=2**53), BeforeValidator(_whole)]
+Count = Annotated[int, Field(strict=True, ge=0, le=2**53), BeforeValidator(_whole)]
+Text = Annotated[str, Field(strict=True, pattern=r"^[^\r\n]*$", json_schema_extra=_NO_LINE_END)]
 
 Real = Annotated[Finite | Equation, Field(union_mode="left_to_right"), Kind.REAL]
 Whole = Annotated[Integer | Equation, Field(union_mode="left_to_right"), Kind.WHOLE]
