@@ -34,6 +34,7 @@ class Built:
     values: dict[str, Any] = field(default_factory=dict)
     children: dict[str, list[Built]] = field(default_factory=dict)
     items: list[Item] = field(default_factory=list)
+    sticky: object = None
     first: int = 0
     last: int | None = None
 
@@ -77,8 +78,8 @@ class Builder:
         self.lost = 0
         self.unclosed: Span | None = None
 
-    def build(self, part: type[Record], node: Node, path: Path = (), siblings: Sequence[Built] = ()) -> Built:
-        """The values of a record; `siblings` are the records of its list before it."""
+    def build(self, part: type[Record], node: Node, path: Path = (), last: object = None) -> Built:
+        """The values of a record; `last` is what the sticky field of the records before it gave."""
         built = Built(part)
         found = layout(part)
         tables: dict[str, TableBuilder] = {}
@@ -90,7 +91,7 @@ class Builder:
             if not built.items and built.last is None:
                 self.places.spans[path] = trimmed(self.text, *child.span)
             if child.terminal == ROW:
-                self._row(built, child, path, siblings, row_number, tables)
+                self._row(built, child, path, last, row_number, tables)
                 row_number += 1
             else:
                 self._settings(built, child, path)
@@ -123,7 +124,9 @@ class Builder:
     def _child(self, built: Built, slot: Slot, node: Node, path: Path) -> None:
         before = built.children.setdefault(slot.json, [])
         inner = (*path, slot.json, len(before))
-        child = self.build(slot.record[node.rule], node, inner, before)
+        last = before[-1].sticky if before else None
+        child = self.build(slot.record[node.rule], node, inner, last)
+        child.sticky = child.values.get(child.part.sticky) or last
         if child.last is None:
             self.damaged = True
             return
@@ -185,7 +188,7 @@ class Builder:
         built: Built,
         content: Content,
         path: Path,
-        siblings: Sequence[Built],
+        last: object,
         number: int,
         tables: dict[str, TableBuilder],
     ) -> None:
@@ -197,8 +200,7 @@ class Builder:
             self._brackets(problems, path)
             if len(fields) == 1 and blank_separated(fields[0].text):
                 fields = self._apart(fields[0])
-            before = [sibling.values for sibling in siblings]
-            name = built.part.row_slot(number, len(fields), built.values, before)
+            name = built.part.row_slot(number, len(fields), built.values, last)
             slot = next(s for s in found.slots if s.name == name)
         inner = (*path, slot.json)
         count = 1

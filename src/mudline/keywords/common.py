@@ -48,6 +48,6 @@ class Surface(Block):
     example: ClassVar[str]
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], siblings: list[dict[str, object]]) -> str:
+    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
         """The first line holds the properties; then one value is a slope, two are a point of the profile."""
         return "properties" if number == 0 else "slope" if fields == 1 else "profile"

@@ -77,6 +77,7 @@ class GeometricSet(Record):
     """The properties of a set; `option` is given where it changes."""
 
     rule: ClassVar[str] = "geometric_set"
+    sticky: ClassVar[str] = "option"
     option: Annotated[
         Literal["FLEXIBLE", "RIGID", "MOORING", "TRUSS"] | None,
         setting("OPTION", "format of the property line; holds until it is changed", default="FLEXIBLE"),
@@ -100,10 +101,9 @@ class GeometricSet(Record):
     compression_check: Annotated[Name | None, setting("COMPRESSION CHECK", "check for compression")] = None
 
     @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], siblings: list[dict[str, object]]) -> str:
+    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
         """The format that OPTION= chose, here or at an earlier set."""
-        options = (entry["option"] for entry in [given, *reversed(siblings)] if entry.get("option"))
-        return str(next(options, "FLEXIBLE")).lower()
+        return str(given.get("option") or last or "FLEXIBLE").lower()
 
     @property
     def section(self) -> FlexibleSection | RigidSection | MooringSection | TrussSection | None:
