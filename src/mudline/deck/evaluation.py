@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import cache
 from typing import Any
 
 from mudline.codes import SYN002
@@ -13,6 +14,8 @@ from mudline.diagnostics import Problem, Where
 from mudline.keywords.model import ListRow, Part, Slot, columns_of, layout
 from mudline.keywords.table import Table
 from mudline.keywords.values import Equation, Kind
+
+_EVALUATED = (Kind.REAL, Kind.WHOLE, Kind.REAL_OR_NAME)
 
 
 def evaluated(deck: Deck) -> tuple[Deck, list[Problem]]:
@@ -24,10 +27,28 @@ def evaluated(deck: Deck) -> tuple[Deck, list[Problem]]:
         blocks = list(section.blocks)
         if section.name == "MODEL":
             for j, block in enumerate(section.blocks):
-                blocks[j] = evaluator.part(block, Where(i, j))
+                if _has_equation(block):
+                    blocks[j] = evaluator.part(block, Where(i, j))
         sections.append(type(section)(section.name, blocks, section.comments, section.lines))
     ready = replace(deck, sections=sections)
     return ready, parameters.problems + evaluator.problems
+
+
+@cache
+def _evaluated_slots(part: type[Part]) -> tuple[str, ...]:
+    """Names of the fields that can hold an equation, or parts that can."""
+    return tuple(slot.name for slot in layout(part).slots if slot.row or slot.record or slot.kind in _EVALUATED)
+
+
+def _has_equation(value: object) -> bool:
+    """Whether there is an equation in a value or below it."""
+    if isinstance(value, Part):
+        return any(_has_equation(getattr(value, name)) for name in _evaluated_slots(type(value)))
+    if isinstance(value, Table):
+        return value.equations
+    if isinstance(value, list):
+        return any(map(_has_equation, value))
+    return isinstance(value, Equation)
 
 
 class _Evaluator:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-import math
+from collections.abc import Iterator
+from functools import cache
 from typing import Any
 
 from mudline.codes import SBD010
@@ -18,32 +19,46 @@ def check_ranges(context: Context) -> None:
             continue
         for j, block in enumerate(section.blocks):
             if isinstance(block, Block):
-                _part(context, block, Where(i, j))
+                for path, message in _faults(block):
+                    context.tell(SBD010, message, Where(i, j, path))
 
 
-def _part(context: Context, part: Part, where: Where) -> None:
-    if isinstance(part, ListRow):
-        return
-    for slot in layout(type(part)).slots:
+@cache
+def _checked_slots(part: type[Part]) -> tuple[Slot, ...]:
+    """The fields with a range, and those with parts that have one."""
+    return tuple(slot for slot in layout(part).slots if _ranged(slot))
+
+
+def _ranged(slot: Slot) -> bool:
+    if slot.about.at_least is not None or slot.about.above is not None:
+        return True
+    parts = [slot.row, *slot.record.values()]
+    return any(_checked_slots(part) for part in parts if part and not issubclass(part, ListRow))
+
+
+def _faults(part: Part) -> Iterator[tuple[tuple[str | int, ...], str]]:
+    """Path and message of each value that is out of range."""
+    for slot in _checked_slots(type(part)):
         value: Any = getattr(part, slot.name)
-        inner = where._replace(path=(*where.path, slot.json))
         if isinstance(value, float | int):
-            _number(context, value, slot, inner)
+            if fault := _fault(value, slot):
+                yield (slot.json,), fault
         elif isinstance(value, Part):
-            _part(context, value, inner)
-        elif isinstance(value, list) and value and isinstance(value[0], Part):
+            yield from (((slot.json, *path), fault) for path, fault in _faults(value))
+        elif isinstance(value, list):
             for index, item in enumerate(value):
-                _part(context, item, inner._replace(path=(*inner.path, index)))
+                if isinstance(item, Part):
+                    yield from (((slot.json, index, *path), fault) for path, fault in _faults(item))
 
 
-def _number(context: Context, value: float, slot: Slot, where: Where) -> None:
+def _fault(value: float, slot: Slot) -> str:
+    """What is wrong with a number, or nothing; NaN stands for one that could not be read."""
     low, above = slot.about.at_least, slot.about.above
-    if math.isnan(value) or (low is None and above is None):
-        return
     if low is not None and value < low:
-        context.tell(SBD010, f"{_name(slot)} is {value!r}: it must not be less than {low:g}", where)
-    elif above is not None and value <= above:
-        context.tell(SBD010, f"{_name(slot)} is {value!r}: it must be greater than {above:g}", where)
+        return f"{_name(slot)} is {value!r}: it must not be less than {low:g}"
+    if above is not None and value <= above:
+        return f"{_name(slot)} is {value!r}: it must be greater than {above:g}"
+    return ""
 
 
 def _name(slot: Slot) -> str:
