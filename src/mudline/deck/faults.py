@@ -6,10 +6,12 @@ from collections.abc import Callable
 from typing import Any, NoReturn
 
 from pydantic import ValidationError
+from pydantic_core import ErrorDetails
 
 from mudline.codes import DOC001, DOC002
 from mudline.deck.model import START, Deck, Nowhere, Range
 from mudline.diagnostics import DeckError, Diagnostic, Problem, Span, Where
+from mudline.keywords.values import Equation, Label
 
 DocumentPath = tuple[str | int, ...]
 Locate = Callable[[DocumentPath], Range]
@@ -46,6 +48,42 @@ def shown(value: object) -> str:
     return text if len(text) <= _LONGEST else text[:_LONGEST] + "..."
 
 
+_WANTED = {
+    "float_type": "a number",
+    "finite_number": "a finite number",
+    "int_type": "a whole number",
+    "int_from_float": "a whole number",
+    "string_type": "a text",
+    "list_type": "a list",
+    "model_type": "an object",
+    "model_attributes_type": "an object",
+}
+_FORMS = {Equation.form: "an equation =[...]", Label.form: "a {label}"}
+
+
+def _message(faults: list[ErrorDetails]) -> str:
+    """The faults of one value in a sentence: what any of its forms would need, then what else there is."""
+    wanted: list[str] = []
+    others: list[str] = []
+    for fault in faults:
+        match fault["type"]:
+            case "string_pattern_mismatch":
+                wanted.append(_FORMS.get(fault["ctx"]["pattern"], "a text without line ends"))
+            case "literal_error":
+                wanted.append(fault["ctx"]["expected"])
+            case "missing":
+                others.append("is missing")
+            case "extra_forbidden":
+                others.append("unknown key")
+            case kind if kind in _WANTED:
+                wanted.append(_WANTED[kind])
+            case _:
+                others.append(fault["msg"].removeprefix("Value error, "))
+    if wanted:
+        others.insert(0, f"expected {' or '.join(dict.fromkeys(wanted))}, found {shown(faults[0]['input'])}")
+    return "; or ".join(dict.fromkeys(others))
+
+
 class _Numbered(Nowhere):
     """Places of problems whose span is the number of the place."""
 
@@ -74,15 +112,14 @@ class Faults:
 
     def extend(self, path: DocumentPath, error: ValidationError) -> None:
         """The faults of a model; of a choice between forms, those of the form that fits best."""
-        known: dict[DocumentPath, list[str]] = {}
-        for fault in error.errors(include_url=False, include_input=False):
-            inner = self._real_path((*path, *fault["loc"]))
-            known.setdefault(inner, []).append(fault["msg"].removeprefix("Value error, "))
+        known: dict[DocumentPath, list[ErrorDetails]] = {}
+        for fault in error.errors(include_url=False):
+            known.setdefault(self._real_path((*path, *fault["loc"])), []).append(fault)
         deepest = max(known, key=len)
         around = {inner[:length] for inner in known for length in range(len(inner))}
-        for inner, messages in known.items():
+        for inner, faults in known.items():
             if inner not in around or inner == deepest:
-                self.add(inner, "; or ".join(dict.fromkeys(messages)))
+                self.add(inner, _message(faults))
 
     def raise_any(self) -> None:
         """DeckError when there were any."""
