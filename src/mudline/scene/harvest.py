@@ -11,7 +11,7 @@ from mudline.diagnostics import Span
 from mudline.keywords import catalogue
 from mudline.keywords.kept import LINE_SETS, Names
 from mudline.keywords.model import Block, Part, Row, layout
-from mudline.syntax.fields import Group, read_line
+from mudline.syntax.fields import read_line
 from mudline.syntax.rows import read_number
 
 LAID = ("LINE PATH SECTIONS", "LINE SECTION GROUPS")
@@ -52,12 +52,12 @@ def _makes(keyword: str) -> tuple[str, ...]:
 
 def harvested_sets(deck: Deck) -> dict[str, str]:
     """Names of the element sets that lines make, as first written, by their folded form."""
-    return _first_written(name for block in model_blocks(deck) for name in _sets(block))
+    return _first_written(name for block in _model(deck) for name in _sets(block))
 
 
 def harvested_labels(deck: Deck) -> dict[str, str]:
     """Texts among the lines of kept blocks that may be labels of nodes, as first written, by their folded form."""
-    return _first_written(text for block in model_blocks(deck) for text in _texts(block))
+    return _first_written(text for block in _model(deck) for text in _texts(block))
 
 
 def bare(name: str) -> str:
@@ -76,7 +76,7 @@ def _first_written(names: Iterable[str]) -> dict[str, str]:
     return found
 
 
-def model_blocks(deck: Deck) -> Iterator[Block | Opaque]:
+def _model(deck: Deck) -> Iterator[Block | Opaque]:
     """Every block of `$MODEL`, read or not."""
     return (block for section in deck.sections if section.name == "MODEL" for block in section.blocks)
 
@@ -85,9 +85,8 @@ def _sets(block: Block | Opaque) -> Iterator[str]:
     """The element sets that a block of lines names."""
     if isinstance(block, Opaque):
         kept = catalogue.kept_of("MODEL", block.keyword)
-        keys = kept.harvest if kept else LINE_SETS if block.keyword in LAID else {}
-        if keys:
-            yield from _given_in_lines(block.lines, keys)
+        if kept and kept.harvest:
+            yield from _given_in_lines(block.lines, kept.harvest)
     elif block.keyword in LAID:
         yield from _given_in_parts(block)
 
@@ -128,7 +127,8 @@ def _texts(block: Block | Opaque) -> Iterator[str]:
 def _groups(line: str) -> Iterator[tuple[str, list[str]]]:
     """The KEYs of a line with their values, "" for values without one. What `read_line` says, in less time."""
     if "[" in line or line.count(",") > _MANY:
-        yield from ((group.key, [given.text for given in group.fields]) for group in _slowly(line))
+        groups = read_line(line, Span(0, len(line))).groups
+        yield from ((group.key, [given.text for given in group.fields]) for group in groups)
         return
     key, values = "", list[str]()
     for piece in _PIECE.findall(line) if '"' in line or "{" in line else line.split(","):
@@ -139,10 +139,6 @@ def _groups(line: str) -> Iterator[tuple[str, list[str]]]:
         else:
             values.append(piece.strip(" \t"))
     yield key, values
-
-
-def _slowly(line: str) -> list[Group]:
-    return read_line(line, Span(0, len(line))).groups
 
 
 def _data(lines: Iterable[str]) -> Iterator[str]:

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import chain
 from typing import TYPE_CHECKING, cast
 
 from mudline.codes import REF001, REF005, REF006
-from mudline.deck.model import Opaque
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Code, Severity, Where
 from mudline.keywords.text import shown
 from mudline.keywords.values import Label
 from mudline.scene.context import Context
-from mudline.scene.harvest import bare, may_label, model_blocks
+from mudline.scene.harvest import bare, may_label
 
 if TYPE_CHECKING:
     from mudline.keywords.library.element import ElementRows, Elements
@@ -34,12 +34,11 @@ def check_lines(context: Context) -> None:
                 inner = place._replace(path=(*place.path, "line"))
                 _check_name(context, ("LINE=", "line", _PATHS), path.line, inner, context.labels)
             for number, section in enumerate(path.sections):
-                if section.repeat and groups is not None:
+                if section.repeat:
                     inner = place._replace(path=(*place.path, "sections", number, "repeat"))
                     _check_name(context, ("REPEAT=", "group", _GROUPS), section.repeat, inner, groups)
-    if context.definers:
-        for code, label, where in (*_of_elements(context), *_of_sets(context)):
-            check_label(context, code, label, where)
+    for code, label, where in chain(_of_elements(context), _of_sets(context)) if context.definers else ():
+        check_label(context, code, label, where)
 
 
 def check_label(context: Context, code: Code, label: str, where: Where) -> None:
@@ -48,7 +47,7 @@ def check_label(context: Context, code: Code, label: str, where: Where) -> None:
     Nothing is said of other labels: lines are not read, and may make labels in ways that are not known.
     """
     name = bare(label)
-    if folded(name) in context.labels:
+    if not context.definers or folded(name) in context.labels:
         return
     near = context.near(name, context.labels)
     misspelt = near and _digits(near) == _digits(name)  # {End 2} is no slip for {End 1}
@@ -74,18 +73,10 @@ def _check_name(context: Context, what: tuple[str, str, str], name: str, where: 
     context.tell(REF001, f"{message}; {supplier}" if supplier else message, where, Severity.WARNING)
 
 
-def _groups(context: Context) -> dict[str, str] | None:
-    """Names of the groups of sections by their folded form; None when a block of them has no model."""
-    known: dict[str, str] = {}
-    for block in model_blocks(context.deck):
-        if block.keyword != _GROUPS:
-            continue
-        if isinstance(block, Opaque):
-            return None
-        for group in cast("LineSectionGroups", block).groups:
-            if group.name:
-                known.setdefault(folded(bare(group.name)), group.name)
-    return known
+def _groups(context: Context) -> dict[str, str]:
+    """Names of the groups of sections by their folded form."""
+    blocks = (cast("LineSectionGroups", block) for _, block in context.deck.blocks(_GROUPS))
+    return {folded(bare(group.name)): group.name for block in blocks for group in block.groups if group.name}
 
 
 def _of_elements(context: Context) -> Iterator[tuple[Code, str, Where]]:
