@@ -1,0 +1,104 @@
+"""`mudline expand`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from mudline.cli import options
+from mudline.cli.exits import DONE
+from mudline.cli.guard import refuses_bad_decks
+from mudline.cli.inputs import STDIN, load
+from mudline.cli.lazy import printing
+from mudline.cli.options import View
+from mudline.cli.streams import emit
+from mudline.cli.terminal import reason, tell
+from mudline.cli.writing import write_bytes, write_text
+from mudline.variations.manifest import MANIFEST, manifest_text
+from mudline.variations.output import conflicts
+from mudline.variations.planning import Plan, plan
+
+_MOST_TOLD = 5
+
+
+@click.command("expand")
+@options.deck
+@click.option("-o", "--output", metavar="DIR", help="Folder for the new decks; made if it is not there.")
+@click.option("--dry-run", is_flag=True, help="Print what would be written, and write nothing.")
+@click.option("--force", is_flag=True, help="Overwrite files that are there already.")
+@options.output_format("text", "json")
+@options.stdin_name
+@options.units
+@options.common
+@refuses_bad_decks
+def command(
+    *,
+    deck: str,
+    output: str | None,
+    dry_run: bool,
+    force: bool,
+    output_format: str,
+    stdin_name: str,
+    units: str | None,
+    view: View,
+) -> int:
+    """Write the decks that *VARIATION and *COMBINATIONS describe.
+
+    Each new deck is the text of DECK with other values of its parameters and without the two keywords. All names are
+    checked before the first file is written, and none leaves the folder. manifest.json in it lists the decks.
+    """
+    if output is None and not dry_run:
+        raise click.UsageError("say where to write: -o DIR, or look first with --dry-run")
+    planned = plan(load(deck, units=units, stdin_name=stdin_name))
+    for note in planned.notes:
+        tell(note)
+    blocked = (
+        [] if output is None else conflicts(Path(output), planned, None if deck == "-" else Path(deck), force=force)
+    )
+    if dry_run:
+        _show(planned, output_format, view)
+        _tell_some(blocked)
+        return DONE
+    if blocked:
+        _tell_some(blocked)
+        raise click.ClickException("nothing is written")
+    _write(planned, Path(output or "."), view)
+    if output_format == "json":
+        emit([manifest_text(planned.source, planned.decks)])
+    return DONE
+
+
+def _show(planned: Plan, form: str, view: View) -> None:
+    if form == "json":
+        emit([manifest_text(planned.source, planned.decks)])
+    else:
+        printing("expand").print_decks(planned.decks, view.color)
+
+
+def _tell_some(messages: list[str]) -> None:
+    for message in messages[:_MOST_TOLD]:
+        tell(message)
+    if len(messages) > _MOST_TOLD:
+        tell(f"and {len(messages) - _MOST_TOLD} more of the same")
+
+
+def _write(planned: Plan, folder: Path, view: View) -> None:
+    count = f"{len(planned.decks)} deck{'' if len(planned.decks) == 1 else 's'}"
+    if not view.quiet:
+        tell(f"{planned.source}: {count} to write into {folder.as_posix()}")
+    for deck in planned.decks:
+        path = folder / deck.path
+        _make_folder(path.parent)
+        write_bytes(path, planned.content(deck))
+        if view.verbose:
+            tell(path.as_posix())
+    _make_folder(folder)
+    write_text(folder / MANIFEST, [manifest_text(planned.source, planned.decks)])
+
+
+def _make_folder(path: Path) -> None:
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise click.ClickException(f"{path.as_posix()}: cannot be made: {reason(error)}") from error

@@ -1,0 +1,222 @@
+"""The decks that a deck describes, all of them planned and checked before any of them is written."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import product
+from math import prod
+from pathlib import PurePath
+from typing import TYPE_CHECKING
+
+from mudline.codes import EXP001
+from mudline.deck.model import Deck
+from mudline.deck.reading import read_source
+from mudline.diagnostics import DeckError, Problem, Severity, Where
+from mudline.keywords.text import shown, suggestion
+from mudline.syntax.source import Source
+from mudline.variations.cases import CaseReader, name_key
+from mudline.variations.manifest import MANIFEST
+from mudline.variations.model import MOST_DECKS, Cases, PlannedDeck
+from mudline.variations.names import Taken, placeholders, unquoted
+from mudline.variations.paths import Namer, Template
+from mudline.variations.rewriting import Rewriter, as_text
+from mudline.variations.targets import Targets, Values
+
+if TYPE_CHECKING:
+    from mudline.keywords.library.combinations import Combination
+
+_MOST_TOLD = 20
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """The decks in the order of `*COMBINATIONS`, and what makes their texts.
+
+    `source` is the name of the file that they come from, `notes` are remarks for a reader.
+    """
+
+    source: str
+    decks: Sequence[PlannedDeck]
+    rewriter: Rewriter
+    notes: Sequence[str] = ()
+
+    def content(self, planned: PlannedDeck) -> bytes:
+        """The content of a planned deck."""
+        return self.rewriter.content(planned)
+
+
+@dataclass(frozen=True, slots=True)
+class _Group:
+    """A combination with its variations: a deck for each combination of their cases."""
+
+    where: Where
+    combination: Combination
+    template: Template
+    cases: Sequence[Cases]
+
+    @property
+    def count(self) -> int:
+        """Number of decks."""
+        return prod(len(cases.rows) for cases in self.cases)
+
+
+def plan(deck: Deck) -> Plan:
+    """The decks that a deck describes.
+
+    Raises DeckError for a deck with errors, and for what cannot be done: a parameter that is not defined, parameters
+    of one variation with different numbers of values, a name that leaves the output folder, two decks with one name.
+    """
+    return _Planner(deck.require()).plan()
+
+
+class _Planner:
+    def __init__(self, deck: Deck) -> None:
+        self.deck = deck
+        self.text = as_text(deck)
+        self.targets = Targets(self.text)
+        self.namer = Namer(deck, self.targets)
+        self.rewriter = Rewriter(self.text, self.targets)
+        self.problems: list[Problem] = []
+
+    def plan(self) -> Plan:
+        reader = CaseReader(self.text, self.targets)
+        variations = reader.read()
+        self.problems += self.targets.parameters.problems + reader.problems
+        groups = [group for group in self._groups(variations) if self._sound(group)]
+        self._raise_any()
+        total = sum(group.count for group in groups)
+        if total > MOST_DECKS:
+            self._tell(f"{total} decks would be written: no more than {MOST_DECKS} are", groups[-1].where)
+        if not groups:
+            self._tell(f"nothing says which decks to write: add *COMBINATIONS to $PREPROCESSOR{self._excel()}", Where())
+        self._raise_any()
+        decks = self._named(groups, total)
+        self._raise_any()
+        self._readable(decks)
+        self._raise_any()
+        return Plan(PurePath(self.deck.file).name, decks, self.rewriter, self._notes())
+
+    def _tell(self, message: str, where: Where) -> None:
+        self.problems.append(Problem(EXP001, message, None, None, where))
+
+    def _raise_any(self) -> None:
+        if any(problem.weight is Severity.ERROR for problem in self.problems):
+            raise DeckError(self.deck.diagnose(self.problems))
+
+    def _excel(self) -> str:
+        there = "EXCEL VARIATIONS" in self.deck.keywords("PREPROCESSOR")
+        return " (*EXCEL VARIATIONS is not expanded)" if there else ""
+
+    def _notes(self) -> list[str]:
+        if not self._excel():
+            return []
+        return ["*EXCEL VARIATIONS is not expanded: it stands in every new deck as it is"]
+
+    # ------------------------------------------------------------------------------------------------- combinations
+
+    def _groups(self, variations: dict[str, Cases]) -> Iterator[_Group]:
+        for where, block in self.text.blocks("COMBINATIONS", "PREPROCESSOR"):
+            for index, combination in enumerate(block.combinations):
+                place = where._replace(path=("combinations", index))
+                template = Template(block.directory, combination.subdirectory, combination.filename)
+                yield _Group(place, combination, template, self._called(combination, place, variations))
+
+    def _called(self, combination: Combination, where: Where, variations: dict[str, Cases]) -> list[Cases]:
+        """The variations that a combination calls, each once; without a name all of the deck."""
+        called: dict[str, Cases] = {}
+        for index, line in enumerate(combination.variations):
+            for number, name in enumerate(line.names):
+                key = name_key(name)
+                if key in variations:
+                    called[key] = variations[key]
+                elif key == "all":
+                    called |= variations
+                else:
+                    known = [cases.name for cases in variations.values()]
+                    place = where._replace(path=(*where.path, "variations", index, "names", number))
+                    message = f"there is no variation {shown(unquoted(name))}{suggestion(unquoted(name), known)}"
+                    self._tell(f"{message}: define it in *VARIATION", place)
+        return list((called if combination.variations else variations).values())
+
+    def _sound(self, group: _Group) -> bool:
+        """Whether the names of a combination's files can be made, and no parameter varies in two ways at once."""
+        before = len(self.problems)
+        owners: dict[str, str] = {}
+        for cases in group.cases:
+            for name in cases.parameters:
+                if name in owners:
+                    message = (
+                        f"{shown(name)} varies in {shown(owners[name])} and in {shown(cases.name)}: put its values in "
+                        "one variation, or name only one of the two in VARIATIONS="
+                    )
+                    self._tell(message, group.where)
+                owners[name] = cases.name
+        for name in (name for text in group.template.given for name in placeholders(text)):
+            if problem := self.targets.undefined(name, group.where):
+                self.problems.append(problem)
+        return len(self.problems) == before
+
+    # -------------------------------------------------------------------------------------------------------- decks
+
+    def _named(self, groups: Sequence[_Group], total: int) -> list[PlannedDeck]:
+        """The decks with their paths, which nothing else may have."""
+        decks: list[PlannedDeck] = []
+        taken = Taken()
+        taken.take(MANIFEST, -1)
+        faults = 0
+        for group in groups:
+            for values in _products(group.cases):
+                number = len(decks)
+                path, fault = self.namer.path(group.template, values, f"{number + 1:0{len(str(total))}d}")
+                deck = PlannedDeck(
+                    path,
+                    unquoted(group.combination.description),
+                    [cases.name for cases in group.cases],
+                    values,
+                    [action for cases in group.cases for action in cases.actions],
+                )
+                decks.append(deck)
+                if not fault and (holder := taken.take(path, number)) is not None:
+                    fault = _clash(deck, decks[holder] if holder >= 0 else None)
+                if fault:
+                    self._tell(f"the deck with {told(values)}: its name {shown(path)} {fault}", group.where)
+                    faults += 1
+                if faults == _MOST_TOLD:
+                    return decks
+        return decks
+
+    def _readable(self, decks: Sequence[PlannedDeck]) -> None:
+        """Read a deck for each set of actions: what a file adds may not fit."""
+        tried: set[tuple[int, ...]] = set()
+        for deck in decks:
+            key = tuple(id(action) for action in deck.actions)
+            if key in tried:
+                continue
+            tried.add(key)
+            content = self.rewriter.content(PlannedDeck("", "", (), deck.values, deck.actions))
+            read = read_source(Source.from_bytes(content, deck.path), units=self.deck.units)
+            faults = [problem for problem in read.problems if problem.weight is Severity.ERROR]
+            for fault in read.diagnose(faults[:_MOST_TOLD]):
+                self._tell(
+                    f"the new deck {shown(deck.path)} cannot be read: line {fault.line}: {fault.message}", Where()
+                )
+
+
+def _products(variations: Sequence[Cases]) -> Iterator[dict[str, str]]:
+    """The values of every combination of cases, the last variation the fastest."""
+    names = [name for cases in variations for name in cases.parameters]
+    for rows in product(*(cases.rows for cases in variations)):
+        yield dict(zip(names, (text for row in rows for text in row), strict=True))
+
+
+def told(values: Values) -> str:
+    """Values in words: `Offset=-100, Period=08`."""
+    return ", ".join(f"{name}={text}" for name, text in values.items()) or "no varied parameter"
+
+
+def _clash(deck: PlannedDeck, other: PlannedDeck | None) -> str:
+    if other is None:
+        return "is that of the list of all decks"
+    same = "" if deck.path == other.path else f" (as {shown(other.path)})"
+    return f"is that of the deck with {told(other.values)}{same}: name what differs with %parameter%"
