@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -51,9 +52,10 @@ def test_labels_that_are_nearly_so() -> None:
     ]
 
 
-def test_a_label_with_another_number_is_another_label() -> None:
-    text = "$MODEL\n*LINES\n LINE=a\n {End 1}\n*ELEMENT\n" + nodes("{End 1}", "{End 2}")
-    assert told(text) == []
+@pytest.mark.parametrize("other", ["{End 2}", "{End B}", "{End 11}", "{Oil Jumper FPSO}", "{Turret}"])
+def test_a_label_that_differs_on_purpose_is_another_label(other: str) -> None:
+    text = "$MODEL\n*LINES\n LINE=a\n {End 1}\n {End A}\n {Gas Jumper FPSO}\n*ELEMENT\n"
+    assert told(text + nodes("{End 1}", other)) == []
 
 
 def test_a_word_without_braces_is_told_once() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from itertools import chain
 from typing import TYPE_CHECKING, cast
@@ -9,7 +10,7 @@ from typing import TYPE_CHECKING, cast
 from mudline.codes import REF001, REF005, REF006
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Code, Severity, Where
-from mudline.keywords.text import shown
+from mudline.keywords.text import edits, shown
 from mudline.keywords.values import Label
 from mudline.scene.context import Context
 from mudline.scene.harvest import bare, may_label
@@ -22,6 +23,9 @@ if TYPE_CHECKING:
 
 _PATHS = "LINE PATHS"
 _GROUPS = "LINE SECTION GROUPS"
+_SLIPS = 2
+_MARKS = re.compile(r"[0-9]+|\b\w{1,2}\b")
+"""Numbers and words of one or two letters: things of a kind are told apart by them."""
 
 
 def check_lines(context: Context) -> None:
@@ -50,15 +54,15 @@ def check_label(context: Context, code: Code, label: str, where: Where) -> None:
     if not context.definers or folded(name) in context.labels:
         return
     near = context.near(name, context.labels)
-    misspelt = near and _digits(near) == _digits(name)  # {End 2} is no slip for {End 1}
-    if misspelt and not context.doubted(where):
+    if near and _is_slip(folded(name), near) and not context.doubted(where):
         makers = " or ".join(f"*{keyword}" for keyword in context.definers if may_label(keyword))
         message = f"label {shown(label)} does not stand in {makers} (did you mean {{{context.labels[near]}}}?)"
         context.tell(code, f"{message}: correct it", where, Severity.WARNING)
 
 
-def _digits(name: str) -> str:
-    return "".join(filter(str.isdigit, name))
+def _is_slip(name: str, near: str) -> bool:
+    """Whether a name is another one with a slip of the pen: {End 2} or {End B} is none of {End 1} or {End A}."""
+    return edits(name, near, _SLIPS) <= _SLIPS and _MARKS.findall(name) == _MARKS.findall(near)
 
 
 def _check_name(context: Context, what: tuple[str, str, str], name: str, where: Where, known: dict[str, str]) -> None:
