@@ -93,6 +93,7 @@ def test_every_sample_is_there() -> None:
         "lines-deck.keyxm",
         "parametric.keyxm",
         "scr-touchdown.keyxm",
+        "variations.keyxm",
     ]
 
 

@@ -53,27 +53,21 @@ def command(
     planned = plan(load(deck, units=units, stdin_name=stdin_name))
     for note in planned.notes:
         tell(note)
-    blocked = (
-        [] if output is None else conflicts(Path(output), planned, None if deck == "-" else Path(deck), force=force)
-    )
-    if dry_run:
-        _show(planned, output_format, view)
-        _tell_some(blocked)
-        return DONE
-    if blocked:
-        _tell_some(blocked)
-        raise click.ClickException("nothing is written")
-    _write(planned, Path(output or "."), view)
+    blocked = [] if output is None else conflicts(Path(output), planned, _path(deck), force=force)
+    _tell_some(blocked)
+    if output is not None and not dry_run:
+        if blocked:
+            raise click.ClickException("nothing is written")
+        _write(planned, Path(output), view)
     if output_format == "json":
         emit([manifest_text(planned.source, planned.decks)])
+    elif dry_run:
+        printing("expand").print_decks(planned.decks, view.color)
     return DONE
 
 
-def _show(planned: Plan, form: str, view: View) -> None:
-    if form == "json":
-        emit([manifest_text(planned.source, planned.decks)])
-    else:
-        printing("expand").print_decks(planned.decks, view.color)
+def _path(deck: str) -> Path | None:
+    return None if deck == STDIN else Path(deck)
 
 
 def _tell_some(messages: list[str]) -> None:
