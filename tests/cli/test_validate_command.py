@@ -38,7 +38,7 @@ def test_errors_come_before_the_table(place: Place) -> None:
     assert outcome.code == 1
     lines = outcome.out.splitlines()
     assert lines[0].startswith("bad.keyxm:20:6: error REF001")
-    assert lines[-1] == "1 of 2 decks legal"
+    assert lines[-1] == "1 of 2 decks legal: 1 illegal, 1 error"
     assert [line.split()[0] for line in lines[-4:-2]] == ["legal", "illegal"]
 
 
@@ -55,7 +55,7 @@ def test_json(place: Place) -> None:
     assert_fits(found, "validate")
     assert_fits(found["decks"][1]["findings"], "lint")
     assert outcome.code == 1
-    assert found["total"] == {"decks": 2, "legal": 1}
+    assert found["total"] == {"decks": 2, "legal": 1, "illegal": 1, "empty": 0, "errors": 1, "unreadable": 0}
     good, bad = found["decks"]
     assert good == dict(zip(COLUMNS, ["good.keyxm", 1, 7, 1, 2, 0, "legal"], strict=True)) | {"findings": []}
     assert [each["code"] for each in bad["findings"]] == ["REF001"]

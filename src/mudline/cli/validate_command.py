@@ -2,26 +2,24 @@
 
 from __future__ import annotations
 
-import json
-from dataclasses import asdict
+import sys
 
 import click
 
 from mudline.cli import options
+from mudline.cli.deck_files import collect_any_form
 from mudline.cli.exits import DONE, FOUND
-from mudline.cli.inputs import Input, collect
-from mudline.cli.lazy import printing
+from mudline.cli.inputs import Input
 from mudline.cli.options import View
-from mudline.cli.streams import emit
-from mudline.cli.verdict import Verdict
+from mudline.cli.progress import Progress, looked_at
+from mudline.cli.terminal import reason
+from mudline.cli.verdict import Total, Verdict
+from mudline.cli.verdict_forms import report
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import Deck
 from mudline.diagnostics import DeckError, Diagnostic, Severity
 from mudline.linting.context import LintContext
-from mudline.linting.output.json_objects import as_object
 from mudline.linting.registry import rules
-from mudline.results.csv_lines import csv_lines
-from mudline.syntax.source import Source
 
 
 @click.command("validate")
@@ -41,16 +39,29 @@ def command(
     """Say of each deck whether it is legal and complete: its errors, then a table with a row per deck.
 
     A deck is legal when no rule of severity error finds anything, and when it has a section at all.
+
+    PATHS are decks, directories (searched for *.keyx, *.keyxm, *.keyxi, *.das, and for JSON and YAML files that begin
+    as decks do) or - for standard input. Of many decks -q shows the table without the errors.
     """
-    inputs = collect(paths, stdin_name)
-    judged: list[tuple[Verdict, list[Diagnostic]]] = []
-    for file, data in inputs.contents():
-        verdict, found = _judge(data, file, units)
-        judged.append((verdict, found))
-        if output_format == "text" and not view.quiet and found:
-            printing("lint").print_findings(found, Source.from_bytes(data, file.name), view.color)
-    _tell(judged, output_format, view)
-    return max(inputs.code, DONE if all(verdict.verdict == "legal" for verdict, _ in judged) else FOUND)
+    inputs = collect_any_form(paths, stdin_name)
+    total = Total()
+    shown = looked_at(view) and (output_format == "text" or not sys.stdout.isatty())
+    with Progress(len(inputs.files), view, shown=shown) as progress:
+        told = report(output_format, view, progress)
+        for file in inputs.files:
+            try:
+                data = file.read()
+            except OSError as error:
+                total.unreadable += 1
+                with progress.hidden():
+                    inputs.fail(f"{file.name}: {reason(error)}")
+            else:
+                verdict, found = _judge(data, file, units)
+                total.add(verdict)
+                told.add(verdict, found, data)
+            progress.advance()
+    told.finish(total)
+    return max(inputs.code, DONE if total.legal == total.decks else FOUND)
 
 
 def _judge(data: bytes, file: Input, units: str | None) -> tuple[Verdict, list[Diagnostic]]:
@@ -69,15 +80,3 @@ def _verdict(deck: Deck, context: LintContext, errors: int) -> Verdict:
     curves, elements = len(context.scene.laws.curves), len(context.scene.element_ids)
     verdict = "illegal" if errors else "legal" if deck.sections else "empty"
     return Verdict(deck.file, len(deck.sections), keywords, curves, elements, errors, verdict)
-
-
-def _tell(judged: list[tuple[Verdict, list[Diagnostic]]], form: str, view: View) -> None:
-    verdicts = [verdict for verdict, _ in judged]
-    total = {"decks": len(verdicts), "legal": sum(verdict.verdict == "legal" for verdict in verdicts)}
-    if form == "json":
-        rows = [{**asdict(verdict), "findings": [as_object(found) for found in errors]} for verdict, errors in judged]
-        emit([json.dumps({"decks": rows, "total": total}, indent=1, ensure_ascii=False), "\n"])
-    elif form == "csv":
-        emit(csv_lines([Verdict.__dataclass_fields__, *(asdict(verdict).values() for verdict in verdicts)]))
-    elif verdicts:
-        printing("validate").print_verdicts(verdicts, total, view.color)

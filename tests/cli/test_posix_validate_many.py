@@ -1,0 +1,267 @@
+"""`mudline validate` on folders of decks in any form, with a bar on a terminal."""
+
+from __future__ import annotations
+
+import csv
+import os
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from unittest.mock import patch
+
+import pytest
+
+from mudline.__main__ import main
+from mudline.cli import progress
+from mudline.cli.options import View
+from mudline.cli.validate_text import elided
+from mudline.cli.verdict import Total, Verdict
+from tests.cli.conftest import Place
+from tests.cli.decks import CLEAN, ILLEGAL
+from tests.cli.runner import Outcome, Stream, assert_fits, run
+from tests.cli.screens import screen
+
+TOTAL = "3 of 7 decks legal: 2 illegal, 2 empty, 2 errors, 1 file unreadable"
+
+
+@pytest.fixture
+def decks(place: Place, folder: Path) -> str:
+    """Three legal decks in three forms, two illegal, two without a section, one that is gone; and what are no decks."""
+    place(CLEAN, "decks/a/good.keyxm")
+    place(run("convert", "decks/a/good.keyxm", "--to", "json").output, "decks/b.json")
+    place(run("convert", "decks/a/good.keyxm", "--to", "yaml").output, "decks/a/c.YML")
+    place(ILLEGAL, "decks/bad.keyxm")
+    place(bytes(range(128, 256)), "decks/bytes.das")
+    place('{"format": "mudline-deck/1", ', "decks/cut.json")
+    place("", "decks/empty.keyx")
+    place('{"name": "other"}', "decks/package.json")
+    place("- 1\n", "decks/list.yaml")
+    place("text", "decks/README.md")
+    (folder / "decks/gone.keyxm").symlink_to("nowhere")
+    os.mkfifo(folder / "decks/pipe.keyxm")
+    return "decks"
+
+
+@pytest.fixture
+def _bar(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A bar from the first deck on, as in a long run."""
+    monkeypatch.setattr(progress, "DELAY", 0.0)
+    monkeypatch.setattr(progress, "_PAUSE", 0.0)
+    monkeypatch.delenv("CI", raising=False)
+
+
+def on_one_screen(*arguments: str) -> tuple[str, list[str]]:
+    """Run with both streams on one terminal: what was written to it, and what is left there."""
+    stream = Stream("utf-8", terminal=True)
+    with patch.object(sys, "stdout", stream), patch.object(sys, "stderr", stream):
+        main([*arguments, "--color", "never"])
+    written = stream.content().decode()
+    return written, screen(written)
+
+
+def on_error_only(*arguments: str, code: int = 2) -> Outcome:
+    """Run with standard error on a terminal and standard output in a file."""
+    out, err = Stream("utf-8", terminal=False), Stream("utf-8", terminal=True)
+    with patch.object(sys, "stdout", out), patch.object(sys, "stderr", err):
+        assert main([*arguments]) == code
+    return Outcome(code, out.content(), err.content())
+
+
+def verdicts(outcome: Outcome) -> dict[str, str]:
+    return {row["file"]: row["verdict"] for row in csv.DictReader(outcome.out.splitlines())}
+
+
+def test_decks_in_any_form_are_found(decks: str) -> None:
+    outcome = run("validate", decks, "--output-format", "csv")
+    assert outcome.code == 2
+    assert outcome.err == "mudline: decks/gone.keyxm: no such file or directory\n"
+    assert verdicts(outcome) == {
+        "decks/a/c.YML": "legal",
+        "decks/a/good.keyxm": "legal",
+        "decks/b.json": "legal",
+        "decks/bad.keyxm": "illegal",
+        "decks/bytes.das": "empty",
+        "decks/cut.json": "illegal",
+        "decks/empty.keyx": "empty",
+    }
+
+
+def test_total_counts_all(decks: str) -> None:
+    outcome = run("validate", decks)
+    assert outcome.out.splitlines()[-1] == TOTAL
+    found = run("validate", decks, "--output-format", "json").json()
+    assert_fits(found, "validate")
+    assert found["total"] == {"decks": 7, "legal": 3, "illegal": 2, "empty": 2, "errors": 2, "unreadable": 1}
+
+
+@pytest.mark.parametrize("number", [0, 1, 2])
+def test_json_in_pieces_is_json(place: Place, folder: Path, number: int) -> None:
+    names = [place(CLEAN, f"deck-{index}.keyxm") for index in range(number)]
+    (folder / "folder").mkdir()
+    found = run("validate", "folder", *names, "--output-format", "json").json()
+    assert_fits(found, "validate")
+    assert [row["file"] for row in found["decks"]] == names
+
+
+def test_decks_are_told_when_they_are_judged(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What was told of the first deck is there when the second one is read, and nothing holds its findings."""
+    names = [place(ILLEGAL, "a.keyxm"), place(ILLEGAL, "b.keyxm")]
+    there: list[str] = []
+    stream = Stream("utf-8", terminal=False)
+    read = Path.read_bytes
+
+    def watched(path: Path) -> bytes:
+        there.append(stream.content().decode())
+        return read(path)
+
+    monkeypatch.setattr(Path, "read_bytes", watched)
+    with patch.object(sys, "stdout", stream):
+        main(["validate", *names, "--output-format", "json"])
+    assert there[0] == ""
+    assert "REF001" in there[1]
+
+
+def test_folder_without_decks(place: Place) -> None:
+    place("{}", "folder/other.json")
+    outcome = run("validate", "folder")
+    assert (outcome.code, outcome.out) == (2, "")
+    assert outcome.err.startswith("mudline: folder: no deck in this directory (looked for .das, ")
+
+
+def test_file_given_twice_is_judged_once(decks: str) -> None:
+    outcome = run("validate", "decks/b.json", decks, "--output-format", "csv")
+    assert outcome.out.count("decks/b.json") == 1
+
+
+def test_folder_that_may_not_be_entered(decks: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    def walk(top: str, onerror: Callable[[OSError], None]) -> list[tuple[str, list[str], list[str]]]:
+        onerror(PermissionError(13, "Permission denied", f"{top}/closed"))
+        return [(top, [], ["bad.keyxm"])]
+
+    monkeypatch.setattr(os, "walk", walk)
+    outcome = run("validate", decks, "-q")
+    assert outcome.err == "mudline: decks/closed: permission denied\n"
+    assert outcome.code == 2
+    assert outcome.out.endswith("0 of 1 deck legal: 1 illegal, 1 error\n")
+
+
+def test_document_that_cannot_be_opened_is_told(decks: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    def closed(path: Path, mode: str) -> None:
+        assert mode == "rb"
+        raise PermissionError(13, "Permission denied", str(path))
+
+    monkeypatch.setattr(Path, "open", closed)
+    outcome = run("validate", decks, "-q")
+    assert "mudline: decks/package.json: permission denied\n" in outcome.err
+
+
+# ---------------------------------------------------------------------------------------------------------------- bar
+
+
+@pytest.mark.usefixtures("_bar")
+def test_bar_is_drawn_and_gone(decks: str) -> None:
+    plain = run("validate", decks, "--color", "never", terminal=True)
+    written, left = on_one_screen("validate", decks)
+    assert "8/8" in written
+    both = sorted([*plain.out.splitlines(), "mudline: decks/gone.keyxm: no such file or directory", ""])
+    assert sorted(left) == both
+    assert left[-2:] == [TOTAL, ""]
+
+
+@pytest.mark.usefixtures("_bar")
+@pytest.mark.parametrize("form", ["text", "json", "csv"])
+def test_bar_never_reaches_standard_output(decks: str, form: str) -> None:
+    outcome = on_error_only("validate", decks, "--output-format", form)
+    assert outcome.output == run("validate", decks, "--output-format", form).output
+    assert "1/8" in outcome.err
+    assert "\n".join(screen(outcome.err)).rstrip() == "mudline: decks/gone.keyxm: no such file or directory"
+
+
+@pytest.mark.usefixtures("_bar")
+def test_bar_is_gone_when_the_run_is_stopped(decks: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    read = Path.read_bytes
+
+    def stopped(path: Path) -> bytes:
+        if path.name == "bytes.das":
+            raise KeyboardInterrupt
+        return read(path)
+
+    monkeypatch.setattr(Path, "read_bytes", stopped)
+    outcome = on_error_only("validate", decks, "--output-format=csv", code=130)
+    assert "1/8" in outcome.err
+    assert not any("/8" in line for line in screen(outcome.err))
+
+
+@pytest.mark.usefixtures("_bar")
+def test_bar_keeps_to_one_narrow_line(decks: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "12")
+    written, left = on_one_screen("validate", decks, "-v")
+    assert "\x1b[1A" not in written.replace("\r\x1b[1A\x1b[2K", "")
+    assert not any("/8" in line for line in left)
+
+
+@pytest.mark.usefixtures("_bar")
+@pytest.mark.parametrize(("name", "value"), [("CI", "true"), ("TERM", "dumb")])
+def test_no_bar_where_nobody_looks(decks: str, name: str, value: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(name, value)
+    assert on_error_only("validate", decks).err == "mudline: decks/gone.keyxm: no such file or directory\n"
+
+
+@pytest.mark.usefixtures("_bar")
+def test_no_bar_when_quiet_for_one_deck_or_between_lines_for_programs(decks: str, place: Place) -> None:
+    assert "/8" not in on_error_only("validate", decks, "-q").err
+    assert on_error_only("validate", place(), code=0).err == ""
+    assert "/8" not in on_one_screen("validate", decks, "--output-format", "csv")[0]
+
+
+def test_no_bar_in_a_short_run(decks: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("CI", raising=False)
+    monkeypatch.setattr(progress, "DELAY", 60.0)
+    assert on_error_only("validate", decks).err == "mudline: decks/gone.keyxm: no such file or directory\n"
+
+
+def test_nobody_looks_at_a_file() -> None:
+    with patch.object(sys, "stderr", Stream("utf-8", terminal=False)):
+        assert not progress.looked_at(View())
+
+
+# -------------------------------------------------------------------------------------------------------------- table
+
+
+def test_long_names_lack_their_middle_on_a_terminal(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
+    name = place(CLEAN, "fields/north/case-17/static/flowline-as-laid-0017.keyxm")
+    lines = run("validate", name, "--color", "never", terminal=True).out.splitlines()
+    assert lines[3] == "legal         0         1         7       1         2  fields/n\u2026-laid-0017.keyxm"
+    assert max(map(len, lines)) <= 80
+    assert run("validate", name).out.splitlines()[3].endswith(name)
+
+
+@pytest.mark.parametrize(
+    ("text", "width", "encoding", "shown"),
+    [
+        ("short", 20, "utf-8", "short"),
+        ("0123456789", 7, "utf-8", "01\u20266789"),
+        ("0123456789", 9, "ascii", "01...6789"),
+        ("\u6d77\u5e95\u6d77\u5e95\u6d77\u5e95", 8, "utf-8", "\u6d77\u2026\u6d77\u5e95"),
+        ("\u00e9" * 5, 5, "utf-8", "\u00e9" * 5),
+    ],
+)
+def test_elided(text: str, width: int, encoding: str, shown: str) -> None:
+    assert elided(text, width, encoding) == shown
+
+
+def test_colours_are_those_of_the_verdicts(place: Place) -> None:
+    out = run("validate", place(), place(ILLEGAL, "bad.keyxm"), "-q", "--color", "always").out
+    assert "\x1b[32mlegal  \x1b[0m" in out
+    assert "\x1b[31m\x1b[1millegal\x1b[0m" in out
+
+
+def test_total_in_words() -> None:
+    total = Total()
+    assert str(total) == "0 of 0 decks legal"
+    total.add(Verdict("a", 1, 1, 0, 0, 0, "legal"))
+    assert str(total) == "1 of 1 deck legal"
+    total.add(Verdict("b", 1, 1, 0, 0, 2, "illegal"))
+    total.unreadable = 2
+    assert str(total) == "1 of 2 decks legal: 1 illegal, 2 errors, 2 files unreadable"
