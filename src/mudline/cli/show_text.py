@@ -113,7 +113,7 @@ def _print_curves(printer: Console, curves: list[dict[str, Any]], names: UnitNam
             str(entry["points"]),
             _range(entry["ratios"]),
             _range(entry["forces"]),
-            str(entry["elements"]),
+            str(entry["elements"]) + "+" * entry["open"],
         )
         for entry in curves
     ]

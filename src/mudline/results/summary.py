@@ -74,6 +74,7 @@ def _curves(scene: Scene) -> list[dict[str, Any]]:
                 "ratios": None if curve is None else [float(curve.ratios[0]), float(curve.ratios[-1])],
                 "forces": None if curve is None else [float(curve.forces.min()), float(curve.forces.max())],
                 "elements": int(follows.sum()),
+                "open": any(grant.curve == index and grant.set_.open for grant in scene.laws.grants),
             }
         )
     return rows
