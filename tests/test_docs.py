@@ -36,6 +36,7 @@ JSON = {
         "evaluate -q samples/scr-touchdown.keyxm --positions samples/positions.csv",
         "evaluate -q samples/linear.keyxm --tension cut",
     ),
+    "expand": ("expand samples/variations.keyxm --dry-run", "expand -q samples/parametric.keyxm -o study"),
     "rules": ("rules",),
 }
 """Commands that print each form of JSON, by the name of its schema."""

@@ -22,13 +22,14 @@ a choice of ours. An *info* is something to know.
 | --- | --- | --- | --- |
 {rows}
 
-Five more codes are no rules and cannot be left out; they say why a file could not be used or changed:
+Six more codes are no rules and cannot be left out; they say why a file could not be used or changed:
 
 | code | slug | severity | says |
 | --- | --- | --- | --- |
 | [DOC001](DOC001.md) | `unreadable-document` | error | A deck in JSON or YAML is no JSON or YAML. |
 | [DOC002](DOC002.md) | `schema-error` | error | A deck in JSON or YAML breaks the schema of decks. |
 | [DAT001](DAT001.md) | `bad-data-file` | error | A file of positions or elements has a fault. |
+| [EXP001](EXP001.md) | `cannot-expand` | error | The decks that a deck describes cannot be made. |
 | [MIG001](MIG001.md) | `cannot-migrate` | error | The new family of seabed keywords cannot say what the deck says. |
 | [RUN001](RUN001.md) | `cannot-evaluate` | error | The deck cannot be evaluated. |
 """
