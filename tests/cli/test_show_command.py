@@ -81,6 +81,7 @@ def test_json(place: Place) -> None:
             "ratios": [0.0, 0.5],
             "forces": [0.0, 3000.0],
             "elements": 2,
+            "open": False,
         }
     ]
     assert found["diameters"] == [{"diameter": 0.5, "elements": 2}]
