@@ -14,6 +14,8 @@ from mudline.formatting.plain import PlainRows
 from mudline.syntax.rows import line_spans, row_fields
 
 _PIECE = 256 * 1024
+_SHORT = 1000
+"""Characters of a table from which on arrays are faster than lists."""
 _HELD_TOGETHER = re.compile(r'[\["{]')
 
 
@@ -29,7 +31,8 @@ class Run(NamedTuple):
         while start < end:
             stop = self.text.find("\n", min(start + _PIECE, end), end) + 1 or end
             piece = self.text[start:stop]
-            yield PlainRows.read(piece, len(kind.columns)) or word_rows(piece, len(kind.columns))
+            plain = PlainRows.read(piece, len(kind.columns)) if len(piece) > _SHORT else None
+            yield plain or word_rows(piece, len(kind.columns))
             start = stop
 
 
