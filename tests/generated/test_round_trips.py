@@ -1,0 +1,85 @@
+"""Generated decks through JSON, YAML and keyword text and back: equal models, every number to the last bit."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from jsonschema import Draft202012Validator
+
+from mudline.deck.loading import dump, load_bytes
+from mudline.deck.model import Deck
+from mudline.deck.schema import json_schema
+from tests.generated.decks import KEYWORDS, Keyword, alone, block, declared, document
+from tests.generated.lines import Values
+
+VALIDATOR = Draft202012Validator(json_schema())
+
+
+def read(text: str, form: str) -> Deck:
+    return load_bytes(text.encode(), "a", form=form)
+
+
+def of(made: Values) -> Deck:
+    """The deck of a document."""
+    return read(json.dumps(made), "json")
+
+
+def plain(value: object) -> object:
+    """Values without comments, and without what is empty: the spelling of a number tells its last bit."""
+    if isinstance(value, dict):
+        inner = {key: plain(item) for key, item in value.items() if key != "comments"}
+        return {key: item for key, item in inner.items() if item not in (None, [], {})}
+    if isinstance(value, list):
+        cells = [plain(item) for item in value]
+        while cells and cells[-1] is None:
+            cells.pop()
+        return cells
+    return None if value is None else repr(value)
+
+
+def values(deck: Deck) -> object:
+    """All values of a deck."""
+    return plain(json.loads(dump(deck, "json"))["sections"])
+
+
+def held_in_documents(deck: Deck) -> None:
+    """JSON and YAML give the deck and each other's text back, and hold to the schema."""
+    as_json, as_yaml = dump(deck, "json"), dump(deck, "yaml")
+    from_json, from_yaml = read(as_json, "json"), read(as_yaml, "yaml")
+    VALIDATOR.validate(json.loads(as_json))
+    assert from_json == from_yaml == deck
+    assert dump(from_json, "json") == dump(from_yaml, "json") == as_json
+    assert dump(from_json, "yaml") == dump(from_yaml, "yaml") == as_yaml
+
+
+def held_in_text(deck: Deck) -> None:
+    """Keyword text gives the same values back, and what is read from it stays the same in every form."""
+    text = dump(deck, "keyword")
+    again = read(text, "keyword")
+    again.source, again.units = deck.source, deck.units
+    assert values(again) == values(deck)
+    assert again.preamble == deck.preamble
+    assert dump(again, "keyword") == text
+    held_in_documents(again)
+
+
+@pytest.mark.parametrize("keyword", KEYWORDS, ids=lambda keyword: f"{keyword[0]}-{keyword[1]}".replace(" ", "-"))
+@given(data=st.data())
+@settings(max_examples=15)
+def test_every_keyword(keyword: Keyword, data: st.DataObject) -> None:
+    deck = of(alone(keyword, data.draw(block(keyword))))
+    (found,) = deck.sections[0].blocks
+    assert type(found) is declared(keyword)
+    held_in_documents(deck)
+    held_in_text(deck)
+
+
+@given(document())
+@settings(max_examples=60)
+def test_whole_decks(made: Values) -> None:
+    deck = of(made)
+    held_in_documents(deck)
+    held_in_text(deck)
