@@ -58,20 +58,19 @@ class Namer:
         folders = [
             filled(unquoted(text), value_of) for text in (template.directory, template.subdirectory) if text is not None
         ]
-        file = self._file(template, counter)
+        name = self._own_name(template, counter)
         if template.filename is not None:
-            file = filled(unquoted(template.filename), value_of)
-        if not file.lower().endswith(SUFFIXES):
-            file += self.suffix
+            name = filled(unquoted(template.filename), value_of)
+        file = name if name.lower().endswith(SUFFIXES) else name + self.suffix
         path = "/".join([*(folder.removesuffix("/") or "/" for folder in folders), file])
         if missing:
             return NewPath(path, f"needs the value of {shown(missing[0])}, which has none")
-        if "/" in file:
+        if "/" in name:
             return NewPath(path, "has a / in FILENAME=: folders belong in SUBDIRECTORY=")
         if "" in folders:
             return NewPath(path, "has a folder without a name")
-        return NewPath(path, path_fault(path))
+        return NewPath(path, path_fault(name) or path_fault(path))
 
-    def _file(self, template: Template, counter: str) -> str:
+    def _own_name(self, template: Template, counter: str) -> str:
         """The name of a deck that is not given one: that of the source, in a folder of its own."""
         return self.source.name if template.subdirectory is not None else f"{self.source.stem} {counter}"

@@ -1,0 +1,303 @@
+"""What a new deck is: the text of the source but for values, and blocks that come and go."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mudline.deck.loading import FORMS, dump, load_bytes
+from mudline.deck.parameters import Parameters, folded
+from mudline.keywords.values import Equation
+from mudline.linting.engine import lint_bytes
+from mudline.linting.selection import select
+from mudline.variations.planning import Plan, plan
+from mudline.variations.targets import parameter_field
+from tests.samples import SAMPLES
+from tests.variations.decks import MODEL, PARAMETERS, deck, only, refused, text
+
+ALL = " DESCRIPTION=d, FILENAME=%Period%\n"
+WAVES = " NAME=Waves\n PARA=Period, VALUE=09, =[1+Twice]\n"
+
+
+def contents(found: Plan) -> list[str]:
+    return [found.content(new).decode() for new in found.decks]
+
+
+def test_only_values_change_and_the_two_keywords_go() -> None:
+    new = contents(plan(deck(text(WAVES, ALL))))
+    expected = f"{PARAMETERS}C model\n{MODEL}"
+    assert new == [expected.replace(", 08\n", ", 09\n"), expected.replace(", 08\n", ", =[1+Twice]\n")]
+
+
+def test_comments_and_blank_lines_behind_a_block_stay() -> None:
+    content = text(" NAME=v\nC in it\n\n PARA=Depth, VALUE=2\n\nC behind\n", f"C before\n{ALL}  \nCnote\n\n")
+    new = contents(plan(deck(content)))[0]
+    assert new == f"{PARAMETERS}\nC behind\n  \nCnote\n\nC model\n{MODEL}".replace("100.0", "2")
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "cp1252"])
+def test_line_ends_and_encodings_stay(end: str, encoding: str, tmp_path: Path) -> None:
+    (tmp_path / "block.txt").write_bytes("C \u00fcber\r\n*TITLE\r a\n".encode())
+    variations = " NAME=v\n PARA=Folder, VALUE=S\u00fcd\n ACTION=ADD, KEYWORD=TITLE, FILE=block.txt, SECTION=MODEL\n"
+    content = text(variations, " DESCRIPTION=d, FILENAME=%Folder%\n").replace("\n", end).encode(encoding)
+    found = plan(deck(content, folder=tmp_path))
+    expected = f"{PARAMETERS}C model\n{MODEL}".replace('"Near side"', "S\u00fcd")
+    expected = expected.replace(" 1, 1, 2\n", " 1, 1, 2\nC \u00fcber\n*TITLE\n a\n")
+    assert found.decks[0].path == "S\u00fcd.keyxm"
+    assert found.content(found.decks[0]) == expected.replace("\n", end).encode(encoding)
+
+
+@pytest.mark.parametrize(
+    ("text_", "field"),
+    [
+        ("08", "08"),
+        ("-1.5E3", "-1.5E3"),
+        ("=[a, b]", "=[a, b]"),
+        ("Near", "Near"),
+        ("Near side", '"Near side"'),
+        ("a, b", '"a, b"'),
+        ('"a, b"', '"a, b"'),
+        ("/1 2/", '"/1 2/"'),
+        ("=x", '"=x"'),
+        ("{a", '"{a"'),
+        ("", None),
+        ('a "b" c', None),
+        ('a"b', None),
+    ],
+)
+def test_values_as_fields(text_: str, field: str | None) -> None:
+    assert parameter_field(text_) == field
+    if field is not None:
+        value = Parameters(deck(f"$PREPROCESSOR\n*PARAMETERS\n x, {field}\n a, 1\n b, 2\n")).definitions["x"].value
+        assert str(value) == text_.strip('"') or math.isclose(float(str(value)), float(text_))
+
+
+# --------------------------------------------------------------------------------------------------------- properties
+
+values = st.one_of(
+    st.sampled_from(["08", "-100", "1.5E3", "Near", "Far side", '"a, b"', "/x/", "=[3*2]", "c:\\d", "\u00e9t\u00e9"]),
+    st.floats(-1e6, 1e6).map(repr),
+)
+
+
+@st.composite
+def studies(draw: st.DrawFn) -> tuple[list[dict[str, list[str]]], str]:
+    """Variations as columns of values, each parameter in one of them, and their lines."""
+    columns: list[dict[str, list[str]]] = []
+    lines = ""
+    free = draw(st.permutations(["Depth", "Offset", "Period", "Folder"]))
+    while free:
+        mine, free = free[: draw(st.integers(1, 3))], free[3:]
+        count = draw(st.integers(1, 3))
+        column = {name: draw(st.lists(values, min_size=count, max_size=count)) for name in mine}
+        columns.append(column)
+        lines += f" NAME=v{len(columns)}\n"
+        lines += "".join(f" PARA={name.upper()}, VALUE={', '.join(given)}\n" for name, given in column.items())
+        if draw(st.booleans()):
+            break
+    return columns, lines
+
+
+@given(studies())
+@settings(max_examples=60)
+def test_every_combination_is_a_deck_whose_parameters_are_those_of_the_case(
+    study: tuple[list[dict[str, list[str]]], str],
+) -> None:
+    columns, lines = study
+    found = plan(deck(text(lines, " DESCRIPTION=d\n VARIATIONS=ALL\n")))
+    assert len(found.decks) == math.prod(len(next(iter(column.values()))) for column in columns)
+    assert len({new.path for new in found.decks}) == len(found.decks)
+    for index, new in enumerate(found.decks):
+        cases: dict[str, str] = {}
+        rest = index
+        for column in reversed(columns):
+            rest, case = divmod(rest, len(next(iter(column.values()))))
+            cases |= {name: texts[case] for name, texts in column.items()}
+        assert new.values == {name: parameter_field(written) for name, written in cases.items()}
+        read = load_bytes(found.content(new), new.path)
+        assert read.problems == []
+        parameters = Parameters(read)
+        expected = f"{PARAMETERS}C model\n{MODEL}"
+        for name, written in cases.items():
+            assert same(parameters.values[folded(name)], written)
+            expected = expected.replace(OLD[name], f"{OLD[name].partition(',')[0]}, {parameter_field(written)}\n")
+        assert found.content(new).decode() == expected
+
+
+OLD = {"Depth": " Depth, 100.0\n", "Offset": " Offset, -50\n", "Period": " Period , 08\n"} | {
+    "Folder": ' Folder, "Near side"\n'
+}
+"""The lines of the parameters."""
+
+
+def same(value: float | str, written: str) -> bool:
+    """Whether a parameter has the value that is written."""
+    if Equation.match(written):
+        return value == 6.0
+    return value == (written.strip('"') if isinstance(value, str) else float(written))
+
+
+# ------------------------------------------------------------------------------------------------------------ actions
+
+
+def acting(*actions: str) -> str:
+    return text(" NAME=v\n" + "".join(f" ACTION={action}\n" for action in actions), " DESCRIPTION=d, FILENAME=a\n")
+
+
+BARE = f"{PARAMETERS}C model\n{MODEL}"
+
+
+def test_a_block_is_removed_and_its_comments_stay() -> None:
+    new = contents(plan(deck(acting("REMOVE, KEYWORD=OFFSET", "Remove, keyword=wave-regular, section=$load case"))))
+    assert new == [BARE.replace("*OFFSET\n =[Offset]\n", "").replace("*WAVE-REGULAR\n 1.0, =[Period], 0.0\n", "")]
+
+
+def test_all_blocks_of_a_keyword_are_removed_once() -> None:
+    content = acting("REMOVE, KEYWORD=OFFSET", "REMOVE, KEYWORD=OFFSET") + "$LOAD CASE\n*OFFSET\n 1\nC end"
+    assert contents(plan(deck(content))) == [BARE.replace("*OFFSET\n =[Offset]\n", "") + "$LOAD CASE\nC end"]
+
+
+def test_data_that_looks_like_a_comment_goes_with_its_block() -> None:
+    more = "$MODEL\n*SEABED STIFFNESS\nCURVE=a\n 0, 0\n 1, 1\nCURVE=b\nCnote\n*OCEAN\n 1\n"
+    found = plan(deck(acting("REMOVE, KEYWORD=SEABED STIFFNESS") + more))
+    assert contents(found) == [BARE + "$MODEL\nCnote\n*OCEAN\n 1\n"]
+
+
+@pytest.mark.parametrize(
+    ("data", "added"),
+    [
+        (b" 7\n", "*OFFSET\n 7\n"),
+        (b"7", "*OFFSET\n7\n"),
+        (b"C of the file\n\n*offset\n 7\n*OFFSET\n 8", "C of the file\n\n*offset\n 7\n*OFFSET\n 8\n"),
+        (b"\xef\xbb\xbf*OFFSET\r\n 7\r\n", "*OFFSET\n 7\n"),
+        (b"C no line of data\n", "*OFFSET\nC no line of data\n"),
+        (b"", "*OFFSET\n"),
+    ],
+)
+def test_a_block_is_added_behind_the_last_of_its_section(data: bytes, added: str, tmp_path: Path) -> None:
+    (tmp_path / "my block.txt").write_bytes(data)
+    found = plan(deck(acting('ADD, KEYWORD=OFFSET, FILE="my block.txt"'), folder=tmp_path))
+    assert contents(found) == [BARE + added]
+
+
+def test_blocks_without_a_file_and_sections_without_a_block() -> None:
+    content = acting("ADD, KEYWORD=NO FRICTION, SECTION=LOAD CASE", "ADD, KEYWORD=FRICTION, SECTION=MODES")
+    assert contents(plan(deck(content + "$MODES\n"))) == [BARE + "*NO FRICTION\n$MODES\n*FRICTION\n"]
+
+
+def test_a_file_without_a_last_line_end_gets_one_before_what_is_added() -> None:
+    content = acting("ADD, KEYWORD=VESSEL,INTEGRATED", "ADD, KEYWORD=NO FRICTION, SECTION=LOAD CASE").removesuffix("\n")
+    added = BARE.replace(" 1, 1, 2\n", " 1, 1, 2\n*VESSEL,INTEGRATED\n")
+    assert contents(plan(deck(content))) == [added + "*NO FRICTION\n"]
+
+
+def test_a_block_may_take_the_place_of_another() -> None:
+    found = plan(deck(acting("ADD, KEYWORD=WAVE-REGULAR", "REMOVE, KEYWORD=WAVE-REGULAR")))
+    assert contents(found) == [BARE.replace(" 1.0, =[Period], 0.0\n", "")]
+
+
+@pytest.mark.parametrize(
+    ("action", "message"),
+    [
+        ("REMOVE, KEYWORD=OFSET, SECTION=LOAD CASE", "$LOAD CASE has no *OFSET (did you mean OFFSET?)"),
+        ("REMOVE, KEYWORD=OFSET", "say where *OFSET belongs with SECTION="),
+        ("REMOVE, KEYWORD=FRICTION", "say where *FRICTION belongs with SECTION= ($LOAD CASE or $MODES)"),
+        ("REMOVE, KEYWORD=OCEAN, SECTION=MODELL", "the deck has no section $MODELL (did you mean MODEL?)"),
+        ("REMOVE, KEYWORD=PARAMETERS", "*PARAMETERS says what the decks are"),
+        ("ADD, KEYWORD=OFFSET, FILE=none.txt", "there is no file 'none.txt' beside the deck"),
+        ("ADD, KEYWORD=OFFSET, FILE=other.txt", "other.txt holds *OCEAN, expected *OFFSET only"),
+        ("ADD, KEYWORD=OFFSET, FILE=section.txt", "section.txt opens the section $MODEL"),
+        ("ADD, KEYWORD=OFFSET, FILE=utf16.txt", "utf16.txt: the file is UTF-16"),
+        ("ADD, KEYWORD=OCEAN, FILE=bad.txt", "the new deck 'a.keyxm' cannot be read: line 20: 'x' is no number"),
+    ],
+)
+def test_actions_that_cannot_be_done(action: str, message: str, tmp_path: Path) -> None:
+    (tmp_path / "other.txt").write_text("*OFFSET\n*OCEAN\n")
+    (tmp_path / "section.txt").write_text("*OFFSET\n$MODEL\n")
+    (tmp_path / "utf16.txt").write_bytes("*OFFSET\n".encode("utf-16"))
+    (tmp_path / "bad.txt").write_text(" x\n")
+    found = only(refused(acting(action), folder=tmp_path))
+    assert message in found[3]
+    assert found[:3] == ("EXP001", *((1, 1) if "bad.txt" in action else (12, 2)))
+
+
+def test_a_file_that_the_encoding_of_the_deck_lacks(tmp_path: Path) -> None:
+    (tmp_path / "a.txt").write_text(" \u6f22\n", encoding="utf-8")
+    content = acting("ADD, KEYWORD=OFFSET, FILE=a.txt").replace("C in", "C \u00fc in").encode("cp1252")
+    assert "which the encoding of the deck lacks" in only(refused(content, folder=tmp_path))[3]
+
+
+def test_a_file_too_large_or_closed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "a.txt").write_text(" 1\n")
+    monkeypatch.setattr("mudline.variations.actions._LARGEST", 2)
+    assert "is larger than" in only(refused(acting("ADD, KEYWORD=OFFSET, FILE=a.txt"), folder=tmp_path))[3]
+
+    def fail(_: Path) -> bytes:
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr("mudline.variations.actions._LARGEST", 20)
+    monkeypatch.setattr(Path, "read_bytes", fail)
+    found = only(refused(acting("ADD, KEYWORD=OFFSET, FILE=a.txt"), folder=tmp_path))
+    assert "a.txt cannot be read: permission denied" in found[3]
+
+
+def test_a_deck_from_nowhere_has_no_files_beside_it() -> None:
+    found = only(refused(acting("ADD, KEYWORD=OFFSET, FILE=a.txt")))
+    assert "which came from standard input" in found[3]
+
+
+# ------------------------------------------------------------------------------------------------- other forms, samples
+
+
+@pytest.mark.parametrize("form", ["json", "yaml"])
+def test_a_deck_in_another_form_gives_decks_in_that_form(form: str) -> None:
+    original = deck(text(WAVES + " PARA=Folder, VALUE=Far side, b\n", " DESCRIPTION=d, FILENAME=Wave %Period%\n"))
+    found = plan(deck(dump(original, form), f"study.{form}"))
+    assert [new.path for new in found.decks] == [f"Wave 09.{form}", f"Wave 201.{form}"]
+    by_text = plan(original)
+    for new, other in zip(found.decks, by_text.decks, strict=True):
+        read = load_bytes(found.content(new), new.path)
+        again = load_bytes(by_text.content(other), other.path)
+        assert read.sections == again.sections
+        assert read.source == new.path
+
+
+def test_the_suffix_of_a_name_tells_the_form() -> None:
+    found = plan(deck(text(WAVES, "".join(f" DESCRIPTION=d, FILENAME=%Period%.{end}\n" for end in ("json", "keyx")))))
+    ends = {new.path: found.content(new)[:1] for new in found.decks}
+    assert ends == {"09.json": b"{", "201.json": b"{", "09.keyx": b"$", "201.keyx": b"$"}
+
+
+def test_a_fault_of_a_json_deck_is_told_where_it_stands_there() -> None:
+    content = dump(deck(text(WAVES, " DESCRIPTION=d, FILENAME=%Period%\n VARIATIONS=Wave\n")), "json")
+    line = content[: content.index('["Wave"]')].count("\n") + 1
+    found = only(refused(content, "study.json"))
+    assert found[:2] == ("EXP001", line)
+
+
+@pytest.mark.parametrize("name", ["variations.keyxm", "parametric.keyxm"])
+def test_new_decks_of_samples_are_found_fault_with_as_little_as_their_source(name: str) -> None:
+    found = plan(load_bytes((SAMPLES / name).read_bytes(), name))
+    assert len(found.decks) == 6
+    for new in found.decks:
+        assert lint_bytes(found.content(new), new.path, select()) == []
+        read = load_bytes(found.content(new), new.path)
+        assert not read.keywords("PREPROCESSOR") & {"VARIATION", "COMBINATIONS"}
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_findings_are_those_of_the_source(form: str) -> None:
+    content = text(WAVES, ALL) + "$MODEL\n*SEABED STIFFNESS\n CURVE=Clay\n 1, 1\n 0, 0\n"
+    original = deck(content)
+    suffix = {"keyword": "keyxm"}.get(form, form)
+    source = dump(original, form).encode() if form != "keyword" else content.encode()
+    found = plan(deck(source, f"study.{suffix}"))
+    before = sorted(finding.code for finding in lint_bytes(source, f"study.{suffix}", select()))
+    assert "CRV002" in before
+    for new in found.decks:
+        assert sorted(finding.code for finding in lint_bytes(found.content(new), new.path, select())) == before
