@@ -19,7 +19,7 @@ from mudline.expression import FORMS, FUNCTIONS
 from mudline.linting.registry import rules
 from tests.docs.blocks import Page, agree
 from tests.docs.commands import output, run
-from tests.docs.make import BY_HAND, ROOT, documents, pages, rule_files
+from tests.docs.make import BY_HAND, ROOT, documents, made_files, pages
 from tests.docs.refresh import copy_of_files
 
 JSON = {
@@ -116,7 +116,7 @@ def test_made_pages_are_fresh() -> None:
 
 
 def test_every_made_page_is_still_made() -> None:
-    assert rule_files() <= pages().keys(), "run make docs"
+    assert made_files() <= pages().keys(), "run make docs"
 
 
 def test_every_code_has_a_page() -> None:

@@ -1,196 +1,142 @@
-"""docs/keywords.md, from the declarations of the keywords."""
+"""docs/keywords/, a page per keyword, from the declarations of the keywords."""
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator
 
 from mudline.keywords import catalogue
-from mudline.keywords.model import About, Block, Layout, ListRow, Part, Rows, Setting, Slot, layout, row_format
-from mudline.keywords.values import Kind
-from tests.docs.marking import MADE, anchor, marked
-
-_TAKES = {
-    Kind.REAL: "number",
-    Kind.WHOLE: "whole number",
-    Kind.IDENT: "number or {label}",
-    Kind.REAL_OR_NAME: "number or name",
-    Kind.NAME: "name",
-}
-_METRIC = {"F": "N", "L": "m", "M": "kg", "T": "s"}
-_IMPERIAL = {"F": "lbf", "L": "ft", "M": "slug", "T": "s"}
+from mudline.keywords.kept import Kept
+from mudline.keywords.model import Block
+from tests.docs.keyword_fields import inferences, tables
+from tests.docs.keyword_format import format_lines
+from tests.docs.keyword_rules import Declared, rules_of
+from tests.docs.marking import MADE, marked
 
 _HEAD = """{made}
 
-# Keywords
+# `{title}`
 
-The keywords on this page have a model: mudline reads every field, checks it, and writes it back. All other keywords
-pass through untouched; those known by name are listed [at the end](#keywords-that-pass-through). How lines, fields,
-comments, names and equations are written is said in [language.md](language.md), what is evaluated in
-[numerics.md](numerics.md).
+{summary}
 
-| keyword | holds |
-| --- | --- |
-{contents}
-
-In the formats `[ ]` may be left out, `|` stands between alternatives, and `...` says that a line, with the deeper lines
-below it, may be repeated. Decks need no such indentation. Where a number belongs an equation `=[...]` may stand. The
-ranges are checked by [SBD010](rules/SBD010.md). Units are metric / imperial; a deck in units of its own has its own.
+Section: {sections}. [All keywords](../keywords.md).
 """
 
-_PASSING = """## Keywords that pass through
+_FORMAT = """## Format
 
-These are known by name and kept line for line. In a section other than its own such a keyword is reported by
-[SYN008](rules/SYN008.md). A keyword that is on this page neither here nor above is kept as well and reported by
-[SYN009](rules/SYN009.md). `*SEABED PLANES`, `*SEABED CONTACT`, `*SEABED SUCTION`, `*SEABED UNLOADING`,
-`*SEABED FRICTION` and `*SEABED TRENCH` are names set aside for laws of mudline's own, which this version does not read.
+```text
+{lines}
+```
 
-| section | keywords |
-| --- | --- |
+How to read this: [formats](../keywords.md#formats). Where a number belongs an equation `=[...]` may stand.
 """
 
+_KEPT = """## Format
 
-def keyword_page() -> str:
-    """The whole page."""
-    blocks = [catalogue.load(module) for module in catalogue.modules()]
-    rows = (f"| [`{_title(block)}`](#{anchor(_title(block))}) | {marked(block.summary)} |" for block in blocks)
-    parts = [_HEAD.format(made=MADE, contents="\n".join(rows)), *(_section(block) for block in blocks)]
-    return "\n".join([*parts, _PASSING + "\n".join(_passing(blocks)) + "\n"])
+The format of this keyword is not public. Its lines are kept as they are, in every form of the deck and through every
+change; in JSON and YAML they stand under `lines`.
+"""
 
+_EXAMPLE = """## Example
 
-def _title(block: type[Block]) -> str:
-    return f"*{block.names[0]}"
+```text
+{example}
+```
+"""
 
+_RULES = """## Rules
 
-def _section(block: type[Block]) -> str:
-    sections = " or ".join(f"`${name}`" for name in block.sections)
-    lines = [f"## `{_title(block)}`", "", f"{marked(block.summary)} Section: {sections}.", ""]
-    lines += ["```text", _title(block), *_format(block, 1), "```", ""]
-    for caption, table in _tables([block], ""):
-        lines += [*([caption, ""] if caption else []), *table, ""]
-    lines += ["Example:", "", "```text", block.example.rstrip("\n"), "```", ""]
-    return "\n".join(lines)
+{table}The rules on syntax (`SYN...`) hold for every keyword: [all rules](../rules/README.md).
+"""
 
+_CERTAIN = """## Certain and inferred
 
-# ------------------------------------------------------------------------------------------------------------- format
+{text}
+"""
 
-
-def _format(part: type[Part], depth: int) -> list[str]:
-    """The lines of a part in the order in which they are written."""
-    lines: list[str] = []
-    found = layout(part)
-    for slot in found.slots:
-        if isinstance(slot.about, Setting) and slot.about.inline:
-            lines[-1] += f" [, {_setting(slot)}]"
-        elif slot.record:
-            for record in slot.record.values():
-                first, *rest = _format(record, depth)
-                lines += [f"{first.removesuffix(' ...')} ...", *(f"  {line}" for line in rest)]
-        elif text := _line(slot, found):
-            lines.append("  " * depth + text)
-    return lines
+_OWN = "(extension)"
+"""How the summary of a keyword says that the language does not have it elsewhere."""
 
 
-def _line(slot: Slot, found: Layout) -> str:
-    """The line of one field; "" for a field that another one's line holds."""
-    if isinstance(slot.about, Rows) and slot.about.row:
-        return _optional(slot, layout(slot.about.row).wanted) + " ..."
-    if slot.key:
-        return _optional(slot, _setting(slot))
-    if slot.row:
-        alternatives = [other for other in found.columns if other.row and not other.required]
-        return layout(slot.row).wanted + (" |" if slot in alternatives[:-1] else "")
-    if slot.many:
-        return f"{slot.label} [, ...]"
-    plain = [other for other in found.columns if not other.row]
-    if len(plain) < len(found.columns):
-        return _optional(slot, slot.label)
-    whole = row_format([other.label for other in plain], [other.required for other in plain])
-    return whole if slot is plain[0] else ""
+def keyword_pages() -> dict[str, str]:
+    """The text of every page by its path in the repository."""
+    return {f"docs/keywords/{page_name(each)}.md": keyword_page(each) for each in declarations()}
 
 
-def _optional(slot: Slot, text: str) -> str:
-    return text if slot.required else f"[{text}]"
+def declarations() -> list[Declared]:
+    """Every keyword that a module declares, in the order of the catalogue."""
+    return [*models(), *catalogue.kept()]
 
 
-def _setting(slot: Slot) -> str:
-    value = layout(slot.row).wanted if slot.row else "|".join(slot.choices) or _TAKES[slot.kind or Kind.REAL]
-    return f"{slot.key}={value}"
+def models() -> list[type[Block]]:
+    """Those whose fields are read."""
+    return [catalogue.load(module) for module in dict.fromkeys(catalogue.modules())]
 
 
-# ------------------------------------------------------------------------------------------------------------- tables
+def title(declared: Declared) -> str:
+    """The keyword as it is written."""
+    return f"*{declared.names[0]}"
 
 
-def _tables(parts: Sequence[type[Part]], path: str) -> Iterator[tuple[str, list[str]]]:
-    """A table of the fields of alternative records, then those of what is inside them, each with a caption."""
-    slots = [slot for part in parts for slot in layout(part).slots]
-    caption = f"In each of `{path}`{', one of' if len(parts) > 1 else ''}:" if path else ""
-    if own := [slot for slot in slots if not slot.record]:
-        yield caption, list(_fields(own))
-    for slot in own:
-        name = f"{slot.key}=" if slot.key else slot.json
-        row = slot.about.row if isinstance(slot.about, Rows) else slot.row
-        if row and isinstance(slot.about, Rows):
-            yield f"A row of `{name}`, a list in JSON:", list(_fields(layout(row).slots, named=False))
-        elif row and issubclass(row, ListRow):
-            yield f"The values of `{name}`, a list in JSON:", list(_fields(layout(row).slots, named=False))
-        elif row:
-            yield f"The values of `{name}`:", list(_fields(layout(row).slots))
-    for slot in slots:
-        if slot.record:
-            yield from _tables(list(slot.record.values()), slot.json)
+def page_name(declared: Declared) -> str:
+    """The file of a page, without its suffix: `seabed-properties`."""
+    return declared.names[0].lower().replace(" ", "-").replace(",", "-")
 
 
-def _fields(slots: Iterable[Slot], *, named: bool = True) -> Iterator[str]:
-    columns = ("field", *(("in JSON",) if named else ()), "takes", "unit", "default", "range", "meaning")
-    yield f"| {' | '.join(columns)} |"
-    yield "|" + " --- |" * len(columns)
-    for slot in slots:
-        names = (f"`{slot.label}`", f"`{slot.json}`") if named else (f"`{slot.label}`",)
-        default = "mandatory" if slot.required else slot.about.default
-        cells = (*names, _takes(slot), _unit(slot.about.unit), default, _range(slot.about), _meaning(slot.about))
-        yield f"| {' | '.join(cells)} |"
+def sections_of(declared: Declared) -> str:
+    """Where a keyword belongs."""
+    return " or ".join(f"`${name}`" for name in declared.sections)
 
 
-def _takes(slot: Slot) -> str:
-    if isinstance(slot.about, Rows):
-        return "rows, below"
-    if slot.row:
-        return "values, below"
-    many = "one or more of " if slot.many else ""
-    return many + (", ".join(slot.choices) or _TAKES[slot.kind or Kind.REAL])
+def keyword_page(declared: Declared) -> str:
+    """The page of one keyword."""
+    parts = _of_kept(declared) if isinstance(declared, Kept) else _of_model(declared)
+    return "\n".join([_head(declared), *parts])
 
 
-def _meaning(about: About) -> str:
-    return marked(f"{about.meaning} (inferred: {about.inferred})" if about.inferred else about.meaning)
+def _head(declared: Declared) -> str:
+    return _HEAD.format(
+        made=MADE, title=title(declared), summary=marked(declared.summary), sections=sections_of(declared)
+    )
 
 
-def _range(about: About) -> str:
-    if about.above is not None:
-        return f"> {about.above:g}"
-    return f">= {about.at_least:g}" if about.at_least is not None else ""
+def _of_model(block: type[Block]) -> Iterator[str]:
+    yield _FORMAT.format(lines="\n".join(format_lines(block)))
+    yield "## Fields\n\nUnits are metric / imperial; a deck in units of its own has its own.\n"
+    for caption, table in tables(block):
+        yield "\n".join([*([caption, ""] if caption else []), *table, ""])
+    yield _EXAMPLE.format(example=block.example.rstrip("\n"))
+    yield _rules(block)
+    yield _CERTAIN.format(text=_certain(block))
 
 
-def _unit(unit: str) -> str:
-    """F/L2 as `N/m2 / lbf/ft2`; what is no dimension as it is."""
-    if not re.fullmatch(r"(?:[FLMT]\d?|/)+", unit):
-        return unit
-    return f"{_spelt(unit, _METRIC)} / {_spelt(unit, _IMPERIAL)}"
+def _of_kept(kept: Kept) -> Iterator[str]:
+    yield _KEPT
+    if kept.harvest or kept.labels:
+        yield "\n".join(["## Names", "", *_names(kept), ""])
+    yield (
+        _EXAMPLE.format(example=kept.example.rstrip("\n")) + "\nWhat its lines may look like, no definition of them.\n"
+    )
+    yield _rules(kept)
+    yield _CERTAIN.format(text=f"Certain: {marked(kept.certain)}\n\nInferred: {marked(kept.inferred)}")
 
 
-def _spelt(unit: str, names: dict[str, str]) -> str:
-    sides = [re.findall(r"([FLMT])(\d?)", side) for side in unit.split("/")]
-    return "/".join(" ".join(names[letter] + power for letter, power in side) for side in sides)
+def _names(kept: Kept) -> Iterator[str]:
+    if kept.harvest:
+        yield from ("| setting | names |", "| --- | --- |")
+        yield from (f"| `{key}=` | {what.value} |" for key, what in kept.harvest.items())
+    if kept.labels:
+        yield from (*([""] if kept.harvest else []), "Any text among its lines may be the label of a node.")
 
 
-def _passing(blocks: Iterable[type[Block]]) -> Iterator[str]:
-    """The keywords that are known by name only, by section."""
-    modelled = {name for block in blocks for name in block.names}
-    by_section: dict[str, list[str]] = {}
-    for keyword in catalogue.keywords():
-        if keyword not in modelled:
-            for section in catalogue.sections_of(keyword) or ("",):
-                by_section.setdefault(section, []).append(f"`*{keyword}`")
-    for name in (*catalogue.SECTIONS, ""):
-        if name in by_section:
-            yield f"| {f'`${name}`' if name else 'not confirmed'} | {', '.join(by_section[name])} |"
+def _rules(declared: Declared) -> str:
+    found = rules_of(declared)
+    rows = [f"| [{rule.code.code}](../rules/{rule.code.code}.md) | {marked(rule.title)} |" for rule in found]
+    return _RULES.format(table="\n".join(["| code | finds |", "| --- | --- |", *rows, "", ""]) if found else "")
+
+
+def _certain(block: type[Block]) -> str:
+    own = _OWN in block.summary
+    says = "This keyword is mudline's own: the page defines it" if own else "What this page says is certain"
+    if found := inferences(block):
+        return "\n".join([f"{says}, but for what is inferred:", "", *(f"* {each}" for each in found)])
+    return f"{says}. Nothing is inferred."

@@ -8,7 +8,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from mudline.linting.registry import rules
-from tests.docs.keyword_page import keyword_page
+from tests.docs.keyword_index import keyword_index
+from tests.docs.keyword_page import keyword_pages
 from tests.docs.refresh import copy_of_files, refreshed
 from tests.docs.rule_pages import rule_index, rule_page
 
@@ -20,13 +21,14 @@ BY_HAND = frozenset({"DOC001", "DOC002", "DAT001", "EXP001", "MIG001", "RUN001"}
 
 def pages() -> dict[str, str]:
     """The text of every page by its path in the repository."""
-    fixed = {"docs/keywords.md": keyword_page(), "docs/rules/README.md": rule_index(rules())}
-    return fixed | {f"docs/rules/{rule.code.code}.md": rule_page(rule) for rule in rules()}
+    indexes = {"docs/keywords.md": keyword_index(), "docs/rules/README.md": rule_index(rules())}
+    of_rules = {f"docs/rules/{rule.code.code}.md": rule_page(rule) for rule in rules()}
+    return indexes | keyword_pages() | of_rules
 
 
-def rule_files() -> set[str]:
-    """The paths of the made pages of rules that are there."""
-    there = (ROOT / "docs/rules").glob("*.md")
+def made_files() -> set[str]:
+    """The paths of the made pages that are there: all of keywords, all of rules but those written by hand."""
+    there = [page for folder in ("keywords", "rules") for page in (ROOT / "docs" / folder).glob("*.md")]
     return {page.relative_to(ROOT).as_posix() for page in there if page.stem not in BY_HAND}
 
 
@@ -60,7 +62,7 @@ def write() -> None:
         file = ROOT / path
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(text, encoding="utf-8", newline="\n")
-    for path in rule_files() - wanted.keys():
+    for path in made_files() - wanted.keys():
         (ROOT / path).unlink()
 
 

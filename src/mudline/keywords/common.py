@@ -9,6 +9,20 @@ from mudline.keywords.table import Table
 from mudline.keywords.values import Real
 
 CHARACTERISTIC_LENGTH = "10 ft or 3.048 m"
+CONSTANT_FRICTION = (
+    "no meaning: the manual names the field and says neither what it does nor its unit, so the value is kept and no "
+    "friction is computed from it"
+)
+SUCTION_STIFFNESS = (
+    "the unit, which the manual does not give: that of the linear stiffness, a force per unit length for each length "
+    "that the pipe rises"
+)
+_PER_LENGTH = "the force is per unit length, as is the linear stiffness that the curve stands in for"
+_SLOPE = "a line of one value is a slope, one of two a point of the profile: nothing else tells them apart"
+NO_SET = (
+    "lines before any SET= are read as those of SET=ALL, since the manual's default set of a force-embedment curve is "
+    "every element on the seabed"
+)
 POINTS = "points of the curve in any order; at least two"
 
 
@@ -19,7 +33,9 @@ class CurvePoint(Row):
     force: Annotated[
         Real,
         about(
-            "seabed force at that ratio", unit="F/L", inferred="the force is per unit length, as the linear stiffness"
+            "seabed force at that ratio",
+            unit="F/L",
+            inferred=_PER_LENGTH,
         ),
     ]
 
@@ -38,7 +54,10 @@ class Surface(Block):
     slope: Annotated[
         Real | None,
         about(
-            "slope of the bed about the origin", unit="deg", default="flat", inferred="a line of one value is a slope"
+            "slope of the bed about the origin",
+            unit="deg",
+            default="flat",
+            inferred=_SLOPE,
         ),
     ] = None
     profile: Annotated[

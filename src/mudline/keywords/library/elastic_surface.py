@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Literal
 
-from mudline.keywords.common import CHARACTERISTIC_LENGTH, Surface
+from mudline.keywords.common import CHARACTERISTIC_LENGTH, CONSTANT_FRICTION, SUCTION_STIFFNESS, Surface
 from mudline.keywords.model import Row, about
 from mudline.keywords.values import Real
 
@@ -22,7 +22,9 @@ class ElasticProperties(Row):
         None
     )
     lateral: Annotated[Real | None, about("lateral stiffness", unit="F/L2", at_least=0)] = None
-    suction_stiffness: Annotated[Real | None, about("suction stiffness", unit="F/L2", at_least=0)] = None
+    suction_stiffness: Annotated[
+        Real | None, about("suction stiffness", unit="F/L2", at_least=0, inferred=SUCTION_STIFFNESS)
+    ] = None
     suction_extent: Annotated[Real | None, about("height of the suction zone above the bed", unit="L", at_least=0)] = (
         None
     )
@@ -33,7 +35,7 @@ class ElasticProperties(Row):
     transverse_length: Annotated[
         Real | None, about("largest transverse characteristic length", unit="L", default=CHARACTERISTIC_LENGTH, above=0)
     ] = None
-    constant: Annotated[Real | None, about("constant friction force coefficient", inferred="kept, not used")] = None
+    constant: Annotated[Real | None, about("constant friction force coefficient", inferred=CONSTANT_FRICTION)] = None
     longitudinal_mobilisation: Annotated[Real | None, about("longitudinal mobilisation length", unit="L", above=0)] = (
         None
     )

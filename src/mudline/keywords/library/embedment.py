@@ -6,7 +6,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from mudline.keywords.common import POINTS, CurvePoint
+from mudline.keywords.common import NO_SET, POINTS, CurvePoint
 from mudline.keywords.model import Block, Record, rows, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Name
@@ -18,7 +18,7 @@ class EmbedmentCurve(Record):
     rule: ClassVar[str] = "embedment_curve"
     set_name: Annotated[
         Name | None,
-        setting("SET", "element set of the curve", default="ALL", inferred="points before any SET= line mean ALL"),
+        setting("SET", "element set of the curve", default="ALL", inferred=NO_SET),
     ] = Field(default=None, alias="set")
     points: Annotated[Table, rows(CurvePoint, POINTS)]
 

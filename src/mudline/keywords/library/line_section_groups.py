@@ -10,7 +10,7 @@ from mudline.keywords.line_parts import AdditionalSets
 from mudline.keywords.model import Block, Record, Row, about, setting
 from mudline.keywords.values import Name, Real
 
-_RANGE = "the manual gives no range"
+_RANGE = "it is not negative; the manual gives no range"
 
 
 class SectionLength(Row):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Literal
 
-from mudline.keywords.common import CHARACTERISTIC_LENGTH, Surface
+from mudline.keywords.common import CHARACTERISTIC_LENGTH, CONSTANT_FRICTION, Surface
 from mudline.keywords.model import Row, about
 from mudline.keywords.values import Real
 
@@ -25,7 +25,7 @@ class RigidProperties(Row):
     transverse_length: Annotated[
         Real | None, about("largest transverse characteristic length", unit="L", default=CHARACTERISTIC_LENGTH, above=0)
     ] = None
-    constant: Annotated[Real | None, about("constant friction force coefficient", inferred="kept, not used")] = None
+    constant: Annotated[Real | None, about("constant friction force coefficient", inferred=CONSTANT_FRICTION)] = None
     longitudinal_mobilisation: Annotated[Real | None, about("longitudinal mobilisation length", unit="L", above=0)] = (
         None
     )

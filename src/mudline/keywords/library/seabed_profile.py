@@ -40,7 +40,9 @@ class SeabedProfile(Block):
             default="0",
             inline=True,
             behind="INTERPOLATION",
-            inferred="described for an elastic bed; the turned coordinate is Y cos + Z sin",
+            inferred=(
+                "the profile is taken at Y cos + Z sin, from `counter-clockwise about X`; described for an elastic bed"
+            ),
         ),
     ] = None
     slope: Annotated[

@@ -6,10 +6,12 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
+from mudline.keywords.common import CONSTANT_FRICTION, NO_SET, SUCTION_STIFFNESS
 from mudline.keywords.model import Block, Record, Row, about, setting
 from mudline.keywords.values import Name, Real, RealOrName
 
-_RANGE = "the manual gives no range"
+_RANGE = "it is above 0, as friction divides by it; the manual gives no range"
+_MODAL = "the unit, which the manual does not give: that of the linear stiffness"
 
 
 class SeabedFriction(Row):
@@ -27,29 +29,39 @@ class SeabedFriction(Row):
     transverse_mobilisation: Annotated[
         Real | None, about("transverse mobilisation length", unit="L", above=0, inferred=_RANGE)
     ] = None
-    constant: Annotated[Real | None, about("constant friction force coefficient", inferred="kept, not used")] = None
+    constant: Annotated[Real | None, about("constant friction force coefficient", inferred=CONSTANT_FRICTION)] = None
     longitudinal_stiffness: Annotated[
-        Real | None, about("longitudinal friction stiffness of modal and frequency runs", unit="F/L2", at_least=0)
+        Real | None,
+        about("longitudinal friction stiffness of modal and frequency runs", unit="F/L2", at_least=0, inferred=_MODAL),
     ] = None
     transverse_stiffness: Annotated[
-        Real | None, about("transverse friction stiffness of modal and frequency runs", unit="F/L2", at_least=0)
+        Real | None,
+        about("transverse friction stiffness of modal and frequency runs", unit="F/L2", at_least=0, inferred=_MODAL),
     ] = None
 
 
 class SeabedSuction(Row):
     """Values of SUCTION=."""
 
-    stiffness: Annotated[Real, about("suction stiffness", unit="F/L2", at_least=0, inferred="dimension")]
-    extent: Annotated[Real | None, about("height of the suction zone above the bed", unit="L", above=0)] = None
+    stiffness: Annotated[Real, about("suction stiffness", unit="F/L2", at_least=0, inferred=SUCTION_STIFFNESS)]
+    extent: Annotated[
+        Real | None,
+        about(
+            "height of the suction zone above the bed",
+            unit="L",
+            above=0,
+            inferred="it is above 0, as a zone without a height holds nothing; the manual gives no range",
+        ),
+    ] = None
 
 
 class SeabedSet(Record):
     """What one SET= gets, taken whole."""
 
     rule: ClassVar[str] = "seabed_set"
-    set_name: Annotated[
-        Name | None, setting("SET", "element set", default="ALL", inferred="lines before any SET= mean ALL")
-    ] = Field(default=None, alias="set")
+    set_name: Annotated[Name | None, setting("SET", "element set", default="ALL", inferred=NO_SET)] = Field(
+        default=None, alias="set"
+    )
     stiffness: Annotated[
         RealOrName | None,
         setting("STIFFNESS", "linear stiffness per unit length, or the name of a curve", unit="F/L2", at_least=0),

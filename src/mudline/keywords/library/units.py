@@ -17,7 +17,17 @@ class Units(Block):
     example: ClassVar[str] = "*UNITS\n UNITS=METRIC\n"
 
     keyword: Literal["UNITS"] = "UNITS"
-    units: Annotated[Literal["METRIC", "IMPERIAL"], setting("UNITS", "unit system of all values in the deck")]
+    units: Annotated[
+        Literal["METRIC", "IMPERIAL"],
+        setting(
+            "UNITS",
+            "unit system of all values in the deck",
+            inferred=(
+                "the keyword is seen in decks of a sister dialect and described nowhere: its words are taken for the "
+                "systems of the suffixes .keyxm and .keyxi, and a suffix that tells the system goes before it"
+            ),
+        ),
+    ]
 
 
 BLOCK = Units

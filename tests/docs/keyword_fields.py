@@ -1,0 +1,103 @@
+"""The fields of a keyword as tables, and what of them is inferred."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+
+from mudline.keywords.model import About, Block, ListRow, Part, Row, Rows, Slot, layout
+from mudline.keywords.values import Kind
+from tests.docs.keyword_format import TAKES
+from tests.docs.marking import marked
+
+_METRIC = {"F": "N", "L": "m", "M": "kg", "T": "s"}
+_IMPERIAL = {"F": "lbf", "L": "ft", "M": "slug", "T": "s"}
+
+
+def tables(block: type[Block]) -> Iterator[tuple[str, list[str]]]:
+    """A table of the fields, then those of what is inside them, each with a caption."""
+    yield from _tables([block], "")
+
+
+def inferences(block: type[Block]) -> list[str]:
+    """What is inferred of a keyword: each statement once, behind the fields that it holds for."""
+    found: dict[str, list[str]] = {}
+    for label, slot in _all_slots(block, ""):
+        if slot.about.inferred and label not in found.setdefault(slot.about.inferred, []):
+            found[slot.about.inferred].append(label)
+    return [f"{', '.join(labels)}: {marked(text)}" for text, labels in found.items()]
+
+
+def _all_slots(part: type[Part], holder: str) -> Iterator[tuple[str, Slot]]:
+    """Every field with its name; one of the values of a setting says of which."""
+    for slot in layout(part).slots:
+        yield f"`{slot.label}`{holder}", slot
+        if row := _row_of(slot):
+            yield from _all_slots(row, f" of `{slot.label}`" if slot.key else "")
+        for record in slot.record.values():
+            yield from _all_slots(record, "")
+
+
+def _row_of(slot: Slot) -> type[Row] | None:
+    return slot.about.row if isinstance(slot.about, Rows) else slot.row
+
+
+def _tables(parts: Sequence[type[Part]], path: str) -> Iterator[tuple[str, list[str]]]:
+    slots = [slot for part in parts for slot in layout(part).slots]
+    caption = f"In each of `{path}`{', one of' if len(parts) > 1 else ''}:" if path else ""
+    if own := [slot for slot in slots if not slot.record]:
+        yield caption, list(_fields(own))
+    for slot in own:
+        name = f"{slot.key}=" if slot.key else slot.json
+        row = _row_of(slot)
+        if row and isinstance(slot.about, Rows):
+            yield f"A row of `{name}`, a list in JSON:", list(_fields(layout(row).slots, named=False))
+        elif row and issubclass(row, ListRow):
+            yield f"The values of `{name}`, a list in JSON:", list(_fields(layout(row).slots, named=False))
+        elif row:
+            yield f"The values of `{name}`:", list(_fields(layout(row).slots))
+    for slot in slots:
+        if slot.record:
+            yield from _tables(list(slot.record.values()), slot.json)
+
+
+def _fields(slots: Iterable[Slot], *, named: bool = True) -> Iterator[str]:
+    columns = ("field", *(("in JSON",) if named else ()), "takes", "unit", "default", "range", "meaning")
+    yield f"| {' | '.join(columns)} |"
+    yield "|" + " --- |" * len(columns)
+    for slot in slots:
+        names = (f"`{slot.label}`", f"`{slot.json}`") if named else (f"`{slot.label}`",)
+        default = "mandatory" if slot.required else slot.about.default
+        cells = (*names, _takes(slot), _unit(slot.about.unit), default, _range(slot.about), _meaning(slot.about))
+        yield f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |"
+
+
+def _takes(slot: Slot) -> str:
+    if isinstance(slot.about, Rows):
+        return "rows, below"
+    if slot.row:
+        return "values, below"
+    many = "one or more of " if slot.many else ""
+    return many + (", ".join(slot.choices) or TAKES[slot.kind or Kind.REAL])
+
+
+def _meaning(about: About) -> str:
+    return marked(about.meaning) + (" ([inferred](#certain-and-inferred))" if about.inferred else "")
+
+
+def _range(about: About) -> str:
+    if about.above is not None:
+        return f"> {about.above:g}"
+    return f">= {about.at_least:g}" if about.at_least is not None else ""
+
+
+def _unit(unit: str) -> str:
+    """F/L2 as `N/m2 / lbf/ft2`; what is no dimension as it is."""
+    if not re.fullmatch(r"(?:[FLMT]\d?|/)+", unit):
+        return unit
+    return f"{_spelt(unit, _METRIC)} / {_spelt(unit, _IMPERIAL)}"
+
+
+def _spelt(unit: str, names: dict[str, str]) -> str:
+    sides = [re.findall(r"([FLMT])(\d?)", side) for side in unit.split("/")]
+    return "/".join(" ".join(names[letter] + power for letter, power in side) for side in sides)

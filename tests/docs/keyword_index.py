@@ -1,0 +1,77 @@
+"""docs/keywords.md: every known keyword, with a link to its page where it has one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from mudline.keywords import catalogue
+from tests.docs.keyword_page import declarations, models, page_name, sections_of, title
+from tests.docs.keyword_rules import Declared
+from tests.docs.marking import MADE, marked
+
+_PAGE = """{made}
+
+# Keywords
+
+How lines, fields, comments, names and equations are written is said in [language.md](language.md), what is evaluated in
+[numerics.md](numerics.md).
+
+## Keywords with a model
+
+mudline reads every field of these, checks it, and writes it back.
+
+| keyword | section | holds |
+| --- | --- | --- |
+{models}
+
+## Keywords whose lines are kept
+
+The format of these is not public. Their lines are kept; the names in them are known, so that what they define is not
+reported as missing.
+
+| keyword | section | holds |
+| --- | --- | --- |
+{kept}
+
+## Keywords that pass through
+
+These are known by name and kept line for line. In a section other than its own such a keyword is reported by
+[SYN008](rules/SYN008.md). A keyword that is nowhere on this page is kept as well and reported by
+[SYN009](rules/SYN009.md).
+
+| section | keywords |
+| --- | --- |
+{passing}
+
+## Formats
+
+In the formats of the pages `[ ]` may be left out, `|` stands between alternatives, and `...` says that a line, with the
+deeper lines below it, or a value may be repeated. Decks need no such indentation. The ranges of the fields are checked
+by [SBD010](rules/SBD010.md). What is *inferred* is our reading of something that the language leaves open; each page
+ends with what that is.
+"""
+
+
+def keyword_index() -> str:
+    """The whole page."""
+    return _PAGE.format(made=MADE, models=_rows(models()), kept=_rows(catalogue.kept()), passing="\n".join(_passing()))
+
+
+def _rows(declared: Sequence[Declared]) -> str:
+    return "\n".join(
+        f"| [`{title(each)}`](keywords/{page_name(each)}.md) | {sections_of(each)} | {marked(each.summary)} |"
+        for each in declared
+    )
+
+
+def _passing() -> Iterator[str]:
+    """The keywords that are known by name only, by section."""
+    declared = {name for each in declarations() for name in each.names}
+    by_section: dict[str, list[str]] = {}
+    for keyword in catalogue.keywords():
+        if keyword not in declared:
+            for section in catalogue.sections_of(keyword) or ("",):
+                by_section.setdefault(section, []).append(f"`*{keyword}`")
+    for name in (*catalogue.SECTIONS, ""):
+        if name in by_section:
+            yield f"| {f'`${name}`' if name else 'not confirmed'} | {', '.join(by_section[name])} |"

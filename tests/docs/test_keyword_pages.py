@@ -1,0 +1,102 @@
+"""The pages of keywords: one each, with all its parts, and the rules that concern it."""
+
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+from mudline.keywords import catalogue
+from mudline.keywords.kept import Kept
+from mudline.linting.engine import lint_bytes
+from mudline.linting.registry import rules
+from tests.docs import make
+from tests.docs.blocks import Page
+from tests.docs.keyword_fields import inferences
+from tests.docs.keyword_format import format_lines
+from tests.docs.keyword_index import keyword_index
+from tests.docs.keyword_page import declarations, keyword_page, keyword_pages, page_name, title
+from tests.docs.keyword_rules import Declared, rules_of
+
+DECLARED = declarations()
+
+
+def of(module: str) -> set[str]:
+    return {rule.code.code for rule in rules_of(catalogue.load(module))}
+
+
+def test_every_keyword_that_a_module_declares_has_a_page() -> None:
+    assert {name for each in DECLARED for name in each.names} >= {
+        keyword for keyword in catalogue.keywords() for section in catalogue.SECTIONS if known(section, keyword)
+    }
+    assert max(Counter(map(page_name, DECLARED)).values()) == 1
+    assert len(keyword_pages()) == len(DECLARED)
+
+
+def known(section: str, keyword: str) -> bool:
+    return bool(catalogue.block_class(section, keyword) or catalogue.kept_of(section, keyword))
+
+
+@pytest.mark.parametrize("declared", DECLARED, ids=title)
+def test_page_has_all_its_parts(declared: Declared) -> None:
+    page = Page(Path("page.md"), keyword_page(declared))
+    headings = {"format", "example", "rules", "certain-and-inferred"} | (
+        set() if isinstance(declared, Kept) else {"fields"}
+    )
+    assert headings <= page.anchors
+    examples = [block.text for block in page.blocks]
+    assert declared.example.rstrip("\n") + "\n" in examples
+    assert f"](keywords/{page_name(declared)}.md) |" in keyword_index()
+
+
+@pytest.mark.parametrize("declared", DECLARED, ids=title)
+def test_example_on_the_page_reads_without_a_finding(declared: Declared) -> None:
+    text = f"${declared.sections[0]}\n{declared.example}"
+    own = [rule for rule in rules() if rule.code.code.startswith("SYN")]
+    assert [str(found) for found in lint_bytes(text.encode(), "deck.keyxm", own)] == []
+
+
+def test_rules_are_found_for_keywords() -> None:
+    assert {"REF001", "REF002", "SBD001", "SBD002", "SBD003", "SBD010"} <= of("seabed_properties")
+    assert {"CRV001", "CRV003", "CRV004", "REF003", "REF004"} <= of("seabed_stiffness")
+    assert {"LEG001", "CRV001", "CRV003", "CRV004", "SBD005"} <= of("embedment")
+    assert {"REF006", "REF007"} <= of("element")
+    assert "REF005" not in of("node")
+    assert of("units") == set()
+
+
+def test_every_rule_concerns_a_keyword() -> None:
+    own = {rule.code.code for rule in rules() if not rule.code.code.startswith("SYN")}
+    assert own == {rule.code.code for each in DECLARED for rule in rules_of(each)}
+
+
+def test_lines_of_a_format() -> None:
+    assert format_lines(catalogue.load("element_sets")) == [
+        "*ELEMENT SETS",
+        "  SET=name ...",
+        "    elements [, ...] ...",
+        "    GEN=start, end [, increment] ...",
+        "    SUBSET=name ...",
+    ]
+    assert format_lines(catalogue.load("variation"))[2:] == [
+        "    PARA=name [, VALUE=name [, ...]] [, GEN=start, end [, increment]] ...",
+        "    ACTION=ADD|REMOVE, KEYWORD=name [, ...] [, FILE=name] [, SECTION=name] ...",
+    ]
+
+
+def test_what_is_inferred_is_said_once() -> None:
+    said = inferences(catalogue.load("seabed_properties"))
+    assert [each for each in said if each.startswith("`longitudinal mobilisation` of `FRICTION=`, `transverse ")]
+    assert [each for each in said if each.startswith("`stiffness` of `SUCTION=`: the unit")]
+    assert len(said) == len(set(said))
+
+
+def test_left_over_pages_are_removed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("docs/keywords/gone.md", "docs/rules/XYZ999.md", "docs/rules/DOC001.md"):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text("old", encoding="utf-8")
+    monkeypatch.setattr(make, "ROOT", tmp_path)
+    make.write()
+    assert make.made_files() == make.pages().keys() - {"docs/keywords.md"}
+    assert (tmp_path / "docs/rules/DOC001.md").read_text(encoding="utf-8") == "old"
