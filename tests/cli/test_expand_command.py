@@ -1,0 +1,219 @@
+"""`mudline expand`: looking first, writing, what stands in the way."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from mudline.deck.loading import load_bytes
+from mudline.deck.parameters import Parameters
+from tests.cli.conftest import Place
+from tests.cli.decks import CLEAN
+from tests.cli.runner import SAMPLES, assert_fits, run
+
+STUDY = f"""\
+$PREPROCESSOR
+*PARAMETERS
+ Depth, 100.0
+ Side, Mean
+*VARIATION
+ NAME=Depths
+ PARA=Depth, GEN=50, 100, 50
+ NAME=Sides
+ PARA=Side, VALUE=Near, Far
+*COMBINATIONS
+ DESCRIPTION=all, SUBDIRECTORY=%Side%, FILENAME=at %Depth%
+{CLEAN}"""
+
+FILES = ["Far/at 100.keyxm", "Far/at 50.keyxm", "Near/at 100.keyxm", "Near/at 50.keyxm", "manifest.json"]
+
+
+def files(folder: Path) -> list[str]:
+    return sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file())
+
+
+def test_a_dry_run_shows_a_table_and_writes_nothing(place: Place, folder: Path) -> None:
+    outcome = run("expand", place(STUDY), "--dry-run")
+    assert (outcome.code, outcome.err) == (0, "")
+    assert outcome.out.splitlines() == [
+        "Decks",
+        "file               case  values",
+        "─────────────────────────────────────────────",
+        "Near/at 50.keyxm   all   Depth=50, Side=Near",
+        "Far/at 50.keyxm    all   Depth=50, Side=Far",
+        "Near/at 100.keyxm  all   Depth=100, Side=Near",
+        "Far/at 100.keyxm   all   Depth=100, Side=Far",
+        "",
+        "4 decks",
+    ]
+    assert files(folder) == ["deck.keyxm"]
+
+
+def test_decks_and_their_list_are_written(place: Place, folder: Path) -> None:
+    outcome = run("expand", place(STUDY), "-o", "out/study")
+    assert (outcome.code, outcome.out) == (0, "")
+    assert outcome.err == "mudline: deck.keyxm: 4 decks to write into out/study\n"
+    out = folder / "out/study"
+    assert files(out) == FILES
+    listed = json.loads((out / "manifest.json").read_text(encoding="utf-8"))
+    assert_fits(listed, "expand")
+    assert listed["source"] == "deck.keyxm"
+    assert listed["decks"][3] == {
+        "file": "Far/at 100.keyxm",
+        "description": "all",
+        "variations": ["Depths", "Sides"],
+        "parameters": {"Depth": "100", "Side": "Far"},
+    }
+    for entry in listed["decks"]:
+        data = (out / entry["file"]).read_bytes()
+        assert data.endswith(CLEAN.encode())
+        values = Parameters(load_bytes(data, entry["file"])).values
+        assert values == {"depth": float(entry["parameters"]["Depth"]), "side": entry["parameters"]["Side"]}
+    assert run("lint", "out/study").code == 0
+
+
+def test_the_list_is_printed_as_it_is_written(place: Place, folder: Path) -> None:
+    name = place(STUDY)
+    dry = run("expand", name, "--dry-run", "--output-format", "json")
+    done = run("expand", name, "-q", "-o", "out", "--output-format", "json")
+    assert done.err == ""
+    assert dry.output == done.output == (folder / "out/manifest.json").read_bytes()
+    assert_fits(dry.json(), "expand")
+
+
+def test_the_same_deck_gives_the_same_files(place: Place, folder: Path) -> None:
+    name = place(STUDY)
+    run("expand", name, "-o", "a")
+    run("expand", name, "-o", "b")
+    for file in files(folder / "a"):
+        assert (folder / "a" / file).read_bytes() == (folder / "b" / file).read_bytes()
+
+
+def test_more_is_told_of_each_deck(place: Place) -> None:
+    outcome = run("expand", place(STUDY), "-o", "out", "-v")
+    assert outcome.err.splitlines()[1:] == [
+        "mudline: out/Near/at 50.keyxm",
+        "mudline: out/Far/at 50.keyxm",
+        "mudline: out/Near/at 100.keyxm",
+        "mudline: out/Far/at 100.keyxm",
+    ]
+
+
+def test_files_that_are_there_stay_unless_forced(place: Place, folder: Path) -> None:
+    name = place(STUDY)
+    place("mine", "out/Far/at 50.keyxm")
+    place("mine", "out/manifest.json")
+    outcome = run("expand", name, "-o", "out")
+    assert outcome.code == 2
+    assert outcome.err.splitlines() == [
+        "mudline: out/Far/at 50.keyxm: is there already: --force overwrites it",
+        "mudline: out/manifest.json: is there already: --force overwrites it",
+        "mudline: nothing is written",
+    ]
+    assert files(folder / "out") == ["Far/at 50.keyxm", "manifest.json"]
+    dry = run("expand", name, "-o", "out", "--dry-run")
+    assert dry.code == 0
+    assert dry.err == "".join(f"{line}\n" for line in outcome.err.splitlines()[:2])
+    assert run("expand", name, "-o", "out", "--force").code == 0
+    assert files(folder / "out") == FILES
+    assert (folder / "out/Far/at 50.keyxm").read_bytes() != b"mine"
+
+
+def test_many_files_in_the_way_are_counted(place: Place) -> None:
+    name = place(STUDY.replace("50, 100, 50", "1, 10"))
+    run("expand", name, "-o", "out")
+    outcome = run("expand", name, "-o", "out")
+    assert outcome.err.splitlines()[-2:] == ["mudline: and 16 more of the same", "mudline: nothing is written"]
+
+
+def test_the_deck_itself_is_never_overwritten(place: Place, folder: Path) -> None:
+    name = place(STUDY.partition("*VARIATION")[0] + "*COMBINATIONS\n DESCRIPTION=d, FILENAME=deck\n" + CLEAN)
+    before = (folder / name).read_bytes()
+    outcome = run("expand", name, "-o", ".", "--force")
+    assert outcome.code == 2
+    assert "deck.keyxm: is the deck itself, which is not overwritten" in outcome.err
+    assert (folder / name).read_bytes() == before
+
+
+def test_a_file_where_a_folder_is_wanted(place: Place) -> None:
+    name = place(STUDY)
+    place("mine", "out")
+    outcome = run("expand", name, "-o", "out", "--force")
+    assert (outcome.code, outcome.err.splitlines()[0]) == (2, "mudline: out: is a file: the decks need a folder")
+    place("mine", "there/Near")
+    outcome = run("expand", name, "-o", "there", "--force")
+    assert outcome.code == 2
+    assert outcome.err.splitlines()[0] == "mudline: there/Near/at 50.keyxm: there/Near is a file, not a folder"
+    outcome = run("expand", name, "-o", "there/Near/deeper")
+    assert outcome.code == 2
+    assert "there/Near" in outcome.err
+
+
+def test_a_folder_where_a_file_is_wanted(place: Place, folder: Path) -> None:
+    name = place(STUDY)
+    (folder / "out/Far/at 100.keyxm").mkdir(parents=True)
+    outcome = run("expand", name, "-o", "out", "--force")
+    assert outcome.code == 2
+    assert "out/Far/at 100.keyxm: is there already, and no file that could be overwritten" in outcome.err
+    assert files(folder) == ["deck.keyxm"]
+
+
+def test_names_that_leave_the_folder_are_refused(place: Place, folder: Path) -> None:
+    name = place(STUDY.replace("VALUE=Near, Far", "VALUE=Near, ../Far"))
+    outcome = run("expand", name, "-o", "out")
+    assert outcome.code == 1
+    lines = outcome.err.splitlines()
+    assert len(lines) == 2
+    for depth, line in zip((100, 50), lines, strict=True):
+        assert line.startswith(f"deck.keyxm:11:2: error: EXP001 the deck with Depth={depth}, Side=../Far: its name")
+        assert line.endswith(f"'../Far/at {depth}.keyxm' leads out of the output folder with ..")
+    assert files(folder) == ["deck.keyxm"]
+
+
+def test_where_to_write_must_be_said(place: Place) -> None:
+    outcome = run("expand", place(STUDY))
+    assert outcome.code == 2
+    assert "say where to write: -o DIR, or look first with --dry-run" in outcome.err
+
+
+def test_a_path_that_cannot_be_looked_at(place: Place) -> None:
+    outcome = run("expand", place(STUDY), "-o", "a\0b")
+    assert outcome.code == 2
+    assert "cannot be looked at" in outcome.err
+
+
+def test_a_folder_that_cannot_be_made(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*_: object, **__: object) -> None:
+        raise PermissionError(13, "Permission denied")
+
+    name = place(STUDY)
+    monkeypatch.setattr(Path, "mkdir", fail)
+    outcome = run("expand", name, "-o", "out")
+    assert outcome.code == 2
+    assert "out/Near: cannot be made: permission denied" in outcome.err
+
+
+def test_standard_input_and_notes() -> None:
+    text = STUDY.replace("*VARIATION", "*EXCEL VARIATIONS\n EXCEL=book\n*VARIATION").encode()
+    outcome = run("expand", "-", "--dry-run", stdin=text, terminal=True)
+    assert outcome.code == 0
+    assert "*EXCEL VARIATIONS is not expanded" in outcome.err
+    assert "Near/at 50.keyx " in outcome.out
+    named = run("expand", "-", "--dry-run", "--stdin-filename", "a/b.keyxi", "--output-format", "json", stdin=text)
+    assert named.json()["source"] == "b.keyxi"
+    assert named.json()["decks"][0]["file"] == "Near/at 50.keyxi"
+
+
+def test_decks_of_standard_input_without_a_name_are_counted() -> None:
+    text = STUDY.replace(", SUBDIRECTORY=%Side%, FILENAME=at %Depth%", "").encode()
+    outcome = run("expand", "-", "--dry-run", "--output-format", "json", stdin=text)
+    assert [deck["file"] for deck in outcome.json()["decks"]] == [f"deck {number}.keyx" for number in range(1, 5)]
+
+
+@pytest.mark.parametrize("name", ["variations.keyxm", "parametric.keyxm"])
+def test_samples(name: str, folder: Path) -> None:
+    assert run("expand", SAMPLES / name, "-o", "out").code == 0
+    assert len(files(folder / "out")) == 7
+    assert run("validate", "out").code == 0
