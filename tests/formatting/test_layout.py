@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from textwrap import dedent
 
 import pytest
@@ -9,6 +10,8 @@ import pytest
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError
 from mudline.formatting.document import formatted
+from mudline.formatting.places import Reading
+from tests.docs.blocks import Page
 
 
 def layout(text: str, encoding: str = "utf-8") -> str:
@@ -224,6 +227,17 @@ def test_numbers_and_names_are_spelled_as_they_were() -> None:
 def test_a_deck_with_an_error_is_refused(text: str) -> None:
     with pytest.raises(DeckError):
         formatted(text.encode(), "deck.keyxm")
+
+
+def test_a_row_that_no_model_holds_stays_as_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Reading, "kind_at", lambda _reading, _start: None)
+    assert layout("$model\n*ocean\n5  6\n") == "$MODEL\n*OCEAN\n5  6\n"
+
+
+def test_the_page_shows_what_comes_out() -> None:
+    page = Path(__file__).parents[2] / "docs" / "format.md"
+    before, after = (block.text for block in Page.read(page).blocks if block.language == "text")
+    assert layout(before) == after
 
 
 def test_documents_are_written_as_conversion_writes_them() -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+import time
 from collections import Counter
 from pathlib import Path
 
@@ -9,15 +11,18 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mudline.deck.loading import load_bytes
+from mudline.deck.loading import dump, load_bytes
 from mudline.deck.model import Opaque
 from mudline.diagnostics import DeckError, Severity
 from mudline.formatting.document import formatted
 from mudline.formatting.meaning import same_meaning
+from mudline.keywords import catalogue
+from mudline.syntax.source import Source
 from tests.reading.decks import deck_texts, mutated
 from tests.samples import SAMPLES
 
 FILES = sorted(path for path in SAMPLES.iterdir() if path.is_file())
+DECKS = [path for path in FILES if path.suffix.startswith(".key") and path.stem != "broken"]
 BOM = b"\xef\xbb\xbf"
 
 
@@ -39,7 +44,13 @@ def check(data: bytes, name: str = "deck.keyxm") -> bytes:
     assert sum(count > 0 for count in ends) <= 1
     assert not new.removeprefix(BOM) or new.endswith((b"\n", b"\r"))
     assert new.startswith(BOM) == data.startswith(BOM)
+    assert ink(new) == ink(data)
     return new
+
+
+def ink(data: bytes) -> str:
+    """A text without what layout is made of: blanks, line ends, commas, upper and lower case."""
+    return re.sub(r"[\s,]", "", Source.from_bytes(data, "deck.keyxm").text).upper()
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
@@ -50,6 +61,29 @@ def test_samples(path: Path, end: bytes, mark: bytes) -> None:
     expected = check(data)
     assert check(mark + data.replace(b"\n", end)) == mark + expected.replace(b"\n", end)
     check(mark + data.replace(b"\n", end).rstrip())
+
+
+@pytest.mark.parametrize("module", dict.fromkeys(catalogue.modules()))
+def test_the_example_of_every_keyword(module: str) -> None:
+    declared = catalogue.load(module)
+    text = f"$MODEL\n*OCEAN\n 5\n${declared.sections[0]}\n{declared.example}"
+    assert ink(check(text.lower().encode())) == ink(text.encode())
+
+
+def test_a_long_table_takes_little_time() -> None:
+    rows = "".join(f"{node},{node * 0.37:.3f} ,\t{node / 7}\n" for node in range(1, 100_001))
+    start = time.perf_counter()
+    new = check(f"$MODEL\n*NODE\n{rows}".encode())
+    assert time.perf_counter() - start < 20
+    assert {line.index(b".") for line in new.splitlines()[2:]} == {13}
+
+
+@pytest.mark.parametrize("form", ["json", "yaml"])
+@pytest.mark.parametrize("path", DECKS, ids=lambda path: path.name)
+def test_what_conversion_writes_is_canonical(path: Path, form: str) -> None:
+    deck = load_bytes(path.read_bytes(), path.name)
+    data = dump(deck, form).encode()
+    assert formatted(data, f"deck.{form}") == data
 
 
 @given(deck_texts(), st.booleans())
