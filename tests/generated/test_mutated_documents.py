@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from typing import Any, cast
+from typing import Any
 
 import yaml
 from hypothesis import given, settings
@@ -65,11 +65,11 @@ def change(made: Values, path: DocumentPath, value: object, *, how: str) -> None
 odd = st.one_of(
     st.none(),
     st.booleans(),
-    st.integers(),
+    st.integers(-(2**70), 2**70),
     st.floats(allow_nan=False, allow_infinity=False),
     st.text(max_size=4),
     st.sampled_from(
-        ["=[x]", "=[x]\n", "{l}", "{l}\n", "ALL", "ALL\n", [], {}, [[]], [{}], [1, 2], 10**400, 2**53 + 1, 1.0]
+        ["=[x]", "=[x]\n", "{l}", "{l}\n", "ALL", "ALL\n", [], {}, [[]], [{}], [1, 2], 10**309, 2**53 + 1, 1.0]
     ),
 )
 
@@ -85,7 +85,7 @@ def mutants(draw: st.DrawFn) -> tuple[Values, DocumentPath]:
 
 def as_yaml_text(made: Values) -> str:
     """The document as YAML 1.2 text, in which 1e5 is a number."""
-    return cast("str", yaml.dump(made, Dumper=CoreDumper))
+    return yaml.dump(made, Dumper=CoreDumper)
 
 
 def read(text: str, form: str) -> Deck | tuple[Diagnostic, ...]:
@@ -120,9 +120,6 @@ def test_a_refusal_names_the_place(mutant: tuple[Values, DocumentPath]) -> None:
     for text, form in ((json.dumps(made, indent=1), "json"), (as_yaml_text(made), "yaml")):
         found = read(text, form)
         if isinstance(found, Deck):
-            continue
-        if form == "yaml" and found[0].code == "DOC001":  # a number of 401 digits is told by its line alone
-            assert found[0].line > 1
             continue
         assert {one.code for one in found} == {"DOC002"}
         named = [one.message.partition(":")[0] for one in found]
