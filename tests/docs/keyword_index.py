@@ -46,9 +46,9 @@ These are known by name and kept line for line. In a section other than its own 
 ## Formats
 
 In the formats of the pages `[ ]` may be left out, `|` stands between alternatives, and `...` says that a line, with the
-deeper lines below it, or a value may be repeated. Decks need no such indentation. The ranges of the fields are checked
-by [SBD010](rules/SBD010.md). What is *inferred* is our reading of something that the language leaves open; each page
-ends with what that is.
+deeper lines below it, or a value may be repeated. Decks need no such indentation. A setting behind one that is left out
+has a line of its own. The ranges of the fields are checked by [SBD010](rules/SBD010.md). What is *inferred* is our
+reading of something that the language leaves open; each page ends with what that is.
 """
 
 
