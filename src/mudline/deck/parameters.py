@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 from mudline.codes import REF013, REF014, SYN002, SYN006, SYN017
 from mudline.diagnostics import Code, Problem, Severity, Where
@@ -24,6 +24,31 @@ _ITEM = re.compile(r"""[,\s]*(?:([^\s,:;"=]+)[:;])?(=\[(?:[^\[\]]|\[[^\[\]]*\])*
 def folded(name: str) -> str:
     """A name as names compare: without case, blanks inside count."""
     return name.strip(" \t").casefold()
+
+
+class ListItem(NamedTuple):
+    """An item of a list: the name of its parameter, its value as written, and where that begins in the list."""
+
+    name: str
+    value: str
+    start: int
+
+
+def list_items(prefix: str, text: str) -> tuple[list[ListItem], str]:
+    """The items of `/a:1 b:2 3/`, named and counted ones, and what is none."""
+    items: list[ListItem] = []
+    counter = 0
+    end = len(text) - text[1:].endswith("/")
+    at = 1
+    while at < end and (match := _ITEM.match(text, at, end)):
+        at = match.end()
+        label = match[1]
+        if not label:
+            counter += 1
+            label = str(counter)
+        items.append(ListItem(f"{prefix}_{label}", match[2], match.start(2)))
+    rest = text[at:end]
+    return items, rest if rest.strip(" ,\t") else ""
 
 
 @dataclass(slots=True)
@@ -90,18 +115,11 @@ class Parameters:
 
     def _define_list(self, prefix: str, text: str, where: Where) -> None:
         """`/a:1 b:2 3/`: named items and counted ones."""
-        counter = 0
-        inside = text[1:].removesuffix("/")
-        at = 0
-        while at < len(inside) and (match := _ITEM.match(inside, at)):
-            at = match.end()
-            label = match[1]
-            if not label:
-                counter += 1
-                label = str(counter)
-            self._add(f"{prefix}_{label}", match[2], where)
-        if inside[at:].strip(" ,\t"):
-            message = f"{shown(inside[at:])} is no item of a list: write name:value or a value"
+        items, rest = list_items(prefix, text)
+        for item in items:
+            self._add(item.name, item.value, where)
+        if rest:
+            message = f"{shown(rest)} is no item of a list: write name:value or a value"
             self.problems.append(Problem(SYN006, message, None, None, where))
 
     def _add(self, name: str, value: Value, where: Where) -> None:

@@ -14,7 +14,14 @@ class CombinedVariations(Record):
     """A line of names; the language allows 20 on it."""
 
     rule: ClassVar[str] = "combined_variations"
-    names: Annotated[list[Name], setting("VARIATIONS", "names of variations, or ALL for every one of the deck")]
+    names: Annotated[
+        list[Name],
+        setting(
+            "VARIATIONS",
+            "names of variations, or ALL for every one of the deck",
+            inferred="every case of one variation goes with every case of the others",
+        ),
+    ]
 
 
 class Combination(Record):
@@ -24,11 +31,13 @@ class Combination(Record):
     description: Annotated[Name, setting("DESCRIPTION", "what the decks show")]
     subdirectory: Annotated[
         Name | None,
-        setting("SUBDIRECTORY", "folder of the decks; %name% stands for a parameter", inline=True, behind=_BEHIND),
+        setting(
+            "SUBDIRECTORY", "folder of the decks: `%name%` is the value of a parameter", inline=True, behind=_BEHIND
+        ),
     ] = None
     filename: Annotated[
         Name | None,
-        setting("FILENAME", "name of their files; %name% stands for a parameter", inline=True, behind=_BEHIND),
+        setting("FILENAME", "name of their files: `%name%` is the value of a parameter", inline=True, behind=_BEHIND),
     ] = None
     variations: list[CombinedVariations] = []
 
@@ -48,7 +57,9 @@ class Combinations(Block):
     keyword: Literal["COMBINATIONS"] = "COMBINATIONS"
     directory: Annotated[
         Name | None,
-        setting("DIRECTORY", "folder of all decks; %name% stands for a parameter", inferred="in the folder of -o"),
+        setting(
+            "DIRECTORY", "folder of all decks: `%name%` is the value of a parameter", inferred="in the folder of -o"
+        ),
     ] = None
     combinations: list[Combination] = []
 

@@ -22,7 +22,14 @@ class VariedParameter(Record):
     """A parameter with its values: a list, or a range of numbers."""
 
     rule: ClassVar[str] = "varied_parameter"
-    parameter: Annotated[Name, setting("PARA", "parameter of *PARAMETERS")]
+    parameter: Annotated[
+        Name,
+        setting(
+            "PARA",
+            "parameter of *PARAMETERS",
+            inferred="the parameters of one variation change together, and need equally many values",
+        ),
+    ]
     values: Annotated[
         list[Name] | None,
         setting("VALUE", "its values, kept as they are written", inline=True, behind="PARA"),
@@ -42,7 +49,10 @@ class VariedBlock(Record):
     """A block that is put into the deck, or taken out of it."""
 
     rule: ClassVar[str] = "varied_block"
-    action: Annotated[Literal["ADD", "REMOVE"], setting("ACTION", "what is done with the block")]
+    action: Annotated[
+        Literal["ADD", "REMOVE"],
+        setting("ACTION", "what is done with the block", inferred="in every case of the variation"),
+    ]
     keyword: Annotated[
         list[Name],
         setting("KEYWORD", "the keyword; two words where its name has a comma", inline=True, behind="ACTION"),
