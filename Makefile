@@ -46,6 +46,7 @@ demo: $(VENV)/.user ## a look at what mudline does, on samples/
 	$(call run,head -n 16 $(OUT)/legacy-flowline.json)
 	$(call run,mudline convert samples/legacy-flowline.keyxm -o $(OUT)/legacy-flowline.yaml)
 	$(call run,head -n 16 $(OUT)/legacy-flowline.yaml)
+	$(call run,mudline migrate --verify samples/legacy-flowline.keyxm -o $(OUT)/migrated-flowline.keyxm)
 	$(call run,mudline curves samples/scr-touchdown.keyxm)
 	$(call run,mudline evaluate samples/scr-touchdown.keyxm)
 
