@@ -33,8 +33,8 @@ def _section(section: Section) -> Document:
 
 
 def _block(block: Block | Opaque) -> Document:
-    values = block.model_dump(exclude_unset=True, context=AS_TABLES)
-    return {"keyword": values.pop("keyword"), **values}
+    values = block.model_dump(exclude={"keyword"}, exclude_unset=True, context=AS_TABLES)
+    return {"keyword": block.keyword, **values}
 
 
 def _comments(comments: list[Comment]) -> Document:
