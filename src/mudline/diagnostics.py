@@ -53,10 +53,22 @@ class Code:
 
 
 @dataclass(frozen=True, slots=True)
+class Repair:
+    """What clears a problem: spans of the deck's text, and what is to stand there.
+
+    `applicability` is "safe" where the deck means the same afterwards, "unsafe" where it changes or is guessed.
+    """
+
+    applicability: str
+    message: str
+    edits: tuple[tuple[Span, str], ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Problem:
     """Something noticed in a deck, at a span of its text or among its values.
 
-    `severity` None means the severity of the code.
+    `severity` None means the severity of the code. Only a deck that was read from text has repairs.
     """
 
     code: Code
@@ -64,6 +76,7 @@ class Problem:
     span: Span | None = None
     severity: Severity | None = None
     where: Where | None = None
+    repair: Repair | None = None
 
     @property
     def weight(self) -> Severity:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol, Self
 
-from mudline.diagnostics import Code, DeckError, Diagnostic, Problem, Severity, Where
+from mudline.diagnostics import Code, DeckError, Diagnostic, Edit, Fix, Problem, Repair, Severity, Where
 from mudline.keywords.model import Block, Comment, Part
 from mudline.keywords.values import Text
 
@@ -123,7 +123,14 @@ class Deck:
         message = problem.message if len(problem.message) <= _LONGEST else problem.message[: _LONGEST - 3] + "..."
         if not message.isprintable():  # names of the deck stand in it as they are
             message = "".join(char if char.isprintable() else "\ufffd" for char in message)
-        return Diagnostic(self.file, code.code, code.slug, problem.weight, message, *place)
+        fix = problem.repair and self._fix(problem.repair, code)
+        return Diagnostic(self.file, code.code, code.slug, problem.weight, message, *place, fix)
+
+    def _fix(self, repair: Repair, code: Code) -> Fix:
+        """A repair in lines and columns."""
+        places = [(self.origin.place(Problem(code, "", span)), text) for span, text in repair.edits]
+        edits = tuple(Edit((p.line, p.column), (p.end_line, p.end_column), text) for p, text in places)
+        return Fix(repair.applicability, repair.message, edits)
 
     def require(self) -> Self:
         """The deck itself; raises DeckError when something in it could not be read."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from mudline.deck.model import Deck
+from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Code, Problem
 from mudline.scene.build import resolve
 from mudline.scene.model import Scene
@@ -17,6 +18,11 @@ class LintContext:
     """A deck as it is written (equations and all) and its scene (evaluated and resolved, as far as that goes)."""
 
     deck: Deck
+
+    @property
+    def text(self) -> TextOrigin | None:
+        """Tree, source and places of a deck that was read from text; None for one in JSON or YAML."""
+        return self.deck.origin if isinstance(self.deck.origin, TextOrigin) else None
 
     @cached_property
     def scene(self) -> Scene:
