@@ -130,7 +130,8 @@ START = 11
             "REF013",
             "parameter 'Dept' is not defined (did you mean Depth?)",
         ),
-        (" NAME=v\n PARA=Point_X, VALUE=1\n", (START + 1, 2), "EXP001", "'Point_X' is an item of a list"),
+        (" NAME=v\n PARA=Point_Z, VALUE=1\n", (START + 1, 2), "REF013", "did you mean Point_X?"),
+        (" NAME=v\n PARA=Point, VALUE=1\n", (START + 1, 2), "REF013", "parameter 'Point' is not defined"),
         (
             " NAME=v\n PARA=Depth, VALUE=1, 2\n PARA=Offset, VALUE=1\n",
             (START, 2),

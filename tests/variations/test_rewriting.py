@@ -39,6 +39,26 @@ def test_comments_and_blank_lines_behind_a_block_stay() -> None:
     assert new == f"{PARAMETERS}\nC behind\n  \nCnote\n\nC model\n{MODEL}".replace("100.0", "2")
 
 
+@pytest.mark.parametrize(
+    ("value", "item"),
+    [("07", "07"), ("=[Point_X+1]", "=[Point_X+1]"), ("a:b", '"a:b"'), ('"c, d"', '"c, d"'), ("e/f", '"e/f"')],
+)
+def test_an_item_of_a_list_varies_in_its_place(value: str, item: str) -> None:
+    found = plan(deck(text(f" NAME=v\n PARA=point_y, VALUE={value}\n", " DESCRIPTION=d, SUBDIRECTORY=a\n")))
+    assert found.decks[0].values == {"Point_Y": item}
+    assert contents(found) == [f"{PARAMETERS}C model\n{MODEL}".replace("Y:22", f"Y:{item}")]
+    values = Parameters(deck(found.content(found.decks[0]))).values
+    assert values["point_x"] == 11
+    assert values["point_y"] == {"07": 7, "=[Point_X+1]": 12}.get(value, value.strip('"'))
+
+
+def test_an_item_of_a_list_in_a_name() -> None:
+    lines = " NAME=v\n PARA=Point_X, VALUE=1, =[Offset/2]\n"
+    content = text(lines, " DESCRIPTION=d, FILENAME=%Sum% %Point_x%\n")
+    content = content.replace("*VARIATION", "*PARAMETERS\n Sum, =[Point_X + Point_Y]\n*PARAMETERS\n*VARIATION")
+    assert [new.path for new in plan(deck(content)).decks] == ["23 1.keyxm", "-3 -25.keyxm"]
+
+
 @pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "cp1252"])
 def test_line_ends_and_encodings_stay(end: str, encoding: str, tmp_path: Path) -> None:

@@ -15,7 +15,7 @@ from mudline.keywords.values import Equation
 from mudline.variations.actions import action_of
 from mudline.variations.model import MOST_DECKS, Action, Cases
 from mudline.variations.names import unquoted
-from mudline.variations.targets import Targets, parameter_field
+from mudline.variations.targets import Target, Targets
 
 if TYPE_CHECKING:
     from mudline.keywords.library.variation import NamedVariation, ValueRange, VariedParameter
@@ -53,14 +53,14 @@ class CaseReader:
         columns: dict[str, list[str]] = {}
         for index, varied in enumerate(variation.parameters):
             place = where._replace(path=(*where.path, "parameters", index))
-            if problem := self.targets.fault(unquoted(varied.parameter), place):
+            if problem := self.targets.undefined(unquoted(varied.parameter), place):
                 self.problems.append(problem)
                 continue
-            target = self.targets.target(unquoted(varied.parameter)).name
-            if target in columns:
-                self._tell(f"{shown(target)} varies twice in {shown(name)}: keep one of its lines", place)
+            target = self.targets.target(unquoted(varied.parameter))
+            if target.name in columns:
+                self._tell(f"{shown(target.name)} varies twice in {shown(name)}: keep one of its lines", place)
                 continue
-            columns[target] = self._values(varied, place)
+            columns[target.name] = self._values(varied, target, place)
         self._in_step(name, columns, where)
         rows = list(zip(*columns.values(), strict=False)) if columns else [()]
         return Cases(name, where, list(columns), rows, list(self._actions(variation, where)))
@@ -84,7 +84,7 @@ class CaseReader:
             )
             self._tell(message, where)
 
-    def _values(self, varied: VariedParameter, where: Where) -> list[str]:
+    def _values(self, varied: VariedParameter, target: Target, where: Where) -> list[str]:
         """The values as fields of `*PARAMETERS`; none when they have been told to be faulty."""
         if varied.generate is not None:
             return self._range(varied.generate, where._replace(path=(*where.path, "generate")))
@@ -93,7 +93,7 @@ class CaseReader:
         values: list[str] = []
         for index, text in enumerate(varied.values or []):
             place = where._replace(path=(*where.path, "values", index))
-            field = parameter_field(text)
+            field = target.field(text)
             if field is None:
                 self._tell(f"value {index + 1} of PARA={varied.parameter}, {shown(text)}, is no value", place)
                 return []

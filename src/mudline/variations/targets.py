@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, cast
 
-from mudline.codes import EXP001, REF013
+from mudline.codes import REF013
 from mudline.deck.model import Deck
-from mudline.deck.parameters import Parameters, folded
+from mudline.deck.parameters import Parameters, folded, list_items
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Problem, Span, Where
 from mudline.keywords.model import Block
@@ -19,7 +19,6 @@ from mudline.syntax.rows import read_number
 from mudline.variations.names import unquoted
 
 if TYPE_CHECKING:
-    from mudline.keywords.library.parameters import Parameter
     from mudline.keywords.library.parameters import Parameters as Block_
 
 Values = Mapping[str, str]
@@ -33,6 +32,15 @@ class Target:
     name: str
     text: str
     span: Span
+    in_list: bool = False
+
+    def field(self, value: str) -> str | None:
+        """A value as it is written in the place of the old one, or None when it cannot stand there."""
+        field = parameter_field(value)
+        bare = field is not None and field == unquoted(field) and Equation.match(field) is None
+        if not self.in_list or not bare or read_number(value) is not None:
+            return field
+        return f'"{field}"'  # a colon or a slash would mean something else in a list
 
 
 class Targets:
@@ -42,44 +50,40 @@ class Targets:
         self.deck = deck
         self.parameters = Parameters(deck)
         self._targets: dict[str, Target] = {}
-        origin = cast("TextOrigin", deck.origin)
-        text = origin.source.text
-        for key, definition in self.parameters.definitions.items():
-            where = definition.where
-            block = cast("Block_", deck.sections[where.section].blocks[where.block])
-            name = block.parameters[cast("int", where.path[1])].name
-            if folded(name) == key:
-                span = origin.read[where.section, where.block].places.find(where.path)
-                self._targets[key] = Target(name, text[slice(*span)], span)
+        for where, block in deck.blocks("PARAMETERS", "PREPROCESSOR"):
+            for index, parameter in enumerate(cast("Block_", block).parameters):
+                place = where._replace(path=("parameters", index, "value"))
+                self._targets |= {folded(target.name): target for target in self._written(parameter.name, place)}
+
+    def _written(self, name: str, where: Where) -> Iterator[Target]:
+        """The parameters that a line of `*PARAMETERS` defines."""
+        origin = cast("TextOrigin", self.deck.origin)
+        span = origin.read[where.section, where.block].places.find(where.path)
+        text = origin.source.text[slice(*span)]
+        if not text.startswith("/"):
+            yield Target(name, text, span)
+            return
+        for item in list_items(name, text)[0]:
+            start = span.start + item.start
+            yield Target(item.name, item.value, Span(start, start + len(item.value)), in_list=True)
 
     def target(self, name: str) -> Target:
         """A parameter that is known to be there."""
         return self._targets[folded(name)]
 
-    def fault(self, name: str, where: Where) -> Problem | None:
-        """Why a parameter cannot vary."""
-        if folded(name) in self._targets:
-            return None
-        if problem := self.undefined(name, where):
-            return problem
-        message = f"{shown(name)} is an item of a list: give it a line of its own in *PARAMETERS, so that it can vary"
-        return Problem(EXP001, message, None, None, where)
-
     def undefined(self, name: str, where: Where) -> Problem | None:
         """That a parameter is not there."""
-        known = [definition.name for definition in self.parameters.definitions.values()]
-        if folded(name) in self.parameters.definitions:
+        if folded(name) in self._targets:
             return None
-        message = f"parameter {shown(name)} is not defined{suggestion(name, known)}: define it in *PARAMETERS"
+        hint = suggestion(name, [target.name for target in self._targets.values()])
+        message = f"parameter {shown(name)} is not defined{hint}: define it in *PARAMETERS"
         return Problem(REF013, message, None, None, where)
 
     def in_a_name(self, name: str, values: Values) -> str | None:
         """A parameter's value for the name of a file: as written, without quotes; None where an equation has none."""
         key = folded(name)
-        given = next((text for other, text in values.items() if folded(other) == key), None)
-        if given is None and key in self._targets:
-            given = self._targets[key].text
-        if given is not None and Equation.match(given) is None:
+        given = next((text for other, text in values.items() if folded(other) == key), self._targets[key].text)
+        if Equation.match(given) is None:
             return unquoted(given)
         found = Parameters(with_values(self.deck, values)).values.get(key)
         if isinstance(found, float) and found.is_integer() and abs(found) < 1e15:
@@ -88,21 +92,17 @@ class Targets:
 
 
 def with_values(deck: Deck, values: Values) -> Deck:
-    """The deck with other values of its parameters, for its equations only: its text is not that of the new one."""
-    by_key = {folded(name): text for name, text in values.items()}
+    """The deck with other values of its parameters, for its equations only: its text is not that of the new one.
 
-    def changed(parameter: Parameter) -> Parameter:
-        text = by_key.get(folded(parameter.name))
-        return parameter if text is None else parameter.model_copy(update={"value": text})
-
+    They are defined once more behind all others, as the last definition of a parameter holds.
+    """
+    where, block = [found for found in deck.blocks("PARAMETERS", "PREPROCESSOR") if found[1].parameters][-1]
+    known = cast("Block_", block).parameters
+    more = [known[-1].model_copy(update={"name": name, "value": text}) for name, text in values.items()]
     sections = list(deck.sections)
-    for where, block in deck.blocks("PARAMETERS", "PREPROCESSOR"):
-        section = sections[where.section]
-        blocks = list(section.blocks)
-        blocks[where.block] = cast("Block", block).model_copy(
-            update={"parameters": [changed(parameter) for parameter in cast("Block_", block).parameters]}
-        )
-        sections[where.section] = replace(section, blocks=blocks)
+    blocks = list(sections[where.section].blocks)
+    blocks[where.block] = cast("Block", block).model_copy(update={"parameters": [*known, *more]})
+    sections[where.section] = replace(sections[where.section], blocks=blocks)
     return replace(deck, sections=sections)
 
 
