@@ -123,7 +123,7 @@ class Deck:
         message = problem.message if len(problem.message) <= _LONGEST else problem.message[: _LONGEST - 3] + "..."
         if not message.isprintable():  # names of the deck stand in it as they are
             message = "".join(char if char.isprintable() else "\ufffd" for char in message)
-        fix = problem.repair and self._fix(problem.repair, code)
+        fix = self._fix(problem.repair, code) if problem.repair else None
         return Diagnostic(self.file, code.code, code.slug, problem.weight, message, *place, fix)
 
     def _fix(self, repair: Repair, code: Code) -> Fix:
