@@ -138,6 +138,9 @@ class _Reader:
         final = tree.sections[-1].blocks
         last = bool(final) and raw is final[-1]
         read = read_block(self.text, raw, declared, last=last)
+        if read.unpublished:
+            self._opaque(section, Where(index, number), raw)
+            return
         self.origin.read[index, number] = read
         self.problems += read.problems
         section.blocks.append(read.model)

@@ -141,7 +141,16 @@ class Builder:
         line = read_line(self.text, content.span, slashes=self.slashes)
         self._brackets(line.problems, path)
         opening = built.last is None and not issubclass(built.part, Block)
-        for group in line.groups:
+        self._groups(built, line.groups, path)
+        if not opening:
+            order = min((found.keys[g.key].order for g in line.groups if g.key in found.keys), default=0)
+            built.items.append(Item(order, content.position, 1))
+        built.reach(content.position)
+
+    def _groups(self, built: Built, groups: list[Group], path: Path) -> None:
+        """Settings that stand on one line."""
+        found = layout(built.part)
+        for group in groups:
             slot = found.keys.get(group.key)
             if slot is None:
                 expected = ", ".join(f"{key}=" for key in found.keys)
@@ -152,10 +161,6 @@ class Builder:
                 self.damage(path, Problem(SYN001, f"{group.key}= is given twice", group.span))
             else:
                 self._setting(built, slot, group, (*path, slot.json))
-        if not opening:
-            order = min((found.keys[g.key].order for g in line.groups if g.key in found.keys), default=0)
-            built.items.append(Item(order, content.position, 1))
-        built.reach(content.position)
 
     def _setting(self, built: Built, slot: Slot, group: Group, path: Path) -> None:
         self.places.spans[path] = group.span
@@ -193,10 +198,11 @@ class Builder:
         tables: dict[str, TableBuilder],
     ) -> None:
         found = layout(built.part)
+        behind: list[Group] = []
         if found.table and not found.columns:
             slot, fields = found.table, list[Field]()
         else:
-            fields, problems = split(self.text, content.span, slashes=self.slashes)
+            fields, behind, problems = self._cut(content.span, keys=bool(found.keys))
             self._brackets(problems, path)
             if len(fields) == 1 and blank_separated(fields[0].text):
                 fields = self._apart(fields[0])
@@ -216,8 +222,18 @@ class Builder:
             self._single(built, slot, fields, path)
         else:
             built.values |= self._fields(found.columns, fields, path)
+        self._groups(built, behind, path)
         built.items.append(Item(slot.order, content.position, count))
         built.reach(content.position)
+
+    def _cut(self, span: Span, *, keys: bool) -> tuple[list[Field], list[Group], list[Problem]]:
+        """The fields of a row, and the settings behind them on the line of a record that has `keys`."""
+        if not keys:
+            fields, problems = split(self.text, span, slashes=self.slashes)
+            return fields, [], problems
+        line = read_line(self.text, span, slashes=self.slashes)
+        own = [given for group in line.groups if not group.key for given in group.fields]
+        return own, [group for group in line.groups if group.key], line.problems
 
     def _single(self, built: Built, slot: Slot, fields: list[Field], path: Path) -> None:
         """A row of one value."""

@@ -55,6 +55,13 @@ _MODULES = {
     ("MODEL", "EMBEDMENT"): "embedment",
     ("MODEL", "ELASTIC SURFACE"): "elastic_surface",
     ("MODEL", "RIGID SURFACE"): "rigid_surface",
+    ("MODEL", "P-Y"): "p_y",
+    ("MODEL", "T-Z"): "t_z",
+    ("LOAD CASE", "RESTART"): "restart",
+    ("LOAD CASE", "TIME"): "time",
+    ("LOAD CASE", "BOUNDARY"): "boundary",
+    ("LOAD CASE", "FRICTION"): "friction",
+    ("MODES", "FRICTION"): "friction",
 }
 
 _KEPT = {
@@ -63,6 +70,7 @@ _KEPT = {
     ("MODEL", "LINE LOCATIONS"): "line_locations",
     ("MODEL", "CABLE"): "cable",
     ("MODEL", "NODE,CURVILINEAR"): "node_curvilinear",
+    ("LOAD CASE", "NO FRICTION"): "no_friction",
 }
 """Keywords whose lines are kept, and of which a module says what they are for."""
 
@@ -79,18 +87,13 @@ _OPAQUE: dict[str, tuple[str, ...]] = {
             "PIP CONNECTION",
             "VESSEL",
             "VESSEL,INTEGRATED",
-            "P-Y",
-            "T-Z",
             "TENSIONER",
         ),
         ("MODEL",),
     ),
     **dict.fromkeys(
         (
-            "RESTART",
-            "TIME",
             "TIME,DISCONNECT",
-            "BOUNDARY",
             "LOAD",
             "CURRENT",
             "WAVE",
@@ -105,7 +108,6 @@ _OPAQUE: dict[str, tuple[str, ...]] = {
         ),
         ("LOAD CASE",),
     ),
-    "FRICTION": ("LOAD CASE", "MODES"),
     "ANALYSIS TYPE": ("LOAD CASE", "ANALYSIS"),
     "ELEMENT SET": _POST,
     "STANDARD OUTPUT": _POST,
@@ -121,7 +123,6 @@ _OPAQUE: dict[str, tuple[str, ...]] = {
     **dict.fromkeys(
         (
             "RAO",
-            "NO FRICTION",
             "GUIDE",
             "COATINGS",
             "COLLATE PLOT AXES",
@@ -164,6 +165,8 @@ _OPAQUE: dict[str, tuple[str, ...]] = {
 """Keywords that are recognised and kept as they are; no sections: known to exist, section not confirmed."""
 
 _ALSO_OPAQUE_IN = {"ELEMENT SETS": ("CLEAR", *_POST)}
+_UNCONFIRMED = ("NO FRICTION",)
+"""Keywords with a module whose section is not confirmed."""
 
 
 def block_class(section: str, keyword: str) -> type[Block] | None:
@@ -201,12 +204,14 @@ def kept() -> list[Kept]:
 
 def modules() -> list[str]:
     """Names of all library modules, in the order of the catalogue."""
-    return list(_MODULES.values())
+    return list(dict.fromkeys(_MODULES.values()))
 
 
 @cache
 def sections_of(keyword: str) -> tuple[str, ...] | None:
     """The sections where a keyword belongs; () when not confirmed, None for an unknown keyword."""
+    if keyword in _UNCONFIRMED:
+        return _ANY
     declared = tuple(section for section, name in (*_MODULES, *_KEPT) if name == keyword)
     if declared:
         return declared + _ALSO_OPAQUE_IN.get(keyword, ())

@@ -20,6 +20,7 @@ from pydantic import (
 from pydantic.fields import FieldInfo
 from pydantic_core import CoreSchema, core_schema
 
+from mudline.diagnostics import Code
 from mudline.keywords.listing import AS_TABLES, Listing, read_table
 from mudline.keywords.table import LARGEST_WHOLE, Cell, Column, Table
 from mudline.keywords.values import Count, Equation, Kind, Label, Text
@@ -179,7 +180,8 @@ class Block(Record):
     """A keyword with its data. The class variables are its declaration.
 
     `sections` are those where it belongs; `tabular` keeps runs of numeric lines whole, as arrays; `slashes` says that
-    /.../ is one field; `example` is a block that reads without a finding.
+    /.../ is one field; `example` is a block that reads without a finding. `unpublished` are the codes of faults that
+    may be a form which is not public: a block in which one is found is kept as it is, without a finding.
     """
 
     names: ClassVar[tuple[str, ...]]
@@ -187,6 +189,7 @@ class Block(Record):
     summary: ClassVar[str]
     tabular: ClassVar[bool] = False
     slashes: ClassVar[bool] = False
+    unpublished: ClassVar[tuple[Code, ...]] = ()
     example: ClassVar[str]
     keyword: str
 

@@ -34,6 +34,11 @@ class ReadBlock:
     trailing: list[str] = field(default_factory=list)
     lost: int = 0
 
+    @property
+    def unpublished(self) -> bool:
+        """Whether the lines may have a form that is not public, so that they are kept as they are."""
+        return any(problem.code in type(self.model).unpublished for problem in self.problems)
+
 
 def read_block(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
     """Read a block. `text` is the unified text of the source; `last` says that nothing follows the block in it."""

@@ -59,6 +59,8 @@ def _items(record: Record) -> Iterator[Item]:
     own_row = plain if len(plain) == len(found.columns) else []
     pending: str = ""
     for slot in found.slots:
+        if slot in own_row[1:]:
+            continue
         value = getattr(record, slot.name)
         setting = slot.about if isinstance(slot.about, Setting) else None
         joins = bool(pending) and setting is not None and _joins(setting, pending)
@@ -66,8 +68,7 @@ def _items(record: Record) -> Iterator[Item]:
             yield [pending], 1
             pending = ""
         if slot in own_row:
-            if slot is own_row[0]:
-                yield [" " + _row(record, own_row)], 1
+            pending = " " + _row(record, own_row)
         elif value is None:
             continue
         elif setting:

@@ -1,0 +1,17 @@
+"""`*NO FRICTION`: a run without seabed friction.
+
+Its format page is not public, and neither is its section: the lines are kept, if it has any.
+"""
+
+from __future__ import annotations
+
+from mudline.keywords.kept import Kept
+
+KEPT = Kept(
+    names=("NO FRICTION",),
+    summary="A run without seabed friction, whatever coefficients the seabed has.",
+    example="*NO FRICTION\n",
+    certain="Friction acts if any coefficient is not zero; this keyword suppresses it for a run.",
+    inferred="It stands in $LOAD CASE and has no lines; in another section it is not told of.",
+    sections=("LOAD CASE",),
+)

@@ -1,0 +1,50 @@
+"""`*P-Y`: lateral soil springs."""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field
+
+from mudline.diagnostics import Code
+from mudline.keywords.model import Block, Record, setting
+from mudline.keywords.soil import OTHER_FORMS, CurvesFile, SoilCurve
+from mudline.keywords.values import Name
+
+_OTHERS = "the types of other soil models are not public: a block with one is kept as it is"
+
+
+class LateralSprings(Record):
+    """The curves of a set."""
+
+    rule: ClassVar[str] = "lateral_springs"
+    type_: Annotated[
+        Literal["USER"] | None, setting("TYPE", "curves given by points", default="USER", inferred=_OTHERS)
+    ] = Field(default=None, alias="type")
+    set_name: Annotated[Name | None, setting("SET", "element set that the curves hold for")] = Field(
+        default=None, alias="set"
+    )
+    file: CurvesFile = None
+    curves: list[SoilCurve] = []
+
+
+class LateralSoil(Block):
+    """Lateral soil springs."""
+
+    rule: ClassVar[str] = "p_y"
+    names: ClassVar[tuple[str, ...]] = ("P-Y",)
+    summary: ClassVar[str] = (
+        "Lateral soil springs by set and depth: points of resistance P and displacement y, resistance first."
+    )
+    tabular: ClassVar[bool] = True
+    unpublished: ClassVar[tuple[Code, ...]] = OTHER_FORMS
+    example: ClassVar[str] = (
+        "*P-Y\n TYPE=USER\n SET=Conductor\n DEPTH=0.0\n 0.0, 0.0\n 4000.0, 0.01\n 9000.0, 0.1\n"
+        " DEPTH=10.0\n 0.0, 0.0\n 40000.0, 0.01\n 90000.0, 0.1\n"
+    )
+
+    keyword: Literal["P-Y"] = "P-Y"
+    sets: list[LateralSprings] = []
+
+
+BLOCK = LateralSoil

@@ -1,0 +1,46 @@
+"""`*RESTART`: the deck that a load case continues."""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field
+
+from mudline.codes import SYN001, SYN004
+from mudline.diagnostics import Code
+from mudline.keywords.model import Block, setting
+from mudline.keywords.values import Name
+
+_WORDS = "the words of the manual are taken as they are, and not checked"
+
+
+class Restart(Block):
+    """The run that goes before."""
+
+    rule: ClassVar[str] = "restart"
+    names: ClassVar[tuple[str, ...]] = ("RESTART",)
+    sections: ClassVar[tuple[str, ...]] = ("LOAD CASE",)
+    summary: ClassVar[str] = "The deck that this one continues: its model holds here, too."
+    unpublished: ClassVar[tuple[Code, ...]] = (SYN001, SYN004)
+    example: ClassVar[str] = "*RESTART\n LAST=static\n"
+
+    keyword: Literal["RESTART"] = "RESTART"
+    last: Annotated[
+        Name,
+        setting(
+            "LAST",
+            "file of the deck before, beside this one; its suffix may be left out",
+            inferred="the model of that deck stands before what this deck has of its own",
+        ),
+    ]
+    type_: Annotated[
+        Name | None,
+        setting("TYPE", "what follows the last run: DYNAMIC, STATIC or CONTINUATION", inline=True, inferred=_WORDS),
+    ] = Field(default=None, alias="type")
+    option: Annotated[
+        Name | None,
+        setting("OPTION", "APPEND: results go on in the same file, for a CONTINUATION", inline=True, inferred=_WORDS),
+    ] = None
+
+
+BLOCK = Restart

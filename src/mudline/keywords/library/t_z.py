@@ -1,0 +1,44 @@
+"""`*T-Z`: axial soil springs."""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import Field
+
+from mudline.diagnostics import Code
+from mudline.keywords.model import Block, Record, setting
+from mudline.keywords.soil import OTHER_FORMS, CurvesFile, SoilCurve
+from mudline.keywords.values import Name
+
+
+class AxialSprings(Record):
+    """The curves of a set."""
+
+    rule: ClassVar[str] = "axial_springs"
+    set_name: Annotated[Name | None, setting("SET", "element set that the curves hold for")] = Field(
+        default=None, alias="set"
+    )
+    file: CurvesFile = None
+    curves: list[SoilCurve] = []
+
+
+class AxialSoil(Block):
+    """Axial soil springs."""
+
+    rule: ClassVar[str] = "t_z"
+    names: ClassVar[tuple[str, ...]] = ("T-Z",)
+    summary: ClassVar[str] = (
+        "Axial soil springs by set and depth: points of resistance T and displacement z, resistance first."
+    )
+    tabular: ClassVar[bool] = True
+    unpublished: ClassVar[tuple[Code, ...]] = OTHER_FORMS
+    example: ClassVar[str] = (
+        "*T-Z\n SET=Conductor\n DEPTH=0.0\n 0.0, 0.0\n 1500.0, 0.005\n DEPTH=10.0\n 0.0, 0.0\n 12000.0, 0.005\n"
+    )
+
+    keyword: Literal["T-Z"] = "T-Z"
+    sets: list[AxialSprings] = []
+
+
+BLOCK = AxialSoil

@@ -1,0 +1,35 @@
+"""`*TIME`: start, end and step of a load case in time."""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar, Literal
+
+from mudline.codes import SYN001, SYN002, SYN003, SYN004, SYN005, SYN006, SYN014
+from mudline.diagnostics import Code
+from mudline.keywords.model import Block, about, setting
+from mudline.keywords.values import Real
+
+_SEEN = "seen in decks of a related program; a block of another form is kept as it is"
+
+
+class TimeSpan(Block):
+    """A span of time with a fixed step."""
+
+    rule: ClassVar[str] = "time"
+    names: ClassVar[tuple[str, ...]] = ("TIME",)
+    sections: ClassVar[tuple[str, ...]] = ("LOAD CASE",)
+    summary: ClassVar[str] = (
+        "Start and end of a load case in time, and its step; only the form with a fixed step is read."
+    )
+    unpublished: ClassVar[tuple[Code, ...]] = (SYN001, SYN002, SYN003, SYN004, SYN005, SYN006, SYN014)
+    example: ClassVar[str] = "*TIME\n STEP=FIXED\n 0.0, 120.0, 0.05, 24.0\n"
+
+    keyword: Literal["TIME"] = "TIME"
+    step: Annotated[Literal["FIXED"], setting("STEP", "how time advances", inferred=_SEEN)]
+    start: Annotated[Real, about("start of the load case", unit="T", inferred=_SEEN)]
+    end: Annotated[Real, about("its end", unit="T", inferred=_SEEN)]
+    increment: Annotated[Real | None, about("time step", unit="T", inferred="the third value is the step")] = None
+    ramp: Annotated[Real | None, about("time over which loads grow", unit="T", inferred=_SEEN)] = None
+
+
+BLOCK = TimeSpan

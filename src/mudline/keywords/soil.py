@@ -1,0 +1,40 @@
+"""What the keywords of soil springs share."""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar
+
+from mudline.codes import SYN001, SYN004, SYN005
+from mudline.diagnostics import Code
+from mudline.keywords.model import Record, Row, about, rows, setting
+from mudline.keywords.table import Table
+from mudline.keywords.values import Ident, Name, Real
+
+OTHER_FORMS: tuple[Code, ...] = (SYN001, SYN004, SYN005)
+"""Faults that may be one of the other forms of these keywords, which are not public."""
+
+FILE = "file with the curves, instead of lines"
+
+
+class SoilPoint(Row):
+    """A point of a curve: resistance first."""
+
+    resistance: Annotated[
+        Real, about("soil resistance; it comes first", unit="F/L", inferred="P is per unit length, as T is")
+    ]
+    displacement: Annotated[Real, about("displacement of the pipe against the soil", unit="L")]
+
+
+class SoilCurve(Record):
+    """The curve of a depth, or of a node."""
+
+    rule: ClassVar[str] = "soil_curve"
+    depth: Annotated[Real | None, setting("DEPTH", "depth below the mudline, negative above it", unit="L")] = None
+    node: Annotated[
+        Ident | None,
+        setting("NODE", "node that the curve belongs to", inferred="in place of DEPTH="),
+    ] = None
+    points: Annotated[Table, rows(SoilPoint, "points of the curve: resistance and displacement")]
+
+
+CurvesFile = Annotated[Name | None, setting("FILE", FILE)]
