@@ -30,8 +30,11 @@ BEYOND_THE_SCHEMA = (
     "needs",
     "opens a section or a block",
     "too large for double precision",
+    "fields, expected",
+    "field, expected",
+    "is no ",
 )
-"""What the schema does not say: values that must fit one another, and where a keyword belongs."""
+"""What the schema does not say: values that must fit one another, where a keyword belongs, what rows in a text hold."""
 
 
 def paths(value: object, path: DocumentPath = ()) -> list[DocumentPath]:
@@ -110,7 +113,7 @@ def test_schema_and_reader_agree(mutant: tuple[Values, DocumentPath]) -> None:
         assert not isinstance(as_yaml, Deck)
         messages = [one.message for one in as_json]
         assert [one.message for one in as_yaml] == messages or len(messages) > 1
-        assert not allowed or any(words in messages[0] for words in BEYOND_THE_SCHEMA), messages
+        assert not allowed or any(words in message for words in BEYOND_THE_SCHEMA for message in messages), messages
 
 
 @given(mutants())

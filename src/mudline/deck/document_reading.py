@@ -69,7 +69,8 @@ class _Reader:
         if deck.units not in UNITS:
             self.faults.add(("units",), f"expected one of {', '.join(UNITS)}, found {shown(deck.units)}")
         deck.preamble = self._lines(document.get("preamble", []), ("preamble",), "$")
-        self._stray(deck.preamble, "before the first section", Where(path=("preamble",)))
+        if deck.preamble:
+            self._stray(deck.preamble, "before the first section", Where(path=("preamble",)))
         deck.comments = self._checked(list[Comment], document.get("comments", []), ("comments",), [])
         sections = document.get("sections")
         if isinstance(sections, list):
@@ -115,22 +116,24 @@ class _Reader:
                 self.faults.add((*path, index), f"a line that begins with {first} opens a section or a block")
         return lines
 
-    def _stray(self, lines: list[str], words: str, where: Where) -> None:
-        """Tell of data lines, and of blocks, that stand under no keyword or in no section."""
-        if not lines:
-            return
+    def _stray(self, lines: list[str], words: str, where: Where) -> tuple[list[str], list[str]]:
+        """Tell of lines that stand under no keyword or in no section; data lines, and the texts of comments."""
         text = "\n".join(lines)
         tree = parse(Source("", text)).preamble
 
         def place(leaf: Leaf) -> Where:
             return where._replace(path=(*where.path, text.count("\n", 0, leaf.span.start)))
 
+        def inner(leaf: Leaf) -> list[str]:
+            return text[slice(*leaf.span)].removesuffix("\n").split("\n")
+
         data = [leaf for leaf in tree.leaves if leaf.kind not in (Kind.BLANK, Kind.COMMENT)]
+        stray = [line for leaf in data for line in inner(leaf)]
         if data:
-            count = sum(len(text[slice(*leaf.span)].removesuffix("\n").split("\n")) for leaf in data)
-            self.findings.stray(count, words, None, place(data[0]))
+            self.findings.stray(len(stray), words, None, place(data[0]))
         for block in tree.blocks:
             self.findings.before_sections(block.name, None, place(block.head))
+        return stray, [inner(leaf)[0][1:] for leaf in tree.leaves if leaf.kind is Kind.COMMENT]
 
     def _section(self, given: object, index: int) -> Section:
         path: DocumentPath = ("sections", index)
@@ -144,7 +147,9 @@ class _Reader:
         section.comments = self._checked(list[Comment], given.get("comments", []), (*path, "comments"), [])
         if section.name not in catalogue.SECTIONS:
             self.findings.unknown_section(section.name, Where(index))
-        self._stray(section.lines, f"of ${section.name}", Where(index, -1, ("lines",)))
+        if section.lines:
+            section.lines, texts = self._stray(section.lines, f"of ${section.name}", Where(index, -1, ("lines",)))
+            section.comments[:0] = [Comment(before=0, text=text) for text in texts]
         blocks = given.get("blocks")
         if not isinstance(blocks, list):
             self.faults.add((*path, "blocks"), "expected a list of blocks")
@@ -166,6 +171,9 @@ class _Reader:
         source = Source("", "\n".join(["$S", f"*{block.keyword}", *block.lines, ""]))
         raw = parse(source).sections[0].blocks[0]
         read = read_block(source.text, raw, declared, last=False)
+        if read.unpublished:
+            self.findings.no_model(block.keyword, section.name, where)
+            return block
         for problem in read.problems:
             line = source.position(problem.span.start)[0] if problem.span else 0
             inside = where._replace(path=("lines", max(line - 3, 0)))

@@ -1,0 +1,211 @@
+"""What is told of JSON and YAML decks beyond the schema: unknown and misplaced blocks, stray lines, too many faults."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import pytest
+
+from mudline.deck.faults import MOST_TOLD
+from mudline.deck.loading import dump, load_bytes
+from mudline.deck.model import Deck, Opaque
+from mudline.diagnostics import DeckError, Diagnostic
+from mudline.keywords.library.ocean import Ocean
+from mudline.keywords.model import Comment
+
+Document = dict[str, Any]
+
+
+def made(*sections: Document, **rest: object) -> Document:
+    return {"format": "mudline-deck/1", **rest, "sections": list(sections)}
+
+
+def section(*blocks: Document, name: str = "MODEL", **rest: object) -> Document:
+    return {"name": name, **rest, "blocks": list(blocks)}
+
+
+def read(document: Document) -> Deck:
+    return load_bytes(json.dumps(document, indent=1).encode(), "a.json")
+
+
+def told(document: Document) -> list[Diagnostic]:
+    deck = read(document)
+    return deck.diagnose(deck.problems)
+
+
+def refused(document: Document) -> tuple[Diagnostic, ...]:
+    with pytest.raises(DeckError) as caught:
+        read(document)
+    return caught.value.diagnostics
+
+
+OCEAN = {"keyword": "OCEAN", "depth": 100.0}
+
+TOLD: list[tuple[Document, str, str, str]] = [
+    (made(section({"keyword": "WAVE", "lines": []})), "SYN008", '"keyword": "WAVE"', "belongs in $LOAD CASE"),
+    (made(section({"keyword": "ocaen", "lines": []})), "SYN009", '"keyword": "ocaen"', "did you mean OCEAN?"),
+    (made(section(name="MODLE")), "SYN010", '"name": "MODLE"', "did you mean MODEL?"),
+    (made(section(OCEAN, lines=["C x", "stray", "1, 2"])), "SYN011", '"stray"', "2 lines of $MODEL"),
+    (made(preamble=["C x", "", "a title"]), "SYN011", '"a title"', "1 line before the first section"),
+    (made(preamble=["C x", "*OCEAN", " 1.0"]), "SYN007", '"*OCEAN"', "put it in its section, $MODEL"),
+]
+
+
+@pytest.mark.parametrize(("document", "code", "line", "words"), TOLD)
+def test_the_same_is_told_as_of_a_text(document: Document, code: str, line: str, words: str) -> None:
+    (found,) = told(document)
+    assert (found.code, words in found.message) == (code, True)
+    lines = json.dumps(document, indent=1).splitlines()
+    assert line in "".join(lines[found.line - 1 : found.line + 1])
+    text = dump(read(document), "keyword")
+    again = load_bytes(text.encode(), "a.keyxm")
+    assert [(one.code, one.message) for one in again.diagnose(again.problems)] == [(code, found.message)]
+
+
+def test_known_blocks_without_a_model_are_not_told() -> None:
+    blocks: list[Document] = [{"keyword": name, "lines": []} for name in ("HYDRODYNAMIC SETS", "TITLE")]
+    assert told(made(section(OCEAN, *blocks), section({"keyword": "TITLE", "lines": []}, name="NEW THING"))) != []
+    assert told(made(section(OCEAN, *blocks))) == []
+
+
+@pytest.mark.parametrize(
+    "document",
+    [
+        {"format": "mudline-deck/1", "sections": [5] * (2 * MOST_TOLD)},
+        made(section(*[{"keyword": "X"}] * (2 * MOST_TOLD))),
+        made(*[section(name="a\nb")] * (2 * MOST_TOLD)),
+        made(**{f"x{number}": 1 for number in range(2 * MOST_TOLD)}),
+        made(section({"keyword": "OCEAN", "depth": 1.0, "comments": [{}] * (2 * MOST_TOLD)})),
+    ],
+)
+def test_of_very_many_faults_a_thousand_are_listed(document: Document) -> None:
+    found = refused(document)
+    assert len(found) == MOST_TOLD + 1
+    assert sum("and more of the same" in one.message for one in found) == 1
+
+
+def test_raw_lines_of_a_keyword_with_a_model_are_read() -> None:
+    deck = read(made(section({"keyword": "ocean", "lines": ["C a", " 100, 1025", "C b"]}, OCEAN)))
+    ocean = Ocean(depth=100.0, density=1025.0, comments=[Comment(before=0, text=" a")])
+    assert deck.sections[0].blocks == [ocean, Ocean(depth=100.0)]
+    assert dump(deck, "keyword") == "$MODEL\n*OCEAN\nC a\n 100.0, 1025.0\nC b\n*OCEAN\n 100.0\n"
+    assert deck.problems == []
+
+
+def test_faults_and_doubts_of_raw_lines_are_told_at_their_line() -> None:
+    lines = ["C a", " 1x", " 2"]
+    found = refused(made(section({"keyword": "OCEAN", "lines": lines})))
+    assert [(one.code, one.message.partition(":")[0]) for one in found] == [
+        ("DOC002", "sections[0].blocks[0].lines[1]"),
+        ("DOC002", "sections[0].blocks[0].lines[2]"),
+    ]
+    (doubt,) = told(made(section({"keyword": "NODE", "lines": [" 1, 0, 0", "Cold", " 2, 0, 1"]})))
+    assert doubt.code == "SYN013"
+    assert doubt.line == 11
+
+
+@pytest.mark.parametrize("line", ["$MODEL", " *NODE"])
+def test_raw_lines_open_nothing(line: str) -> None:
+    for document, path in (
+        (made(section({"keyword": "TITLE", "lines": ["x", line]})), "sections[0].blocks[0].lines[1]"),
+        (made(section(lines=["x", line])), "sections[0].lines[1]"),
+    ):
+        (found,) = refused(document)
+        assert found.message.startswith(path)
+    assert refused(made(preamble=["$MODEL"]))[0].message.startswith("preamble[0]")
+
+
+def test_comments_find_the_place_that_keyword_text_gives_them() -> None:
+    comments = [{"before": number, "text": f" deck {number}"} for number in (9, 1, 0)]
+    inner = [{"before": number, "text": f" {number}"} for number in (7, 0, 1)]
+    opaque = {"keyword": "TITLE", "lines": ["x"]}
+    deck = read(made(section(OCEAN, comments=inner), section(opaque, comments=inner), section(), comments=comments))
+    assert deck.preamble == ["C deck 0"]
+    assert dump(deck, "keyword").splitlines() == [
+        *("C deck 0", "$MODEL", "C 0", "*OCEAN", " 100.0", "C 1", "C 7", "C deck 1"),
+        *("$MODEL", "C 0", "*TITLE", "x", "C 1", "C 7", "$MODEL", "C deck 9"),
+    ]
+    again = load_bytes(dump(deck, "keyword").encode(), "a.keyxm")
+    assert (again.sections, again.comments, again.preamble) == (deck.sections, deck.comments, deck.preamble)
+    assert read(made(comments=comments)).preamble == ["C deck 0", "C deck 1", "C deck 9"]
+
+
+@pytest.mark.parametrize(
+    ("path", "document"),
+    [
+        ("source", made(source="\ud800")),
+        ("preamble[0]", made(preamble=["a\udfff"])),
+        ("sections[0].blocks[0].depth", made(section({"keyword": "OCEAN", "depth": "=[\ud800]"}))),
+        ("sections[0]", made({"name": "MODEL", "blocks": [], "\ud800": 1})),
+    ],
+)
+def test_half_a_surrogate_pair_is_refused(path: str, document: Document) -> None:
+    (found,) = refused(document)
+    assert (found.code, found.message.partition(":")[0]) == ("DOC001", path)
+
+
+def test_a_whole_pair_is_a_letter() -> None:
+    deck = load_bytes(json.dumps(made(section(), source="\U0001f30a")).encode(), "a.json")
+    assert deck.source == "\U0001f30a"
+
+
+@pytest.mark.parametrize("number", ["9" * 5000, "0x" + "F" * 5000, "1" + "0" * 400])
+def test_numbers_of_thousands_of_digits(number: str) -> None:
+    for text, name in ((f"format: {number}", "a.yaml"), (f'{{"format": {number}}}', "a.json")):
+        with pytest.raises(DeckError) as caught:
+            load_bytes(text.encode(), name)
+        assert all(len(one.message) < 1000 for one in caught.value.diagnostics)
+
+
+def test_a_fault_in_a_block_of_rows_is_told_at_its_row() -> None:
+    rows = "0, 0\n\n  1, 1\n2, q\n"
+    stiffness = {"keyword": "SEABED STIFFNESS", "curves": [{"name": "a", "points": rows}]}
+    text = "format: mudline-deck/1\nsections:\n- name: MODEL\n  blocks:\n  - keyword: SEABED STIFFNESS\n    curves:\n"
+    text += "    - name: a\n      points: |\n        0, 0\n\n          1, 1\n        2, q\n"
+    with pytest.raises(DeckError) as caught:
+        load_bytes(text.encode(), "a.yaml")
+    (found,) = caught.value.diagnostics
+    assert (found.line, found.message.partition(":")[0]) == (12, "sections[0].blocks[0].curves[0].points[2][1]")
+    (same,) = refused(made(section(stiffness)))
+    assert same.message == found.message
+
+
+UNSAYABLE: list[tuple[str, Document]] = [
+    ("curves[0].name", {"keyword": "SEABED STIFFNESS", "curves": [{"name": "a, b", "points": []}]}),
+    ("curves[0].name", {"keyword": "SEABED STIFFNESS", "curves": [{"name": " a", "points": []}]}),
+    ("curves[0].points", {"keyword": "EMBEDMENT", "curves": [{"set": "a", "points": [[1, 2]]}, {"points": [[3, 4]]}]}),
+    ("entries[0]", {"keyword": "NODE", "entries": [{"nodes": []}]}),
+    ("entries[0].nodes[0]", {"keyword": "NODE", "entries": [{"nodes": [["=[a], b=[c]", 0, 0]]}]}),
+    ("sets[0].stiffness", {"keyword": "SEABED PROPERTIES", "sets": [{"set": "a", "stiffness": "12"}]}),
+    ("depth", {"keyword": "OCEAN", "depth": "=[a], 2, =[b]"}),
+]
+
+
+@pytest.mark.parametrize(("path", "block"), UNSAYABLE)
+def test_what_keyword_text_cannot_say_is_refused(path: str, block: Document) -> None:
+    deck = read(made(section(block)))
+    assert dump(deck, "yaml")
+    with pytest.raises(DeckError) as caught:
+        dump(deck, "keyword")
+    (found,) = caught.value.diagnostics
+    assert found.message.startswith(f"sections[0].blocks[0].{path}")
+    assert "cannot be said in keyword text" in found.message
+
+
+@pytest.mark.parametrize(
+    "deck",
+    [
+        Deck("a", preamble=["x", "$MODEL"]),
+        Deck("a", sections=read(made(section(name="A"))).sections * 1, preamble=["a\nb"]),
+        Deck("a", sections=[*read(made(section(lines=["x"]))).sections, *read(made(section(name="\u00e9"))).sections]),
+    ],
+)
+def test_decks_made_by_a_program_are_tried_too(deck: Deck) -> None:
+    deck.sections.append(read(made(section({"keyword": "TITLE", "lines": ["x"]}))).sections[0])
+    block = deck.sections[-1].blocks[0]
+    assert isinstance(block, Opaque)
+    block.lines.append("$MORE")
+    with pytest.raises(DeckError) as caught:
+        dump(deck, "keyword")
+    assert "cannot be said in keyword text" in str(caught.value.diagnostics[0])
