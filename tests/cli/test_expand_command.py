@@ -121,6 +121,21 @@ def test_files_that_are_there_stay_unless_forced(place: Place, folder: Path) -> 
     assert (folder / "out/Far/at 50.keyxm").read_bytes() != b"mine"
 
 
+def test_files_that_the_deck_names_are_not_copied_and_that_is_told(place: Place) -> None:
+    lines = '$TITLES\n*PLAN\n FILE=beds/a.txt\n FILE=b.txt\n FILE=../b.txt\n*LINK\n LAST="c d"\n'
+    name = place(STUDY + lines)
+    place("0, 0\n1, 0\n", "beds/a.txt")
+    place("", "c d")
+    outcome = run("expand", name, "-o", "out")
+    assert outcome.err.splitlines()[:-1] == [
+        "mudline: beds/a.txt: the deck names it and it is not copied: put it beside the new decks",
+        "mudline: c d: the deck names it and it is not copied: put it beside the new decks",
+    ]
+    for side in ("Near", "Far"):
+        place("", f"out/{side}/c d")
+    assert "c d: the deck" not in run("expand", name, "-o", "out", "--force").err
+
+
 def test_many_files_in_the_way_are_counted(place: Place) -> None:
     name = place(STUDY.replace("50, 100, 50", "1, 10"))
     run("expand", name, "-o", "out")

@@ -11,9 +11,11 @@ from hypothesis import strategies as st
 
 from mudline.deck.loading import FORMS, dump, load_bytes
 from mudline.deck.parameters import Parameters, folded
+from mudline.diagnostics import DeckError
 from mudline.keywords.values import Equation
 from mudline.linting.engine import lint_bytes
 from mudline.linting.selection import select
+from mudline.variations.names import path_fault
 from mudline.variations.planning import Plan, plan
 from mudline.variations.targets import parameter_field
 from tests.samples import SAMPLES
@@ -160,6 +162,43 @@ def same(value: float | str, written: str) -> bool:
     if Equation.match(written):
         return value == 6.0
     return value == (written.strip('"') if isinstance(value, str) else float(written))
+
+
+SHARDS = [
+    "%",
+    '"',
+    ",",
+    "\n",
+    "=[",
+    "]",
+    "/",
+    "VALUE=",
+    "GEN=1, 9",
+    "*VARIATION\n",
+    "..",
+    "\\",
+    "\0",
+    "C",
+    "\r",
+    "\xe9",
+    "1e308",
+]
+
+
+@given(st.lists(st.tuples(st.integers(0, 420), st.integers(0, 9), st.sampled_from(["", *SHARDS])), max_size=4))
+@settings(max_examples=100)
+def test_a_damaged_deck_is_refused_or_gives_decks_that_read(changes: list[tuple[int, int, str]]) -> None:
+    content = text(WAVES + " PARA=Point_X, GEN=1, 2\n ACTION=REMOVE, KEYWORD=OFFSET, SECTION=LOAD CASE\n", ALL)
+    for at, length, shard in changes:
+        content = content[:at] + shard + content[at + length :]
+    try:
+        found = plan(deck(content))
+    except DeckError:
+        return
+    assert len({new.path for new in found.decks}) == len(found.decks)
+    for new in found.decks:
+        assert not path_fault(new.path)
+        load_bytes(found.content(new), new.path).require()
 
 
 # ------------------------------------------------------------------------------------------------------------ actions

@@ -16,10 +16,11 @@ from mudline.cli.streams import emit
 from mudline.cli.terminal import reason, tell
 from mudline.cli.writing import write_bytes, write_text
 from mudline.variations.manifest import MANIFEST, manifest_text
-from mudline.variations.output import conflicts
+from mudline.variations.output import conflicts, lacking
 from mudline.variations.planning import Plan, plan
 
 _MOST_TOLD = 5
+_NOT_COPIED = "{}: the deck names it and it is not copied: put it beside the new decks"
 
 
 @click.command("expand")
@@ -53,6 +54,7 @@ def command(
     planned = plan(load(deck, units=units, stdin_name=stdin_name))
     for note in planned.notes:
         tell(note)
+    _tell_some([] if output is None else [_NOT_COPIED.format(name) for name in lacking(Path(output), planned)])
     blocked = [] if output is None else conflicts(Path(output), planned, _path(deck), force=force)
     _tell_some(blocked)
     if output is not None and not dry_run:

@@ -21,6 +21,16 @@ def conflicts(folder: Path, planned: Plan, source: Path | None, *, force: bool) 
         return [f"{folder.as_posix()}: cannot be looked at: {str(error).lower()}"]
 
 
+def lacking(folder: Path, planned: Plan) -> list[str]:
+    """The files that the new decks name and that do not stand where one of them would look."""
+    parents = {(folder / deck.path).parent for deck in planned.decks} if planned.companions else set()
+    return [
+        name
+        for name in planned.companions
+        if not all(os.path.exists(parent / name) for parent in parents)  # noqa: PTH110 - Path raises where it may not look
+    ]
+
+
 def _conflicts(folder: Path, planned: Plan, source: Path | None, *, force: bool) -> Iterator[str]:
     if folder.exists() and not folder.is_dir():
         yield f"{folder.as_posix()}: is a file: the decks need a folder"

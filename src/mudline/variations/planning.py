@@ -16,6 +16,7 @@ from mudline.diagnostics import DeckError, Problem, Severity, Where
 from mudline.keywords.text import shown, suggestion
 from mudline.syntax.source import Source
 from mudline.variations.cases import CaseReader, name_key
+from mudline.variations.companions import companions
 from mudline.variations.manifest import MANIFEST
 from mudline.variations.model import MOST_DECKS, Cases, PlannedDeck
 from mudline.variations.names import Taken, placeholders, unquoted
@@ -33,13 +34,15 @@ _MOST_TOLD = 20
 class Plan:
     """The decks in the order of `*COMBINATIONS`, and what makes their texts.
 
-    `source` is the name of the file that they come from, `notes` are remarks for a reader.
+    `source` is the name of the file that they come from, `notes` are remarks for a reader. `companions` are files
+    beside the source that the new decks name too.
     """
 
     source: str
     decks: Sequence[PlannedDeck]
     rewriter: Rewriter
     notes: Sequence[str] = ()
+    companions: Sequence[str] = ()
 
     def content(self, planned: PlannedDeck) -> bytes:
         """The content of a planned deck."""
@@ -95,7 +98,7 @@ class _Planner:
         self._raise_any()
         self._readable(decks)
         self._raise_any()
-        return Plan(PurePath(self.deck.file).name, decks, self.rewriter, self._notes())
+        return Plan(PurePath(self.deck.file).name, decks, self.rewriter, self._notes(), companions(self.text))
 
     def _tell(self, message: str, where: Where) -> None:
         self.problems.append(Problem(EXP001, message, None, None, where))
