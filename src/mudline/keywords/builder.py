@@ -38,28 +38,6 @@ class Built:
     first: int = 0
     last: int | None = None
 
-    @property
-    def count(self) -> int:
-        """Number of items."""
-        return sum(item.count for item in self.items)
-
-    def after(self, position: int) -> int | None:
-        """Index, in the order in which the record is written, of the first item behind a position."""
-        behind = [item for item in self.items if item.position > position]
-        if not behind:
-            return None
-        following = min(behind, key=lambda item: item.position)
-        mark = (following.order, following.position)
-        return sum(item.count for item in self.items if (item.order, item.position) < mark)
-
-    def owner(self, position: int) -> Built:
-        """The innermost record that has lines on both sides of a position."""
-        for records in self.children.values():
-            for record in records:
-                if record.first < position and record.last is not None and position < record.last:
-                    return record.owner(position)
-        return self
-
     def reach(self, position: int) -> None:
         """Take note of a line."""
         self.first = position if self.last is None else self.first
