@@ -44,6 +44,8 @@ def test_to_another_file_in_another_form(place: Place) -> None:
 
 
 def test_standard_input() -> None:
+    encoded = b"\xef\xbb\xbf" + SAMPLE.replace("old", "b\xf6se").encode()
+    assert run("migrate", "-", stdin=encoded).output == b"\xef\xbb\xbf" + MIGRATED.replace("old", "b\xf6se").encode()
     assert run("migrate", "-", stdin=SAMPLE.encode()).out == MIGRATED
     assert run("migrate", "-", stdin=MIGRATED.encode()).out == MIGRATED
     outcome = run("migrate", "-", stdin=PROFILE.encode())

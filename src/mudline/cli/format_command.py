@@ -12,7 +12,7 @@ from mudline.cli.exits import DONE, FOUND
 from mudline.cli.inputs import Input, Inputs, collect
 from mudline.cli.lazy import printing
 from mudline.cli.options import View
-from mudline.cli.streams import emit
+from mudline.cli.streams import emit, emit_deck
 from mudline.cli.terminal import reason, tell, tell_diagnostics
 from mudline.diagnostics import DeckError
 from mudline.files import write_atomically
@@ -72,7 +72,7 @@ class _Run:
             if new != data:
                 self._tell_change(file, data, new)
         elif file.path is None:
-            emit_bytes(new)
+            emit_deck(new)
         elif new == data:
             self._count(changed=False)
         else:
@@ -125,14 +125,3 @@ class _Run:
 
 def _files(count: int) -> str:
     return f"{count} file{'s' * (count != 1)}"
-
-
-def emit_bytes(data: bytes) -> None:
-    """Write a deck to standard output, byte for byte unless that is a terminal."""
-    if sys.stdout.isatty():
-        emit([Source.from_bytes(data, "").text])
-        return
-    sys.stdout.flush()
-    rest = memoryview(data)
-    while rest:  # an unbuffered stream may take less than it is given
-        rest = rest[sys.stdout.buffer.write(rest) :]

@@ -12,7 +12,7 @@ from mudline.cli.changes import tell_changes
 from mudline.cli.exits import DONE, FOUND
 from mudline.cli.inputs import Input, collect
 from mudline.cli.options import View
-from mudline.cli.streams import emit
+from mudline.cli.streams import emit_deck
 from mudline.cli.terminal import tell, tell_diagnostics
 from mudline.cli.writing import write_bytes
 from mudline.deck.loading import dump, form_of, load_bytes
@@ -127,7 +127,7 @@ class _Run:
                 why = "its profile goes to a file of its own, and standard input has no place for one"
                 tell(f"{self.file.name}: left as it is: {why}: give the deck as a file")
                 return FOUND
-            emit([Source.from_bytes(content, self.file.name).text])
+            emit_deck(content)
             return DONE
         for name, data in files.items():
             write_bytes(self.target.with_name(name), data)

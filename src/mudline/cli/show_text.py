@@ -42,8 +42,8 @@ def print_summary(summary: dict[str, Any], view: View) -> None:
     if summary["bed"]:
         _print_bed(printer, summary["bed"], names)
     if summary["extensions"]:
-        rows = [(f"*{row['keyword']}", row["set"] or "", str(row["elements"])) for row in summary["extensions"]]
-        print_table(printer, "Extensions", ("keyword", "set", "elements"), rows, left=("keyword", "set"))
+        blocks = [(f"*{row['keyword']}", row["set"] or "", str(row["elements"])) for row in summary["extensions"]]
+        print_table(printer, "Extensions", ("keyword", "set", "elements"), blocks, left=("keyword", "set"))
 
 
 def _print_head(printer: Console, summary: dict[str, Any], names: UnitNames) -> None:

@@ -10,6 +10,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from mudline.linting.output.visible import visible_lines
+from mudline.syntax.source import Source
 
 
 def prepare() -> None:
@@ -34,6 +35,17 @@ def emit(pieces: Iterable[str]) -> None:
         rest = memoryview(encoded(text))
         while rest:  # an unbuffered stream may take less than it is given
             rest = rest[sys.stdout.buffer.write(rest) :]
+
+
+def emit_deck(data: bytes) -> None:
+    """Write a deck to standard output, byte for byte unless that is a terminal."""
+    if sys.stdout.isatty():
+        emit([Source.from_bytes(data, "").text])
+        return
+    sys.stdout.flush()
+    rest = memoryview(data)
+    while rest:  # an unbuffered stream may take less than it is given
+        rest = rest[sys.stdout.buffer.write(rest) :]
 
 
 def encoded(text: str) -> bytes:

@@ -22,8 +22,11 @@ from pydantic_core import CoreSchema, core_schema
 
 from mudline.diagnostics import Code
 from mudline.keywords.listing import AS_TABLES, Listing, read_table
+from mudline.keywords.lists import checked_by_parts
 from mudline.keywords.table import LARGEST_WHOLE, Cell, Column, Table
 from mudline.keywords.values import Count, Equation, Kind, Label, Text
+
+_MOST_KEYS = 100
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,6 +127,18 @@ class Part(BaseModel):
     """Anything with declared fields."""
 
     model_config = ConfigDict(extra="forbid", populate_by_name=True, serialize_by_alias=True)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _few_keys(cls, given: object) -> object:
+        """Every unknown key would be a fault."""
+        if isinstance(given, dict) and len(given) > _MOST_KEYS:
+            raise ValueError(f"{len(given)} keys, expected {len(cls.model_fields)} at most")
+        return given
+
+    @classmethod
+    def __get_pydantic_core_schema__(cls, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return checked_by_parts(handler(source))
 
 
 class Row(Part):
