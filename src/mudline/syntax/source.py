@@ -94,7 +94,7 @@ def _refusal(body: bytes) -> str:
 def _looks_like_utf16(sample: bytes) -> bool:
     even, odd = sample[0::2].count(0), sample[1::2].count(0)
     half = len(sample) // 2
-    return half > 1 and max(even, odd) > 0.4 * half and min(even, odd) <= 0.05 * half
+    return half > _FEW and max(even, odd) > 0.4 * half and min(even, odd) <= 0.05 * half
 
 
 def _decode(body: bytes) -> tuple[str, str, list[Problem]]:
