@@ -145,8 +145,13 @@ def test_plain_numbers(text: str) -> None:
         assert [bits(value) for value in rows.values[index].tolist() if not math.isnan(value)] == given[:5]
 
 
-@given(st.lists(st.sampled_from([*"0123456789+-.eE, \t\n", "\r\n"]), max_size=40).map("".join), st.integers(1, 4))
-@settings(max_examples=350)
+@given(st.lists(st.sampled_from([*"0123456789+-.eEdD, \t\n", "\r\n"]), max_size=40).map("".join), st.integers(1, 4))
+@example("-+5\n", 1)
+@example("1. .5\n-.5 +2.D1\n", 2)
+@example("1 - 2\n", 3)
+@example("1..2\n", 2)
+@example(f"0.{'1' * 500}\n", 1)
+@settings(max_examples=700)
 def test_any_text_of_the_fast_alphabet(text: str, columns: int) -> None:
     compared(text, columns)
 
@@ -174,6 +179,13 @@ def test_the_fast_reader_takes_long_tables() -> None:
     compared(text, 3)
     compared(text.replace("\r\n", "\r\n\r\n", 1), 3)
     compared(text + "1, 2\n", 3)
+
+
+@pytest.mark.parametrize("row", [" 1., .5, +2.\n", "1 -.5 2D3\n", "1.E-3\t+.25  7.\n", "1.0D+02, 2., -3.d0\n"])
+def test_the_fast_reader_takes_the_spellings_of_old_tools(row: str) -> None:
+    text = row * 3
+    assert read_rows_fast(text, whole(text), 4) is not None
+    compared(text, 4)
 
 
 def test_only_the_span_is_read() -> None:

@@ -17,12 +17,18 @@ from mudline.syntax.fields import Field, split
 _NUMBER = re.compile(r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eEdD][-+]?[0-9]+)?")
 _WORD = re.compile(r"[^ \t\r\n]+")
 _SPECIAL = re.compile(r'[\["{]')
-_PLAIN = b"0123456789+-.eE, \t\r\n"
+_PLAIN = b"0123456789+-.eEdD, \t\r\n"
 _LOST_SIGN = re.compile(rb"-0(?![.0-9eE])")
+_BLANKS_BETWEEN = re.compile(rb"(?<=[0-9.])[ \t]+(?=[-+.0-9])")
+_NO_FRACTION = re.compile(rb"(?<=[0-9])\.(?![0-9])")
+_NO_WHOLE = re.compile(rb"(?<![0-9])\.(?=[0-9])")
+_PLUS = re.compile(rb"(?<![eE0-9.+-])\+(?=[0-9.])")
+_D_TO_E = bytes.maketrans(b"dD", b"EE")
 _PIECE = 128 * 1024
 _LONGEST_BLANK_SEPARATED = 10_000
 _DIGITS = 400
 """Longer numbers are refused by `read_number`: nobody writes them, and reading one takes time square in its length."""
+_TOO_LONG = re.compile(rb"[^, \t\r\n]{%d}" % (_DIGITS + 1))
 
 
 class Rows(NamedTuple):
@@ -90,12 +96,12 @@ def read_rows_slow(text: str, span: Span, columns: int) -> Rows:
 
 
 def read_rows_fast(text: str, span: Span, columns: int) -> Rows | None:
-    """The same rows where every field is a plain JSON number and all rows have one length; None otherwise."""
+    """The same rows where every field is a number and all rows have one length; None otherwise."""
     body = text[span.start : span.end]
     if not body.isascii():
         return None
     data = body.encode("ascii")
-    if data.translate(None, _PLAIN) or _LOST_SIGN.search(data):
+    if data.translate(None, _PLAIN) or _LOST_SIGN.search(data) or _TOO_LONG.search(data):
         return None
     pieces = [_plain_rows(piece) for piece in _pieces(data)]
     tables = [piece for piece in pieces if piece is not None]
@@ -107,14 +113,31 @@ def read_rows_fast(text: str, span: Span, columns: int) -> Rows | None:
 
 
 def _plain_rows(piece: bytes) -> NDArray[np.float64] | None:
-    """The rows of a piece as one JSON list of lists; None where they are none, or not of one length, or not finite."""
+    """The rows of a piece; None where they are none, or not of one length, or not finite."""
     if len(piece) > 2 * _PIECE:
         return None
+    table = _json_rows(piece)
+    return _json_rows(_as_json(piece)) if table is None else table
+
+
+def _json_rows(piece: bytes) -> NDArray[np.float64] | None:
+    """The rows of a piece whose fields are plain JSON numbers, read as one list of lists."""
     try:
         table = np.array(from_json(b"[[" + piece.replace(b"\n", b"],[") + b"]]"), dtype=np.float64)
     except (ValueError, OverflowError):
         return None
     return table if table.ndim == 2 and np.isfinite(table).all() else None
+
+
+def _as_json(piece: bytes) -> bytes:
+    """Numbers as legacy tools spell them, `1.`, `.5`, `+1`, `1.D3`, parted by blanks alone, in the spelling of JSON.
+
+    What is no number before is none afterwards.
+    """
+    piece = _NO_WHOLE.sub(b"0.", _NO_FRACTION.sub(b".0", _PLUS.sub(b"", piece.translate(_D_TO_E))))
+    if b"," in piece or any(len(line) > _LONGEST_BLANK_SEPARATED for line in piece.split(b"\n")):
+        return piece
+    return _BLANKS_BETWEEN.sub(b",", piece)
 
 
 def _pieces(data: bytes) -> Iterator[bytes]:
