@@ -54,8 +54,8 @@ def record(draw: st.DrawFn, part: type[Record], index: int = 0) -> Values:
             made[slot.json] = draw(cell(slot))
     if part.rule in ARRANGED:
         made = draw(ARRANGED[part.rule](made))
-    if not made and not issubclass(part, Block):
-        made[first.json] = draw(cell(first))
+    if all(value in (None, []) for value in made.values()) and not issubclass(part, Block):
+        made[first.json] = draw(cell(first))  # a record is lines
     told = draw(st.lists(remarks, max_size=2))
     return made | ({"comments": draw(comments(told, 6))} if told else {})
 

@@ -199,10 +199,10 @@ def surface(draw: st.DrawFn, most: int) -> Lines:
 
 
 _OPAQUE = {
-    "MODEL": ("HYDRODYNAMIC SETS", "NODE, CURVILINEAR", "LINES", "p-y", "TITLE", "NEW THING", "Gel\u00e4nde"),
+    "MODEL": ("HYDRODYNAMIC SETS", "NODE, CURVILINEAR", "LINES", "pip section", "TITLE", "NEW THING", "Gel\u00e4nde"),
     "PREPROCESSOR": ("EXCEL VARIATIONS", "TITLE"),
     "ANALYSIS": ("ANALYSIS TYPE", "NEW THING"),
-    "LOAD CASE": ("BOUNDARY", "TIME,DISCONNECT", "WAVE-REGULAR", ""),
+    "LOAD CASE": ("OFFSET", "TIME,DISCONNECT", "WAVE-REGULAR", ""),
 }
 
 

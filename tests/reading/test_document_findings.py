@@ -76,13 +76,41 @@ def test_known_blocks_without_a_model_are_not_told() -> None:
         made(section(*[{"keyword": "X"}] * (2 * MOST_TOLD))),
         made(*[section(name="a\nb")] * (2 * MOST_TOLD)),
         made(**{f"x{number}": 1 for number in range(2 * MOST_TOLD)}),
-        made(section({"keyword": "OCEAN", "depth": 1.0, "comments": [{}] * (2 * MOST_TOLD)})),
     ],
 )
 def test_of_very_many_faults_a_thousand_are_listed(document: Document) -> None:
     found = refused(document)
     assert len(found) == MOST_TOLD + 1
     assert sum("and more of the same" in one.message for one in found) == 1
+
+
+MANY = 100_000
+LISTS: list[tuple[str, Document]] = [
+    ("comments", {"keyword": "OCEAN", "depth": 1.0, "comments": [{}] * MANY}),
+    ("curves", {"keyword": "SEABED STIFFNESS", "curves": [{}] * MANY}),
+    (
+        "sets[0].members[0].elements",
+        {"keyword": "ELEMENT SETS", "sets": [{"name": "a", "members": [{"elements": [1] * 32 + [None] * MANY}]}]},
+    ),
+]
+
+
+@pytest.mark.parametrize(("path", "block"), LISTS)
+def test_a_list_of_faults_is_not_looked_at_to_its_end(path: str, block: Document) -> None:
+    found = refused(made(section(block)))
+    assert 32 < len(found) < 100
+    assert found[-1].message.startswith(f"sections[0].blocks[0].{path}[{64 if 'sets' in path else 32}]: not looked at")
+
+
+def test_a_list_of_numbers_longer_than_a_part_is_read() -> None:
+    members = [{"elements": list(range(1, 1001))}]
+    deck = read(made(section({"keyword": "ELEMENT SETS", "sets": [{"name": "a", "members": members}]})))
+    assert json.loads(dump(deck, "json"))["sections"][0]["blocks"][0]["sets"][0]["members"] == members
+
+
+def test_thousands_of_keys_are_one_fault() -> None:
+    (found,) = refused(made(section({**OCEAN, **{f"x{number}": 1 for number in range(5000)}})))
+    assert "5002 keys" in found.message
 
 
 def test_raw_lines_of_a_keyword_with_a_model_are_read() -> None:

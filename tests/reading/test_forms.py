@@ -85,14 +85,13 @@ def test_no_comment_is_lost(text: str) -> None:
     )
     written = dump(read(numbered), "keyword")
     wanted = re.findall(r"remark (\d+) \.", numbered)
-    assert re.findall(r"remark (\d+) \.", written) == wanted
+    assert sorted(re.findall(r"remark (\d+) \.", written)) == sorted(wanted)  # settings find their order, too
 
 
 @given(mutated(deck_texts().map(str.encode)))
 @settings(max_examples=120)
 def test_what_reads_without_an_error_is_the_same_in_every_form(data: bytes) -> None:
     deck = load_bytes(data, NAME)
-    assume(b"\0" not in data)  # a few bytes with a NUL are taken for UTF-16 when they are written as UTF-8
     assume(all(problem.weight is not Severity.ERROR for problem in deck.problems))
     held(deck)
 
