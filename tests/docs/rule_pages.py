@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from pathlib import Path
 
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import Rule
@@ -76,7 +77,7 @@ def _row(rule: Rule) -> str:
 
 def rule_page(rule: Rule) -> str:
     """docs/rules/CODE.md."""
-    found = lint_bytes(rule.bad_bytes, rule.file, [rule])
+    found = lint_bytes(rule.bad_bytes, rule.file, [rule], folder=Path("decks"))
     return _PAGE.format(
         made=MADE,
         code=rule.code.code,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
 
 import click
 
@@ -38,5 +39,7 @@ def command(*, deck: str, output_format: str, stdin_name: str, units: str | None
     else:
         printing("show").print_summary(summary, view)
     if errors:
-        tell(f"{summary['file']} has {len(errors)} error{'s' * (len(errors) != 1)}: see mudline lint")
+        counts = Counter(diagnostic.file for diagnostic in scene.deck.diagnose(errors))
+        for file, count in counts.items():
+            tell(f"{file} has {count} error{'s' * (count != 1)}: see mudline lint")
     return FOUND if errors else DONE

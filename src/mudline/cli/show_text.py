@@ -53,6 +53,8 @@ def _print_head(printer: Console, summary: dict[str, Any], names: UnitNames) -> 
     bed = _bed(summary["floor"])
     head = f"{summary['file']}: {summary['units']} units, {counts}, {seabed} seabed{bed}"
     printer.print(Text(visible(head, printer.encoding), style="bold"), soft_wrap=False)
+    for name in summary["continues"]:
+        _print_folded(printer, f"continues {visible(name, printer.encoding)}", "  ")
     for section in summary["sections"]:
         keywords = section["keywords"]
         read = _listed(printer, [entry["keyword"] for entry in keywords if entry["read"]])

@@ -19,6 +19,7 @@ from mudline.deck.loading import load_bytes
 from mudline.deck.model import Deck
 from mudline.diagnostics import DeckError, Diagnostic, Severity
 from mudline.linting.context import LintContext
+from mudline.linting.engine import problems_in
 from mudline.linting.registry import rules
 
 
@@ -70,7 +71,7 @@ def _judge(data: bytes, file: Input, units: str | None) -> tuple[Verdict, list[D
     except DeckError as error:
         return Verdict(file.name, 0, 0, 0, 0, len(error.diagnostics), "illegal"), list(error.diagnostics)
     context = LintContext(deck)
-    problems = [problem for rule in rules() for problem in rule.check(context)]
+    problems = problems_in(context, rules())
     found = deck.diagnose([problem for problem in problems if problem.weight is Severity.ERROR])
     return _verdict(deck, context, len(found)), found
 

@@ -98,6 +98,15 @@ class Deck:
     origin: Origin = field(default_factory=Nowhere, compare=False, repr=False)
     folder: Path | None = field(default=None, compare=False)
 
+    @property
+    def own_sections(self) -> Sequence[Section]:
+        """The sections of this file; a deck that was put together from several has others besides."""
+        return self.sections
+
+    def folder_of(self, where: Where) -> Path | None:
+        """Where the files are looked for that the deck names at a place."""
+        return self.folder
+
     def blocks(self, keyword: str, section: str = "MODEL") -> Iterator[tuple[Where, Any]]:
         """The modelled blocks of a keyword in all sections of a name, in the order of the file.
 

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from mudline.keywords.library.parameters import Parameter
 
 Value = float | str
+_PLACEHOLDER = re.compile(r"%([^%]+)%")
 _ITEM = re.compile(r"""[,\s]*(?:([^\s,:;"=]+)[:;])?(=\[(?:[^\[\]]|\[[^\[\]]*\])*\]|"[^"]*"|[^\s,]+)""")
 
 
@@ -94,6 +95,14 @@ class Parameters:
             except NoValueError:
                 return None
         return float(value) if isinstance(value, int | float) else None
+
+    def filled(self, text: str) -> str:
+        """A text with the value of each parameter in place of its `%name%`; what is not known stays."""
+        return _PLACEHOLDER.sub(self._placed, text)
+
+    def _placed(self, match: re.Match[str]) -> str:
+        value = self.values.get(folded(match[1]), match[0])
+        return f"{value:.15g}" if isinstance(value, float) else value
 
     def evaluate(self, equation: Equation, where: Where) -> Value:
         """The value of an equation; raises NoValueError with the problem, placed at `where`."""

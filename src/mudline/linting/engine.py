@@ -7,9 +7,10 @@ from pathlib import Path
 
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import Deck
-from mudline.diagnostics import DeckError, Diagnostic
+from mudline.diagnostics import DeckError, Diagnostic, Problem
 from mudline.linting.context import LintContext
 from mudline.linting.registry import Rule
+from mudline.scene.continued import of_base
 
 
 def lint_deck(deck: Deck, chosen: Sequence[Rule]) -> list[Diagnostic]:
@@ -19,7 +20,13 @@ def lint_deck(deck: Deck, chosen: Sequence[Rule]) -> list[Diagnostic]:
 
 def lint_context(context: LintContext, chosen: Sequence[Rule]) -> list[Diagnostic]:
     """The same for a deck whose scene is needed for more than the findings."""
-    return context.deck.diagnose([problem for rule in chosen for problem in rule.check(context)])
+    return context.deck.diagnose(problems_in(context, chosen))
+
+
+def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
+    """What the chosen rules notice in a deck itself; what lies in a deck that it continues is told of that one."""
+    found = (problem for rule in chosen for problem in rule.check(context))
+    return [problem for problem in found if not of_base(context.deck, problem)]
 
 
 def lint_bytes(

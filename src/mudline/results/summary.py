@@ -11,6 +11,7 @@ from mudline.contact import LawKind
 from mudline.deck.model import Opaque
 from mudline.results.bed_summary import bed_summary, extension_summary, floor_summary
 from mudline.results.numbers import finite
+from mudline.scene.continued import ContinuedDeck
 from mudline.scene.model import Scene
 
 
@@ -20,12 +21,13 @@ def summarise(scene: Scene) -> dict[str, Any]:
     return {
         "file": deck.file,
         "units": deck.units,
+        "continues": [base.deck.file for base in deck.bases] if isinstance(deck, ContinuedDeck) else [],
         "sections": [
             {
                 "name": section.name,
                 "keywords": [{"keyword": b.keyword, "read": not isinstance(b, Opaque)} for b in section.blocks],
             }
-            for section in deck.sections
+            for section in deck.own_sections
         ],
         "nodes": len(scene.node_ids),
         "elements": len(scene.element_ids),

@@ -17,6 +17,7 @@ from mudline.scene.line_checks import check_lines
 from mudline.scene.model import Scene
 from mudline.scene.nodes import read_nodes
 from mudline.scene.ranges import check_ranges
+from mudline.scene.restart import continued
 from mudline.scene.sections import read_sections
 from mudline.scene.sets import read_sets
 
@@ -24,10 +25,12 @@ from mudline.scene.sets import read_sets
 def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:
     """The scene of a deck, as far as it can be resolved; what went wrong is in its `problems`.
 
-    `external` adds elements that the deck does not show, or replaces its own.
+    `external` adds elements that the deck does not show, or replaces its own. The models of the decks that it continues
+    belong to the scene, if they are found beside it; what lies in them is among the problems too.
     """
-    ready, problems = evaluated(deck)
-    context = Context(ready, deck, list(problems))
+    whole, found = continued(deck)
+    ready, problems = evaluated(whole)
+    context = Context(ready, whole, [*found, *problems])
     if external is not None:
         context.definers = []
     nodes = read_nodes(context, external)

@@ -16,6 +16,7 @@ from mudline.deck.parameters import folded
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords import catalogue
 from mudline.keywords.model import ListRow
+from mudline.scene.continued import ContinuedDeck
 from mudline.scene.harvest import LAID, definers, harvested_labels, harvested_sets, may_define
 from mudline.scene.numbering import LARGEST
 from mudline.syntax.tree import canonical_name
@@ -107,6 +108,8 @@ class Context:
         """Whether something at this place, or a line below it, could not be used."""
         if self.deck.origin.damaged(where):
             return True
+        if where.section >= len(self.deck.own_sections):  # of a deck that is continued: what it lost is in no line here
+            return self.deck.origin.lost(where.section, where.block) > 0
         if not self._lost_lines:
             return False
         lines = self._lines(where)
@@ -120,7 +123,7 @@ class Context:
             following = where._replace(path=(*outer, last + 1))
         elif following.block == len(self.deck.sections[where.section].blocks):
             following = Where(where.section + 1)
-        end = sys.maxsize if following.section == len(self.deck.sections) else self._line(following)
+        end = sys.maxsize if following.section == len(self.deck.own_sections) else self._line(following)
         return range(self._line(where), end)
 
     def _line(self, where: Where) -> int:
@@ -135,7 +138,8 @@ class Context:
     def lost_behind(self, where: Where, keyword: str) -> bool:
         """Whether a line of a keyword that stands behind a place could not be used."""
         line = self._line(where)
-        blocks = (self._lines(block) for block, _ in self.deck.blocks(keyword))
+        own = (block for block, _ in self.deck.blocks(keyword) if block.section < len(self.deck.own_sections))
+        blocks = (self._lines(block) for block in own)
         return any(lost > line and lost in lines for lines in blocks for lost in self._lost_lines)
 
     def lacks_value(self, where: Where, key: str) -> bool:
@@ -174,7 +178,9 @@ class Context:
 
     @cached_property
     def restart(self) -> bool:
-        """Whether the deck continues another one."""
+        """Whether the deck continues another one that is not known."""
+        if isinstance(self.deck, ContinuedDeck):
+            return self.deck.incomplete
         return "RESTART" in self.deck.keywords("LOAD CASE")
 
     @cached_property

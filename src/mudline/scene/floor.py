@@ -129,7 +129,7 @@ def _profile(context: Context, block: SeabedProfile, where: Where) -> Floor:
 
 def _points(context: Context, name: str, columns: int, where: Where) -> tuple[Floats, str]:
     """The points of a file, or why they are not known; a file that is not there is told elsewhere."""
-    path = find_file(context.deck.folder, name)
+    path = find_file(context.deck.folder_of(where), name)
     try:
         if path is None and not name.lower().endswith(COMPILED):
             return _NO_POINTS, f"{shown(name)} is not there"
