@@ -92,6 +92,7 @@ def test_every_sample_is_there() -> None:
         "legacy-flowline.keyxm",
         "lines-deck.keyxm",
         "parametric.keyxm",
+        "scr-dynamic.keyxm",
         "scr-touchdown.keyxm",
         "variations.keyxm",
     ]
