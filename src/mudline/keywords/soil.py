@@ -13,7 +13,7 @@ from mudline.keywords.values import Ident, Name, Real
 OTHER_FORMS: tuple[Code, ...] = (SYN001, SYN004, SYN005)
 """Faults that may be one of the other forms of these keywords, which are not public."""
 
-FILE = "file with the curves, instead of lines"
+POINTS = "points of the curve: resistance and displacement"
 
 
 class SoilPoint(Row):
@@ -25,16 +25,21 @@ class SoilPoint(Row):
     displacement: Annotated[Real, about("displacement of the pipe against the soil", unit="L")]
 
 
-class SoilCurve(Record):
-    """The curve of a depth, or of a node."""
+class DepthCurve(Record):
+    """The curve of a depth."""
 
-    rule: ClassVar[str] = "soil_curve"
-    depth: Annotated[Real | None, setting("DEPTH", "depth below the mudline, negative above it", unit="L")] = None
-    node: Annotated[
-        Ident | None,
-        setting("NODE", "node that the curve belongs to", inferred="in place of DEPTH="),
-    ] = None
-    points: Annotated[Table, rows(SoilPoint, "points of the curve: resistance and displacement")]
+    rule: ClassVar[str] = "depth_curve"
+    depth: Annotated[Real, setting("DEPTH", "depth below the mudline, negative above it", unit="L")]
+    points: Annotated[Table, rows(SoilPoint, POINTS)]
 
 
-CurvesFile = Annotated[Name | None, setting("FILE", FILE)]
+class NodeCurve(Record):
+    """The curve of a node."""
+
+    rule: ClassVar[str] = "node_curve"
+    node: Annotated[Ident, setting("NODE", "node that the curve belongs to", inferred="in place of DEPTH=")]
+    points: Annotated[Table, rows(SoilPoint, POINTS)]
+
+
+SoilCurves = list[DepthCurve | NodeCurve]
+CurvesFile = Annotated[Name | None, setting("FILE", "file with the curves, instead of lines")]

@@ -51,7 +51,7 @@ class FixedValues(ListRow):
     end: Annotated[Whole, about("last node")]
     third: Annotated[
         Whole | None, about("of three values the degree of freedom, of five the increment", inferred=_FOUR)
-    ]
+    ] = None
     fourth: Annotated[Either | None, about("of five values the degree of freedom", inferred=_FOUR)] = None
     fifth: Annotated[Real | None, about(_VALUE, default="0")] = None
 

@@ -8,7 +8,7 @@ from pydantic import Field
 
 from mudline.diagnostics import Code
 from mudline.keywords.model import Block, Record, setting
-from mudline.keywords.soil import OTHER_FORMS, CurvesFile, SoilCurve
+from mudline.keywords.soil import OTHER_FORMS, CurvesFile, SoilCurves
 from mudline.keywords.values import Name
 
 _OTHERS = "the types of other soil models are not public: a block with one is kept as it is"
@@ -25,7 +25,7 @@ class LateralSprings(Record):
         default=None, alias="set"
     )
     file: CurvesFile = None
-    curves: list[SoilCurve] = []
+    curves: SoilCurves = []
 
 
 class LateralSoil(Block):

@@ -8,7 +8,7 @@ from pydantic import Field
 
 from mudline.diagnostics import Code
 from mudline.keywords.model import Block, Record, setting
-from mudline.keywords.soil import OTHER_FORMS, CurvesFile, SoilCurve
+from mudline.keywords.soil import OTHER_FORMS, CurvesFile, SoilCurves
 from mudline.keywords.values import Name
 
 
@@ -20,7 +20,7 @@ class AxialSprings(Record):
         default=None, alias="set"
     )
     file: CurvesFile = None
-    curves: list[SoilCurve] = []
+    curves: SoilCurves = []
 
 
 class AxialSoil(Block):

@@ -1,0 +1,218 @@
+"""Keywords of load cases and of soil springs: what is read, and what is kept because its form is not public."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mudline.deck.loading import dump
+from mudline.deck.model import Opaque
+from mudline.keywords import catalogue
+from tests.reading.spellings import cased, equations, idents, names, reals, rows, setting, whole_fields
+from tests.reading.test_forms import held, read
+
+MODULES = ("p_y", "t_z", "restart", "time", "boundary", "friction")
+Lines = list[str]
+
+
+def values(section: str, lines: str) -> dict[str, object]:
+    """The only block of a deck as it stands in a document; reading it finds nothing, and it goes through every form."""
+    deck = read(f"${section}\n{lines}")
+    assert deck.problems == []
+    held(deck)
+    (found,) = deck.sections[0].blocks
+    assert not isinstance(found, Opaque)
+    return found.model_dump(mode="json", exclude_defaults=True)
+
+
+def faults(text: str) -> list[str]:
+    deck = read(text)
+    return [f"{found.line}:{found.column} {found.code} {found.message}" for found in deck.diagnose(deck.problems)]
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_examples(module: str) -> None:
+    declared = catalogue.load(module)
+    for section in declared.sections:
+        assert values(section, declared.example) != {}
+        assert catalogue.block_class(section, declared.names[0]) is declared
+
+
+def test_friction_belongs_in_two_sections() -> None:
+    assert catalogue.sections_of("FRICTION") == ("LOAD CASE", "MODES")
+    assert catalogue.modules().count("friction") == 1
+    assert faults("$MODEL\n*FRICTION\n 1.0, 2.0\n")[0].startswith("2:1 SYN008 *FRICTION does not belong in $MODEL")
+    assert values("MODES", "*FRICTION\n ,250\n") == {"transverse": 250.0}
+
+
+def test_no_friction_is_kept_wherever_it_stands() -> None:
+    assert catalogue.sections_of("NO FRICTION") == ()
+    for section in ("LOAD CASE", "MODEL", "MODES"):
+        deck = read(f"${section}\n*NO FRICTION\n")
+        assert deck.problems == []
+        assert isinstance(deck.sections[0].blocks[0], Opaque)
+
+
+def test_soil_springs() -> None:
+    lines = "*P-Y\n TYPE=user\n SET=Pipe\n DEPTH=-1\n 0, 0\n 5e3, =[y]\n NODE={Mudline}\n 1, 2\n SET=Pile\n FILE=a.py\n"
+    curves: list[dict[str, object]] = [
+        {"depth": -1.0, "points": [[0.0, 0.0], [5000.0, "=[y]"]]},
+        {"node": "{Mudline}", "points": [[1.0, 2.0]]},
+    ]
+    conductor = {"type": "USER", "set": "Pipe", "curves": curves}
+    assert values("MODEL", lines) == {"sets": [conductor, {"set": "Pile", "file": "a.py"}]}
+    axial = {"set": "a", "curves": [{"depth": 2.0, "points": [[1.0, 2.0]]}]}
+    assert values("MODEL", "*T-Z\n SET=a\n DEPTH=2\n 1, 2\n") == {"sets": [axial]}
+
+
+def test_resistance_comes_first() -> None:
+    for keyword in ("P-Y", "T-Z"):
+        text = f"$MODEL\n*{keyword}\n SET=a\n DEPTH=2\n 1, 2, 3\n 1, x\n"
+        assert faults(text) == [
+            "5:2 SYN003 3 fields, expected 2 (`resistance, displacement`)",
+            "6:5 SYN002 'x' is no number: expected a number or an equation =[...] for displacement",
+        ]
+
+
+def test_boundary() -> None:
+    lines = (
+        "*BOUNDARY\n TYPE=constant\n 1, 2\n {Top}, 3, , FIXATION = relative\n GEN=1, 9, , 4, 0.5\n GEN=1, 9, 2\n"
+        "C below\n GEN=1, 9, 2, 3, fixation=RELATIVE\n GEN=1, 9, 2, 0.25\n"
+    )
+    entries: list[dict[str, object]] = [
+        {"node": 1, "dof": 2},
+        {"node": "{Top}", "dof": 3, "fixation": "RELATIVE"},
+        {"generate": [1, 9, None, 4, 0.5]},
+        {"generate": [1, 9, 2]},
+        {"generate": [1, 9, 2, 3], "fixation": "RELATIVE"},
+        {"generate": [1, 9, 2, 0.25]},
+    ]
+    found = values("LOAD CASE", lines)
+    assert found == {"types": [{"type": "CONSTANT", "entries": entries, "comments": [{"before": 4, "text": " below"}]}]}
+
+
+def test_a_degree_of_freedom_is_written_as_a_whole_number() -> None:
+    text = "$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n GEN=1, 9, 2, 3\n GEN=1, 9, 2, 6, 0.0\n"
+    assert dump(read(text), "keyword") == text
+
+
+def test_a_wrong_number_of_values_in_a_known_form_is_told() -> None:
+    head = "$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n"
+    assert faults(head + " 1\n")[0].startswith("4:2 SYN003 2 to 3 fields expected (`node, dof [, value]`)")
+    assert faults(head + " 1, two\n")[0].startswith("4:5 SYN002 'two' is no number")
+
+
+def test_time() -> None:
+    assert values("LOAD CASE", "*TIME\n STEP=FIXED\n 0, 100, , 10\n") == {
+        "step": "FIXED",
+        "start": 0.0,
+        "end": 100.0,
+        "ramp": 10.0,
+    }
+
+
+def test_restart() -> None:
+    lines = '*RESTART\n TYPE=CONTINUATION, LAST="a, b", OPTION=APPEND\n'
+    assert values("LOAD CASE", lines) == {"last": '"a, b"', "type": "CONTINUATION", "option": "APPEND"}
+    assert faults("$LOAD CASE\n*RESTART\n LAST=\n") == ["3:2 SYN003 LAST= has no value"]
+
+
+KEPT = [
+    "LOAD CASE|*BOUNDARY\n TYPE=CONSTANT\n 1, 2\n TYPE=VESSEL\n VESSEL=Semi\n 201, 1\n",
+    "LOAD CASE|*BOUNDARY\n TYPE=SINUSOIDAL, AMPLITUDE=2\n 1\n",
+    "LOAD CASE|*BOUNDARY\n 1, 2\nC between\n",
+    "LOAD CASE|*TIME\n 0, 100\n",
+    "LOAD CASE|*TIME\n STEP=VARIABLE\n 0, 100, x\n",
+    "LOAD CASE|*TIME\n STEP=FIXED\n 0, 100, 1, 2, 3\n",
+    "LOAD CASE|*TIME\n STEP=FIXED\n 0, =[a\n",
+    "LOAD CASE|*RESTART\n FROM=static\n",
+    "LOAD CASE|*RESTART\n TYPE=DYNAMIC\n",
+    "LOAD CASE|*FRICTION\n",
+    "MODES|*FRICTION\n MODE=1\n",
+    "MODEL|*P-Y\n TYPE=SAND\n SET=Pile\n 35.0, 10.0\n",
+    "MODEL|*P-Y\n Clay above the pile\n",
+    "MODEL|*T-Z\n TYPE=USER\n SET=Pile\n",
+]
+
+
+@pytest.mark.parametrize("case", KEPT)
+def test_a_form_that_is_not_public_is_kept_without_a_finding(case: str) -> None:
+    section, lines = case.split("|")
+    text = f"${section}\n{lines}"
+    deck = read(text)
+    assert deck.problems == []
+    (block,) = deck.sections[0].blocks
+    assert isinstance(block, Opaque)
+    assert dump(deck, "keyword") == text
+    held(deck)
+    assert len(json.loads(dump(deck, "json"))["sections"][0]["blocks"][0]["lines"]) == lines.count("\n") - 1
+
+
+# ---------------------------------------------------------------------------------------------------------- generated
+
+
+@st.composite
+def boundary(draw: st.DrawFn) -> Lines:
+    relative = st.sampled_from(["", ", FIXATION=RELATIVE", " ,Fixation = Relative"])
+    lines = [draw(setting("TYPE", draw(cased("CONSTANT"))))]
+    for _ in range(draw(st.integers(0, 4))):
+        if draw(st.booleans()):
+            fields = [draw(idents), draw(whole_fields), *draw(st.lists(st.one_of(reals, st.just("")), max_size=1))]
+            lines.append(" " + draw(rows(fields)).strip() + draw(relative))
+        else:
+            wholes = draw(st.lists(whole_fields, min_size=3, max_size=4))
+            value = [draw(reals)] if len(wholes) == 4 and draw(st.booleans()) else []
+            lines.append(draw(setting("GEN", ", ".join([*wholes, *value]))) + draw(relative))
+    return lines
+
+
+@st.composite
+def springs(draw: st.DrawFn) -> Lines:
+    lines: Lines = []
+    for name in draw(st.lists(names, max_size=2)):
+        lines += [draw(setting("SET", name))]
+        for _ in range(draw(st.integers(0, 2))):
+            key, value = draw(st.sampled_from([("DEPTH", draw(reals)), ("NODE", draw(idents))]))
+            lines += [draw(setting(key, value))]
+            lines += [draw(rows([draw(reals), draw(reals)])) for _ in range(draw(st.integers(0, 3)))]
+    return lines
+
+
+@st.composite
+def restart(draw: st.DrawFn) -> Lines:
+    extra = draw(st.sampled_from(["", ", TYPE=DYNAMIC", ", type=CONTINUATION, Option=APPEND"]))
+    return [draw(setting("LAST", draw(names))) + extra]
+
+
+@st.composite
+def friction(draw: st.DrawFn) -> Lines:
+    return [draw(rows([draw(st.one_of(reals, equations)), draw(reals)]))]
+
+
+@st.composite
+def time(draw: st.DrawFn) -> Lines:
+    return [draw(setting("STEP", "FIXED")), draw(rows([draw(reals) for _ in range(draw(st.integers(2, 4)))]))]
+
+
+BLOCKS = {
+    "LOAD CASE|BOUNDARY": boundary(),
+    "LOAD CASE|RESTART": restart(),
+    "LOAD CASE|TIME": time(),
+    "MODES|FRICTION": friction(),
+    "MODEL|P-Y": springs(),
+    "MODEL|T-Z": springs(),
+}
+
+
+@settings(max_examples=120)
+@given(st.sampled_from(sorted(BLOCKS)).flatmap(lambda name: st.tuples(st.just(name), BLOCKS[name])))
+def test_round_trips(drawn: tuple[str, Lines]) -> None:
+    name, lines = drawn
+    section, keyword = name.split("|")
+    deck = read("\n".join([f"${section}", f"*{keyword}", *lines, ""]))
+    assert [str(found) for found in deck.diagnose(deck.problems)] == []
+    assert not isinstance(deck.sections[0].blocks[0], Opaque)
+    held(deck)
