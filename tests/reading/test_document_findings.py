@@ -9,7 +9,7 @@ import pytest
 
 from mudline.deck.faults import MOST_TOLD
 from mudline.deck.loading import dump, load_bytes
-from mudline.deck.model import Deck, Opaque
+from mudline.deck.model import Deck, Opaque, Section
 from mudline.diagnostics import DeckError, Diagnostic
 from mudline.keywords.library.ocean import Ocean
 from mudline.keywords.model import Comment
@@ -221,19 +221,28 @@ def test_what_keyword_text_cannot_say_is_refused(path: str, block: Document) -> 
     assert "cannot be said in keyword text" in found.message
 
 
+def remark(text: str) -> list[Comment]:
+    """A comment that no document could hold."""
+    return [Comment.model_construct(before=1, text=text)]
+
+
 @pytest.mark.parametrize(
-    "deck",
+    ("path", "deck"),
     [
-        Deck("a", preamble=["x", "$MODEL"]),
-        Deck("a", sections=read(made(section(name="A"))).sections * 1, preamble=["a\nb"]),
-        Deck("a", sections=[*read(made(section(lines=["x"]))).sections, *read(made(section(name="\u00e9"))).sections]),
+        ("preamble[1]", Deck("a", preamble=["x", "$MODEL"])),
+        ("preamble[0]", Deck("a", preamble=["a\nb"])),
+        ("sections[0].name", Deck("a", sections=[Section("A\n$B")])),
+        ("sections[0].name", Deck("a", sections=[Section("model")])),
+        ("sections[0].lines[0]", Deck("a", sections=[Section("MODEL", lines=["C x"])])),
+        ("sections[0].blocks[0].lines[1]", Deck("a", sections=[Section("A", [Opaque(keyword="B", lines=["", "$C"])])])),
+        ("sections[0].blocks[0].keyword", Deck("a", sections=[Section("A", [Opaque(keyword="b", lines=[])])])),
+        ("sections[0] ", Deck("a", sections=[Section("A", comments=remark("\n*B"))])),
+        ("sections[0] ", Deck("a", sections=[Section("A")], comments=remark("\n$B"))),
     ],
 )
-def test_decks_made_by_a_program_are_tried_too(deck: Deck) -> None:
-    deck.sections.append(read(made(section({"keyword": "TITLE", "lines": ["x"]}))).sections[0])
-    block = deck.sections[-1].blocks[0]
-    assert isinstance(block, Opaque)
-    block.lines.append("$MORE")
+def test_decks_made_by_a_program_are_tried_too(path: str, deck: Deck) -> None:
     with pytest.raises(DeckError) as caught:
         dump(deck, "keyword")
-    assert "cannot be said in keyword text" in str(caught.value.diagnostics[0])
+    message = caught.value.diagnostics[0].message
+    assert message.startswith(path)
+    assert "cannot be said in keyword text" in message
