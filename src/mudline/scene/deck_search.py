@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from functools import lru_cache
 from itertools import islice
 from pathlib import Path, PurePath
 
@@ -32,13 +33,18 @@ def _in_other_case(folder: Path | None, names: list[str]) -> Path | None:
     if folder is None:
         return None
     inner = PurePath(names[0]).parent
-    listed: dict[str, str] = {}
     try:
-        with os.scandir(folder / inner) as entries:
-            for entry in sorted(islice((each.name for each in entries), _MOST_LISTED)):
-                listed.setdefault(entry.casefold(), entry)
+        listed = _listed(str(folder / inner), (folder / inner).stat().st_mtime_ns)
     except (OSError, ValueError):
         return None
     known = (listed.get(PurePath(name).name.casefold()) for name in names)
     found = (find_file(folder, (inner / name).as_posix()) for name in known if name is not None)
     return next((path for path in found if path is not None), None)
+
+
+@lru_cache(maxsize=4)
+def _listed(folder: str, _changed: int) -> dict[str, str]:
+    """The files of a folder by their names without case; listed once for all decks until the folder changes."""
+    with os.scandir(folder) as entries:
+        names = sorted(islice((each.name for each in entries), _MOST_LISTED), reverse=True)
+    return {name.casefold(): name for name in names}

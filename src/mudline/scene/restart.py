@@ -100,7 +100,8 @@ def _follow(deck: Deck) -> _Chain:
 
 def _missing(deck: Deck, name: str) -> str:
     folder = deck.folder.as_posix() if deck.folder else ""
-    return f"the deck {shown(name)} is not there (looked in {folder} for {', '.join(tried(deck, name))}): {_MEND}"
+    names = tried(deck, name)
+    return f"the deck {shown(names[0])} is not there (looked in {folder} for {', '.join(names)}): {_MEND}"
 
 
 def _identity(path: Path) -> Path:

@@ -14,7 +14,7 @@ from mudline.keywords.model import Block, Part, Slot, layout
 from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
-from mudline.scene.deck_files import find_file
+from mudline.scene.deck_files import file_name, find_file
 
 _KEY = "FILE"
 
@@ -50,7 +50,7 @@ def missing_file(context: LintContext) -> Iterator[Problem]:
         return
     parameters = Parameters(deck)
     for where, written in _files(deck):
-        name = parameters.filled(written)
+        name = file_name(parameters.filled(written))
         if "%" not in name and find_file(deck.folder, name) is None:
             folder = deck.folder.as_posix()
             message = (
