@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from unittest.mock import patch
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from mudline.deck.loading import dump, load_bytes, load_path
 from mudline.deck.model import Deck
@@ -314,6 +317,24 @@ def test_a_lost_line_of_the_deck_itself_leaves_the_deck_before_alone(folder: Pat
     found = scene(folder, DYNAMIC + curves)
     assert found.law_names == ["curve:Clay"] * 10
     assert [line.split()[2] for line in lint(folder, DYNAMIC + curves, "SYN")] == ["SYN004"]
+
+
+_PIECES = st.lists(
+    st.sampled_from(["$MODEL", *STATIC.split("\n"), *USES.split("\n"), " 1, x", " GEN=1,", "$X", ""]), max_size=40
+)
+
+
+@settings(max_examples=60)
+@given(_PIECES, _PIECES)
+def test_whatever_the_decks_hold_findings_lie_in_the_deck_itself(base: list[str], own: list[str]) -> None:
+    with TemporaryDirectory() as name:
+        folder = Path(name)
+        (folder / "static.keyxm").write_text("\n".join(base))
+        text = "\n".join([*own, DYNAMIC])
+        for line in lint(folder, text):
+            assert int(line.partition(":")[0]) <= text.count("\n") + 1
+        found = scene(folder, text)
+        assert len(found.deck.diagnose(found.problems)) == len(found.problems)
 
 
 # ------------------------------------------------------------------------------------------------------ read once

@@ -108,5 +108,5 @@ def _identity(path: Path) -> Path:
     """A path by which a file is known whatever it is called; never fails."""
     try:
         return path.resolve()
-    except (OSError, RuntimeError):  # a loop of links
+    except (OSError, RuntimeError, ValueError):  # a loop of links, a name that no file has
         return path
