@@ -10,31 +10,48 @@ from mudline.deck.model import Deck
 from mudline.diagnostics import DeckError, Diagnostic, Problem
 from mudline.linting.context import LintContext
 from mudline.linting.registry import Rule
+from mudline.linting.suppression import suppressions
 from mudline.scene.continued import of_base
 
 
 def lint_deck(deck: Deck, chosen: Sequence[Rule]) -> list[Diagnostic]:
-    """All findings of the chosen rules, in the order of the file."""
+    """All findings of the chosen rules, in the order of the file, without those that its comments suppress."""
     return lint_context(LintContext(deck), chosen)
 
 
 def lint_context(context: LintContext, chosen: Sequence[Rule]) -> list[Diagnostic]:
     """The same for a deck whose scene is needed for more than the findings."""
-    return context.deck.diagnose(problems_in(context, chosen))
+    return context.deck.diagnose(told(context, problems_in(context, chosen), chosen))
 
 
 def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
-    """What the chosen rules notice in a deck itself; what lies in a deck that it continues is told of that one."""
+    """What the chosen rules notice in a deck itself; what lies in a deck that it continues is told of that one.
+
+    What comments suppress is among it, and unused comments are not.
+    """
     found = (problem for rule in chosen for problem in rule.check(context))
     return [problem for problem in found if not of_base(context.deck, problem)]
 
 
+def told(context: LintContext, problems: list[Problem], chosen: Sequence[Rule]) -> list[Problem]:
+    """The problems that comments of the deck do not suppress, and the comments that suppress nothing."""
+    found = suppressions(context.deck)
+    return problems if found is None else found.split(problems, chosen)[0]
+
+
 def lint_bytes(
-    data: bytes, name: str, chosen: Sequence[Rule], *, units: str | None = None, folder: Path | None = None
+    data: bytes,
+    name: str,
+    chosen: Sequence[Rule],
+    *,
+    units: str | None = None,
+    folder: Path | None = None,
+    dialect: str = "mudline",
 ) -> list[Diagnostic]:
     """All findings in a file's content, in its order; `name` tells its form and stands in the findings.
 
-    `folder` is where files that the deck names stand; without it none of them is looked for.
+    `folder` is where files that the deck names stand; without it none of them is looked for. `dialect` is the program
+    that the deck is for, "mudline" or "flexcom".
 
     Never raises for content: a JSON or YAML file that holds no deck gives the reasons (DOC001, DOC002), whatever rules
     are chosen, as nothing else can be said of it.
@@ -43,4 +60,4 @@ def lint_bytes(
         deck = load_bytes(data, name, units=units, folder=folder)
     except DeckError as error:
         return list(error.diagnostics)
-    return lint_deck(deck, chosen)
+    return lint_context(LintContext(deck, dialect=dialect), chosen)

@@ -1,0 +1,162 @@
+"""Fixes: the repairs of findings are made in passes, each of which is read again and dropped if the deck got worse."""
+
+from __future__ import annotations
+
+from bisect import bisect_left, insort
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import islice
+from pathlib import Path
+
+from mudline.diagnostics import Diagnostic, Problem, Repair, Severity, Span
+from mudline.linting.fix_state import FixState, Reader
+from mudline.linting.settings import LintSettings
+
+MOST_PASSES = 20
+"""Times that repairs are made; each time those that do not overlap."""
+
+_MOST_TRIES = 200
+"""Times that a deck is read while it is fixed: bad repairs among good ones are found by halving."""
+
+
+@dataclass(frozen=True, slots=True)
+class Fixed:
+    """The new content (None: nothing was changed), the findings that are fixed, and why others are not, or ""."""
+
+    changed: bytes | None
+    fixed: tuple[Diagnostic, ...]
+    note: str
+
+
+def fix_bytes(data: bytes, name: str, settings: LintSettings, folder: Path | None = None) -> Fixed:
+    """The content of a keyword deck with the fixes that the settings ask for; never raises for content.
+
+    A deck that cannot be read as it should (errors SYN...) stays as it is, unless fixes clear all of them.
+    """
+    run = _Run(Reader(name, settings, folder), settings)
+    first = run.reader.read(data)
+    last = run.fix(first)
+    if last.unreadable:
+        told = f"not fixed: correct what cannot be read first, {_place(last)}" if run.wanted(first) else ""
+        return Fixed(None, (), told)
+    changed = last.data if last.data != data else None
+    return Fixed(changed, tuple(run.fixed), run.note())
+
+
+def _place(state: FixState) -> str:
+    """The first error of reading, in a word."""
+    first = state.deck.diagnose(state.unreadable)[0]
+    return f"{first.code} in line {first.line}"
+
+
+class _Run:
+    """The passes over one deck."""
+
+    def __init__(self, reader: Reader, settings: LintSettings) -> None:
+        self.reader = reader
+        self.settings = settings
+        self.fixed: list[Diagnostic] = []
+        self.refused: set[tuple[str, str, int]] = set()
+        self.tries = _MOST_TRIES
+        self.stopped = False
+
+    def fix(self, state: FixState) -> FixState:
+        """The deck when nothing is left to repair."""
+        passes = 0
+        while problems := self._next(state):
+            if passes == MOST_PASSES or self.tries <= 0:
+                self.stopped = True
+                break
+            made, after = self._sound(state, problems)
+            if after is None:
+                self.refused |= {_key(problem) for problem in problems}
+                continue
+            self.fixed += state.deck.diagnose(made)
+            self.refused.clear()  # what could not be done then may be possible now
+            passes += 1
+            state = after
+        return state
+
+    def note(self) -> str:
+        """What could not be fixed, or ""."""
+        if self.stopped:
+            return f"fixing was stopped after {MOST_PASSES} passes: run it again to see what is left"
+        count = len(self.refused)
+        if not count:
+            return ""
+        return f"{count} fix{'es' * (count != 1)} not made: the deck would have had a new error or lost something"
+
+    def wanted(self, state: FixState) -> list[Problem]:
+        """The findings that the settings want fixed."""
+        return [
+            problem
+            for problem in state.told
+            if problem.repair is not None
+            and problem.repair.edits
+            and self.settings.fixing.takes(problem.repair.applicability)
+            and problem.code.code not in self.settings.unfixable
+        ]
+
+    def _next(self, state: FixState) -> list[Problem]:
+        """Findings whose repairs do not overlap: errors of reading first, then safe ones, then the others."""
+        wanted = [problem for problem in self.wanted(state) if _key(problem) not in self.refused]
+        if state.unreadable:
+            cleared = [problem for problem in wanted if problem.code in {error.code for error in state.unreadable}]
+            cleared = [problem for problem in cleared if problem.weight is Severity.ERROR]
+            return _disjoint(cleared) if len(cleared) >= len(state.unreadable) else []
+        return _disjoint([problem for problem in wanted if _repair(problem).applicability == "safe"] or wanted)
+
+    def _sound(self, state: FixState, problems: list[Problem]) -> tuple[list[Problem], FixState | None]:
+        """Those of the problems whose repairs make nothing worse, and the deck after them; None if there are none."""
+        after = self._try(state, problems)
+        if after is not None or len(problems) == 1:
+            return problems, after
+        half = len(problems) // 2
+        one, first = self._sound(state, problems[:half])
+        two, second = self._sound(state, problems[half:])
+        if first is None or second is None:
+            return (two, second) if first is None else (one, first)
+        both = self._try(state, one + two)
+        return (one, first) if both is None else (one + two, both)
+
+    def _try(self, state: FixState, problems: Sequence[Problem]) -> FixState | None:
+        if self.tries <= 0:
+            return None
+        self.tries -= 1
+        return self.reader.after(state, [_repair(problem) for problem in problems])
+
+
+def _repair(problem: Problem) -> Repair:
+    """The repair of a problem that has one."""
+    if problem.repair is None:
+        raise ValueError(f"{problem.code.code} has no repair here")
+    return problem.repair
+
+
+def _key(problem: Problem) -> tuple[str, str, int]:
+    return problem.code.code, problem.message, _repair(problem).edits[0][0].start
+
+
+def _disjoint(problems: list[Problem]) -> list[Problem]:
+    """As many of the problems, in the order of the text, as want different characters."""
+    taken: list[Span] = []
+    chosen: list[Problem] = []
+    for problem in sorted(problems, key=lambda problem: _repair(problem).edits[0][0]):
+        spans = [span for span, _ in _repair(problem).edits]
+        if all(_free(span, taken) for span in spans):
+            chosen.append(problem)
+            for span in spans:
+                insort(taken, span)
+    return chosen
+
+
+def _free(span: Span, taken: list[Span]) -> bool:
+    at = bisect_left(taken, span)
+    return not any(_meet(span, other) for other in islice(taken, max(at - 1, 0), at + 1))
+
+
+def _meet(one: Span, other: Span) -> bool:
+    """Whether two edits want the same characters; an insertion meets what begins or ends at its place."""
+    if one.start == one.end or other.start == other.end:
+        return one.start <= other.end and other.start <= one.end
+    return one.start < other.end and other.start < one.end

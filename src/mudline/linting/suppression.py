@@ -1,0 +1,269 @@
+"""Comments that hide findings: `C mudline: ignore CRV005`, `ignore-block`, `ignore-file`.
+
+A comment holds for the next line that is neither blank nor a comment, for the block that it stands in (from its keyword
+to the next one), or for the whole file. What it names are codes, prefixes of codes and slugs; naming none means all.
+"""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from collections.abc import Hashable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+
+from mudline.deck.keyword_form import to_keyword
+from mudline.deck.model import Deck, Opaque
+from mudline.deck.reading import TextOrigin, read_source
+from mudline.diagnostics import Code, DeckError, Problem, Repair, Severity, Span, Where
+from mudline.keywords.model import Part, layout
+from mudline.keywords.text import edits
+from mudline.linting.registry import Rule, find, rules
+from mudline.syntax.source import Source
+from mudline.syntax.tree import Kind, Leaf
+
+STY010 = Code("STY010", "unused-suppression", Severity.WARNING)
+
+MARK = re.compile(r"[Cc][ \t]+mudline[ \t]*:[ \t]*", re.IGNORECASE)
+"""How a comment begins that speaks to mudline."""
+
+_ORDER = re.compile(r"[\w-]+")
+_WORD = re.compile(r"[^,\s]+")
+_REASON = re.compile(r"(?:(?<=[\s,])|^)--(?=\s|$)")
+_PLACES = {"ignore": "the next line", "ignore-block": "this block", "ignore-file": "this file"}
+_NOWHERE = ("outside",)
+"""The scope of what stands in no block."""
+_NOTHING = ("nothing",)
+"""The scope of a comment that has nothing to hold for."""
+_FAR = 2
+"""Letters in which a word may differ from the one that was meant."""
+
+
+@dataclass(frozen=True, slots=True)
+class Word:
+    """What a comment names: the text, its place, and the codes of the rules behind it (none: no rule has that name)."""
+
+    text: str
+    span: Span
+    codes: frozenset[str]
+
+
+@dataclass(slots=True)
+class Directive:
+    """One comment. `scope` is what it holds for: a line, a block or the file; behind the last line that is nothing."""
+
+    order: str
+    leaf: Span
+    span: Span
+    words: list[Word]
+    where: Where
+    scope: Hashable = _NOTHING
+
+
+@dataclass(slots=True)
+class Suppressions:
+    """All comments of a deck that hide findings, and those that look like one (`misspelt`: the word, what was meant).
+
+    `origin` gives the places: that of the deck's own text, or of the text that a JSON or YAML deck would be.
+    """
+
+    origin: TextOrigin
+    own_text: bool
+    directives: list[Directive] = field(default_factory=list)
+    misspelt: list[tuple[Word, str, Where]] = field(default_factory=list)
+    blocks: list[tuple[int, Hashable]] = field(default_factory=list)
+
+    def split(self, problems: Sequence[Problem], chosen: Iterable[Rule]) -> tuple[list[Problem], list[Problem]]:
+        """The problems that are told, and those that are hidden.
+
+        The told ones have STY010 besides for what hides nothing, where that rule and the ones named are among the
+        chosen.
+        """
+        selected = {rule.code.code for rule in chosen}
+        present = self._present(problems)
+        unused = list(self._unused(present, selected)) if STY010.code in selected else []
+        hidden_by: dict[Hashable, set[str]] = {}
+        for directive in self.directives:
+            hidden_by.setdefault(directive.scope, set()).update(_named(directive))
+        told: list[Problem] = []
+        hidden: list[Problem] = []
+        for problem in [*problems, *unused]:
+            codes = (hidden_by.get(scope, set()) for scope in self._scopes(problem))
+            (hidden if any(_covers(found, problem.code.code) for found in codes) else told).append(problem)
+        return told, hidden
+
+    def unknown(self) -> Iterator[Problem]:
+        """What the comments name that no rule has, and orders that are none."""
+        for word, meant, where in self.misspelt:
+            message = f"{word.text!r} is no instruction: did you mean {meant}?"
+            yield self._problem(message, word.span, where, self._replacing(word, meant))
+        for directive in self.directives:
+            for number, word in enumerate(directive.words):
+                if not word.codes:
+                    near = _nearest(word.text)
+                    hint = f"did you mean {near}?" if near else "`mudline rules` lists all rules; remove it"
+                    repair = self._replacing(word, near) if near else self._removing(directive, number, "unsafe")
+                    yield self._problem(f"{word.text!r} names no rule: {hint}", word.span, directive.where, repair)
+
+    def _present(self, problems: Iterable[Problem]) -> dict[Hashable, set[str]]:
+        """The codes of the findings in every scope."""
+        present: dict[Hashable, set[str]] = {}
+        for problem in problems:
+            for scope in self._scopes(problem):
+                present.setdefault(scope, set()).add(problem.code.code)
+        return present
+
+    def _scopes(self, problem: Problem) -> tuple[Hashable, ...]:
+        line = self.origin.place(problem).line
+        at = bisect_right(self.blocks, line, key=lambda start: start[0]) - 1
+        block = self.blocks[at][1] if at >= 0 else _NOWHERE
+        return (("line", line), block, ("file",))
+
+    def _unused(self, present: dict[Hashable, set[str]], selected: set[str]) -> Iterator[Problem]:
+        everything = {rule.code.code for rule in rules() if not rule.off}
+        for directive in self.directives:
+            found = present.get(directive.scope, set()) - {STY010.code}
+            place = _place(directive)
+            if not directive.words and not found and everything <= selected:
+                message = f"nothing is found in {place}: remove this comment"
+                yield self._problem(message, directive.span, directive.where, self._removing(directive, 0, "safe"))
+            for number, word in enumerate(directive.words):
+                judged = (word.codes & everything) or word.codes
+                if word.codes and STY010.code not in word.codes and judged <= selected and not word.codes & found:
+                    message = f"{word.text} is not found in {place}: remove it from this comment"
+                    repair = self._removing(directive, number, "safe")
+                    yield self._problem(message, word.span, directive.where, repair)
+
+    def _problem(self, message: str, span: Span, where: Where, repair: Repair) -> Problem:
+        if self.own_text:
+            return Problem(STY010, message, span, repair=repair)
+        return Problem(STY010, message, where=where)
+
+    def _replacing(self, word: Word, meant: str) -> Repair:
+        return Repair("unsafe", f"write {meant}", ((word.span, meant),))
+
+    def _removing(self, directive: Directive, number: int, applicability: str) -> Repair:
+        """Without a word and the separator beside it, or without the comment when nothing else is named."""
+        words = [word.span for word in directive.words]
+        if len(words) <= 1:
+            return Repair(applicability, "remove the comment", ((directive.leaf, ""),))
+        last = number == len(words) - 1
+        span = Span(words[number - 1].end, words[number].end) if last else Span(words[number][0], words[number + 1][0])
+        return Repair(applicability, f"remove {directive.words[number].text}", ((span, ""),))
+
+
+def _place(directive: Directive) -> str:
+    """What a comment holds for, in words."""
+    if directive.scope != _NOTHING:
+        return _PLACES[directive.order]
+    return "what is no block (put it below its *KEYWORD)" if directive.order == "ignore-block" else "what follows"
+
+
+def _named(directive: Directive) -> set[str]:
+    return {code for word in directive.words for code in word.codes} if directive.words else {""}
+
+
+def _covers(named: set[str], code: str) -> bool:
+    """Whether a code is hidden; a comment that names none does not hide that it is of no use."""
+    return code in named or ("" in named and code != STY010.code)
+
+
+def suppressions(deck: Deck) -> Suppressions | None:
+    """What the comments of a deck hide; None for a deck without such comments.
+
+    A deck in JSON or YAML is seen as the keyword text that it would be; one that cannot be said so hides nothing.
+    """
+    if isinstance(deck.origin, TextOrigin):
+        return _read(deck.origin, own_text=True) if deck.origin.source.readable else None
+    if not any("mudline" in text.lower() for text in _comments(deck)):
+        return None
+    try:
+        text = to_keyword(deck)
+    except DeckError:
+        return None
+    written = read_source(Source.from_bytes(text.encode(errors="replace"), deck.file), units=deck.units)
+    return _read(written.origin, own_text=False) if isinstance(written.origin, TextOrigin) else None
+
+
+def _comments(deck: Deck) -> Iterator[str]:
+    yield from deck.preamble
+    yield from (comment.text for comment in deck.comments)
+    for section in deck.sections:
+        yield from (comment.text for comment in section.comments)
+        for block in section.blocks:
+            yield from block.lines if isinstance(block, Opaque) else _within(block)
+
+
+def _within(part: Part) -> Iterator[str]:
+    yield from (comment.text for comment in getattr(part, "comments", ()))
+    for slot in layout(type(part)).slots:
+        if slot.record:
+            for record in getattr(part, slot.name, None) or ():
+                yield from _within(record)
+
+
+def _read(origin: TextOrigin, *, own_text: bool) -> Suppressions | None:
+    text = origin.source.unified
+    if not any(leaf.kind is Kind.COMMENT and MARK.match(text, *leaf.span) for leaf in origin.tree.leaves()):
+        return None
+    found = Suppressions(origin, own_text)
+    waiting: list[Directive] = []
+    for leaf, where in _placed(origin, found.blocks):
+        if leaf.kind is Kind.COMMENT:
+            directive = _directive(text, leaf.span, where, found)
+            if directive is not None and directive.order == "ignore":
+                waiting.append(directive)
+        elif leaf.kind is not Kind.BLANK:
+            line = origin.source.position(leaf.span.start)[0]
+            for directive in waiting:
+                directive.scope = ("line", line)
+            waiting.clear()
+    return found
+
+
+def _placed(origin: TextOrigin, blocks: list[tuple[int, Hashable]]) -> Iterator[tuple[Leaf, Where]]:
+    """The leaves in their order with the block that they stand in; the first lines of blocks go to `blocks`."""
+    for index, section in enumerate((origin.tree.preamble, *origin.tree.sections), -1):
+        if section.head is not None:
+            blocks.append((origin.source.position(section.head.span.start)[0], _NOWHERE))
+            yield section.head, Where(index)
+        yield from ((leaf, Where(index)) for leaf in section.leaves)
+        for number, block in enumerate(section.blocks):
+            where = Where(index, number)
+            blocks.append((origin.source.position(block.head.span.start)[0], where))
+            yield block.head, where
+            yield from ((leaf, where) for leaf in block.leaves)
+
+
+def _directive(text: str, leaf: Span, where: Where, found: Suppressions) -> Directive | None:
+    mark = MARK.match(text, *leaf)
+    order = _ORDER.match(text, mark.end(), leaf.end) if mark else None
+    if order is None:
+        return None
+    name = order.group().lower()
+    if name not in _PLACES:
+        near = [known for known in _PLACES if edits(name, known, _FAR) <= _FAR]
+        if near:
+            found.misspelt.append((Word(order.group(), Span(*order.span()), frozenset()), near[0], where))
+        return None
+    end = leaf.start + len(text[slice(*leaf)].rstrip())
+    reason = _REASON.search(text[order.end() : end])
+    names = _WORD.finditer(text, order.end(), order.end() + reason.start() if reason else end)
+    words = [_word(match) for match in names]
+    directive = Directive(name, leaf, Span(leaf.start, end), words, where)
+    if name == "ignore-file":
+        directive.scope = ("file",)
+    elif name == "ignore-block" and where.block >= 0:
+        directive.scope = where
+    found.directives.append(directive)
+    return directive
+
+
+def _word(match: re.Match[str]) -> Word:
+    return Word(match.group(), Span(*match.span()), frozenset(rule.code.code for rule in find(match.group())))
+
+
+def _nearest(word: str) -> str:
+    """The code or slug that was meant, or ""."""
+    pairs = [(rule.code.code, word.upper()) for rule in rules()] + [(rule.code.slug, word.lower()) for rule in rules()]
+    distance, name = min((edits(given, known, _FAR), known) for known, given in pairs)
+    return name if distance <= _FAR else ""
