@@ -2,24 +2,24 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import click
 
 from mudline.cli import options
 from mudline.cli.exits import DONE, FOUND
-from mudline.cli.inputs import Input, Inputs, collect
-from mudline.cli.lazy import printing
+from mudline.cli.inputs import collect
+from mudline.cli.lint_outputs import FORMS, TEXT, outputs
+from mudline.cli.lint_report import Report
+from mudline.cli.lint_run import Run
 from mudline.cli.options import View
-from mudline.cli.streams import emit
-from mudline.cli.terminal import tell
-from mudline.diagnostics import Diagnostic, Severity
-from mudline.linting.engine import lint_bytes
-from mudline.linting.output.concise import concise
-from mudline.linting.output.json_objects import json_array, json_lines
-from mudline.linting.output.statistics import statistics_lines
+from mudline.cli.terminal import reason, tell
+from mudline.cli.writing import write_text
+from mudline.diagnostics import Severity
+from mudline.linting.baseline import Baseline, BaselineError, read_baseline
 from mudline.linting.selection import UnknownRule, select
-from mudline.syntax.source import Source
+from mudline.linting.settings import Fixing, LintSettings
 
-_PLAIN = {"concise": concise, "json": json_array, "jsonl": json_lines}
 _CODES = "CODE[,CODE...]"
 
 
@@ -41,7 +41,25 @@ def _words(given: tuple[str, ...]) -> list[str]:
     show_default=True,
     help="Exit with 1 for findings of this severity or worse.",
 )
-@options.output_format("text", "concise", "json", "jsonl")
+@click.option(
+    "--output-format",
+    "forms",
+    multiple=True,
+    metavar="FORM[=FILE]",
+    help=f"Form of what is printed: {TEXT} (default), {', '.join(FORMS)}; with =FILE written besides. Repeatable.",
+)
+@click.option("--fix", is_flag=True, help="Make the safe fixes, in place; the deck of - is printed.")
+@click.option("--unsafe-fixes", "unsafe", is_flag=True, help="With --fix or --diff: make the fixes that guess, too.")
+@click.option("--diff", is_flag=True, help="Print what --fix would change, and write nothing; 1 if that is anything.")
+@click.option("--baseline", metavar="FILE", help="Hide the findings that are recorded in this file.")
+@click.option("--write-baseline", "recording", is_flag=True, help="Record all findings in the file of --baseline.")
+@click.option(
+    "--dialect",
+    type=click.Choice(["mudline", "flexcom"]),
+    default="mudline",
+    show_default=True,
+    help="The program that the decks are for; flexcom knows no extension keywords.",
+)
 @click.option("--statistics", is_flag=True, help="Count the findings of each rule instead of listing them.")
 @click.option("--exit-zero", is_flag=True, help="Exit with 0 whatever is found.")
 @options.stdin_name
@@ -54,7 +72,13 @@ def command(
     also: tuple[str, ...],
     ignored: tuple[str, ...],
     fail_on: str,
-    output_format: str,
+    forms: tuple[str, ...],
+    fix: bool,
+    unsafe: bool,
+    diff: bool,
+    baseline: str | None,
+    recording: bool,
+    dialect: str,
     statistics: bool,
     exit_zero: bool,
     stdin_name: str,
@@ -69,46 +93,45 @@ def command(
         rules = select(_words(chosen), _words(ignored), _words(also))
     except UnknownRule as error:
         raise click.UsageError(str(error)) from error
+    fixing = Fixing.NONE if not (fix or diff) else Fixing.UNSAFE if unsafe else Fixing.SAFE
+    settings = LintSettings(rules, units, dialect, fail_on=Severity(fail_on), fixing=fixing)
+    told = outputs(forms)
+    known = _baseline(baseline, recording=recording)
     inputs = collect(paths, stdin_name)
-    report = _Report(output_format, view, statistics=statistics)
-    for file, data in inputs.contents():
-        report.add(file, data, lint_bytes(data, file.name, rules, units=units, folder=file.folder))
-    report.finish()
-    return _exit_code(inputs, report.found, Severity(fail_on), exit_zero=exit_zero)
-
-
-def _exit_code(inputs: Inputs, found: list[Diagnostic], limit: Severity, *, exit_zero: bool) -> int:
-    failing = not exit_zero and any(diagnostic.severity.rank >= limit.rank for diagnostic in found)
+    aside = diff or (fix and any(file.path is None for file in inputs.files))
+    report = Report(told, view, statistics=statistics, aside=aside, fixing=fixing is not Fixing.NONE)
+    run = Run(inputs, lambda _: settings, report, known, recording, diff)
+    run.go()
+    if known is not None and baseline is not None:
+        _tell_baseline(known, Path(baseline), view, recording=recording)
+    failing = not exit_zero and (report.failing or run.differs)
     return max(inputs.code, FOUND if failing else DONE)
 
 
-class _Report:
-    """Findings told as they come for people, together for programs."""
+def _baseline(given: str | None, *, recording: bool) -> Baseline | None:
+    """The known findings; none yet when they are to be recorded. Ends the command for a file that is no baseline."""
+    if given is None:
+        if recording:
+            raise click.UsageError("--write-baseline needs --baseline FILE: the file to write")
+        return None
+    path = Path(given)
+    if recording:
+        return Baseline(path.parent)
+    try:
+        return read_baseline(path)
+    except OSError as error:
+        raise click.ClickException(f"{given}: the baseline cannot be read: {reason(error)}") from error
+    except BaselineError as error:
+        message = f"{given}: this is no baseline: {error}: write a new one with --write-baseline"
+        raise click.ClickException(message) from error
 
-    def __init__(self, form: str, view: View, *, statistics: bool) -> None:
-        self.form = form
-        self.view = view
-        self.statistics = statistics
-        self.found: list[Diagnostic] = []
-        self.files = 0
 
-    def add(self, file: Input, data: bytes, found: list[Diagnostic]) -> None:
-        """The findings of one file."""
-        self.files += 1
-        self.found += found
-        if self.form == "text" and found and not self.view.quiet and not self.statistics:
-            printing("lint").print_findings(found, Source.from_bytes(data, file.name), self.view.color)
-        if self.view.verbose:
-            tell(f"{file.name}: {len(found)} finding{'s' * (len(found) != 1)}")
-
-    def finish(self) -> None:
-        """What stands at the end."""
-        found = sorted(self.found, key=lambda diagnostic: diagnostic.sort_key)
-        if self.statistics:
-            emit(statistics_lines(found))
-        elif self.form in _PLAIN or self.view.quiet:
-            emit(_PLAIN.get(self.form, concise)(found))
-        elif not found and self.files:
-            click.echo(f"No findings in {self.files} file{'s' * (self.files != 1)}.")
-        elif found:
-            printing("lint").print_summary(found, self.files, self.view.color)
+def _tell_baseline(known: Baseline, path: Path, view: View, *, recording: bool) -> None:
+    """Write what was recorded, or tell of what is recorded and no longer there."""
+    if recording:
+        write_text(path, [known.text()])
+        if not view.quiet:
+            count = known.known.total()
+            tell(f"{path.as_posix()}: {count} finding{'s' * (count != 1)} recorded")
+    elif view.verbose and (gone := known.gone()):
+        tell(f"{path.as_posix()}: {gone} recorded finding{'s' * (gone != 1)} no longer there: write it again")

@@ -17,7 +17,8 @@ class FileReport:
     """What came out for one file.
 
     `found` are the findings in the content as it is after fixing, in their order; `fixed` those that are gone.
-    `changed` is the new content, or None where it is the old one. `note` says why fixes were not made, or "".
+    `changed` is the new content, or None where it is the old one. `note` says why fixes were not made, or "";
+    a deck in JSON or YAML has none.
     """
 
     file: str
@@ -39,10 +40,8 @@ def lint_one(name: str, data: bytes, settings: LintSettings, folder: Path | None
 
 
 def _fixed(name: str, data: bytes, settings: LintSettings, folder: Path | None) -> Fixed:
-    if settings.fixing is Fixing.NONE:
+    if settings.fixing is Fixing.NONE or form_of(name) != "keyword":
         return Fixed(None, (), "")
-    if form_of(name) != "keyword":
-        return Fixed(None, (), "a deck in JSON or YAML is not fixed: only keyword text is")
     return fix_bytes(data, name, settings, folder)
 
 

@@ -26,6 +26,7 @@ def unused_suppression(context: LintContext) -> Iterator[Problem]:
          0.1, 1200.0
         C mudline: ignore CRV0O5 -- remoulded, see the survey
          0.5, 900.0
+         1.0, 2000.0
         *SEABED PROPERTIES
          TYPE=ELASTIC
          SET=ALL
@@ -39,6 +40,7 @@ def unused_suppression(context: LintContext) -> Iterator[Problem]:
          0.1, 1200.0
         C mudline: ignore CRV005 -- remoulded, see the survey
          0.5, 900.0
+         1.0, 2000.0
         *SEABED PROPERTIES
          TYPE=ELASTIC
          SET=ALL
