@@ -1,0 +1,171 @@
+"""Fixes: in passes, never for the worse."""
+
+from __future__ import annotations
+
+import pickle
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mudline.deck.json_form import to_json
+from mudline.deck.loading import load_bytes
+from mudline.diagnostics import Severity
+from mudline.linting.fixing import MOST_PASSES, Fixed, fix_bytes
+from mudline.linting.lint_file import lint_one
+from mudline.linting.registry import Rule, rules
+from mudline.linting.settings import Fixing, LintSettings
+from mudline.linting.suppression import STY010
+from tests.lint.findings import CLAY, CURVES, PIPE, PROPERTIES
+from tests.lint.made_rules import replacing
+
+DECK = f"C A riser\n{PIPE}{PROPERTIES} STIFFNESS=Clay\n*SEABED STIFFNESS\n{CLAY}"
+TABS = replacing(r"\t", " ")
+
+
+def fix(
+    text: str | bytes, *chosen: Rule, fixing: Fixing = Fixing.SAFE, unfixable: frozenset[str] = frozenset()
+) -> Fixed:
+    data = text if isinstance(text, bytes) else text.encode()
+    return fix_bytes(data, "deck.keyxm", LintSettings(chosen, fixing=fixing, unfixable=unfixable))
+
+
+def changed(text: str, *chosen: Rule, fixing: Fixing = Fixing.SAFE) -> str:
+    content = fix(text, *chosen, fixing=fixing).changed
+    assert content is not None
+    return content.decode()
+
+
+def test_all_findings_of_a_pass_are_fixed_at_once() -> None:
+    result = fix(DECK.replace(", ", ",\t"), TABS)
+    assert result.changed == DECK.encode()
+    assert len(result.fixed) == DECK.count(", ")
+    assert result.note == ""
+
+
+def test_nothing_to_fix_changes_nothing() -> None:
+    assert fix(DECK, TABS) == Fixed(None, (), "")
+
+
+@pytest.mark.parametrize("end", ["\r\n", "\r", "\n"])
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "cp1252"])
+def test_untouched_bytes_stay(end: str, encoding: str) -> None:
+    text = DECK.replace("A riser", "Ø 219 mm").replace("\n", end)
+    result = fix(text.replace(" CURVE", "\tCURVE").encode(encoding), TABS)
+    assert result.changed == text.encode(encoding)
+
+
+def test_fixes_that_overlap_are_made_in_passes() -> None:
+    pairs = replacing("aa", "a", code="TST002")
+    assert changed(f"C {'a' * 9}\n".replace("C ", "C mudline: x ") + DECK, pairs).startswith("C mudline: x a\n")
+    one, other = replacing("0.5, 4000", "0.5, 5000"), replacing("4000.0", "6000.0", code="TST003")
+    assert "0.5, 5000.0" in changed(DECK, one, other)
+
+
+def test_unsafe_fixes_are_made_only_when_asked_for() -> None:
+    unsafe = replacing("4000.0", "5000.0", kind="unsafe")
+    assert fix(DECK, unsafe).changed is None
+    assert changed(DECK, unsafe, fixing=Fixing.UNSAFE) == DECK.replace("4000.0", "5000.0")
+
+
+def test_what_is_unfixable_or_suppressed_is_left() -> None:
+    text = DECK.replace(" CURVE", "\tCURVE")
+    assert fix(text, TABS, unfixable=frozenset({"TST001"})).changed is None
+    assert fix(text.replace("\tCURVE", "C mudline: ignore\n\tCURVE"), TABS).changed is None
+
+
+@pytest.mark.parametrize(
+    "bad",
+    [
+        replacing("4000.0", "4O00.0"),  # a new error
+        replacing("^C A riser\n", ""),  # a lost comment
+        replacing("STIFFNESS=Clay\n", "STIFFNESS=7.0\n*OCEAN\n 1.0, 2.0, 3.0\n"),  # a block more
+        replacing(" 0.5, 4000.0", " 0.5, 4000.0\udc80"),  # no text of any encoding
+        replacing("Clay$", "Clay"),  # no change at all
+    ],
+)
+def test_a_fix_that_makes_the_deck_worse_is_dropped_and_the_others_are_made(bad: Rule) -> None:
+    good = replacing(r"\t", " ", code="TST009")
+    result = fix(DECK.replace(", ", ",\t"), replacing_after_tabs(bad), good)
+    assert result.changed == DECK.encode()
+    assert {one.code for one in result.fixed} == {"TST009"}
+    assert "not made" in result.note
+
+
+def replacing_after_tabs(rule: Rule) -> Rule:
+    """The rule itself: its findings that hold a tab come up once the tabs are gone."""
+    return rule
+
+
+def test_a_safe_fix_leaves_the_other_blocks_as_they_are() -> None:
+    text = DECK.replace("*SEABED STIFFNESS\n", "*SEABED STIFFNESS\nC x\n")
+    moved = replacing(r"\n\*SEABED STIFFNESS\nC x", "\n STIFFNESS=8.0\n*SEABED STIFFNESS\nC x")
+    assert fix(text, moved).changed is None or b"8.0" in (fix(text, moved).changed or b"")
+
+
+def test_a_file_that_cannot_be_read_is_not_fixed_and_that_is_told() -> None:
+    text = DECK.replace("4000.0", "4O00.0").replace(" CURVE", "\tCURVE")
+    result = fix(text, TABS)
+    assert (result.changed, result.fixed) == (None, ())
+    assert "SYN002 in line" in result.note
+    assert fix(text.replace("\t", " "), TABS).note == ""
+
+
+def test_errors_of_reading_may_be_fixed_themselves() -> None:
+    text = DECK.replace("STIFFNESS=Clay", "STIFNESS=Clay").replace(" CURVE", "\tCURVE")
+    mend = replacing("STIFNESS", "STIFFNESS", code="SYN004", kind="unsafe", severity=Severity.ERROR)
+    assert fix(text, mend, TABS).changed is None
+    assert changed(text, mend, TABS, fixing=Fixing.UNSAFE) == DECK
+    wrong = replacing("STIFNESS", "STIFNES", code="SYN004", kind="unsafe", severity=Severity.ERROR)
+    assert fix(text, wrong, TABS, fixing=Fixing.UNSAFE).changed is None
+
+
+def test_fixing_ends_where_rules_do_not() -> None:
+    result = fix(DECK, replacing("(4000.0*)$", r"\g<1>0"))
+    assert result.changed == DECK.replace("4000.0", f"4000.0{'0' * MOST_PASSES}").encode()
+    assert "stopped" in result.note
+
+
+def test_many_bad_fixes_end_soon() -> None:
+    rows = "".join(f" {ratio}.0, {ratio}7.0\n" for ratio in range(300))
+    result = fix(f"{CURVES} CURVE=Clay\n{rows}", replacing("7.0$", "x"))
+    assert result.changed is None
+    assert "stopped" in result.note
+
+
+def test_unused_suppressions_are_removed() -> None:
+    text = DECK.replace(" CURVE=Clay", "C mudline: ignore CRV005\n CURVE=Clay")
+    assert changed(text, *rules()) == DECK
+
+
+def test_a_report_can_be_sent_to_another_process() -> None:
+    settings = LintSettings(rules(), fixing=Fixing.SAFE, severities={STY010.code: Severity.ERROR})
+    assert pickle.loads(pickle.dumps(settings)) == settings  # noqa: S301 - of its own making
+    report = lint_one("deck.keyxm", (DECK + "C mudline: ignore CRV005\n").encode(), settings)
+    assert pickle.loads(pickle.dumps(report)) == report  # noqa: S301 - of its own making
+    assert [one.severity for one in report.fixed] == [Severity.ERROR]
+    assert (report.found, report.changed) == ((), DECK.encode())
+
+
+def test_a_document_is_linted_and_not_fixed() -> None:
+    data = to_json(load_bytes(DECK.encode(), "deck.keyxm")).encode()
+    report = lint_one("deck.json", data, LintSettings(rules(), fixing=Fixing.UNSAFE))
+    assert (report.changed, report.fixed) == (None, ())
+
+
+LINES = [*f"{DECK}".split("\n"), "\t1, 2", "C mudline: ignore CRV005", "C mudline: ignore-block X", " CURV=a", "C\t x"]
+
+
+@given(st.lists(st.sampled_from(LINES), max_size=30), st.sampled_from([Fixing.SAFE, Fixing.UNSAFE]))
+def test_fixing_never_fails_and_twice_is_once(lines: list[str], fixing: Fixing) -> None:
+    settings = LintSettings((*rules(), TABS), fixing=fixing)
+    data = "\n".join(lines).encode()
+    once = fix_bytes(data, "deck.keyxm", settings)
+    if once.changed is not None:
+        assert fix_bytes(once.changed, "deck.keyxm", settings).changed is None
+
+
+@given(st.binary(max_size=200))
+def test_fixing_takes_any_bytes(data: bytes) -> None:
+    result = fix(data, TABS)
+    assert result.changed is None or b"\t" not in result.changed
