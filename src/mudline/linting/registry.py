@@ -14,7 +14,7 @@ from mudline.linting.context import LintContext
 
 Check = Callable[[LintContext], Iterable[Problem]]
 
-MODULES = ("syntax_lines", "syntax_fields", "syntax_words", "references", "curves", "seabed", "legacy")
+MODULES = ("syntax_lines", "syntax_fields", "syntax_words", "references", "sections", "curves", "seabed", "units", "legacy")
 """The modules of `mudline.linting.rules`."""
 
 _HEADINGS = re.compile(r"^(Bad|Good|Finds|File|Bytes|Cut):[ \t]*(.*)$", re.MULTILINE)

@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from mudline.linting.rules.curves import points, shape
+from mudline.linting.rules.curves import columns, end, points, shape, start
 
-__all__ = ["points", "shape"]
+__all__ = ["columns", "end", "points", "shape", "start"]

@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from mudline.linting.rules.references import curves, files, numbers, parameters, sets
+from mudline.linting.rules.references import curves, files, lists, numbers, parameters, repeats, sets
 
-__all__ = ["curves", "files", "numbers", "parameters", "sets"]
+__all__ = ["curves", "files", "lists", "numbers", "parameters", "repeats", "sets"]

@@ -1,0 +1,193 @@
+"""The last points of a curve, which hold for every depth behind them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from mudline.diagnostics import Code, Problem, Severity
+from mudline.keywords.text import shown
+from mudline.linting.context import LintContext
+from mudline.linting.registry import rule
+from mudline.scene.force_curves import SceneCurve
+from mudline.scene.left_out import left_out
+
+CRV008 = Code("CRV008", "steep-extrapolation", Severity.WARNING)
+CRV013 = Code("CRV013", "flat-last-segment", Severity.WARNING)
+CRV014 = Code("CRV014", "beyond-curve", Severity.INFO)
+
+STEEP = 100.0
+
+
+def _deepest(curve: SceneCurve) -> int:
+    """Index of the point with the largest ratio."""
+    return int(np.argmax(curve.points[:, 0]))
+
+
+@rule(CRV008)
+def steep_extrapolation(context: LintContext) -> Iterator[Problem]:
+    """The last segment of a curve is over 100 times steeper than the one before it.
+
+    A curve goes on behind its last point with its last slope, so this segment alone gives the stiffness at every
+    greater depth. A rounded ratio or two points very close together make such a slope by accident. Correct the last
+    point, or remove it. Flat segments are left out of the comparison.
+
+    Bad:
+        $MODEL
+        *SEABED STIFFNESS
+         CURVE=Clay
+         0.0, 0.0
+         0.1, 1200.0
+         0.5, 4200.0
+         0.5001, 4400.0
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=Clay
+
+    Good:
+        $MODEL
+        *SEABED STIFFNESS
+         CURVE=Clay
+         0.0, 0.0
+         0.1, 1200.0
+         0.5, 4200.0
+         0.6, 5200.0
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=Clay
+
+    Finds: 7:2
+    """
+    for entry in context.scene.laws.curves:
+        if entry.curve is None or not entry.whole or entry.curve.slopes[-1] == 0.0:
+            continue
+        slopes = np.abs(entry.curve.slopes[entry.curve.slopes != 0.0])
+        if len(slopes) > 1 and slopes[-1] / STEEP > slopes[-2]:
+            last, before = entry.curve.slopes[-1], slopes[-2]
+            message = (
+                f"the last slope, {last:.6g}, is over {STEEP:g} times as steep as the one before, {before:.6g}, and it "
+                "holds at every greater depth: correct the point, or remove it"
+            )
+            yield Problem(CRV008, message, where=entry.point(_deepest(entry)))
+
+
+@rule(CRV013)
+def flat_last_segment(context: LintContext) -> Iterator[Problem]:
+    """The last segment of a curve is flat.
+
+    A curve goes on behind its last point with its last slope: here with none. A pipe that is heavier than the last
+    force sinks without end, and a static run does not converge. Add a point that the force rises to.
+
+    Bad:
+        $MODEL
+        *SEABED STIFFNESS
+         CURVE=Clay
+         0.0, 0.0
+         0.5, 4200.0
+         1.0, 4200.0
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=Clay
+
+    Good:
+        $MODEL
+        *SEABED STIFFNESS
+         CURVE=Clay
+         0.0, 0.0
+         0.5, 4200.0
+         1.0, 4600.0
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=Clay
+
+    Finds: 6:2
+    """
+    for entry in context.scene.laws.curves:
+        if entry.curve is not None and entry.whole and entry.curve.slopes[-1] == 0.0:
+            force = float(entry.curve.forces[-1])
+            message = (
+                f"the force stays at {force!r} at every greater depth: nothing holds a pipe that is heavier; add a "
+                "point that it rises to"
+            )
+            yield Problem(CRV013, message, where=entry.point(_deepest(entry)))
+
+
+@rule(CRV014)
+def beyond_curve(context: LintContext) -> Iterator[Problem]:
+    """Elements lie deeper, in the deck's coordinates, than their curve reaches.
+
+    The force there is extrapolated with the last slope, and nothing was measured or calculated for it. Perhaps the
+    coordinates have another datum than the bed, X = 0; otherwise add points down to the depth of the elements.
+    Nothing is said of models whose bed is not flat.
+
+    Bad:
+        $MODEL
+        *NODE
+         1, -0.25, 0.0
+         5, -0.25, 40.0
+         GEN=1, 5
+        *ELEMENT
+         1, 1, 2
+         GEN=1, 4
+        *GEOMETRIC SETS
+         OPTION=RIGID
+         SET=ALL
+         207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
+        *SEABED STIFFNESS
+         CURVE=Clay
+         0.0, 0.0
+         0.5, 4200.0
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=Clay
+
+    Good:
+        $MODEL
+        *NODE
+         1, -0.05, 0.0
+         5, -0.05, 40.0
+         GEN=1, 5
+        *ELEMENT
+         1, 1, 2
+         GEN=1, 4
+        *GEOMETRIC SETS
+         OPTION=RIGID
+         SET=ALL
+         207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
+        *SEABED STIFFNESS
+         CURVE=Clay
+         0.0, 0.0
+         0.5, 4200.0
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=Clay
+
+    Finds: 14:2
+    """
+    scene = context.scene
+    if "floor" in left_out(scene.deck):
+        return
+    heights = np.append(scene.coordinates[:, 0], np.nan)[scene.element_nodes]  # -1, an unknown node, is the last one
+    with np.errstate(over="ignore"):
+        ratios = -(0.5 * heights[:, 0] + 0.5 * heights[:, 1]) / scene.diameter
+    for number, entry in enumerate(scene.laws.curves):
+        if entry.curve is None or not entry.whole:
+            continue
+        elements = scene.laws.followers(number)
+        last = float(entry.curve.ratios[-1])
+        beyond = elements[ratios[elements] > last]
+        if beyond.size:
+            deepest = int(beyond[np.argmax(ratios[beyond])])
+            which = "an element lies" if beyond.size == 1 else f"{beyond.size} elements lie"
+            message = (
+                f"{which} beyond the last ratio {last!r} of curve {shown(entry.name)}, element "
+                f"{scene.element_ids[deepest]} at {ratios[deepest]:.4g}: add points down to there"
+            )
+            yield Problem(CRV014, message, where=entry.where)

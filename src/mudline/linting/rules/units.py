@@ -1,0 +1,190 @@
+"""Values that belong to another system of units."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import islice
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+
+from mudline.contact.inputs import LawKind
+from mudline.deck.model import Deck
+from mudline.deck.units import GRAVITIES
+from mudline.diagnostics import Code, Problem, Severity, Where
+from mudline.keywords.text import shown
+from mudline.linting.context import LintContext
+from mudline.linting.registry import rule
+from mudline.linting.rules.curves.columns import swapped
+from mudline.linting.rules.sections import format_of
+from mudline.scene.context import MOST_TOLD
+from mudline.scene.model import Scene
+
+if TYPE_CHECKING:
+    from mudline.keywords.common import Surface
+    from mudline.keywords.library.geometric_sets import GeometricSets
+    from mudline.keywords.library.ocean import Ocean
+    from mudline.keywords.library.seabed_friction import SeabedFriction
+    from mudline.keywords.library.seabed_properties import SeabedProperties
+
+UNT001 = Code("UNT001", "gravity-mismatch", Severity.WARNING)
+UNT002 = Code("UNT002", "suspicious-magnitude", Severity.WARNING)
+UNT003 = Code("UNT003", "large-friction", Severity.WARNING)
+
+_NEAR = 0.02
+_LENGTHS = {"metric": "m/s2", "imperial": "ft/s2"}
+SOFTEST = 100.0
+"""N/m per metre: a seabed that is softer is one in kN."""
+WEAKEST = 10.0
+"""N/m: likewise."""
+WIDEST = 10.0
+"""m: a wider pipe is one in millimetres."""
+ROUGHEST = 2.0
+
+
+@rule(UNT001)
+def gravity_mismatch(context: LintContext) -> Iterator[Problem]:
+    """The gravity of *OCEAN does not fit the unit system of the file.
+
+    The suffix says in which units a deck is: .keyxm in metres and newtons, gravity 9.81; .keyxi in feet and pounds,
+    gravity 32.2. A deck with the gravity of the other system was saved under the wrong suffix, or only half of it was
+    converted. Correct the gravity, or give the file its suffix. More than 2 % away is told.
+
+    Bad:
+        $MODEL
+        *OCEAN
+         500.0, 1025.0, 32.2
+
+    Good:
+        $MODEL
+        *OCEAN
+         500.0, 1025.0, 9.81
+
+    Finds: 3:17
+    """
+    scene = context.scene
+    expected = GRAVITIES.get(scene.units)
+    for where, block in scene.deck.blocks("OCEAN") if expected else ():
+        gravity = cast("Ocean", block).gravity
+        if not isinstance(gravity, int | float) or expected is None or _near(gravity, expected):
+            continue
+        other = next((f", as of {name} units" for name, g in GRAVITIES.items() if _near(gravity, g)), "")
+        message = (
+            f"gravity {gravity!r}{other}, in a deck in {scene.units} units, expected about {expected} "
+            f"{_LENGTHS[scene.units]}: correct it, or the suffix of the file"
+        )
+        yield Problem(UNT001, message, where=where._replace(path=("gravity",)))
+
+
+def _near(gravity: float, expected: float) -> bool:
+    return abs(gravity - expected) <= _NEAR * expected
+
+
+@rule(UNT002)
+def suspicious_magnitude(context: LintContext) -> Iterator[Problem]:
+    """A value of a metric deck looks as if it were in kilonewtons or millimetres.
+
+    Metric decks are in metres and newtons. A seabed of less than 100 N/m for each metre, or a curve that nowhere
+    reaches 10 N/m, does not carry any pipe; and no pipe is wider than 10 m. Such a value is written in other units, as
+    a rule. Write it in metres and newtons. A stiffness of 0 is not told.
+
+    Bad:
+        $MODEL
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=50.0
+
+    Good:
+        $MODEL
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=50000.0
+
+    Finds: 5:12
+    """
+    if context.scene.units == "metric":
+        for kind in (_soft, _weak, _wide):
+            yield from islice(kind(context.scene), MOST_TOLD)
+
+
+def _soft(scene: Scene) -> Iterator[Problem]:
+    for grant in scene.laws.grants:
+        if grant.kind is LawKind.LINEAR and not grant.unknown and 0.0 < grant.stiffness < SOFTEST:
+            message = f"a seabed stiffness of {grant.stiffness!r} N/m per metre: write it in newtons (kN?)"
+            yield Problem(UNT002, message, where=grant.where)
+
+
+def _weak(scene: Scene) -> Iterator[Problem]:
+    for curve in scene.laws.curves:
+        largest = float(np.abs(curve.points[:, 1]).max(initial=0.0))
+        if curve.whole and 0.0 < largest < WEAKEST and not swapped(curve):
+            message = f"no force of curve {shown(curve.name)} is above {largest!r} N/m: write them in newtons (kN?)"
+            yield Problem(UNT002, message, where=curve.where)
+
+
+def _wide(scene: Scene) -> Iterator[Problem]:
+    for section in scene.section_table.sections:
+        if section.diameter > WIDEST:
+            message = f"an external diameter {section.source} of {section.diameter!r} m: write it in metres (mm?)"
+            yield Problem(UNT002, message, where=_diameter(scene.deck, section.where, section.source))
+
+
+def _diameter(deck: Deck, where: Where, source: str) -> Where:
+    """The place of Do or Dd of a section, in its property line."""
+    block = cast("GeometricSets", deck.sections[where.section].blocks[where.block])
+    return where._replace(path=(*where.path, format_of(block.sets[cast("int", where.path[1])]), source))
+
+
+@rule(UNT003)
+def large_friction(context: LintContext) -> Iterator[Problem]:
+    """A friction coefficient is above 2.
+
+    Pipes on soil have coefficients of 0.2 to 1, seldom a little more. Above 2 a stiffness or a mobilisation length
+    stands in the field as a rule: the fields of FRICTION= have another order than those of *ELASTIC SURFACE, which
+    begin with the stiffness. Correct the field.
+
+    Bad:
+        $MODEL
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=50000.0
+         FRICTION=50000.0, 0.3, 0.6
+
+    Good:
+        $MODEL
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=50000.0
+         FRICTION=0.3, 0.6
+
+    Finds: 6:11
+    """
+    yield from islice(_large(context.scene.deck), MOST_TOLD)
+
+
+def _large(deck: Deck) -> Iterator[Problem]:
+    for where, values, names in _coefficients(deck):
+        for name in names:
+            value = getattr(values, name, None)
+            if isinstance(value, int | float) and value > ROUGHEST:
+                message = f"a friction coefficient of {value!r} ({name}): correct it, coefficients are seldom above 1"
+                yield Problem(UNT003, message, where=where._replace(path=(*where.path, name)))
+
+
+def _coefficients(deck: Deck) -> Iterator[tuple[Where, object, tuple[str, str]]]:
+    """What holds friction coefficients, and the names of the two."""
+    both = ("longitudinal", "transverse")
+    for keyword in ("RIGID SURFACE", "ELASTIC SURFACE"):
+        for where, block in deck.blocks(keyword):
+            yield where._replace(path=("properties",)), cast("Surface", block).properties, both
+    for where, block in deck.blocks("SEABED PROPERTIES"):
+        for index, entry in enumerate(cast("SeabedProperties", block).sets):
+            yield where._replace(path=("sets", index, "friction")), entry.friction, both
+    for where, block in deck.blocks("SEABED FRICTION"):
+        for index, given in enumerate(cast("SeabedFriction", block).sets):
+            place = where._replace(path=("sets", index, "coefficients"))
+            yield place, getattr(given, "coefficients", None), ("first", "second")
