@@ -92,7 +92,7 @@ class _Run:
             problem
             for problem in state.told
             if problem.repair is not None
-            and problem.repair.edits
+            and any(state.source.text[slice(*span)] != text for span, text in problem.repair.edits)
             and self.settings.fixing.takes(problem.repair.applicability)
             and problem.code.code not in self.settings.unfixable
         ]
@@ -101,8 +101,8 @@ class _Run:
         """Findings whose repairs do not overlap: errors of reading first, then safe ones, then the others."""
         wanted = [problem for problem in self.wanted(state) if _key(problem) not in self.refused]
         if state.unreadable:
-            cleared = [problem for problem in wanted if problem.code in {error.code for error in state.unreadable}]
-            cleared = [problem for problem in cleared if problem.weight is Severity.ERROR]
+            codes = {error.code.code for error in state.unreadable}
+            cleared = [one for one in wanted if one.code.code in codes and one.weight is Severity.ERROR]
             return _disjoint(cleared) if len(cleared) >= len(state.unreadable) else []
         return _disjoint([problem for problem in wanted if _repair(problem).applicability == "safe"] or wanted)
 
