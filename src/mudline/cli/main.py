@@ -16,6 +16,7 @@ from mudline import __version__
 from mudline.cli import streams
 from mudline.cli.exits import CLOSED_PIPE, FOUND, WRONG_USAGE
 from mudline.cli.terminal import reason, tell
+from mudline.linting.plugins import PluginError
 
 COMMANDS = {
     "lint": "Find faults in decks.",
@@ -94,6 +95,10 @@ def _invoke(arguments: Sequence[str]) -> int:
             path = error.ctx.command_path
             click.echo(f"{error.ctx.get_usage()}\nTry '{path} --help' for help.\n", err=True)
         tell(error.format_message())
+        return WRONG_USAGE
+    except PluginError as error:
+        for fault in error.faults:
+            tell(fault)
         return WRONG_USAGE
     except MemoryError:
         tell("there is too little memory for this")

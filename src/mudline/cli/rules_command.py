@@ -12,6 +12,7 @@ from mudline.cli.exits import DONE
 from mudline.cli.lazy import printing
 from mudline.cli.options import View
 from mudline.cli.streams import emit
+from mudline.linting.plugins import origin
 from mudline.linting.registry import Rule, rules
 from mudline.linting.selection import UnknownRule, select
 
@@ -44,4 +45,5 @@ def _object(rule: Rule) -> dict[str, Any]:
         "why": rule.why,
         "bad": rule.bad,
         "good": rule.good,
+        "origin": origin(rule.code.code),
     }

@@ -10,6 +10,7 @@ from functools import cache
 from importlib import import_module
 
 from mudline.diagnostics import Code, Problem
+from mudline.linting import plugins
 from mudline.linting.context import LintContext
 
 Check = Callable[[LintContext], Iterable[Problem]]
@@ -111,11 +112,22 @@ def _example(body: str) -> str:
 
 
 @cache
-def rules() -> tuple[Rule, ...]:
-    """All rules, by code."""
+def _collected() -> tuple[tuple[Rule, ...], tuple[str, ...]]:
     for module in MODULES:
         import_module(f"mudline.linting.rules.{module}")
-    return tuple(_RULES[code] for code in sorted(_RULES))
+    faults = plugins.load(_RULES)
+    return tuple(_RULES[code] for code in sorted(_RULES)), faults
+
+
+def rules() -> tuple[Rule, ...]:
+    """All rules, by code, those of installed plugins among them.
+
+    Raises PluginError when a plugin cannot be used: a run with fewer rules than people believe is worse than none.
+    """
+    found, faults = _collected()
+    if faults:
+        raise plugins.PluginError(faults)
+    return found
 
 
 def find(word: str) -> list[Rule]:
