@@ -9,8 +9,10 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections.abc import Hashable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from itertools import islice
 
+from mudline.deck.findings import MOST_TOLD
 from mudline.deck.keyword_form import to_keyword
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.reading import TextOrigin, read_source
@@ -80,7 +82,7 @@ class Suppressions:
         """
         selected = {rule.code.code for rule in chosen}
         present = self._present(problems)
-        unused = list(self._unused(present, selected)) if STY010.code in selected else []
+        unused = list(_first(self._unused(present, selected))) if STY010.code in selected else []
         hidden_by: dict[Hashable, set[str]] = {}
         for directive in self.directives:
             hidden_by.setdefault(directive.scope, set()).update(_named(directive))
@@ -92,7 +94,10 @@ class Suppressions:
         return told, hidden
 
     def unknown(self) -> Iterator[Problem]:
-        """What the comments name that no rule has, and orders that are none."""
+        """What the comments name that no rule has, and orders that are none; the first of them if they are many."""
+        yield from _first(self._unknown())
+
+    def _unknown(self) -> Iterator[Problem]:
         for word, meant, where in self.misspelt:
             message = f"{word.text!r} is no instruction: did you mean {meant}?"
             yield self._problem(message, word.span, where, self._replacing(word, meant))
@@ -149,6 +154,13 @@ class Suppressions:
         last = number == len(words) - 1
         span = Span(words[number - 1].end, words[number].end) if last else Span(words[number][0], words[number + 1][0])
         return Repair(applicability, f"remove {directive.words[number].text}", ((span, ""),))
+
+
+def _first(problems: Iterator[Problem]) -> Iterator[Problem]:
+    """As many findings as are told one by one; the next says that there are more."""
+    yield from islice(problems, MOST_TOLD)
+    for further in islice(problems, 1):
+        yield replace(further, message=f"and more of the same: the first {MOST_TOLD} are listed", repair=None)
 
 
 def _place(directive: Directive) -> str:
