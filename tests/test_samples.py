@@ -59,16 +59,18 @@ FAULTS = [
     (138, "CRV004"),
     (143, "CRV002"),
     (145, "CRV005"),
+    (145, "CRV012"),
     (147, "CRV001"),
     (147, "REF003"),
     (150, "REF004"),
     (151, "CRV006"),
+    (152, "CRV007"),
     (155, "SYN013"),
     (158, "SYN010"),
     (167, "SYN014"),
 ]
 
-LEANING = {66: {(120, "SBD006")}, 114: {(147, "REF003")}, 150: {(147, "CRV001")}}
+LEANING = {66: {(120, "SBD006")}, 114: {(147, "REF003")}, 150: {(147, "CRV001"), (152, "CRV007")}}
 """Findings that go with another line: a set without elements lacks no stiffness; a block of which the STIFFNESS= may
 have been misspelt may use any curve; and points without their CURVE= line belong to the curve before them."""
 

@@ -15,7 +15,18 @@ from mudline.linting.context import LintContext
 
 Check = Callable[[LintContext], Iterable[Problem]]
 
-MODULES = ("syntax_lines", "syntax_fields", "syntax_words", "references", "sections", "curves", "seabed", "units", "legacy")
+MODULES = (
+    "syntax_lines",
+    "syntax_fields",
+    "syntax_words",
+    "references",
+    "sections",
+    "curves",
+    "seabed",
+    "units",
+    "stability",
+    "legacy",
+)
 """The modules of `mudline.linting.rules`."""
 
 _HEADINGS = re.compile(r"^(Bad|Good|Finds|File|Bytes|Cut):[ \t]*(.*)$", re.MULTILINE)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import islice
+from math import isnan
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
@@ -66,7 +67,7 @@ def gravity_mismatch(context: LintContext) -> Iterator[Problem]:
     expected = GRAVITIES.get(scene.units)
     for where, block in scene.deck.blocks("OCEAN") if expected else ():
         gravity = cast("Ocean", block).gravity
-        if not isinstance(gravity, int | float) or expected is None or _near(gravity, expected):
+        if not isinstance(gravity, int | float) or isnan(gravity) or expected is None or _near(gravity, expected):
             continue
         other = next((f", as of {name} units" for name, g in GRAVITIES.items() if _near(gravity, g)), "")
         message = (

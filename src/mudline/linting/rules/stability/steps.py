@@ -1,0 +1,149 @@
+"""Time steps and the stiffness of contact."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import inf, pi
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+
+from mudline.contact.inputs import LawKind
+from mudline.diagnostics import Code, Problem, Severity
+from mudline.linting.context import LintContext
+from mudline.linting.registry import rule
+from mudline.scene.model import Scene
+from mudline.scene.numbering import Floats
+
+if TYPE_CHECKING:
+    from mudline.keywords.library.geometric_sets import GeometricSet, GeometricSets
+    from mudline.keywords.library.time import TimeSpan
+
+STB002 = Code("STB002", "coarse-time-step", Severity.INFO)
+
+LARGEST = 0.5
+
+_CONSEQUENCES = (
+    (1.0, "Newmark, HHT and generalised-alpha may throw it back up to 11 % too fast"),
+    (2.0, "Newmark, HHT and generalised-alpha may throw it back far too fast"),
+    (
+        inf,
+        "Newmark, HHT and generalised-alpha may throw it back up to three times too fast, central difference fails",
+    ),
+)
+"""What happens to a landing pipe, up to a product of frequency and step."""
+
+
+@rule(STB002, off=True)
+def coarse_time_step(context: LintContext) -> Iterator[Problem]:
+    """The fixed time step is coarse for the stiffest contact.
+
+    A pipe on the seabed swings with omega, the root of stiffness over mass, both per unit length. Implicit schemes that
+    are called unconditionally stable are so for linear systems: contact that opens and closes gives energy to the pipe
+    when omega times the step is large, within 3 % of its speed at 0.5 and far more above; explicit schemes fail above
+    2. Only backward Euler never does. The mass is that of the section without added water, and the third value of *TIME
+    is read as the step (inferred). Give the step that the message names.
+
+    Bad:
+        $MODEL
+        *NODE
+         1, -0.05, 0.0
+         5, -0.05, 40.0
+         GEN=1, 5
+        *ELEMENT
+         1, 1, 2
+         GEN=1, 4
+        *GEOMETRIC SETS
+         OPTION=MOORING
+         SET=ALL
+         480.0E6, 200.0, 0.3
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=50000.0
+        $LOAD CASE
+        *TIME
+         STEP=FIXED
+         0.0, 120.0, 0.1, 24.0
+
+    Good:
+        $MODEL
+        *NODE
+         1, -0.05, 0.0
+         5, -0.05, 40.0
+         GEN=1, 5
+        *ELEMENT
+         1, 1, 2
+         GEN=1, 4
+        *GEOMETRIC SETS
+         OPTION=MOORING
+         SET=ALL
+         480.0E6, 200.0, 0.3
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=50000.0
+        $LOAD CASE
+        *TIME
+         STEP=FIXED
+         0.0, 120.0, 0.03, 24.0
+
+    Finds: 20:14
+    """
+    scene = context.scene
+    blocks = list(scene.deck.blocks("TIME", "LOAD CASE"))
+    if not blocks or not len(scene.element_ids):
+        return
+    with np.errstate(all="ignore"):
+        omega = np.sqrt(_stiffness(scene) / _mass(scene))
+    omega[~np.isfinite(omega)] = 0.0
+    stiffest = int(np.argmax(omega))
+    frequency = float(omega[stiffest])
+    for where, block in blocks:
+        step = getattr(cast("TimeSpan", block), "increment", None)
+        if isinstance(step, int | float) and frequency * step > LARGEST:
+            effect = next(words for limit, words in _CONSEQUENCES if frequency * step <= limit)
+            message = (
+                f"omega dt = {frequency * step:.3g} on the stiffest contact (element {scene.element_ids[stiffest]}, "
+                f"omega = {frequency:.4g} rad/s): {effect}; give a step of {LARGEST / frequency:.3g} or less (inferred:"
+                " the third value is the step)"
+            )
+            yield Problem(STB002, message, where=where._replace(path=("increment",)))
+
+
+def _stiffness(scene: Scene) -> Floats:
+    """The largest stiffness of the contact of each element, per unit length; NaN without one."""
+    grants = scene.laws.grants
+    linear = np.array([*(grant.stiffness for grant in grants), np.nan])[scene.laws.of_element]
+    steepest = np.full(len(linear), np.nan)
+    for number, entry in enumerate(scene.laws.curves):
+        if entry.curve is not None and entry.whole:
+            reached = entry.curve.slopes[entry.curve.ratios[1:] > 0.0]
+            steepest[scene.laws.followers(number)] = np.append(reached, entry.curve.slopes[-1]).max()
+    return np.where(scene.law == LawKind.CURVE, steepest / scene.diameter, linear)
+
+
+def _mass(scene: Scene) -> Floats:
+    """Mass per unit length of each element, NaN where it is not known."""
+    table = scene.section_table
+    masses = [
+        _mass_of(cast("GeometricSets", scene.deck.sections[section.where.section].blocks[section.where.block]).sets[at])
+        for section in table.sections
+        for at in (cast("int", section.where.path[1]),)
+    ]
+    found: Floats = np.array([*masses, np.nan])[table.of_element]
+    return found
+
+
+def _mass_of(entry: GeometricSet) -> float:
+    section = entry.section
+    names = ("mass", "density", "area", "do", "di")
+    mass, density, area, outer, inner = (_number(getattr(section, name, None)) for name in names)
+    if np.isnan(area):
+        area = 0.25 * pi * (outer * outer - inner * inner)
+    value = density * area if np.isnan(mass) else mass
+    return value if value > 0.0 else float("nan")
+
+
+def _number(value: object) -> float:
+    return float(value) if isinstance(value, int | float) else float("nan")
