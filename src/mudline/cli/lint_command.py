@@ -9,7 +9,7 @@ import click
 from mudline.cli import options
 from mudline.cli.exits import DONE, FOUND
 from mudline.cli.inputs import collect
-from mudline.cli.lint_outputs import FORMS, TEXT, outputs
+from mudline.cli.lint_outputs import TEXT, outputs
 from mudline.cli.lint_report import Report
 from mudline.cli.lint_run import Run
 from mudline.cli.options import View
@@ -17,6 +17,7 @@ from mudline.cli.terminal import reason, tell
 from mudline.cli.writing import write_text
 from mudline.diagnostics import Severity
 from mudline.linting.baseline import Baseline, BaselineError, read_baseline
+from mudline.linting.output.formats import FORMS
 from mudline.linting.selection import UnknownRule, select
 from mudline.linting.settings import Fixing, LintSettings
 

@@ -2,32 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from importlib import import_module
 from pathlib import Path
-from typing import cast
 
 import click
 
 from mudline.cli.writing import write_text
 from mudline.diagnostics import Diagnostic
-
-Form = Callable[[Iterable[Diagnostic]], Iterable[str]]
+from mudline.linting.output.formats import FORMS, form
 
 TEXT = "text"
-FORMS = {
-    "concise": ("concise", "concise"),
-    "json": ("json_objects", "json_array"),
-    "jsonl": ("json_objects", "json_lines"),
-}
-"""Module of `mudline.linting.output` and function of every form but text; a module is imported when it is asked for."""
-
-
-def form(name: str) -> Form:
-    """The function that makes the text of findings in a form."""
-    module, function = FORMS[name]
-    return cast("Form", getattr(import_module(f"mudline.linting.output.{module}"), function))
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,10 +22,10 @@ class Outputs:
     form: str
     files: tuple[tuple[str, Path], ...]
 
-    def write_files(self, found: Sequence[Diagnostic]) -> None:
-        """Write the findings to the files; ends the command when that is not possible."""
+    def write_files(self, found: Sequence[Diagnostic], files: Sequence[str]) -> None:
+        """Write the findings in the files linted; ends the command when that is not possible."""
         for name, path in self.files:
-            write_text(path, form(name)(found))
+            write_text(path, form(name, files)(found))
 
 
 def outputs(given: Sequence[str]) -> Outputs:
@@ -50,9 +35,7 @@ def outputs(given: Sequence[str]) -> Outputs:
     for word in given:
         name, mark, path = word.partition("=")
         if name not in FORMS and name != TEXT:
-            raise click.UsageError(
-                f"--output-format: there is no form {name!r}: choose from {TEXT}, {', '.join(FORMS)}"
-            )
+            raise click.UsageError(f"--output-format: {name!r} is not one of {TEXT}, {', '.join(FORMS)}")
         if not mark:
             printed.append(name)
         elif not path or name == TEXT:

@@ -5,12 +5,13 @@ from __future__ import annotations
 import click
 
 from mudline.cli.lazy import printing
-from mudline.cli.lint_outputs import FORMS, Outputs, form
+from mudline.cli.lint_outputs import Outputs
 from mudline.cli.options import View
 from mudline.cli.streams import emit
 from mudline.cli.terminal import tell
 from mudline.diagnostics import Diagnostic, Severity
 from mudline.linting.output.concise import concise
+from mudline.linting.output.formats import FORMS, form
 from mudline.linting.output.statistics import statistics_lines
 from mudline.syntax.source import Source
 
@@ -26,12 +27,14 @@ class Report:
         self.fixing = fixing
         self.found: list[Diagnostic] = []
         self.fixed = 0
+        self.names: list[str] = []
         self.files = 0
         self.failing = False
 
     def add(self, name: str, data: bytes, found: list[Diagnostic], fixed: int, limit: Severity) -> None:
         """The findings that are left in one file, whose content is `data`, and the number of those fixed."""
         self.files += 1
+        self.names.append(name)
         self.found += found
         self.fixed += fixed
         self.failing = self.failing or any(one.severity.rank >= limit.rank for one in found)
@@ -47,13 +50,13 @@ class Report:
     def finish(self) -> None:
         """What stands at the end."""
         found = sorted(self.found, key=lambda diagnostic: diagnostic.sort_key)
-        self.outputs.write_files(found)
+        self.outputs.write_files(found, self.names)
         if self.aside:
             self._tell_aside(found)
         elif self.statistics:
             emit(statistics_lines(found))
         elif self.outputs.form in FORMS:
-            emit(form(self.outputs.form)(found))
+            emit(form(self.outputs.form, self.names)(found))
         elif self.view.quiet:
             emit(concise(found))
         elif self.files:
@@ -61,7 +64,7 @@ class Report:
 
     def _tell_aside(self, found: list[Diagnostic]) -> None:
         name = self.outputs.form if self.outputs.form in FORMS else "concise"
-        pieces = statistics_lines(found) if self.statistics else form(name)(found)
+        pieces = statistics_lines(found) if self.statistics else form(name, self.names)(found)
         for piece in pieces:
             click.echo(piece, err=True, nl=False)
         if self.fixing and not self.view.quiet and name == "concise":
