@@ -132,7 +132,7 @@ def test_several_outputs_at_once(place: Place) -> None:
 @pytest.mark.parametrize(
     ("forms", "reason"),
     [
-        (["xml"], "there is no form 'xml'"),
+        (["xml"], "'xml' is not one of text, "),
         (["json="], "write a file name"),
         (["text=a.txt"], "write concise=FILE"),
         (["json", "concise"], "takes one form"),
