@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from mudline.deck.json_form import to_json
+from mudline.deck.loading import load_bytes
 from mudline.linting.engine import lint_bytes
 from mudline.linting.selection import select
 from tests.lint.findings import CLAY, CURVES, PIPE, PROPERTIES, RESTART, curve, found, messages
@@ -63,6 +65,14 @@ def test_a_split_line_ends_as_the_lines_of_the_file() -> None:
 def test_a_list_with_an_empty_field_is_told_and_not_split() -> None:
     findings = lint_bytes(listed(25).replace("20,", "20,,").encode(), "deck.keyxm", select(["REF012"]))
     assert [finding.fix for finding in findings] == [None]
+
+
+def test_lists_of_files_with_lone_returns_are_split_and_those_of_documents_are_only_told() -> None:
+    finding = lint_bytes(listed(21).replace("\n", "\r").encode(), "deck.keyxm", select(["REF012"]))[0]
+    assert finding.fix is not None
+    assert finding.fix.edits[0].text == "\r  "
+    document = to_json(load_bytes(listed(21).encode(), "deck.keyxm")).encode()
+    assert [one.fix for one in lint_bytes(document, "deck.json", select(["REF012"]))] == [None]
 
 
 def test_sets_are_repeated_without_case_and_over_blocks() -> None:
@@ -133,6 +143,10 @@ def test_a_generator_of_elements_without_length_is_told_once() -> None:
 )
 def test_the_force_at_zero(given: tuple[tuple[float, float], ...], place: list[tuple[int, int]]) -> None:
     assert [(line, column) for _, line, column in found(points(*given), "CRV007")] == place
+
+
+def test_a_force_at_zero_that_overflows_is_not_told() -> None:
+    assert found(points((1, -1e308), (2, 1e308)), "CRV007") == []
 
 
 def test_curves_that_pull() -> None:

@@ -76,6 +76,7 @@ def _split(text: TextOrigin, where: Where, count: int) -> Repair | None:
     """A new line behind every 20 elements, indented as the line is; None where more than commas stands between them."""
     source = text.source.unified
     edits: list[tuple[Span, str]] = []
+    line_break = _line_break(text.source.text, text.span(where))
     for following in range(LONGEST_LIST, count, LONGEST_LIST):
         places = [where._replace(path=(*where.path, at)) for at in (following - 1, following)]
         before, behind = (text.span(place) for place in places)
@@ -84,13 +85,14 @@ def _split(text: TextOrigin, where: Where, count: int) -> Repair | None:
         between = source[before.end : behind.start]
         if between.strip(" \t") not in ("", ","):
             return None
-        edits.append((Span(before.end, behind.start), _line_break(text.source.text, before.start)))
+        edits.append((Span(before.end, behind.start), line_break))
     return Repair("safe", f"put at most {LONGEST_LIST} elements on a line", tuple(edits))
 
 
-def _line_break(text: str, at: int) -> str:
-    """A line end as the file has them, and the indentation of the line of a place; at least a blank."""
+def _line_break(text: str, line: Span | None) -> str:
+    """A line end as the file has them, and the indentation of a line; at least a blank."""
+    at = line.start if line else 0
     start = max(text.rfind("\n", 0, at), text.rfind("\r", 0, at)) + 1
     end = "\r\n" if "\r\n" in text else "\n" if "\n" in text else "\r" if "\r" in text else "\n"
-    line = text[start:at]
-    return end + (line[: len(line) - len(line.lstrip(" \t"))] or " ")
+    indentation = text[start:at]
+    return end + (indentation or " ")
