@@ -11,12 +11,16 @@ from importlib import import_module
 from typing import cast
 
 import click
+from click.shell_completion import shell_complete
 
 from mudline import __version__
 from mudline.cli import streams
 from mudline.cli.exits import CLOSED_PIPE, FOUND, WRONG_USAGE
 from mudline.cli.terminal import reason, tell
 from mudline.linting.plugins import PluginError
+
+COMPLETION = "_MUDLINE_COMPLETE"
+"""The variable by which a shell asks for completions, as click describes."""
 
 COMMANDS = {
     "lint": "Find faults in decks.",
@@ -71,8 +75,9 @@ def mudline() -> None:
 def run(arguments: Sequence[str]) -> int:
     """Run a command line; returns its exit code. A closed pipe ends quietly."""
     streams.prepare()
+    asked = os.environ.get(COMPLETION)
     try:
-        code = _invoke(arguments)
+        code = shell_complete(mudline, {}, "mudline", COMPLETION, asked) if asked else _invoke(arguments)
         sys.stdout.flush()
         sys.stderr.flush()
     except OSError as error:

@@ -51,9 +51,12 @@ units = click.option(
     help="Unit system of the deck, instead of what its suffix, *UNITS or gravity tell.",
 )
 
-deck = click.argument("deck", metavar="DECK")
+_files = click.Path().shell_complete
+"""What a shell completes; what is given is not checked here, so that every path is told of in the same words."""
 
-paths = click.argument("paths", nargs=-1, required=True, metavar="PATHS...")
+deck = click.argument("deck", metavar="DECK", shell_complete=_files)
+
+paths = click.argument("paths", nargs=-1, required=True, metavar="PATHS...", shell_complete=_files)
 
 stdin_name = click.option(
     "--stdin-filename",

@@ -110,9 +110,7 @@ class Guarded:
         """What the rule finds, as far as it comes; then RUN002 if it failed."""
         try:
             for problem in self.check(context):
-                if problem.code.code != self.code:
-                    raise ValueError(f"it gave a finding of {problem.code.code}")
-                context.deck.diagnose([problem])  # a place that the deck does not have fails here
+                self._examine(problem, context)
                 yield problem
         except Exception as error:  # noqa: BLE001 - the code of others may fail in any way
             message = (
@@ -120,6 +118,12 @@ class Guarded:
                 f"or leave it out with --ignore {self.code}; add what it checks by hand"
             )
             yield Problem(RUN002, message, where=Where())
+
+    def _examine(self, problem: Problem, context: LintContext) -> None:
+        """Fail now, in the guard, for what would fail later: another rule's code, a place that the deck has not."""
+        if problem.code.code != self.code:
+            raise ValueError(f"it gave a finding of {problem.code.code}")
+        context.deck.diagnose([problem])
 
 
 def _said(error: BaseException) -> str:

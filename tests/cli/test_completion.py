@@ -1,0 +1,48 @@
+"""Completion in the shell, asked for as click's scripts do."""
+
+from __future__ import annotations
+
+import pytest
+
+from mudline.cli.main import COMMANDS
+from tests.cli.runner import Outcome, process
+
+
+def complete(*words: str, shell: str = "bash") -> Outcome:
+    """What a shell is offered for the last word."""
+    env = {"_MUDLINE_COMPLETE": f"{shell}_complete", "COMP_WORDS": " ".join(("mudline", *words))}
+    env["COMP_CWORD"] = words[-1] if shell == "fish" else str(len(words))
+    return process(env=env)
+
+
+def offered(*words: str) -> list[str]:
+    outcome = complete(*words)
+    assert (outcome.code, outcome.err) == (0, "")
+    return outcome.out.split()
+
+
+@pytest.mark.parametrize(("shell", "sign"), [("bash", "complete -o"), ("zsh", "compdef"), ("fish", "complete --no")])
+def test_script_of_a_shell(shell: str, sign: str) -> None:
+    outcome = process(env={"_MUDLINE_COMPLETE": f"{shell}_source"})
+    assert outcome.code == 0
+    assert sign in outcome.out
+    assert f"_MUDLINE_COMPLETE={shell}_complete" in outcome.out
+
+
+def test_commands_are_offered() -> None:
+    assert offered("s") == [f"plain,{name}" for name in COMMANDS if name.startswith("s")]
+
+
+@pytest.mark.parametrize("command", ["lint", "show"])
+def test_paths_are_left_to_the_shell(command: str) -> None:
+    assert offered(command, "decks/ri") == ["file,decks/ri"]
+
+
+def test_options_and_their_words_are_offered() -> None:
+    assert "plain,--output-format" in offered("lint", "--o")
+    assert offered("lint", "--fail-on", "w") == ["plain,warning"]
+
+
+def test_an_unknown_question_is_answered_by_nothing() -> None:
+    outcome = process(env={"_MUDLINE_COMPLETE": "tcsh_source"})
+    assert (outcome.code, outcome.out, outcome.err) == (1, "", "")

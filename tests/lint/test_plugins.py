@@ -1,0 +1,229 @@
+"""Rules of other packages: the example package, plugins with a fault, and rules that fail."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+import mudline
+from mudline.diagnostics import Code, Problem, Severity, Span, Where
+from mudline.linting.engine import lint_bytes
+from mudline.linting.plugins import Guarded, PluginError, load, origin
+from mudline.linting.registry import Rule, rules
+from mudline.plugins import LintContext
+
+ROOT = Path(__file__).parents[2]
+SOURCE = Path(mudline.__file__).parents[1]
+NO_FRICTION = "$MODEL\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=50000.0\n"
+FRICTION = f"{NO_FRICTION} FRICTION=0.3, 0.6\n"
+
+RULE = '''
+"""A rule."""
+
+from mudline.plugins import Code, Problem, Severity, rule
+
+
+@rule(Code("{code}", "{slug}", Severity.WARNING))
+def found(context):
+    """A deck has a model.
+
+    Why not.
+
+    Bad:
+        $MODEL
+
+    Good:
+        $PREPROCESSOR
+
+    Finds: 1:1
+    """
+    {body}
+'''
+
+
+@dataclass(frozen=True)
+class Site:
+    """A folder of installed packages that stands before all others."""
+
+    folder: Path
+
+    def run(self, *arguments: str, deck: str = NO_FRICTION) -> subprocess.CompletedProcess[str]:
+        (self.folder / "deck.keyxm").write_text(deck)
+        return subprocess.run(
+            [sys.executable, "-m", "mudline", *arguments],
+            capture_output=True,
+            text=True,
+            check=False,
+            cwd=self.folder,
+            env={**os.environ, "PYTHONPATH": os.pathsep.join([str(SOURCE), str(self.folder)])},
+            timeout=60,
+        )
+
+    def add(self, text: str, *, module: str = "corp_rules", value: str = "corp_rules") -> None:
+        """Install a package with one module, as an installer would leave it."""
+        (self.folder / f"{module}.py").write_text(text)
+        info = self.folder / f"{module}-2.1.dist-info"
+        info.mkdir()
+        (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {module}\nVersion: 2.1\n")
+        (info / "entry_points.txt").write_text(f"[mudline.rules]\n{module} = {value}\n")
+
+
+@pytest.fixture
+def site(tmp_path: Path) -> Site:
+    return Site(tmp_path)
+
+
+@pytest.fixture(scope="module")
+def example(tmp_path_factory: pytest.TempPathFactory) -> Site:
+    """The example package, installed beside nothing and without a network."""
+    folder = tmp_path_factory.mktemp("site")
+    options = ["--quiet", "--no-deps", "--no-index", "--no-build-isolation", "--disable-pip-version-check"]
+    install = [sys.executable, "-m", "pip", "install", *options, "--target", str(folder)]
+    subprocess.run([*install, str(ROOT / "samples" / "plugin")], check=True, capture_output=True)
+    return Site(folder)
+
+
+def test_the_example_finds_what_it_is_for(example: Site) -> None:
+    done = example.run("lint", "--output-format", "concise", "deck.keyxm")
+    assert done.returncode == 1
+    assert done.stdout.startswith("deck.keyxm:4:2: ACM001 the friction coefficients of set ALL")
+    assert example.run("lint", "deck.keyxm", deck=FRICTION).returncode == 0
+
+
+def test_the_example_is_chosen_left_out_and_suppressed_as_any_rule(example: Site) -> None:
+    assert example.run("lint", "--select", "ACM", "deck.keyxm").returncode == 1
+    assert example.run("lint", "--ignore", "friction-not-given", "deck.keyxm").returncode == 0
+    hidden = NO_FRICTION.replace(" SET=ALL", "C mudline: ignore ACM001\n SET=ALL")
+    assert example.run("lint", "deck.keyxm", deck=hidden).returncode == 0
+
+
+def test_the_docstring_of_the_example_holds(example: Site, monkeypatch: pytest.MonkeyPatch) -> None:
+    script = (
+        "from mudline.linting.registry import find\nfrom mudline.linting.engine import lint_bytes\n"
+        "(one,) = find('ACM001')\n"
+        "print([(f.line, f.column) == one.place for f in lint_bytes(one.bad_bytes, one.file, [one])],"
+        "lint_bytes(one.good_bytes, one.file, [one]))"
+    )
+    monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(SOURCE), str(example.folder)]))
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert done.stdout == "[True] []\n"
+
+
+def test_rules_tells_the_package_of_a_rule(example: Site) -> None:
+    assert "A rule of acme-mudline 1.0.0." in example.run("rules", "ACM001").stdout
+    assert "[acme-mudline 1.0.0]" in " ".join(example.run("rules").stdout.split())
+    assert '"origin": "acme-mudline 1.0.0"' in example.run("rules", "ACM001", "--output-format", "json").stdout
+    assert origin("CRV001") == "mudline"
+
+
+def test_commands_that_run_no_rules_load_no_plugin(site: Site) -> None:
+    site.add("raise SystemExit(5)")
+    assert site.run("show", "deck.keyxm").returncode == 0
+
+
+FAULTS = {
+    "fails at import": ("import nowhere_at_all", "ModuleNotFoundError: No module named 'nowhere_at_all': tell"),
+    "fails without words": ("raise ValueError", "cannot be used: ValueError: tell its authors"),
+    "ends the program": ("raise SystemExit(5)", "SystemExit: 5: tell its authors"),
+    "adds nothing": ("", "it adds no rule: use the decorator mudline.plugins.rule"),
+    "letters of mudline": (RULE.format(code="CRV900", slug="model", body="yield"), "CRV900 belong to mudline"),
+    "letters without rules": (RULE.format(code="RUN900", slug="model", body="yield"), "RUN900 belong to mudline"),
+    "code of mudline": (RULE.format(code="CRV001", slug="model", body="yield"), "there is a rule CRV001 or model"),
+    "name of mudline": (RULE.format(code="COR001", slug="too-few-points", body="yield"), "or too-few-points already"),
+    "code in no form": (RULE.format(code="cor-1", slug="model", body="yield"), "the code 'cor-1' must be"),
+    "name in no form": (RULE.format(code="COR001", slug="The Model", body="yield"), "the name 'The Model' of COR001"),
+}
+
+
+@pytest.mark.parametrize(("text", "told"), FAULTS.values(), ids=FAULTS)
+def test_a_plugin_with_a_fault_stops_the_run_in_words(site: Site, text: str, told: str) -> None:
+    site.add(text)
+    done = site.run("lint", "deck.keyxm")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith("mudline: the plugin corp_rules of corp_rules 2.1 cannot be used: ")
+    assert told in done.stderr
+    assert done.stderr.endswith("or uninstall the package\n")
+    assert "Traceback" not in done.stderr
+
+
+def test_every_plugin_with_a_fault_is_told(site: Site) -> None:
+    site.add("import nowhere_at_all", module="first", value="first")
+    site.add(RULE.format(code="COR001", slug="model", body="yield"), module="second", value="second:missing")
+    told = site.run("rules").stderr.splitlines()
+    assert [line.split()[3] for line in told] == ["first", "second"]
+
+
+FAILURES = {
+    "raises": ("raise ZeroDivisionError('by zero')", "ZeroDivisionError: by zero"),
+    "raises without words": ("raise RecursionError", "(RecursionError)"),
+    "finds a string": ("yield 'model'", "AttributeError: 'str' object has no attribute 'code'"),
+    "gives nothing": ("return None", "TypeError: 'NoneType' object is not iterable"),
+    "finds of another rule": (
+        "yield Problem(Code('COR002', 'other', Severity.ERROR), 'x')",
+        "ValueError: it gave a finding of COR002",
+    ),
+}
+
+
+@pytest.mark.parametrize(("body", "told"), FAILURES.values(), ids=FAILURES)
+def test_a_rule_that_fails_is_a_finding_and_the_run_goes_on(site: Site, body: str, told: str) -> None:
+    site.add(RULE.format(code="COR001", slug="model", body=body))
+    (site.folder / "other.keyxm").write_text("$MODEL\n*SEABED PROPERTIES\n SET=ALL\n")
+    done = site.run("lint", "--output-format", "concise", "deck.keyxm", "other.keyxm")
+    lines = done.stdout.splitlines()
+    assert done.returncode == 1
+    assert [line.partition(":")[0] for line in lines if "RUN002" in line] == ["deck.keyxm", "other.keyxm"]
+    assert all("the rule COR001 of corp_rules 2.1 failed on this deck" in line for line in lines if "RUN002" in line)
+    assert told in lines[0]
+    assert any("SBD003" in line for line in lines)
+
+
+def test_an_entry_point_may_name_a_function(site: Site) -> None:
+    inner = RULE.format(code="COR001", slug="model", body="yield Problem(MODEL, 'write no model', Span(0, 1))")
+    inner = inner.replace("Severity, rule", "Severity, Span, rule").replace(
+        "@rule", 'MODEL = Code("COR001", "model", Severity.WARNING)\n\n\n@rule'
+    )
+    site.add(inner, module="corp_inner", value="corp_door:register")
+    (site.folder / "corp_door.py").write_text("def register():\n    import corp_inner\n")
+    done = site.run("lint", "--select", "COR", "--output-format", "concise", "deck.keyxm")
+    assert done.stdout == "deck.keyxm:1:1: COR001 write no model\n"
+
+
+MODEL = Code("COR001", "model", Severity.WARNING)
+
+
+def _finds(context: LintContext) -> Iterator[Problem]:
+    yield Problem(MODEL, "write no model", Span(0, len(context.deck.sections)))
+
+
+def _finds_nowhere(context: LintContext) -> Iterator[Problem]:
+    del context
+    yield Problem(MODEL, "write no model", where=Where(7, 7))
+
+
+def _with(check: Guarded) -> list[str]:
+    crv = rules()[0]
+    made = Rule(MODEL, check, crv.title, crv.why, crv.bad, crv.good, crv.place, crv.file, crv.encoding, crv.off)
+    return [one.code for one in lint_bytes(NO_FRICTION.encode(), "deck.keyxm", [made])]
+
+
+def test_a_guarded_rule_finds_and_a_place_that_is_not_there_ends_nothing() -> None:
+    assert _with(Guarded(_finds, "COR001", "corp 2.1")) == ["COR001"]
+    assert set(_with(Guarded(_finds_nowhere, "COR001", "corp 2.1"))) <= {"COR001", "RUN002"}
+
+
+def test_rules_of_plugins_are_registered_once_and_faults_stay_out(site: Site, monkeypatch: pytest.MonkeyPatch) -> None:
+    site.add("import nowhere_at_all", module="corp_bad", value="corp_bad")
+    monkeypatch.syspath_prepend(str(site.folder))
+    known = {rule.code.code: rule for rule in rules()}
+    before = dict(known)
+    (fault,) = load(known)
+    assert known == before
+    assert str(PluginError([fault])) == fault
+    assert fault.startswith("the plugin corp_bad of corp_bad 2.1 cannot be used: ModuleNotFoundError")
