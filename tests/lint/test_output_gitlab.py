@@ -1,0 +1,29 @@
+from __future__ import annotations
+
+import json
+
+from mudline.linting.output.gitlab import gitlab
+from tests.lint.outputs import finding
+
+
+def test_an_issue_has_what_the_report_asks_for() -> None:
+    (issue,) = json.loads("".join(gitlab([finding(file="./a.keyxm", message="wrong")])))
+    assert len(issue.pop("fingerprint")) == 64
+    assert issue == {
+        "description": "LEG001 wrong",
+        "check_name": "superseded-keyword",
+        "severity": "minor",
+        "location": {"path": "a.keyxm", "lines": {"begin": 3, "end": 3}},
+    }
+
+
+def test_fingerprints_stay_when_lines_move_and_are_unique() -> None:
+    def prints(*lines: int) -> list[str]:
+        return [issue["fingerprint"] for issue in json.loads("".join(gitlab(finding(line=line) for line in lines)))]
+
+    assert prints(3, 9) == prints(4, 17)
+    assert len(set(prints(3, 9, 9))) == 3
+
+
+def test_nothing_is_an_empty_array() -> None:
+    assert "".join(gitlab([])) == "[]\n"
