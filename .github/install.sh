@@ -1,0 +1,9 @@
+#!/usr/bin/env bash
+# Installs mudline for action.yml: MUDLINE_VERSION from the package index, or the checkout of the action.
+set -euo pipefail
+
+what="${GITHUB_ACTION_PATH:-.}"
+if [ -n "${MUDLINE_VERSION:-}" ]; then
+  what="mudline==$MUDLINE_VERSION"
+fi
+"${MUDLINE_PYTHON:-python}" -m pip install --quiet --disable-pip-version-check "$what"

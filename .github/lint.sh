@@ -1,0 +1,14 @@
+#!/usr/bin/env bash
+# Runs mudline lint for action.yml. The inputs come as variables, so that nothing in them is run as a command.
+set -euo pipefail
+
+# Words are parted at blanks and lines; no pattern in them is expanded.
+set -f
+# shellcheck disable=SC2206
+paths=(${MUDLINE_PATHS:-.})
+# shellcheck disable=SC2206
+options=(${MUDLINE_ARGS:-})
+set +f
+
+exec "${MUDLINE_PYTHON:-python}" -m mudline lint --output-format "${MUDLINE_FORMAT:-github}" \
+  ${options[@]+"${options[@]}"} -- "${paths[@]}"

@@ -1,0 +1,78 @@
+"""The hooks of pre-commit: run by it in a repository of its own, on mudline as it is here."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import yaml
+
+import mudline
+
+ROOT = Path(__file__).parents[2]
+SOURCE = Path(mudline.__file__).parents[1]
+HOOKS = {hook["id"]: hook for hook in yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text(encoding="utf-8"))}
+CLEAN = "$MODEL\n*OCEAN\n 100.0, 1025.0, 9.81\n"
+PRE_COMMIT = Path(sys.executable).parent / "pre-commit"
+
+tried = pytest.mark.skipif(
+    not (PRE_COMMIT.exists() and shutil.which("git")), reason="pre-commit or git is not installed"
+)
+
+
+@pytest.fixture
+def repository(tmp_path: Path) -> Path:
+    """A repository whose hooks are ours, run by this Python instead of one that pre-commit installs."""
+    entry = f"{sys.executable} -m mudline"
+    hooks = [
+        {**hook, "language": "system", "entry": hook["entry"].replace("mudline", entry, 1)} for hook in HOOKS.values()
+    ]
+    folder = tmp_path / "repository"
+    folder.mkdir()
+    config = {"repos": [{"repo": "local", "hooks": hooks}]}
+    (folder / ".pre-commit-config.yaml").write_text(yaml.safe_dump(config))
+    subprocess.run(["git", "init", "-q", str(folder)], check=True)  # noqa: S607 - the git of the path
+    return folder
+
+
+def run(folder: Path, hook: str, **files: str) -> subprocess.CompletedProcess[str]:
+    """Add files, and run one hook over all that is added."""
+    for name, text in files.items():
+        (folder / name.replace("__", ".")).write_text(text)
+    subprocess.run(["git", "add", "-A"], cwd=folder, check=True)  # noqa: S607 - the git of the path
+    env = {**os.environ, "PYTHONPATH": str(SOURCE), "PRE_COMMIT_HOME": str(folder.parent / "home")}
+    command = [str(PRE_COMMIT), "run", hook, "--all-files", "--color", "never"]
+    return subprocess.run(command, cwd=folder, env=env, capture_output=True, text=True, check=False, timeout=60)
+
+
+@pytest.mark.parametrize("hook", HOOKS.values(), ids=HOOKS)
+def test_a_hook_takes_the_files_of_decks(hook: dict[str, str]) -> None:
+    taken = [name for name in ("a.keyx", "a.keyxm", "b/a.keyxi", "a.das") if re.search(hook["files"], name)]
+    assert len(taken) == 4
+    assert not any(re.search(hook["files"], name) for name in ("a.keyxm.bak", "a.txt", "keyxm", "a.keyxx"))
+
+
+def test_there_are_hooks_to_lint_and_to_format() -> None:
+    assert sorted(HOOKS) == ["mudline-format", "mudline-lint"]
+
+
+@tried
+def test_lint_fails_for_a_faulty_deck_only(repository: Path) -> None:
+    clean = run(repository, "mudline-lint", deck__keyxm=CLEAN, notes__txt="*OCEAN\n l.0\n")
+    assert (clean.returncode, "Passed" in clean.stdout) == (0, True), clean.stdout + clean.stderr
+    faulty = run(repository, "mudline-lint", other__keyxm=CLEAN.replace("1025", "l025"))
+    assert faulty.returncode == 1
+    assert "other.keyxm:3:9: error SYN002" in faulty.stdout
+
+
+@tried
+def test_format_rewrites_a_deck_and_then_passes(repository: Path) -> None:
+    first = run(repository, "mudline-format", deck__keyxm=CLEAN.replace("*OCEAN\n ", "*ocean\n    "))
+    assert (first.returncode, "files were modified" in first.stdout) == (1, True), first.stdout + first.stderr
+    assert run(repository, "mudline-format").returncode == 0
+    assert "*OCEAN\n" in (repository / "deck.keyxm").read_text()
