@@ -142,19 +142,19 @@ each_rule = pytest.mark.parametrize("given", rules(), ids=lambda given: given.co
 
 @each_rule
 def test_the_bad_deck_gives_one_finding_where_the_docstring_says(given: Rule) -> None:
-    found = lint_bytes(given.bad_bytes, given.file, [given], folder=NOWHERE)
+    found = lint_bytes(given.bad_bytes, given.file, [given], folder=NOWHERE, dialect=given.dialect)
     assert [(one.line, one.column) for one in found] == [given.place], [str(one) for one in found]
     assert [(one.code, one.slug) for one in found] == [(given.code.code, given.code.slug)]
 
 
 @each_rule
 def test_the_good_deck_is_clean_under_all_rules(given: Rule) -> None:
-    assert lint_bytes(given.good_bytes, given.file, rules(), folder=NOWHERE) == []
+    assert lint_bytes(given.good_bytes, given.file, rules(), folder=NOWHERE, dialect=given.dialect) == []
 
 
 @each_rule
 def test_the_message_says_what_to_do(given: Rule) -> None:
-    message = lint_bytes(given.bad_bytes, given.file, [given], folder=NOWHERE)[0].message
+    message = lint_bytes(given.bad_bytes, given.file, [given], folder=NOWHERE, dialect=given.dialect)[0].message
     assert message == message.strip()
     assert not message.endswith(".")
     assert "\n" not in message
@@ -192,7 +192,7 @@ MEANING = [given for given in rules() if not load_bytes(given.bad_bytes, given.f
 def test_a_fault_of_meaning_is_found_in_json_and_yaml_too(given: Rule) -> None:
     deck = load_bytes(given.bad_bytes, given.file)
     for text, name in ((to_json(deck), "deck.json"), (to_yaml(deck), "deck.yaml")):
-        found = lint_bytes(text.encode(), name, [given], folder=NOWHERE)
+        found = lint_bytes(text.encode(), name, [given], folder=NOWHERE, dialect=given.dialect)
         assert [one.code for one in found] == [given.code.code]
         assert found[0].line > 1
 

@@ -15,9 +15,13 @@ from mudline.scene.model import Scene
 
 @dataclass
 class LintContext:
-    """A deck as it is written (equations and all) and its scene (evaluated and resolved, as far as that goes)."""
+    """A deck as it is written (equations and all) and its scene (evaluated and resolved, as far as that goes).
+
+    `dialect` is the deck language that the deck must keep to: "mudline", or "flexcom" without extension keywords.
+    """
 
     deck: Deck
+    dialect: str = "mudline"
 
     @property
     def text(self) -> TextOrigin | None:

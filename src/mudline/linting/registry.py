@@ -23,13 +23,15 @@ MODULES = (
     "sections",
     "curves",
     "seabed",
+    "extensions",
     "units",
     "stability",
     "legacy",
+    "style_suppression",
 )
 """The modules of `mudline.linting.rules`."""
 
-_HEADINGS = re.compile(r"^(Bad|Good|Finds|File|Bytes|Cut):[ \t]*(.*)$", re.MULTILINE)
+_HEADINGS = re.compile(r"^(Bad|Good|Finds|File|Bytes|Cut|Dialect):[ \t]*(.*)$", re.MULTILINE)
 _RULES: dict[str, Rule] = {}
 
 
@@ -39,7 +41,8 @@ class Rule:
 
     `title` is the first sentence, `why` the text behind it, `bad` a deck that it finds something in at `place` (line
     and column), `good` the same deck mended; `file` is the name that the examples are read under. `encoding` is that of
-    the bad deck's bytes. A rule that is `off` runs only where it is selected.
+    the bad deck's bytes, `dialect` the one under which it is at fault. A rule that is `off` runs only where it is
+    selected.
     """
 
     code: Code
@@ -52,6 +55,7 @@ class Rule:
     file: str
     encoding: str
     off: bool
+    dialect: str = "mudline"
 
     @property
     def bad_bytes(self) -> bytes:
@@ -66,6 +70,8 @@ class Rule:
     @property
     def remark(self) -> str:
         """What the text of the bad deck does not show about its file, or ""."""
+        if self.dialect != "mudline":
+            return f"with --dialect {self.dialect}"
         if self.encoding != "utf-8":
             return f"saved as {self.encoding.upper()}"
         return "" if self.bad.endswith("\n") else "the file ends behind the last character, without a line end"
@@ -77,7 +83,7 @@ def rule(code: Code, *, off: bool = False) -> Callable[[Check], Check]:
     Its docstring begins with the title, a sentence on a line of its own; the text behind it says why. Then come a bad
     and a good deck, indented below `Bad:` and `Good:`, and `Finds: line:column`, the place of the one finding in the
     bad deck. `File: name` (default deck.keyxm) is the name of both decks. `Bytes: encoding` saves the bad deck in
-    another encoding than UTF-8; `Cut: yes` leaves out its last line end.
+    another encoding than UTF-8; `Cut: yes` leaves out its last line end; `Dialect: name` reads both decks in a dialect.
 
     Raises ValueError for a docstring that lacks a part, and for a code or slug that another rule has.
     """
@@ -113,6 +119,7 @@ def _described(code: Code, check: Check, *, off: bool) -> Rule:
         file=words.get("File", "deck.keyxm"),
         encoding=words.get("Bytes", "utf-8"),
         off=off,
+        dialect=words.get("Dialect", "mudline"),
     )
 
 

@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from mudline.linting.rules.seabed import profile, restraint, types, values
+from mudline.linting.rules.seabed import families, friction, profile, restraint, slope, types, values
 
-__all__ = ["profile", "restraint", "types", "values"]
+__all__ = ["families", "friction", "profile", "restraint", "slope", "types", "values"]

@@ -1,0 +1,175 @@
+"""Unloading against the loading law and against smoothing."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from mudline.contact.inputs import LawKind
+from mudline.diagnostics import Code, Problem, Severity
+from mudline.linting.context import LintContext
+from mudline.linting.registry import rule
+from mudline.scene.model import Scene
+from mudline.scene.numbering import Floats, Mask
+
+EXT008 = Code("EXT008", "soft-unloading", Severity.WARNING)
+EXT009 = Code("EXT009", "unloading-conflict", Severity.ERROR)
+
+_KEYWORD = "SEABED UNLOADING"
+
+
+@rule(EXT008)
+def soft_unloading(context: LintContext) -> Iterator[Problem]:
+    """The unloading stiffness is below the steepest slope of the loading law.
+
+    Soil unloads at least as stiffly as it was loaded: with a softer return path a cycle would give energy back, and the
+    trench would lie above the bed. The stiffness is raised to the slope reached. Give a higher one.
+
+    Bad:
+        $MODEL
+        *NODE
+         1, -0.05, 0.0
+         5, -0.05, 40.0
+         GEN=1, 5
+        *ELEMENT
+         1, 1, 2
+         GEN=1, 4
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=50000.0
+        *SEABED UNLOADING
+         SET=ALL
+         STIFFNESS=20000.0
+
+    Good:
+        $MODEL
+        *NODE
+         1, -0.05, 0.0
+         5, -0.05, 40.0
+         GEN=1, 5
+        *ELEMENT
+         1, 1, 2
+         GEN=1, 4
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=50000.0
+        *SEABED UNLOADING
+         SET=ALL
+         STIFFNESS=500000.0
+
+    Finds: 15:12
+    """
+    scene = context.scene
+    extension = scene.extensions.get(_KEYWORD)
+    if extension is None:
+        return
+    steepest = np.where(_nodal(scene), np.nan, _steepest(scene))
+    for index, (entry, where) in enumerate(zip(extension.entries, extension.places, strict=True)):
+        stiffness = _number(entry, "stiffness")
+        softer = np.flatnonzero((extension.of_element == index) & (steepest > stiffness))
+        if stiffness > 0.0 and softer.size:
+            message = (
+                f"unloading stiffness {stiffness!r} is below the steepest slope of the loading law of "
+                f"{softer.size} elements (first: {scene.element_ids[softer[0]]}), "
+                f"{float(steepest[softer].max()):.6g}: it is raised to it; give at least that"
+            )
+            yield Problem(EXT008, message, where=where._replace(path=(*where.path, "stiffness")))
+
+
+@rule(EXT009)
+def unloading_conflict(context: LintContext) -> Iterator[Problem]:
+    """Unloading stands together with smoothing, or its stiffness is not above 0.
+
+    Both change the reaction near the bed, and there is no law for the two together. *SEABED CONTACT smooths a linear
+    law unless it says SMOOTHING=NONE. Write that, or remove the unloading; a stiffness divides and must be above 0.
+
+    Bad:
+        $MODEL
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=50000.0
+        *SEABED UNLOADING
+         SET=ALL
+         STIFFNESS=0.0
+
+    Good:
+        $MODEL
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=50000.0
+        *SEABED UNLOADING
+         SET=ALL
+         STIFFNESS=500000.0
+
+    Finds: 8:12
+    """
+    scene = context.scene
+    extension = scene.extensions.get(_KEYWORD)
+    if extension is None:
+        return
+    smoothed = _smoothed(scene)
+    for index, (entry, where) in enumerate(zip(extension.entries, extension.places, strict=True)):
+        stiffness = _number(entry, "stiffness")
+        if stiffness <= 0.0:
+            message = f"unloading stiffness {stiffness!r}: it must be above 0"
+            yield Problem(EXT009, message, where=where._replace(path=(*where.path, "stiffness")))
+        both = np.flatnonzero((extension.of_element == index) & smoothed)
+        if both.size:
+            message = (
+                f"{both.size} elements (first: {scene.element_ids[both[0]]}) have smoothing too: "
+                "write SMOOTHING=NONE in *SEABED CONTACT, or remove the unloading"
+            )
+            yield Problem(EXT009, message, where=where._replace(path=(*where.path, "set")))
+
+
+def _number(part: object, name: str) -> float:
+    value = getattr(part, name, None)
+    return float(value) if isinstance(value, float | int) else float("nan")
+
+
+def _steepest(scene: Scene) -> Floats:
+    """Steepest slope of each element's law below the mudline, per unit of penetration; NaN where it is not known."""
+    linear = np.array([*(np.nan if grant.unknown else grant.stiffness for grant in scene.laws.grants), np.nan])
+    slopes = np.array([*(_curve_slope(scene, grant.curve) for grant in scene.laws.grants), np.nan])
+    found = scene.laws.of_element
+    with np.errstate(over="ignore"):
+        steep: Floats = np.where(scene.law == LawKind.LINEAR, linear[found], slopes[found] / scene.diameter)
+    return steep
+
+
+def _curve_slope(scene: Scene, index: int) -> float:
+    curve = scene.laws.curves[index].curve if index >= 0 else None
+    if curve is None:
+        return float("nan")
+    ratios = scene.laws.curves[index].points[:, 0]
+    return float(curve.evaluate(np.append(ratios[ratios > 0.0], 0.0))[1].max())
+
+
+def _nodal(scene: Scene) -> Mask:
+    """Elements whose law is a stiffness of their nodes."""
+    return _contacts(scene, [_number(entry, "nodal_stiffness") >= 0.0 for entry in _entries(scene)])
+
+
+def _smoothed(scene: Scene) -> Mask:
+    """Elements with a linear or nodal law that is smoothed."""
+    wanted = [getattr(entry, "smoothing", "NONE") != "NONE" for entry in _entries(scene)]
+    smoothed: Mask = _contacts(scene, wanted) & ((scene.law == LawKind.LINEAR) | _nodal(scene))
+    return smoothed
+
+
+def _entries(scene: Scene) -> list[object]:
+    contact = scene.extensions.get("SEABED CONTACT")
+    return list(contact.entries) if contact else []
+
+
+def _contacts(scene: Scene, flags: list[bool]) -> Mask:
+    contact = scene.extensions.get("SEABED CONTACT")
+    if contact is None:
+        return np.zeros(len(scene.element_ids), dtype=np.bool_)
+    found: Mask = np.array([*flags, False])[contact.of_element]
+    return found

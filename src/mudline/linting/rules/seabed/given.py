@@ -1,0 +1,64 @@
+"""What single places of a deck give to elements besides stiffness, in both families of keywords."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, NamedTuple, cast
+
+from mudline.diagnostics import Where
+from mudline.linting.context import LintContext
+from mudline.scene.laws import typed_blocks
+
+_UNKNOWN = float("nan")
+_OF_SET = {
+    "lateral": ("lateral",),
+    "suction_stiffness": ("suction", "stiffness"),
+    "suction_extent": ("suction", "extent"),
+}
+
+
+class Given(NamedTuple):
+    """A set of *SEABED PROPERTIES, or the first line of a legacy surface; `type_` is None where it is not known."""
+
+    part: Any
+    where: Where
+    type_: str | None
+    legacy: bool
+
+    def place(self, name: str) -> Where:
+        """Where a value stands; names are those of the fields of *ELASTIC SURFACE."""
+        return self.where._replace(path=(*self.where.path, *self._path(name)))
+
+    def value(self, name: str) -> float | None:
+        """A value: None where the deck gives none, NaN where it could not be read."""
+        found = self.part
+        for step in self._path(name):
+            found = getattr(found, step, None)
+        if found is None:
+            return None
+        return float(cast("float", found)) if isinstance(found, float | int) else _UNKNOWN
+
+    def _path(self, name: str) -> tuple[str, ...]:
+        return (name,) if self.legacy else _OF_SET.get(name, ("friction", name))
+
+
+def given(context: LintContext) -> Iterator[Given]:
+    """All of them: legacy surfaces first, then the sets of *SEABED PROPERTIES in the order of the file."""
+    deck = context.scene.deck
+    for keyword in ("RIGID SURFACE", "ELASTIC SURFACE"):
+        for where, block in deck.blocks(keyword):
+            place = where._replace(path=("properties",))
+            yield Given(getattr(block, "properties", None), place, keyword.split()[0], legacy=True)
+    for where, properties, type_ in typed_blocks(context.scene.context):
+        for index, entry in enumerate(properties.sets):
+            yield Given(entry, where._replace(path=("sets", index)), type_, legacy=False)
+
+
+def positive(value: float | None) -> bool:
+    """Whether a value is given, could be read and is above zero."""
+    return value is not None and value > 0.0
+
+
+def nothing(value: float | None) -> bool:
+    """Whether a value is absent or zero; one that could not be read is neither."""
+    return value is None or value == 0.0

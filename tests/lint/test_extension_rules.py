@@ -1,0 +1,65 @@
+"""Rules over extension keywords: combinations, units, and where they find nothing."""
+
+from __future__ import annotations
+
+import pytest
+
+from mudline.linting.engine import lint_bytes
+from mudline.linting.selection import select
+from tests.lint.findings import CLAY, PIPE, PROPERTIES, RESTART, found
+
+LINEAR = PROPERTIES + " STIFFNESS=5000\n"
+UNLOADING = "*SEABED UNLOADING\n SET=ALL\n STIFFNESS=9000\n"
+SUCTION = "*SEABED SUCTION\n SET=ALL\n"
+TRENCH = "*SEABED TRENCH\n SET=ALL\n GEOMETRY=0.5, 1.0, 3.0\n PEAK=2000\n"
+
+
+@pytest.mark.parametrize(
+    ("code", "lines", "expected"),
+    [
+        ("EXT001", "*ELASTIC SURFACE\n 100\n" + UNLOADING, 0),
+        ("EXT001", UNLOADING, 1),
+        ("EXT001", "*RIGID SURFACE\n 0.3\n" + UNLOADING + TRENCH, 2),
+        ("EXT001", "*SEABED PROPERTIES\n SET=ALL\n" + UNLOADING, 0),
+        ("EXT002", "*ELASTIC SURFACE\n 100\n 2.0\n*SEABED PLANES\n PLANE=a\n POINT=0, 0, 0\n SLOPE=0\n", 1),
+        ("EXT002", "*ELASTIC SURFACE\n 100\n*SEABED PLANES\n PLANE=a\n POINT=0, 0, 0\n SLOPE=0\n", 0),
+        ("EXT003", LINEAR + TRENCH, 1),
+        ("EXT003", LINEAR + TRENCH + RESTART, 0),
+        ("EXT003", LINEAR + " FRICTION=0.3, 0.5\n" + TRENCH, 0),
+        ("EXT003", LINEAR + "*SEABED FRICTION\n SET=ALL\n COEFFICIENTS=1, 1\n STIFFNESS=5\n" + TRENCH, 0),
+        ("EXT003", LINEAR + "*SEABED FRICTION\n SET=SCR\n COEFFICIENTS=1, 1\n STIFFNESS=5\n" + TRENCH, 0),
+        ("EXT004", SUCTION + " CUTOFF=0.01, 0.99\n", 0),
+        ("EXT004", SUCTION + " CUTOFF=0.009, 0.99\n", 1),
+        ("EXT004", SUCTION + " CUTOFF=0.2, =[unknown]\n", 0),
+        ("EXT005", SUCTION, 1),
+        ("EXT005", SUCTION + " COHESION=x\n", 0),
+        ("EXT005", SUCTION + " COHESION=5000\n FORCE=1, 1\n", 0),
+        ("EXT006", LINEAR + " SUCTION=0\n" + SUCTION, 0),
+        ("EXT006", "*ELASTIC SURFACE\n 100, , , , 50\n" + SUCTION, 1),
+        ("EXT006", "*SEABED STIFFNESS\n CURVE=c\n 0, 0\n 1, -5\n" + PROPERTIES + " STIFFNESS=c\n" + SUCTION, 1),
+        ("EXT006", "*SEABED STIFFNESS\n" + CLAY + PROPERTIES + " STIFFNESS=Clay\n" + SUCTION, 0),
+        ("EXT007", "*SEABED PLANES\n PLANE=a\n POINT=0, 0, 0\n", 1),
+        ("EXT007", "*SEABED PLANES\n PLANE=a\n POINT=0, 0, 0\n SLOPE=x\n", 0),
+        ("EXT007", "*SEABED PLANES\n PLANE=a\n POINT=0, 0, 0\n SLOPE=-90\n", 1),
+        ("EXT008", LINEAR + UNLOADING, 0),
+        ("EXT008", "*SEABED STIFFNESS\n" + CLAY + PROPERTIES + " STIFFNESS=Clay\n" + UNLOADING, 1),
+        ("EXT008", PROPERTIES + " STIFFNESS=9999\n" + UNLOADING, 1),
+        ("EXT008", PROPERTIES + " STIFFNESS==[unknown]\n" + UNLOADING, 0),
+        ("EXT008", PROPERTIES + " STIFFNESS=9999\n*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=5\n" + UNLOADING, 0),
+        ("EXT009", LINEAR + UNLOADING + "*SEABED CONTACT\n SET=ALL\n", 1),
+        ("EXT009", LINEAR + UNLOADING + "*SEABED CONTACT\n SET=ALL\n SMOOTHING=NONE\n", 0),
+        ("EXT009", LINEAR + UNLOADING, 0),
+    ],
+)
+def test_findings_of_a_rule(code: str, lines: str, expected: int) -> None:
+    assert len(found(PIPE + lines, code)) == expected
+
+
+def test_user_units_need_all_values() -> None:
+    for lines, expected in ((" COHESION=5000\n", 2), (" FORCE=1, 1\n DEPTH=1, 1\n REGULARISATION=0.1\n", 0)):
+        text = PIPE + LINEAR + SUCTION + lines
+        assert len(lint_bytes(text.encode(), "deck.keyx", select(["EXT005"]))) == expected
+
+
+def test_decks_without_extensions_give_nothing() -> None:
+    assert found(PIPE + LINEAR, "EXT") == []
