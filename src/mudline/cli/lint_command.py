@@ -12,20 +12,21 @@ from mudline.cli.inputs import collect
 from mudline.cli.lint_outputs import TEXT, outputs
 from mudline.cli.lint_report import Report
 from mudline.cli.lint_run import Run
+from mudline.cli.lint_settings import Configured, Given, merged
 from mudline.cli.options import View
 from mudline.cli.terminal import reason, tell
 from mudline.cli.writing import write_text
 from mudline.diagnostics import Severity
 from mudline.linting.baseline import Baseline, BaselineError, read_baseline
+from mudline.linting.configuration import Configuration
 from mudline.linting.output.formats import FORMS
-from mudline.linting.selection import UnknownRule, select
-from mudline.linting.settings import Fixing, LintSettings
+from mudline.linting.settings import Fixing
 
 _CODES = "CODE[,CODE...]"
 
 
-def _words(given: tuple[str, ...]) -> list[str]:
-    return [word for text in given for word in text.split(",") if word.strip()]
+def _words(given: tuple[str, ...]) -> tuple[str, ...]:
+    return tuple(word for text in given for word in text.split(",") if word.strip())
 
 
 @click.command("lint")
@@ -38,9 +39,7 @@ def _words(given: tuple[str, ...]) -> list[str]:
 @click.option(
     "--fail-on",
     type=click.Choice([severity.value for severity in (Severity.ERROR, Severity.WARNING, Severity.INFO)]),
-    default=Severity.WARNING.value,
-    show_default=True,
-    help="Exit with 1 for findings of this severity or worse.",
+    help="Exit with 1 for findings of this severity or worse (default: warning).",
 )
 @click.option(
     "--output-format",
@@ -57,10 +56,10 @@ def _words(given: tuple[str, ...]) -> list[str]:
 @click.option(
     "--dialect",
     type=click.Choice(["mudline", "flexcom"]),
-    default="mudline",
-    show_default=True,
-    help="The program that the decks are for; flexcom knows no extension keywords.",
+    help="The program that the decks are for (default: mudline); flexcom knows no extension keywords.",
 )
+@click.option("--config", metavar="FILE", help="Use this configuration for all decks, not the nearest one of each.")
+@click.option("--isolated", is_flag=True, help="Use no configuration file.")
 @click.option("--statistics", is_flag=True, help="Count the findings of each rule instead of listing them.")
 @click.option("--exit-zero", is_flag=True, help="Exit with 0 whatever is found.")
 @options.stdin_name
@@ -72,14 +71,16 @@ def command(
     chosen: tuple[str, ...],
     also: tuple[str, ...],
     ignored: tuple[str, ...],
-    fail_on: str,
+    fail_on: str | None,
     forms: tuple[str, ...],
     fix: bool,
     unsafe: bool,
     diff: bool,
     baseline: str | None,
     recording: bool,
-    dialect: str,
+    dialect: str | None,
+    config: str | None,
+    isolated: bool,
     statistics: bool,
     exit_zero: bool,
     stdin_name: str,
@@ -90,18 +91,16 @@ def command(
 
     PATHS are decks, directories (searched for *.keyx, *.keyxm, *.keyxi and *.das) or - for standard input.
     """
-    try:
-        rules = select(_words(chosen), _words(ignored), _words(also))
-    except UnknownRule as error:
-        raise click.UsageError(str(error)) from error
     fixing = Fixing.NONE if not (fix or diff) else Fixing.UNSAFE if unsafe else Fixing.SAFE
-    settings = LintSettings(rules, units, dialect, fail_on=Severity(fail_on), fixing=fixing)
+    given = Given(_words(chosen), _words(ignored), _words(also), fail_on, dialect, units, fixing)
+    configured = Configured(config, isolated)
+    merged(Configuration(), given)  # a wrong code is told whatever the files are
     told = outputs(forms)
     known = _baseline(baseline, recording=recording)
     inputs = collect(paths, stdin_name)
     aside = diff or (fix and any(file.path is None for file in inputs.files))
     report = Report(told, view, statistics=statistics, aside=aside, fixing=fixing is not Fixing.NONE)
-    run = Run(inputs, lambda _: settings, report, known, recording, diff)
+    run = Run(inputs, lambda file: configured.settings(file, given), report, known, recording, diff)
     run.go()
     if known is not None and baseline is not None:
         _tell_baseline(known, Path(baseline), view, recording=recording)

@@ -1,0 +1,125 @@
+"""What holds for each deck: the command line before the configuration file before the defaults."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TypeVar
+
+import click
+
+from mudline.cli.inputs import Input
+from mudline.cli.terminal import reason
+from mudline.diagnostics import Severity
+from mudline.linting.configuration import Configuration, ConfigurationError, Search, read_configuration
+from mudline.linting.globs import matches
+from mudline.linting.registry import rules
+from mudline.linting.selection import UnknownRule, select
+from mudline.linting.settings import Fixing, LintSettings
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Given:
+    """What the command line says; None or nothing where it says nothing."""
+
+    chosen: tuple[str, ...] = ()
+    ignored: tuple[str, ...] = ()
+    also: tuple[str, ...] = ()
+    fail_on: str | None = None
+    dialect: str | None = None
+    units: str | None = None
+    fixing: Fixing = Fixing.NONE
+
+
+@dataclass
+class Configured:
+    """The configuration of each deck: that of `--config`, none (`isolated`), or the nearest one upwards."""
+
+    config: str | None = None
+    isolated: bool = False
+    _search: Search = field(default_factory=Search)
+    _settings: dict[object, LintSettings] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        if self.config is not None and self.isolated:
+            raise click.UsageError("--config and --isolated exclude each other: give one of them")
+        self._fixed = Configuration() if self.isolated else None
+        if self.config is not None:
+            self._fixed = _told(lambda: read_configuration(Path(str(self.config)))) or Configuration()
+
+    def of(self, path: str | None) -> Configuration:
+        """The configuration of a file; standard input stands in the working folder."""
+        if self._fixed is not None:
+            return self._fixed
+        folder = Path(os.path.abspath(path or "-")).parent  # noqa: PTH100 - links stay what they are called
+        return _told(lambda: self._search.nearest(folder))
+
+    def settings(self, file: Input, given: Given) -> LintSettings:
+        """What holds for a file."""
+        found = self.of(file.path)
+        relative = place(found, file.path or file.name)
+        ignores = found.table("per-file-ignores")
+        hidden = tuple(code for glob, codes in ignores.items() if matches(relative, [glob]) for code in codes)
+        key = (found.path, hidden)
+        if key not in self._settings:
+            self._settings[key] = merged(found, given, hidden)
+        return self._settings[key]
+
+
+def place(found: Configuration, path: str) -> str:
+    """A path as seen from the folder of a configuration, with `/`."""
+    folder = Path() if found.path is None else found.path.parent
+    try:
+        return os.path.relpath(path, folder).replace(os.sep, "/")
+    except ValueError:  # another drive
+        return path.replace(os.sep, "/")
+
+
+def merged(found: Configuration, given: Given, hidden: tuple[str, ...] = ()) -> LintSettings:
+    """A configuration under a command line; `hidden` are codes that it ignores in a file."""
+    severity = found.table("severity")
+    off = [code for code, word in severity.items() if word == "off"]
+    chosen = list(given.chosen) or found.words("select")
+    ignored = [*given.ignored, *hidden] if given.chosen else [*given.ignored, *found.words("ignore"), *off, *hidden]
+    try:
+        running = select(chosen, ignored, [*given.also, *([] if given.chosen else found.words("extend-select"))])
+    except UnknownRule as error:
+        raise click.UsageError(str(error)) from error
+    severities = {
+        rule.code.code: Severity(word)
+        for code, word in sorted(severity.items(), key=lambda item: len(item[0]))
+        if word != "off"
+        for rule in select([code])
+    }
+    return LintSettings(
+        running,
+        given.units,
+        given.dialect or found.values.get("dialect", "mudline"),
+        severities,
+        Severity(given.fail_on or found.values.get("fail-on", "warning")),
+        given.fixing,
+        _unfixable(found),
+    )
+
+
+def _unfixable(found: Configuration) -> frozenset[str]:
+    unfixable = _codes(found.words("unfixable"))
+    fixable = found.words("fixable")
+    return unfixable | ({rule.code.code for rule in rules()} - _codes(fixable)) if fixable else unfixable
+
+
+def _codes(words: list[str]) -> frozenset[str]:
+    return frozenset(rule.code.code for rule in select(words)) if words else frozenset()
+
+
+def _told(read: Callable[[], T]) -> T:
+    try:
+        return read()
+    except ConfigurationError as error:
+        raise click.ClickException(str(error)) from error
+    except OSError as error:
+        raise click.ClickException(f"{error.filename}: the configuration cannot be read: {reason(error)}") from error
