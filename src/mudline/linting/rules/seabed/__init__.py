@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from mudline.linting.rules.seabed import families, friction, position, profile, restraint, slope, types, values
+from mudline.linting.rules.seabed import depth, families, friction, position, profile, restraint, slope, types, values
 
-__all__ = ["families", "friction", "position", "profile", "restraint", "slope", "types", "values"]
+__all__ = ["depth", "families", "friction", "position", "profile", "restraint", "slope", "types", "values"]

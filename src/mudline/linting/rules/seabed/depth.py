@@ -1,0 +1,80 @@
+"""Nodes far below the bed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from mudline.diagnostics import Code, Problem, Severity
+from mudline.linting.context import LintContext
+from mudline.linting.registry import rule
+from mudline.scene.floor import FloorKind
+
+SBD022 = Code("SBD022", "deep-node", Severity.WARNING)
+
+_DEEPEST = 5.0
+_SOIL = ("P-Y", "T-Z")
+
+
+@rule(SBD022)
+def deep_node(context: LintContext) -> Iterator[Problem]:
+    """Nodes lie more than five diameters below the bed.
+
+    Pipes on the seabed sink by a fraction of their diameter. So deep a node usually has the wrong datum: elevations
+    count from the mudline at X = 0, upwards, and not from the sea surface. Correct the coordinates. Only flat and
+    sloping beds are looked at, and no models with soil curves.
+
+    Bad:
+        $MODEL
+        *NODE
+         1, -500.0, 0.0
+         2, -500.0, 10.0
+        *ELEMENT
+         1, 1, 2
+        *GEOMETRIC SETS
+         OPTION=RIGID
+         SET=ALL
+         207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=50000.0
+
+    Good:
+        $MODEL
+        *NODE
+         1, -0.02, 0.0
+         2, -0.02, 10.0
+        *ELEMENT
+         1, 1, 2
+        *GEOMETRIC SETS
+         OPTION=RIGID
+         SET=ALL
+         207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=50000.0
+
+    Finds: 3:2
+    """
+    scene = context.scene
+    floor = scene.floor
+    flat = floor.kind in (FloorKind.FLAT, FloorKind.SLOPING)
+    if not flat or not (scene.laws.types or scene.laws.grants) or scene.deck.keywords().intersection(_SOIL):
+        return
+    slope, direction = np.radians(floor.slope), np.radians(floor.direction)
+    x, y, z = scene.coordinates.T
+    with np.errstate(over="ignore", invalid="ignore"):
+        depth = (y * np.cos(direction) + z * np.sin(direction)) * np.sin(slope) - x * np.cos(slope)
+        ends = scene.element_nodes
+        known = (ends >= 0).all(axis=1) & (scene.diameter > 0.0)
+        limit = np.zeros(len(x))
+        for side in (0, 1):
+            np.maximum.at(limit, ends[known, side], _DEEPEST * scene.diameter[known])
+        deep = np.flatnonzero((limit > 0.0) & (depth > limit))
+    if deep.size:
+        what = f"{deep.size} nodes (first: {scene.node_ids[deep[0]]})"
+        message = f"{what} lie more than 5 diameters below the bed: correct the datum of X"
+        yield Problem(SBD022, message, where=scene.nodes.where(int(deep[0])))
