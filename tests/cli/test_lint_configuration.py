@@ -37,3 +37,12 @@ def test_a_wrong_file_is_wrong_usage(tmp_path: Path) -> None:
     assert "other.toml:1: there is no key 'selct': did you mean select?" in outcome.err
     assert run("lint", str(deck), "--config", str(tmp_path / "none.toml")).code == 2
     assert run("lint", str(deck), "--config", str(config), "--isolated").code == 2
+
+
+def test_a_directory_search_includes_and_excludes(tmp_path: Path) -> None:
+    for name in ("a.keyxm", "b.txt", "old/c.keyxm"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text(DECK, encoding="utf-8")
+    (tmp_path / "mudline.toml").write_text('include = ["*.txt"]\nexclude = ["/old"]\n', encoding="utf-8")
+    found = json.loads(run("lint", str(tmp_path), "--output-format", "json", "--exit-zero").out)
+    assert {Path(one["file"]).name for one in found} == {"a.keyxm", "b.txt"}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path, PurePath
 
@@ -64,12 +64,21 @@ class Inputs:
         self.code = WRONG_USAGE
 
 
-def collect(paths: Sequence[str], stdin_name: str = "<stdin>") -> Inputs:
-    """Files as given; directories searched for decks, in sorted order; `-` for standard input."""
+Wanted = Callable[[PurePath], bool]
+"""Whether a file of a directory is taken as a deck."""
+
+
+def is_deck(path: PurePath) -> bool:
+    """Whether the suffix is one of a deck."""
+    return path.suffix.lower() in SUFFIXES
+
+
+def collect(paths: Sequence[str], stdin_name: str = "<stdin>", wanted: Wanted = is_deck) -> Inputs:
+    """Files as given; directories searched for wanted files, in sorted order; `-` for standard input."""
     found = Inputs()
     for given in paths:
         if os.path.isdir(given):  # noqa: PTH112 - Path raises for a name that is too long or may not be looked at
-            _directory(given, found)
+            _directory(given, found, wanted)
         else:
             found.files.append(_single(given, stdin_name))
     found.files = list(dict.fromkeys(found.files))
@@ -84,11 +93,11 @@ def _slashed(path: str) -> str:
     return path.replace(os.sep, "/")
 
 
-def _directory(given: str, found: Inputs) -> None:
+def _directory(given: str, found: Inputs, wanted: Wanted) -> None:
     unreadable: list[OSError] = []
     walk = os.walk(given, onerror=unreadable.append)
     paths = [PurePath(folder, name) for folder, _, names in walk for name in names]
-    decks = sorted(path for path in paths if path.suffix.lower() in SUFFIXES and os.path.isfile(path))  # noqa: PTH113 - as above
+    decks = sorted(path for path in paths if wanted(path) and os.path.isfile(path))  # noqa: PTH113 - as above
     for error in unreadable:
         found.fail(f"{_slashed(str(error.filename))}: {reason(error)}")
     if not decks and not unreadable:

@@ -97,7 +97,7 @@ def command(
     merged(Configuration(), given)  # a wrong code is told whatever the files are
     told = outputs(forms)
     known = _baseline(baseline, recording=recording)
-    inputs = collect(paths, stdin_name)
+    inputs = collect(paths, stdin_name, configured.wanted)
     aside = diff or (fix and any(file.path is None for file in inputs.files))
     report = Report(told, view, statistics=statistics, aside=aside, fixing=fixing is not Fixing.NONE)
     run = Run(inputs, lambda file: configured.settings(file, given), report, known, recording, diff)

@@ -5,12 +5,12 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import TypeVar
 
 import click
 
-from mudline.cli.inputs import Input
+from mudline.cli.inputs import Input, is_deck
 from mudline.cli.terminal import reason
 from mudline.diagnostics import Severity
 from mudline.linting.configuration import Configuration, ConfigurationError, Search, read_configuration
@@ -57,6 +57,15 @@ class Configured:
             return self._fixed
         folder = Path(os.path.abspath(path or "-")).parent  # noqa: PTH100 - links stay what they are called
         return _told(lambda: self._search.nearest(folder))
+
+    def wanted(self, path: PurePath) -> bool:
+        """Whether a file in a searched directory is linted: `include` adds to the suffixes, `exclude` removes."""
+        found = self.of(str(path))
+        include, exclude = found.words("include"), found.words("exclude")
+        if not (include or exclude):
+            return is_deck(path)
+        relative = place(found, str(path))
+        return (is_deck(path) or matches(relative, include)) and not matches(relative, exclude)
 
     def settings(self, file: Input, given: Given) -> LintSettings:
         """What holds for a file."""
