@@ -34,6 +34,7 @@ COMMANDS = {
     "evaluate": "Contact forces and stiffnesses of a deck.",
     "rules": "List the rules, or explain one.",
     "schema": "Print the JSON Schema of a deck in JSON or YAML.",
+    "config": "Show what configuration holds for a deck.",
 }
 
 

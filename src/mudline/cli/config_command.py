@@ -1,0 +1,49 @@
+"""`mudline config`."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import click
+
+from mudline.cli import options
+from mudline.cli.exits import DONE
+from mudline.cli.lint_settings import Configured
+from mudline.cli.streams import emit
+from mudline.linting.configuration import KEYS, TABLES, Configuration
+from mudline.linting.output.visible import visible
+
+_DEFAULTS = {"fail-on": "warning", "dialect": "mudline"}
+
+
+@click.command("config")
+@click.argument("path", default=".", metavar="[PATH]")
+@click.option("--config", metavar="FILE", help="Use this configuration, not the nearest one.")
+@click.option("--isolated", is_flag=True, help="Use no configuration file.")
+@options.output_format("text", "json")
+@options.common
+def command(*, path: str, config: str | None, isolated: bool, output_format: str) -> int:
+    """Show what configuration holds for a deck, or for the decks in a directory, and where each value comes from."""
+    inside = str(Path(path) / "-") if os.path.isdir(path) else path  # noqa: PTH112 - Path raises for a long name
+    rows = list(_rows(Configured(config, isolated).of(inside)))
+    if output_format == "json":
+        emit([json.dumps([dict(zip(("key", "value", "from"), row, strict=True)) for row in rows], indent=1), "\n"])
+    else:
+        emit(
+            f"{key} = {visible(json.dumps(value, ensure_ascii=False))}  # {visible(origin)}\n"
+            for key, value, origin in rows
+        )
+    return DONE
+
+
+def _rows(found: Configuration) -> Iterator[tuple[str, Any, str]]:
+    """Key, value and origin of every key."""
+    for key in KEYS:
+        if key in found.values and found.path is not None:
+            yield key, found.values[key], f"{found.path.as_posix()}:{found.lines[key]}"
+        else:
+            yield key, _DEFAULTS.get(key, {} if key in TABLES else []), "default"
