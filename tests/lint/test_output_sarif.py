@@ -11,7 +11,7 @@ from tests.lint.outputs import finding
 
 
 def run_of(*found: Diagnostic) -> dict[str, Any]:
-    log = json.loads("".join(sarif(found)))
+    log = json.loads("".join(sarif(found, "1.2.3")))
     assert log["version"] == "2.1.0"
     (run,) = log["runs"]
     assert isinstance(run, dict)

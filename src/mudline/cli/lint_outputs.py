@@ -8,6 +8,7 @@ from pathlib import Path
 
 import click
 
+from mudline import __version__
 from mudline.cli.writing import write_text
 from mudline.diagnostics import Diagnostic
 from mudline.linting.output.formats import FORMS, form
@@ -25,7 +26,7 @@ class Outputs:
     def write_files(self, found: Sequence[Diagnostic], files: Sequence[str]) -> None:
         """Write the findings in the files linted; ends the command when that is not possible."""
         for name, path in self.files:
-            write_text(path, form(name, files)(found))
+            write_text(path, form(name, files, __version__)(found))
 
 
 def outputs(given: Sequence[str]) -> Outputs:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import click
 
+from mudline import __version__
 from mudline.cli.lazy import printing
 from mudline.cli.lint_outputs import Outputs
 from mudline.cli.options import View
@@ -56,7 +57,7 @@ class Report:
         elif self.statistics:
             emit(statistics_lines(found))
         elif self.outputs.form in FORMS:
-            emit(form(self.outputs.form, self.names)(found))
+            emit(form(self.outputs.form, self.names, __version__)(found))
         elif self.view.quiet:
             emit(concise(found))
         elif self.files:
@@ -64,7 +65,7 @@ class Report:
 
     def _tell_aside(self, found: list[Diagnostic]) -> None:
         name = self.outputs.form if self.outputs.form in FORMS else "concise"
-        pieces = statistics_lines(found) if self.statistics else form(name, self.names)(found)
+        pieces = statistics_lines(found) if self.statistics else form(name, self.names, __version__)(found)
         for piece in pieces:
             click.echo(piece, err=True, nl=False)
         if self.fixing and not self.view.quiet and name == "concise":

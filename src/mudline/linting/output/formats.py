@@ -23,8 +23,13 @@ FORMS = {
 """Module beside this one and function of every form but text."""
 
 
-def form(name: str, files: Sequence[str] = ()) -> Form:
-    """The function that makes the text of findings in a form; `files` are those linted, which JUnit lists."""
+def form(name: str, files: Sequence[str], version: str) -> Form:
+    """The function that makes the text of findings in a form.
+
+    `files` are those linted, which JUnit lists; `version` is that of mudline, which SARIF tells.
+    """
     module, function = FORMS[name]
     found = getattr(import_module(f"mudline.linting.output.{module}"), function)
-    return cast("Form", partial(found, files=files) if name == "junit" else found)
+    if name == "junit":
+        return partial(found, files=files)
+    return cast("Form", partial(found, version=version) if name == "sarif" else found)

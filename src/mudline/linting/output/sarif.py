@@ -7,7 +7,6 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 from urllib.parse import quote
 
-from mudline import __version__
 from mudline.diagnostics import Diagnostic, Edit, Severity
 from mudline.linting.output.fingerprints import Fingerprints
 from mudline.linting.output.json_objects import RULES_PAGE
@@ -19,15 +18,15 @@ LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "
 _BASE = "ROOT"
 
 
-def sarif(diagnostics: Iterable[Diagnostic]) -> Iterator[str]:
-    """One log with one run; its rules are those that something was found by."""
+def sarif(diagnostics: Iterable[Diagnostic], version: str) -> Iterator[str]:
+    """One log with one run; its rules are those that something was found by; `version` is that of mudline."""
     listed = list(diagnostics)
     codes = sorted({found.code for found in listed})
     fingerprints = Fingerprints()
     driver = {
         "name": "mudline",
-        "version": __version__,
-        "semanticVersion": __version__,
+        "version": version,
+        "semanticVersion": version,
         "rules": [described(code, LEVELS, RULES_PAGE.format(code=code)) for code in codes],
     }
     head = {"$schema": SCHEMA, "version": "2.1.0"}
