@@ -1,0 +1,40 @@
+"""One of the two decks that are compared."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from mudline.codes import REF013, REF014, SYN002, SYN006, SYN017
+from mudline.deck.model import Nowhere
+from mudline.deck.parameters import Parameters
+from mudline.diagnostics import DeckError, Problem, Where
+from mudline.scene.model import Scene
+
+_NO_VALUE = (SYN002, SYN006, SYN017, REF013, REF014)
+
+
+@dataclass
+class Side:
+    """A resolved deck, its parameters, and the lines of its file."""
+
+    scene: Scene
+
+    @cached_property
+    def parameters(self) -> Parameters:
+        """The parameters, evaluated."""
+        return Parameters(self.scene.deck)
+
+    def line(self, where: Where | None) -> int | None:
+        """The line of a place; None for what stands in no line of this file."""
+        deck = self.scene.deck
+        if where is None or not 0 <= where.section < len(deck.own_sections) or isinstance(deck.origin, Nowhere):
+            return None
+        return deck.origin.place(Problem(SYN002, "", where=where)).line
+
+    def require(self) -> None:
+        """Raise DeckError for what could not be read, and for equations without a value."""
+        self.scene.deck.require()
+        unknown = [problem for problem in self.scene.problems if problem.code in _NO_VALUE]
+        if unknown:
+            raise DeckError(self.scene.deck.diagnose(unknown))
