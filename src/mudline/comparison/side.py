@@ -13,12 +13,18 @@ from mudline.scene.model import Scene
 
 _NO_VALUE = (SYN002, SYN006, SYN017, REF013, REF014)
 
+_MOST_STEPS = 1_000_000
+"""Rows of tables that may be passed to find lines: a row is found by counting from the first one of its table."""
+
+_FEW = 100
+
 
 @dataclass
 class Side:
     """A resolved deck, its parameters, and the lines of its file."""
 
     scene: Scene
+    _steps: int = _MOST_STEPS
 
     @cached_property
     def parameters(self) -> Parameters:
@@ -26,10 +32,14 @@ class Side:
         return Parameters(self.scene.deck)
 
     def line(self, where: Where | None) -> int | None:
-        """The line of a place; None for what stands in no line of this file."""
+        """The line of a place; None for what stands in no line of this file, and once too many were sought."""
         deck = self.scene.deck
         if where is None or not 0 <= where.section < len(deck.own_sections) or isinstance(deck.origin, Nowhere):
             return None
+        steps = sum(step for step in where.path if isinstance(step, int))
+        if steps > max(self._steps, _FEW):
+            return None
+        self._steps -= steps
         return deck.origin.place(Problem(SYN002, "", where=where)).line
 
     def require(self) -> None:
