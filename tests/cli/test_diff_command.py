@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from tests.cli.conftest import Place
@@ -18,21 +20,21 @@ def test_a_change_in_text(place: Place) -> None:
     ran = run("diff", place(), place(CLEAN.replace("1000.0", "1200.0"), "b.keyxm"))
     assert ran.code == 1
     assert ran.out == (
-        "--- deck.keyxm\n+++ b.keyxm\ncurves\n  ~ clay/0.1: 1000.0 -> 1200.0  (line -25 +25)\n1 difference\n"
+        "--- deck.keyxm\n+++ b.keyxm\ncurves\n  ~ Clay/0.1: 1000.0 -> 1200.0  (line -25 +25)\n1 difference\n"
     )
 
 
 def test_a_change_in_json(place: Place) -> None:
     ran = run("diff", place(), place(LINEAR, "b.keyxm"), "--output-format", "json")
     assert ran.code == 1
-    assert_fits(ran.json(), "diff.schema")
+    assert_fits(ran.json(), "diff")
     laws = [one for one in ran.json()["differences"] if one["group"] == "laws of elements"]
     assert [(one["before"], one["after"]) for one in laws] == [("curve:Clay", "linear"), (None, 20000.0)]
 
 
 def test_no_change_in_json(place: Place) -> None:
     ran = run("diff", place(), "deck.keyxm", "--output-format", "json")
-    assert_fits(ran.json(), "diff.schema")
+    assert_fits(ran.json(), "diff")
     assert (ran.code, ran.json()["differences"]) == (0, [])
 
 
@@ -60,8 +62,11 @@ def test_a_deck_that_cannot_be_read(place: Place) -> None:
 def test_many_differences_are_counted(place: Place) -> None:
     nodes = "".join(f" {number}, 0, {number}\n" for number in range(100, 130))
     more = place(CLEAN.replace("*ELEMENT\n", f"*NODE\n{nodes}*ELEMENT\n"), "b.keyxm")
-    assert "  and 10 more (-v shows all)\n" in run("diff", place(), more).out
+    assert "nodes\n  + 100-129: 30 nodes\n30 differences\n" in run("diff", place(), more).out
+    assert "nodes\n  - 100-129: 30 nodes\n" in run("diff", more, "deck.keyxm").out
     assert run("diff", "-v", "deck.keyxm", more).out.count("  + ") == 30
+    moved = place(Path(more).read_text(encoding="utf-8").replace(", 0, ", ", 1, "), "c.keyxm")
+    assert "  and 10 more (-v shows all)\n" in run("diff", more, moved).out
 
 
 def test_text_of_a_deck_does_not_act_on_a_terminal(place: Place) -> None:

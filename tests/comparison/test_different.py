@@ -15,13 +15,13 @@ CHANGES = [
     (" 3, 0.3", " 3, 0.4", "nodes/3"),
     (" 4, 0.5, 30.0\n", " 4, 0.5, 30.0\n 5, 0, 0\n", "nodes/5"),
     (" 3, 3, 4\n", " 3, 2, 4\n", "elements/3"),
-    ("SET=Pipe\n 1, 2", "SET=Pipe\n 1, 3", "element sets/pipe"),
-    (" 0.1, 1000.0", " 0.1, 1001.0", "curves/clay/0.1"),
-    (" 0.5, 3000.0", " 0.6, 3000.0", "curves/clay/0.6"),
+    ("SET=Pipe\n 1, 2", "SET=Pipe\n 1, 3", "element sets/Pipe"),
+    (" 0.1, 1000.0", " 0.1, 1001.0", "curves/Clay/0.1"),
+    (" 0.5, 3000.0", " 0.6, 3000.0", "curves/Clay/0.6"),
     ("STIFFNESS=50000.0", "STIFFNESS=60000.0", "elements 3/laws/stiffness"),
     ("STIFFNESS=50000.0", "STIFFNESS=Clay", "elements 3/laws"),
-    ("0.46, 7850.0", "0.46, 7851.0", "*GEOMETRIC SETS/all/rigid/density"),
-    ("FRICTION=0.3", "FRICTION=0.4", "*SEABED PROPERTIES/pipe/friction/longitudinal"),
+    ("0.46, 7850.0", "0.46, 7851.0", "*GEOMETRIC SETS/ALL/rigid/density"),
+    ("FRICTION=0.3", "FRICTION=0.4", "*SEABED PROPERTIES/Pipe/friction/longitudinal"),
     ("1025.0", "1026.0", "*OCEAN/density"),
     ("1.2, 0.05", "1.3, 0.05", "*HYDRODYNAMIC SETS/lines"),
 ]
@@ -85,7 +85,7 @@ def test_sets_of_elements_that_the_deck_does_not_show() -> None:
     text = "$MODEL\n*ELEMENT SETS\n SET=A\n 1, 2, {x}\n SET=B\n GEN=5, 9\n SUBSET=A\n"
     assert differences(text, text.replace("1, 2, {x}", "{X}, 2, 1")) == []
     found = told(differences(text, text.replace("GEN=5, 9", "GEN=5, 9, 2")))
-    assert found == [("element sets/b", "5-9, SUBSET=a", "5, 7, 9, SUBSET=a")]
+    assert found == [("element sets/B", "5-9, SUBSET=a", "5, 7, 9, SUBSET=a")]
 
 
 @pytest.mark.parametrize("text", ["$MODEL\n*NODE\n 1, x, 0\n", "$MODEL\n*OCEAN\n =[depth], 1025, 9.81\n"])

@@ -5,16 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import groupby
 
+import numpy as np
 from rich.text import Text
 
 from mudline.cli.console import console, say
 from mudline.cli.options import View
-from mudline.comparison.model import Difference, Value
+from mudline.comparison.model import Difference, Value, ranges
 from mudline.linting.output.visible import visible
 
 MOST = 20
 """Lines of a group; the rest is counted, unless all are asked for."""
 
+_NUMBERED = ("nodes", "elements")
+_FEW = 4
 _MARKS = {"added": ("+", "green"), "removed": ("-", "red"), "changed": ("~", "yellow")}
 
 
@@ -30,6 +33,9 @@ def _lines(before: str, after: str, found: Sequence[Difference], view: View) -> 
     for group, members in groupby(found, key=lambda one: one.group):
         differences = list(members)
         yield Text(visible(group), style="cyan")
+        if group in _NUMBERED and not view.verbose:
+            runs, differences = _runs(group, differences)
+            yield from runs
         most = len(differences) if view.verbose else MOST
         for one in differences[:most]:
             mark, style = _MARKS[one.kind]
@@ -39,6 +45,26 @@ def _lines(before: str, after: str, found: Sequence[Difference], view: View) -> 
     if not view.quiet:
         count = f"{len(found)} difference{'' if len(found) == 1 else 's'}"
         yield Text(count if found else "no difference")
+
+
+def _runs(group: str, differences: Sequence[Difference]) -> tuple[list[Text], list[Difference]]:
+    """Nodes or elements that only one deck has, as ranges of numbers where they are many; and the other differences."""
+    lines: list[Text] = []
+    left = list(differences)
+    for kind in ("removed", "added"):
+        numbers = [number for one in differences if one.kind == kind and (number := _number(one)) is not None]
+        if len(numbers) >= _FEW:
+            mark, style = _MARKS[kind]
+            text = f"  {mark} {ranges(np.array(numbers, dtype=np.int64))}: {len(numbers)} {group}"
+            lines.append(Text(text, style=style))
+            left = [one for one in left if one.kind != kind or _number(one) is None]
+    return lines, left
+
+
+def _number(one: Difference) -> int | None:
+    """The number of a node or an element; None for one with a label."""
+    last = one.where.rpartition("/")[2]
+    return int(last) if last.lstrip("-").isdecimal() else None
 
 
 def _told(one: Difference) -> str:

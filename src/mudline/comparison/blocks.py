@@ -44,7 +44,7 @@ def flat_differences(
     (one, first), (other, second) = before, after
     for path in dict.fromkeys([*first, *second]):
         old, new = first.get(path), second.get(path)
-        where = f"{group}/{path}"
+        where = f"{group}/{(one if old is not None else other).path(path)}"
         if old is not None and new is not None:
             if not tolerance.values(old.compared, new.compared):
                 lines = one.line(old.where), other.line(new.where)

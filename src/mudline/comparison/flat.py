@@ -9,9 +9,10 @@ from mudline.comparison.model import Value, plain
 from mudline.comparison.side import Side
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Where
-from mudline.keywords.model import Block, Part, Record, Slot, columns_of, layout
-from mudline.keywords.table import Table
+from mudline.keywords.model import Block, ListRow, Part, Record, Slot, columns_of, layout
+from mudline.keywords.table import Cell, Table
 from mudline.keywords.values import Equation, Kind
+from mudline.keywords.writer import field_text, joined
 
 _UNORDERED = ("points", "profile")
 """Tables whose rows are points, in any order."""
@@ -56,6 +57,20 @@ def key_slot(record: type[Record]) -> Slot | None:
     """The field that a record of a list is found by: its set, name or curve."""
     slots = (slot for slot in layout(record).slots if not slot.row and not slot.many)
     return next((s for s in slots if s.kind is Kind.NAME and {s.json, s.key.casefold()} & set(_KEYS)), None)
+
+
+def _identity(record: Record) -> str | None:
+    """What tells a record without a name from others: the values that it must have. None where there are none."""
+    slots = [slot for slot in layout(type(record)).slots if slot.required and not slot.record]
+    values = [getattr(record, slot.name, None) for slot in slots]
+    words = [field_text(value) for value in values if isinstance(value, float | int | str)]
+    words += [joined(_cells(value)) for value in values if isinstance(value, ListRow)]
+    return ", ".join(words) or None
+
+
+def _cells(row: ListRow) -> list[Cell]:
+    given = [getattr(row, slot.name) for slot in layout(type(row)).columns if slot.name in row.model_fields_set]
+    return cast("list[Cell]", given)
 
 
 class _Flattening:
@@ -140,10 +155,9 @@ class _Flattening:
             found |= {f"{path}/{name}": entry for name, entry in shared.items()} | values
 
     def _title(self, record: Record, key: Slot | None, index: int, found: Flat, start: str) -> str:
-        if key is None:
-            return str(index + 1)
-        name = getattr(record, key.name, None)
-        title = folded(str(name)) if name is not None else "all" if key.json == "set" else str(index + 1)
+        name = _identity(record) if key is None else getattr(record, key.name, None)
+        title = folded(str(name)) if name is not None else "all" if key and key.json == "set" else str(index + 1)
+        self.side.names.setdefault(title, "ALL" if name is None and title == "all" else str(name or title))
         if self.keyword in LATER_HOLDS:
             for path in [path for path in found if path == start + title or path.startswith(f"{start}{title}/")]:
                 del found[path]

@@ -15,6 +15,8 @@ from mudline.scene.force_curves import SceneCurve
 from mudline.scene.numbering import MOST_GENERATED, Floats, Ids, Indices
 from mudline.scene.sets import NamedSet
 
+_KINDS = {False: "curves", True: "curves of sets"}
+
 
 def parameters(one: Side, other: Side, tolerance: Tolerance) -> Iterator[Difference]:
     """Values of the parameters."""
@@ -53,7 +55,8 @@ def sets(one: Side, other: Side) -> Iterator[Difference]:
             before, after = written.get(name, ""), others.get(name, "")
         if old is None or new is None or before != after:
             lines = one.line(_place(old)), other.line(_place(new))
-            yield Difference(_kind(old, new), "element sets", f"element sets/{name}", before, after, *lines)
+            title = (old or new or NamedSet(name, np.zeros(0, dtype=np.intp), None)).name
+            yield Difference(_kind(old, new), "element sets", f"element sets/{title}", before, after, *lines)
 
 
 def _members(side: Side, indices: Indices) -> str:
@@ -99,9 +102,9 @@ def curves(one: Side, other: Side, tolerance: Tolerance) -> Iterator[Difference]
         lines = one.line(_place(old)), other.line(_place(new))
         if old is None or new is None:
             before, after = (None if curve is None else _shown(_points(curve)) for curve in (old, new))
-            yield Difference(_kind(old, new), "curves", name, before, after, *lines)
+            yield Difference(_kind(old, new), "curves", _title(old or new), before, after, *lines)
             continue
-        yield from _points_differ(name, (one, old), (other, new), tolerance)
+        yield from _points_differ(_title(old), (one, old), (other, new), tolerance)
 
 
 def _points_differ(
@@ -127,9 +130,12 @@ def _points_differ(
         yield Difference("added", "curves", f"{name}/{ratio!r}", None, force, None, line)
 
 
+def _title(curve: SceneCurve | None) -> str:
+    return "" if curve is None else f"{_KINDS[curve.embedment]}/{curve.name}"
+
+
 def _curves(side: Side) -> dict[str, SceneCurve]:
-    kinds = {False: "curves", True: "curves of sets"}
-    return {f"{kinds[curve.embedment]}/{folded(curve.name)}": curve for curve in side.scene.laws.curves}
+    return {f"{_KINDS[curve.embedment]}/{folded(curve.name)}": curve for curve in side.scene.laws.curves}
 
 
 def _points(curve: SceneCurve) -> Floats:

@@ -41,19 +41,21 @@ def _numbered(
     here, there = common(first, second)
     differing = np.flatnonzero(~tolerance.arrays(first.values[here], second.values[there]).all(axis=1))
     for i, j in zip(here[differing].tolist(), there[differing].tolist(), strict=True):
-        values = _values(first.values[i]), _values(second.values[j])
+        values = _values(group, first.values[i]), _values(group, second.values[j])
         lines = one.line(first.where(i)), other.line(second.where(j))
         yield Difference("changed", group, f"{group}/{first.ids[i]}", *values, *lines)
     for i in np.flatnonzero(second.indices(first.ids) < 0).tolist():
         where, line = f"{group}/{first.ids[i]}", one.line(first.where(i))
-        yield Difference("removed", group, where, _values(first.values[i]), None, line, None)
+        yield Difference("removed", group, where, _values(group, first.values[i]), None, line, None)
     for j in np.flatnonzero(first.indices(second.ids) < 0).tolist():
         where, line = f"{group}/{second.ids[j]}", other.line(second.where(j))
-        yield Difference("added", group, where, None, _values(second.values[j]), None, line)
+        yield Difference("added", group, where, None, _values(group, second.values[j]), None, line)
 
 
-def _values(row: Floats) -> Value:
-    return [plain(value) for value in row.tolist()]
+def _values(group: str, row: Floats) -> Value:
+    """Coordinates of a node, or the whole numbers of an element's nodes."""
+    values = [plain(value) for value in row.tolist()]
+    return [int(value) if group == "elements" and isinstance(value, float) else value for value in values]
 
 
 def _labelled(keyword: str, table: str, group: str, one: Side, other: Side) -> Iterator[Difference]:

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 from mudline.codes import REF013, REF014, SYN002, SYN006, SYN017
 from mudline.deck.model import Nowhere
 from mudline.deck.parameters import Parameters
+from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import DeckError, Problem, Where
 from mudline.scene.model import Scene
 
 _NO_VALUE = (SYN002, SYN006, SYN017, REF013, REF014)
 
 _MOST_STEPS = 1_000_000
-"""Rows of tables that may be passed to find lines: a row is found by counting from the first one of its table."""
+"""Rows that may be passed to find lines in a document: a row is found by counting from the first one of its table."""
 
 _FEW = 100
 
@@ -24,7 +25,13 @@ class Side:
     """A resolved deck, its parameters, and the lines of its file."""
 
     scene: Scene
+    names: dict[str, str] = field(default_factory=dict)
+    """Names as the deck writes them, by their folded form."""
     _steps: int = _MOST_STEPS
+
+    def path(self, path: str) -> str:
+        """A path of folded names with the names as the deck writes them."""
+        return "/".join(self.names.get(step, step) for step in path.split("/"))
 
     @cached_property
     def parameters(self) -> Parameters:
@@ -36,7 +43,7 @@ class Side:
         deck = self.scene.deck
         if where is None or not 0 <= where.section < len(deck.own_sections) or isinstance(deck.origin, Nowhere):
             return None
-        steps = sum(step for step in where.path if isinstance(step, int))
+        steps = 0 if isinstance(deck.origin, TextOrigin) else sum(step for step in where.path if isinstance(step, int))
         if steps > max(self._steps, _FEW):
             return None
         self._steps -= steps
