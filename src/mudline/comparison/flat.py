@@ -159,8 +159,9 @@ class _Flattening:
         title = folded(str(name)) if name is not None else "all" if key and key.json == "set" else str(index + 1)
         self.side.names.setdefault(title, "ALL" if name is None and title == "all" else str(name or title))
         if self.keyword in LATER_HOLDS:
-            for path in [path for path in found if path == start + title or path.startswith(f"{start}{title}/")]:
-                del found[path]
+            if start + title in found:
+                for path in [path for path in found if path == start + title or path.startswith(f"{start}{title}/")]:
+                    del found[path]
             return title
         count = self.counts[start + title] = self.counts.get(start + title, 0) + 1
         return title if count == 1 else f"{title}#{count}"
