@@ -36,6 +36,10 @@ JSON = {
         "evaluate -q samples/scr-touchdown.keyxm --positions samples/positions.csv",
         "evaluate -q samples/linear.keyxm --tension cut",
     ),
+    "diff": (
+        "diff samples/parametric.keyxm samples/variations.keyxm",
+        "diff samples/variations.keyxm samples/variations.keyxm",
+    ),
     "expand": ("expand samples/variations.keyxm --dry-run", "expand -q samples/parametric.keyxm -o study"),
     "rules": ("rules",),
 }

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
 from tests.cli.conftest import Place
@@ -184,3 +186,27 @@ def test_elements_without_a_diameter_are_counted(place: Place) -> None:
 def test_repeated_keywords_are_counted(place: Place) -> None:
     text = run("show", place("$MODEL\n*NODE\n*VESSEL\n*NODE\n*VESSEL\n*OCEAN\n*VESSEL\n")).out
     assert "  $MODEL: *NODE (2 blocks), *OCEAN\n    kept as they are: *VESSEL (3 blocks)\n" in text
+
+
+def test_the_bed_and_what_it_gives(place: Place) -> None:
+    laws = " FRICTION=0.3, , 0.05\n SUCTION=500, 0.2\n LATERAL=40\n"
+    more = "*SEABED TRENCH\n SET=Pipe\n GEOMETRY=0.5, 1, 2\n PEAK=100\n*SEABED PLANES\n PLANE=a\n PLANE=b\n"
+    shown = run("show", place(CLEAN.replace(" STIFFNESS=Clay\n", f" STIFFNESS=Clay\n{laws}") + more)).out
+    assert "elastic seabed, 2 planes\n" in shown
+    assert re.search(r"^Pipe +2 +0\.3, - +0\.05, - +40 +500 +0\.2$", shown, re.MULTILINE)
+    assert re.search(r"^\*SEABED TRENCH +Pipe +2$", shown, re.MULTILINE)
+
+
+@pytest.mark.parametrize(
+    ("profile", "words"),
+    [
+        ("TYPE=SLOPING\n DIRECTION=30\n SLOPE=2.5", ", sloping 2.5 degrees, turned by 30 degrees\n"),
+        ("TYPE=2D\n FILE=bed.txt", ", 2D profile of bed.txt: 2 points\n"),
+        ("TYPE=3D\n FILE=bed.fcsbd", ", 3D surface of bed.fcsbd: not known\n"),
+    ],
+)
+def test_the_shape_of_the_bed(profile: str, words: str, place: Place) -> None:
+    place("0, 0\n10, 1\n", "bed.txt")
+    name = place(CLEAN + f"*SEABED PROFILE\n {profile}\n")
+    assert words in run("show", name).out
+    assert_fits(run("show", name, "--output-format", "json").json(), "show")

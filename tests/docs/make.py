@@ -42,17 +42,21 @@ def documents() -> list[Path]:
 
 def refresh() -> None:
     """Write anew what the commands on all pages print."""
-    with TemporaryDirectory() as folder:
-        copy_of_files(ROOT, Path(folder))
-        os.chdir(folder)
-        for page in documents():
-            text = page.read_text(encoding="utf-8")
-            by_hand: list[str] = []
-            fresh = refreshed(text, by_hand)
-            if fresh != text:
-                page.write_text(fresh, encoding="utf-8", newline="\n")
-            sys.stderr.writelines(f"{page}: cut the output by hand: {words}\n" for words in by_hand)
-        os.chdir(ROOT)
+    for page in documents():
+        with TemporaryDirectory() as folder:  # a command may change the files that it is shown on
+            copy_of_files(ROOT, Path(folder))
+            os.chdir(folder)
+            _refresh(page)
+            os.chdir(ROOT)
+
+
+def _refresh(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    by_hand: list[str] = []
+    fresh = refreshed(text, by_hand)
+    if fresh != text:
+        page.write_text(fresh, encoding="utf-8", newline="\n")
+    sys.stderr.writelines(f"{page}: cut the output by hand: {words}\n" for words in by_hand)
 
 
 def write() -> None:

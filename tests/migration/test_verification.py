@@ -81,6 +81,18 @@ def test_a_changed_profile_counts() -> None:
     assert [difference.what for difference in verify(changed).differences] == ["the bed"]
 
 
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [(" SET=ALL\n 207.0E9", " SET=Riser\n 207.0E9"), (" 13, -0.05, 120.0\n GEN=1, 13\n", "")],
+    ids=["no diameter", "no nodes"],
+)
+def test_elements_that_cannot_be_evaluated_are_verified_by_their_laws(old: str, new: str) -> None:
+    lines = "*LINES\n LINE=Riser\n"  # may make what lacks, which is a warning then
+    text = SAMPLE.replace(old, new) + lines
+    assert verify(migrate(deck_of(text))).differences == ()
+    assert verify(tampered("STIFFNESS=East Bank", "STIFFNESS=5e4", text=text)).differences
+
+
 def test_many_sets_are_compared_one_after_the_other() -> None:
     names = [f"S{index}" for index in range(60)]
     sets = "".join(f" SET={name}\n 1\n" for name in names)

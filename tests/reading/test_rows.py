@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from unittest.mock import patch
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from mudline.diagnostics import Span
-from mudline.syntax.rows import Rows, read_number, read_rows, read_rows_fast, read_rows_slow
+from mudline.syntax.rows import Rows, read_number, read_rows, read_rows_apart, read_rows_fast, read_rows_slow
 from tests.reading.spellings import ODD_NUMBERS, numbers
 
 STRANGE = [
@@ -186,6 +187,39 @@ def test_the_fast_reader_takes_the_spellings_of_old_tools(row: str) -> None:
     text = row * 3
     assert read_rows_fast(text, whole(text), 4) is not None
     compared(text, 4)
+
+
+@given(
+    st.lists(
+        st.lists(st.sampled_from(["1", "2.5", "-0.0", "3."]), min_size=2, max_size=3).map(",".join)
+        | st.lists(cells, min_size=1, max_size=3).map(", ".join),
+        min_size=1,
+        max_size=8,
+    ),
+    st.sampled_from(["\n", "\r\n"]),
+    st.integers(1, 4),
+)
+@example(["1,2", "=[a, b],2", "3,4"], "\n", 2)
+@example(["=[a],2", "3,4"], "\r\n", 2)
+@example(["3,4", "{A b},2,5"], "\n", 3)
+def test_odd_lines_apart_are_the_slow_rows_or_none(lines: list[str], end: str, columns: int) -> None:
+    text = end.join(lines)
+    with patch("mudline.syntax.rows._WORTH_PARTING", 0):
+        for given_text in (text, text + end):
+            found = read_rows_apart(given_text, whole(given_text), columns)
+            assert found is None or found.same(read_rows_slow(given_text, whole(given_text), columns))
+
+
+def test_a_long_table_with_some_equations_is_read_apart() -> None:
+    rows = [f" {n}, {'=[a*2]' if n % 10 == 3 else repr(n * 0.5)}, {n / 7!r}\n" for n in range(2000)]
+    text = "".join(rows)
+    found = read_rows_apart(text, whole(text), 3)
+    assert found is not None
+    assert found.same(read_rows_slow(text, whole(text), 3))
+    assert found.words[13, 1] == "=[a*2]"
+    for other in (text + "\n 1, 2, 3\n", text.replace(" 5, ", " 5, 6, "), "".join(rows[:3])):
+        assert read_rows_apart(other, whole(other), 3) is None
+        compared(other, 3)
 
 
 def test_only_the_span_is_read() -> None:

@@ -28,6 +28,7 @@ COMMANDS = {
     "format": "Rewrite decks in canonical layout, or say which are not in it.",
     "convert": "Convert a deck between keyword text, JSON and YAML.",
     "expand": "Write the decks that *VARIATION and *COMBINATIONS describe.",
+    "diff": "Tell what differs between the meanings of two decks.",
     "migrate": "Rewrite the legacy seabed keywords as the new family.",
     "show": "Summarise a deck: sections, keywords, sets, curves, diameters.",
     "curves": "Show the force-embedment curves that a deck really gives.",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 
 import click
@@ -19,7 +18,7 @@ from mudline.deck.loading import dump, form_of, load_bytes
 from mudline.diagnostics import DeckError
 from mudline.linting.output.visible import visible
 from mudline.migration.migrating import Migration, legacy_blocks, migrate
-from mudline.migration.verification import Difference, Verdict, verify
+from mudline.migration.verification import Verdict, verify
 from mudline.syntax.source import Source
 
 _MOST_TOLD = 20
@@ -104,12 +103,13 @@ class _Run:
         for difference in verdict.differences[:_MOST_TOLD]:
             tell(f"{self.file.name}: {difference.what}: {difference.text}")
         if verdict.differences:
-            tell(f"{self.file.name}: left as it is: {_count(verdict.differences)} between the old deck and the new one")
+            count = _many(len(verdict.differences), "difference")
+            tell(f"{self.file.name}: left as it is: {count} between the old deck and the new one")
         else:
             self._note(
-                f"verified: {verdict.elements} elements of {verdict.kinds} kinds, and {verdict.stand_ins} stand-ins "
-                f"for its sets, at {verdict.positions} positions: forces, stiffnesses, friction, lateral resistance, "
-                "suction and bed are bitwise equal"
+                f"verified: {_many(verdict.elements, 'element')} of {_many(verdict.kinds, 'kind')}, and "
+                f"{verdict.stand_ins} stand-ins for its sets, at {verdict.positions} positions: forces, stiffnesses, "
+                "friction, lateral resistance, suction and bed are bitwise equal"
             )
         return not verdict.differences
 
@@ -142,8 +142,8 @@ class _Run:
             tell(f"{self.file.name}: {text}")
 
 
-def _count(differences: Sequence[Difference]) -> str:
-    return f"{len(differences)} difference{'s' * (len(differences) != 1)}"
+def _many(count: int, thing: str) -> str:
+    return f"{count} {thing}{'s' * (count != 1)}"
 
 
 def _replaced(migration: Migration) -> str:

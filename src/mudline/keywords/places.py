@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from array import array
+from bisect import bisect_right
 from dataclasses import dataclass, field
+from operator import itemgetter
 
 from mudline.diagnostics import Span
 from mudline.syntax.rows import line_spans, row_fields
@@ -22,6 +25,7 @@ class Places:
     spans: dict[Path, Span] = field(default_factory=dict)
     runs: dict[Path, list[tuple[int, Span]]] = field(default_factory=dict)
     damaged: set[Path] = field(default_factory=set)
+    _lines: dict[Span, array[int]] = field(default_factory=dict)
 
     def find(self, path: Path) -> Span:
         """The span of a value; where it has none (it was left out), that of the nearest thing around it."""
@@ -39,11 +43,19 @@ class Places:
 
     def _cell(self, runs: list[tuple[int, Span]], inner: Path) -> Span:
         row = int(inner[0]) if inner else 0
-        first, run = max((start for start in runs if start[0] <= row), default=runs[0], key=lambda start: start[0])
-        for index, line in enumerate(line_spans(self.text, run)):
-            if index == row - first:
-                fields = row_fields(self.text, line, _MOST_COLUMNS)
-                if len(inner) > 1 and int(inner[1]) < len(fields) and int(inner[1]) >= 0:
-                    return fields[int(inner[1])].span
-                return Span(fields[0].span.start, fields[-1].span.end)
-        return run
+        first, run = runs[max(bisect_right(runs, row, key=itemgetter(0)) - 1, 0)]
+        starts = self._starts(run)
+        if not 0 <= row - first < len(starts):
+            return run
+        start = starts[row - first]
+        stop = self.text.find("\n", start, run.end)
+        fields = row_fields(self.text, Span(start, run.end if stop < 0 else stop), _MOST_COLUMNS)
+        if len(inner) > 1 and 0 <= int(inner[1]) < len(fields):
+            return fields[int(inner[1])].span
+        return Span(fields[0].span.start, fields[-1].span.end)
+
+    def _starts(self, run: Span) -> array[int]:
+        """Where the rows of a run begin, found once."""
+        if run not in self._lines:
+            self._lines[run] = array("q", (line.start for line in line_spans(self.text, run)))
+        return self._lines[run]

@@ -31,16 +31,11 @@ def depths_of(inputs: Sequence[ContactInput]) -> Floats:
                 if given.law[element] == LawKind.CURVE
             ]
             curves[mine] = np.unique(np.concatenate(found)) if found else np.zeros(0)
-        columns.append(np.concatenate([_PLAIN, curves[mine] * _diameter(inputs[0], element)]))
+        columns.append(np.concatenate([_PLAIN, curves[mine] * inputs[0].diameter[element]]))
     steps = max((len(column) for column in columns), default=0)
     return np.column_stack(
         [np.pad(column, (0, steps - len(column)), mode="edge") for column in columns] or [_PLAIN[:0]]
     )
-
-
-def _diameter(inputs: ContactInput, element: int) -> float:
-    diameter = float(inputs.diameter[element])
-    return 1.0 if np.isnan(diameter) else diameter
 
 
 def ratios_of(curve: ForceCurve) -> Floats:

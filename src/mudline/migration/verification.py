@@ -76,7 +76,7 @@ def _compare(before: Scene, after: Scene, names: Mapping[int, str]) -> tuple[int
     chosen = _kinds(before, after)
     if not len(chosen):
         return 0, 0, []
-    old, new = _part(before.inputs(), chosen), _part(after.inputs(), chosen)
+    old, new = _part(before, chosen), _part(after, chosen)
     depths = depths_of([old, new])
     called = [names.get(number, f"element {number}") for number in before.element_ids[chosen].tolist()]
     differences = [
@@ -114,20 +114,25 @@ def _kinds(before: Scene, after: Scene) -> Indices:
     return np.sort(first)
 
 
-def _part(inputs: ContactInput, chosen: Indices) -> ContactInput:
-    """The chosen elements (k), each with two nodes of its own."""
+def _part(scene: Scene, chosen: Indices) -> ContactInput:
+    """The chosen elements (k), each with two nodes of its own, whether the deck has nodes for them or not.
+
+    An element without a diameter gets one: its law is the same for every diameter.
+    """
     count = len(chosen)
-    return replace(
-        inputs,
+    arrays = scene.law_arrays()
+    diameter = scene.diameter[chosen]
+    return ContactInput(
         node_ids=np.arange(1, 2 * count + 1),
         coordinates=np.zeros((2 * count, 3)),
-        element_ids=inputs.element_ids[chosen],
+        element_ids=scene.element_ids[chosen],
         element_nodes=np.arange(2 * count, dtype=np.intp).reshape(count, 2),
         length=np.ones(count),
-        diameter=inputs.diameter[chosen],
-        law=inputs.law[chosen],
-        curve_index=inputs.curve_index[chosen],
-        linear_stiffness=inputs.linear_stiffness[chosen],
+        diameter=np.where(np.isnan(diameter), 1.0, diameter),
+        law=arrays.law[chosen],
+        curve_index=arrays.curve_index[chosen],
+        curves=arrays.curves,
+        linear_stiffness=arrays.linear_stiffness[chosen],
     )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,6 +33,15 @@ if TYPE_CHECKING:
 
 _TOLERATED = (REF007.code,)
 """Errors with a stated meaning (the later definition holds) do not keep a scene from being used."""
+
+
+class LawArrays(NamedTuple):
+    """The normal law of elements (m,): `LawKind`, index in `curves` or -1, linear stiffness or NaN."""
+
+    law: NDArray[np.int8]
+    curve_index: Indices
+    curves: tuple[ForceCurve, ...]
+    linear_stiffness: Floats
 
 
 @dataclass
@@ -163,14 +172,7 @@ class Scene:
         self.require()
         if problems := list(refusals(self)):
             raise DeckError(self.deck.diagnose(problems))
-        return self.inputs(tension)
-
-    def inputs(self, tension: Literal["keep", "cut"] = "keep") -> ContactInput:
-        """The same without asking whether all is known: an element that lacks something is an ElementError."""
-        usable = [index for index, entry in enumerate(self.laws.curves) if entry.curve is not None]
-        number = {index: position for position, index in enumerate(usable)}
-        curve_of_grant = np.array([*(number.get(grant.curve, -1) for grant in self.laws.grants), -1], dtype=np.intp)
-        stiffness = np.array([*(grant.stiffness for grant in self.laws.grants), np.nan])
+        arrays = self.law_arrays()
         return ContactInput(
             node_ids=self.node_ids,
             coordinates=self.coordinates,
@@ -178,10 +180,23 @@ class Scene:
             element_nodes=self.element_nodes,
             length=np.where(np.isfinite(self.length), self.length, 0.0),  # what is not finite has no spring
             diameter=self.diameter,
-            law=self.law,
-            curve_index=curve_of_grant[self.laws.of_element],
-            curves=tuple(entry.curve for entry in self.laws.curves if entry.curve is not None),
-            linear_stiffness=stiffness[self.laws.of_element],
+            law=arrays.law,
+            curve_index=arrays.curve_index,
+            curves=arrays.curves,
+            linear_stiffness=arrays.linear_stiffness,
             tension=tension,
             left_out=left_out(self.deck),
+        )
+
+    def law_arrays(self) -> LawArrays:
+        """The law of every element as arrays, whatever else is known of it."""
+        usable = [index for index, entry in enumerate(self.laws.curves) if entry.curve is not None]
+        number = {index: position for position, index in enumerate(usable)}
+        curve_of_grant = np.array([*(number.get(grant.curve, -1) for grant in self.laws.grants), -1], dtype=np.intp)
+        stiffness = np.array([*(grant.stiffness for grant in self.laws.grants), np.nan])
+        return LawArrays(
+            self.law,
+            curve_of_grant[self.laws.of_element],
+            tuple(entry.curve for entry in self.laws.curves if entry.curve is not None),
+            stiffness[self.laws.of_element],
         )

@@ -23,6 +23,10 @@ _BLANKS_BETWEEN = re.compile(rb"(?<=[0-9.])[ \t]+(?=[-+.0-9])")
 _NO_FRACTION = re.compile(rb"(?<=[0-9])\.(?![0-9])")
 _NO_WHOLE = re.compile(rb"(?<![0-9])\.(?=[0-9])")
 _PLUS = re.compile(rb"(?<![eE0-9.+-])\+(?=[0-9.])")
+_ODD_LINE = re.compile(r"^.*[^0-9eEdD+\-., \t\r\n].*$", re.MULTILINE)
+_BLANK_LINE = re.compile(r"^[ \t\r]*$", re.MULTILINE)
+_WORTH_PARTING = 10_000
+_MOST_ODD = 0.5
 _D_TO_E = bytes.maketrans(b"dD", b"EE")
 _PIECE = 128 * 1024
 _LONGEST_BLANK_SEPARATED = 10_000
@@ -71,7 +75,11 @@ def spells_number(text: str) -> bool:
 
 def read_rows(text: str, span: Span, columns: int) -> Rows:
     """Read the lines of a run into at most `columns` columns. `text` must have LF or CRLF line ends."""
-    return read_rows_fast(text, span, columns) or read_rows_slow(text, span, columns)
+    return (
+        read_rows_fast(text, span, columns)
+        or read_rows_apart(text, span, columns)
+        or read_rows_slow(text, span, columns)
+    )
 
 
 def read_rows_slow(text: str, span: Span, columns: int) -> Rows:
@@ -110,6 +118,41 @@ def read_rows_fast(text: str, span: Span, columns: int) -> Rows | None:
         return None
     values = np.concatenate(tables)
     return Rows(values, np.full(len(values), width, dtype=np.intp), {})
+
+
+def read_rows_apart(text: str, span: Span, columns: int) -> Rows | None:
+    """The same rows where only some lines hold more than numbers: those slow, the others fast; None otherwise."""
+    body = text[span.start : span.end].rstrip("\r\n")
+    odd = [match.span() for match in _ODD_LINE.finditer(body)]
+    if not odd or len(body) < _WORTH_PARTING or _BLANK_LINE.search(body):
+        return None
+    count = body.count("\n") + 1
+    if len(odd) > _MOST_ODD * count:
+        return None
+    ends = [0, *(end + 1 for _, end in odd)]
+    between = [body[end:start] for end, (start, _) in zip(ends, odd, strict=False)] + [body[ends[-1] :]]
+    plain = "".join(piece if piece.endswith("\n") or not piece else f"{piece}\n" for piece in between)
+    numbers = read_rows_fast(plain, Span(0, len(plain)), columns)
+    if numbers is None:
+        return None
+    lines = "\n".join(body[start:end] for start, end in odd)
+    others = read_rows_slow(lines, Span(0, len(lines)), columns)
+    before = np.cumsum([piece.count("\n") for piece in between[:-1]])
+    return _merged(numbers, others, before + np.arange(len(odd)), count)
+
+
+def _merged(numbers: Rows, others: Rows, at: NDArray[np.intp], count: int) -> Rows:
+    """Rows of which `others` stand at the indices `at`, `numbers` in order at all the rest."""
+    rest = np.ones(count, dtype=bool)
+    rest[at] = False
+    width = max(numbers.values.shape[1], others.values.shape[1])
+    values = np.full((count, width), math.nan)
+    values[rest, : numbers.values.shape[1]] = numbers.values
+    values[at, : others.values.shape[1]] = others.values
+    lengths = np.empty(count, dtype=np.intp)
+    lengths[rest], lengths[at] = numbers.lengths, others.lengths
+    places = at.tolist()
+    return Rows(values, lengths, {(places[row], column): word for (row, column), word in others.words.items()})
 
 
 def _plain_rows(piece: bytes) -> NDArray[np.float64] | None:

@@ -1,0 +1,1 @@
+"""What differs between the meanings of two decks."""

@@ -1,0 +1,152 @@
+"""Sets, curves and parameters of two decks, by name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from mudline.comparison.model import Difference, Kind, Tolerance, Value, plain, ranges
+from mudline.comparison.side import Side
+from mudline.deck.parameters import Definition, folded
+from mudline.diagnostics import Where
+from mudline.keywords.values import Label
+from mudline.scene.force_curves import SceneCurve
+from mudline.scene.numbering import MOST_GENERATED, Floats, Ids, Indices
+from mudline.scene.sets import NamedSet
+
+_KINDS = {False: "curves", True: "curves of sets"}
+
+
+def parameters(one: Side, other: Side, tolerance: Tolerance) -> Iterator[Difference]:
+    """Values of the parameters."""
+    first, second = one.parameters, other.parameters
+    for name in dict.fromkeys([*first.values, *second.values]):
+        old, new = first.values.get(name), second.values.get(name)
+        if old is None or new is None or not tolerance.values(old, new):
+            places = first.definitions.get(name), second.definitions.get(name)
+            lines = one.line(_place(places[0])), other.line(_place(places[1]))
+            yield Difference(_kind(old, new), "parameters", f"parameters/{name}", _plain(old), _plain(new), *lines)
+
+
+def _kind(old: object, new: object) -> Kind:
+    return "added" if old is None else "removed" if new is None else "changed"
+
+
+def _place(thing: Definition | NamedSet | SceneCurve | None) -> Where | None:
+    return None if thing is None else thing.where
+
+
+def _plain(value: float | str | None) -> Value:
+    return plain(value) if isinstance(value, float) else value
+
+
+def sets(one: Side, other: Side) -> Iterator[Difference]:
+    """Members of the element sets; ALL is what the elements are."""
+    first, second = one.scene.set_table.named, other.scene.set_table.named
+    written, others = _written(one), _written(other)
+    for name in dict.fromkeys([*first, *second]):
+        if name == "all":
+            continue
+        old, new = first.get(name), second.get(name)
+        before = _members(one, old.elements) if old else None
+        after = _members(other, new.elements) if new else None
+        if old and new and (old.open or new.open or not (len(old.elements) and len(new.elements))):
+            before, after = written.get(name, ""), others.get(name, "")
+        if old is None or new is None or before != after:
+            lines = one.line(_place(old)), other.line(_place(new))
+            title = (old or new or NamedSet(name, np.zeros(0, dtype=np.intp), None)).name
+            yield Difference(_kind(old, new), "element sets", f"element sets/{title}", before, after, *lines)
+
+
+def _members(side: Side, indices: Indices) -> str:
+    return ranges(side.scene.element_ids[indices])
+
+
+def _written(side: Side) -> dict[str, str]:
+    """What sets hold by their lines: for those with elements that the deck does not show."""
+    numbers: dict[str, list[Ids]] = {}
+    words: dict[str, set[str]] = {}
+    for _, block in side.scene.deck.blocks("ELEMENT SETS"):
+        for entry in block.sets:
+            name = folded(str(entry.name))
+            numbers.setdefault(name, [])
+            words.setdefault(name, set())
+            for member in entry.members:
+                if subset := getattr(member, "subset", None):
+                    words[name].add(f"SUBSET={folded(str(subset))}")
+                listed = getattr(member, "elements", None) or []
+                words[name] |= {folded(item) for item in listed if isinstance(item, Label)}
+                numbers[name].append(np.array([item for item in listed if isinstance(item, int)], dtype=np.int64))
+                if given := getattr(member, "generate", None):
+                    numbers[name].append(_generated(given.start, given.end, given.increment))
+    return {name: ", ".join(filter(None, [ranges(_joined(numbers[name])), *sorted(words[name])])) for name in numbers}
+
+
+def _joined(parts: list[Ids]) -> Ids:
+    return np.concatenate(parts) if parts else np.zeros(0, dtype=np.int64)
+
+
+def _generated(start: object, end: object, step: object) -> Ids:
+    step = 1 if step is None else step
+    if not (isinstance(start, int) and isinstance(end, int) and isinstance(step, int)) or step < 1:
+        return np.zeros(0, dtype=np.int64)
+    return np.arange(start, min(end, start + MOST_GENERATED * step) + 1, step, dtype=np.int64)
+
+
+def curves(one: Side, other: Side, tolerance: Tolerance) -> Iterator[Difference]:
+    """Points of the force-embedment curves; the later curve of a name holds."""
+    first, second = _curves(one), _curves(other)
+    for name in dict.fromkeys([*first, *second]):
+        old, new = first.get(name), second.get(name)
+        lines = one.line(_place(old)), other.line(_place(new))
+        if old is None or new is None:
+            before, after = (None if curve is None else _shown(_points(curve)) for curve in (old, new))
+            yield Difference(_kind(old, new), "curves", _title(old or new), before, after, *lines)
+            continue
+        yield from _points_differ(_title(old), (one, old), (other, new), tolerance)
+
+
+def _points_differ(
+    name: str, before: tuple[Side, SceneCurve], after: tuple[Side, SceneCurve], tolerance: Tolerance
+) -> Iterator[Difference]:
+    (one, old), (other, new) = before, after
+    first, second = _points(old), _points(new)
+    if first.shape == second.shape:
+        if tolerance.arrays(first, second).all():
+            return
+        if tolerance.arrays(first[:, 0], second[:, 0]).all():
+            for i in np.flatnonzero(~tolerance.arrays(first[:, 1], second[:, 1])).tolist():
+                ratio, force, forced = first[i, 0].item(), first[i, 1].item(), second[i, 1].item()
+                lines = _point_line(one, old, first[i]), _point_line(other, new, second[i])
+                yield Difference("changed", "curves", f"{name}/{ratio!r}", force, forced, *lines)
+            return
+    mine, theirs = set(map(tuple, first.tolist())), set(map(tuple, second.tolist()))
+    for ratio, force in sorted(mine - theirs):
+        line = _point_line(one, old, np.array([ratio, force]))
+        yield Difference("removed", "curves", f"{name}/{ratio!r}", force, None, line, None)
+    for ratio, force in sorted(theirs - mine):
+        line = _point_line(other, new, np.array([ratio, force]))
+        yield Difference("added", "curves", f"{name}/{ratio!r}", None, force, None, line)
+
+
+def _title(curve: SceneCurve | None) -> str:
+    return "" if curve is None else f"{_KINDS[curve.embedment]}/{curve.name}"
+
+
+def _curves(side: Side) -> dict[str, SceneCurve]:
+    return {f"{_KINDS[curve.embedment]}/{folded(curve.name)}": curve for curve in side.scene.laws.curves}
+
+
+def _points(curve: SceneCurve) -> Floats:
+    """The points in ascending order, each once."""
+    return np.unique(curve.points, axis=0) if len(curve.points) else curve.points
+
+
+def _shown(points: Floats) -> Value:
+    return [[plain(value) for value in row] for row in points.tolist()]
+
+
+def _point_line(side: Side, curve: SceneCurve, point: Floats) -> int | None:
+    at = np.flatnonzero((curve.points == point).all(axis=1))
+    return side.line(curve.point(int(at[0]))) if len(at) else side.line(curve.where)

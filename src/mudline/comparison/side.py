@@ -1,0 +1,57 @@
+"""One of the two decks that are compared."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from mudline.codes import REF013, REF014, SYN002, SYN006, SYN017
+from mudline.deck.model import Nowhere
+from mudline.deck.parameters import Parameters
+from mudline.deck.reading import TextOrigin
+from mudline.diagnostics import DeckError, Problem, Where
+from mudline.scene.model import Scene
+
+_NO_VALUE = (SYN002, SYN006, SYN017, REF013, REF014)
+
+_MOST_STEPS = 1_000_000
+"""Rows that may be passed to find lines in a document: a row is found by counting from the first one of its table."""
+
+_FEW = 100
+
+
+@dataclass
+class Side:
+    """A resolved deck, its parameters, and the lines of its file."""
+
+    scene: Scene
+    names: dict[str, str] = field(default_factory=dict)
+    """Names as the deck writes them, by their folded form."""
+    _steps: int = _MOST_STEPS
+
+    def path(self, path: str) -> str:
+        """A path of folded names with the names as the deck writes them."""
+        return "/".join(self.names.get(step, step) for step in path.split("/"))
+
+    @cached_property
+    def parameters(self) -> Parameters:
+        """The parameters, evaluated."""
+        return Parameters(self.scene.deck)
+
+    def line(self, where: Where | None) -> int | None:
+        """The line of a place; None for what stands in no line of this file, and once too many were sought."""
+        deck = self.scene.deck
+        if where is None or not 0 <= where.section < len(deck.own_sections) or isinstance(deck.origin, Nowhere):
+            return None
+        steps = 0 if isinstance(deck.origin, TextOrigin) else sum(step for step in where.path if isinstance(step, int))
+        if steps > max(self._steps, _FEW):
+            return None
+        self._steps -= steps
+        return deck.origin.place(Problem(SYN002, "", where=where)).line
+
+    def require(self) -> None:
+        """Raise DeckError for what could not be read, and for equations without a value."""
+        self.scene.deck.require()
+        unknown = [problem for problem in self.scene.problems if problem.code in _NO_VALUE]
+        if unknown:
+            raise DeckError(self.scene.deck.diagnose(unknown))

@@ -1,0 +1,93 @@
+"""Keywords beyond nodes, elements, sets and curves: extensions, beds, boundaries, soil, blocks without a model."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from mudline.comparison.comparing import compare
+from mudline.comparison.model import Difference
+from mudline.deck.loading import load_path
+from mudline.scene.build import resolve
+from tests.comparison.decks import deck, differences, told
+
+FRICTION = "*SEABED FRICTION\n SET=Pipe\n COEFFICIENTS=0.3, 0.6\n STIFFNESS=2e4\n"
+BOUNDARY = "$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n 1, 2\n 1, 3, 0.5\n GEN=1, 3, 1, 4, 0.0\n"
+SOIL = "*P-Y\n SET=Pipe\n DEPTH=0.0\n 0.0, 0.0\n 100.0, 0.1\n DEPTH=2.0\n 0.0, 0.0\n 300.0, 0.1\n"
+
+
+def between(old: str, new: str) -> list[tuple[str, object, object]]:
+    return told(differences(deck() + old, deck() + new))
+
+
+def test_an_extension_is_told_by_element_and_by_record() -> None:
+    found = between(FRICTION, FRICTION.replace("0.6", "0.7"))
+    assert ("elements 1-2/seabed friction/coefficients/second", 0.6, 0.7) in found
+    assert ("*SEABED FRICTION/Pipe/coefficients/second", 0.6, 0.7) in found
+    added = between("", FRICTION)
+    assert ("elements 1-2/seabed friction/stiffness/first", None, 20000.0) in added
+    assert [(where, before) for where, before, _ in added if where == "*SEABED FRICTION"] == [
+        ("*SEABED FRICTION", None)
+    ]
+
+
+def test_a_later_record_of_a_set_replaces_an_earlier_one() -> None:
+    twice = FRICTION + " SET=PIPE\n COEFFICIENTS=0.1, 0.1\n STIFFNESS=1e4\n"
+    assert between(twice, "*SEABED FRICTION\n SET=Pipe\n COEFFICIENTS=0.1, 0.1\n STIFFNESS=1e4\n") == []
+
+
+def test_the_order_of_boundary_conditions_does_not_count() -> None:
+    other = "$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n GEN=1, 3, 1, 4, 0.0\n 1, 3, 0.5\n 1, 2\n"
+    assert between(BOUNDARY, other) == []
+    found = between(BOUNDARY, BOUNDARY.replace("0.5", "0.7"))
+    assert [(before, after) for _, before, after in found] == [(0.5, 0.7)]
+    assert "1, 3" in found[0][0]
+
+
+def test_the_order_of_soil_curves_does_not_count() -> None:
+    head, first, second = "*P-Y\n SET=Pipe\n", *SOIL.removeprefix("*P-Y\n SET=Pipe\n").split(" DEPTH=2.0\n")
+    assert between(SOIL, f"{head} DEPTH=2.0\n{second}{first}") == []
+    found = between(SOIL, SOIL.replace("300.0", "310.0"))
+    assert len(found) == 1
+    assert found[0][1:] == ([300.0, 0.1], [310.0, 0.1])
+
+
+def test_slopes_and_profiles() -> None:
+    slope = "*SEABED PROFILE\n TYPE=SLOPING\n SLOPE=2.0\n"
+    assert ("*SEABED PROFILE/slope", 2.0, 3.0) in between(slope, slope.replace("2.0", "3.0"))
+
+
+@pytest.mark.parametrize("changed", [False, True])
+def test_points_of_a_profile_in_a_file(tmp_path: Path, changed: bool) -> None:
+    text = deck() + "*SEABED PROFILE\n TYPE=2D\n FILE=bed.txt\n"
+    for name, points in (("a", "0, 0\n10, 1\n"), ("b", "10, 2\n0, 0\n" if changed else "10, 1\n0, 0\n")):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "deck.keyxm").write_text(text, encoding="utf-8")
+        (tmp_path / name / "bed.txt").write_text(points, encoding="utf-8")
+    one, other = (resolve(load_path(tmp_path / name / "deck.keyxm")) for name in "ab")
+    expected = [("seabed/points", "2 points", "2 points")] if changed else []
+    assert told(compare(one, other)) == expected
+
+
+def test_blocks_without_a_model_compare_by_their_lines() -> None:
+    text = "*VESSEL\n VESSEL=FPSO\nC a comment\n INITIAL POSITION=0, 0, 0\n"
+    assert between(text, text.replace("C a comment\n", "\n").replace(" VESSEL", "  VESSEL")) == []
+    assert between(text, text.replace("0, 0, 0", "0, 0, 5")) == [
+        ("*VESSEL/lines", "INITIAL POSITION=0, 0, 0", None),
+        ("*VESSEL/lines", None, "INITIAL POSITION=0, 0, 5"),
+    ]
+    assert ("before the first section/lines", "TITLE", None) in told(differences("TITLE\n" + deck(), deck()))
+
+
+def test_long_blocks_without_a_model_are_compared_between_their_equal_ends() -> None:
+    lines = [f" {number}, {number}\n" for number in range(3000)]
+    changed = ["C\n", *lines[:10], " new\n", *reversed(lines[10:2990]), *lines[2990:]]
+    found = differences(deck() + "*VESSEL\n" + "".join(lines), deck() + "*VESSEL\n" + "".join(changed))
+    assert {one.kind for one in found} == {"added", "removed"}
+    assert len(found) == 2 * 2980 + 1
+
+
+def test_units_of_the_decks() -> None:
+    (found,) = differences(deck(), deck(), name="b.keyxi")
+    assert found == Difference("changed", "units", "units", "metric", "imperial")
