@@ -18,7 +18,9 @@ def test_list_has_a_line_for_every_rule() -> None:
     lines = outcome.out.splitlines()
     assert lines[0] == f"{len(CODES)} rules"
     assert [line.split()[0] for line in lines[3:-1]] == CODES
-    assert "SYN002  error     bad-number                A field that needs a number holds none." in lines
+    assert "SYN002 error bad-number A field that needs a number holds none." in [
+        " ".join(line.split()) for line in lines
+    ]
 
 
 @pytest.mark.parametrize("word", ["SYN002", "syn002", "bad-number"])
