@@ -113,6 +113,28 @@ def test_a_refused_deck_does_not_stop_the_others(place: Place) -> None:
     assert Path("b.keyxm").read_text(encoding="utf-8") == MIGRATED
 
 
+CHILD = "$MODEL\n*EMBEDMENT\n SET=7\n 0, 0\n 1, 300\n$LOAD CASE\n*RESTART\n LAST={}\n"
+
+
+@pytest.mark.parametrize("given", [["."], ["base.keyxm"], ["base.keyxm", "sub/child.keyxm"]])
+def test_a_deck_that_another_one_continues_with_its_own_seabed_is_kept(given: list[str], place: Place) -> None:
+    place(SAMPLE, "base.keyxm")
+    child = "sub/child.keyxm" if "sub/child.keyxm" in given else "child.keyxm"
+    place(CHILD.format("../base" if "/" in child else "base"), child)
+    outcome = run("migrate", *given)
+    assert outcome.code == 1
+    assert f"{child} continues this deck and has seabed keywords of its own" in outcome.err
+    assert Path("base.keyxm").read_text(encoding="utf-8") == SAMPLE
+
+
+def test_a_deck_that_another_one_only_continues_is_migrated(place: Place) -> None:
+    place(SAMPLE, "base.keyxm")
+    place("$LOAD CASE\n*RESTART\n LAST=base\n", "child.keyxm")
+    place(b"RESTART\xff\x00{", "noise.das")
+    assert run("migrate", "--verify", "base.keyxm").code == 0
+    assert Path("base.keyxm").read_text(encoding="utf-8") == MIGRATED
+
+
 def test_one_output_takes_one_deck(place: Place) -> None:
     outcome = run("migrate", place(SAMPLE, "a.keyxm"), place(SAMPLE, "b.keyxm"), "-o", "c.keyxm")
     assert outcome.code == 2

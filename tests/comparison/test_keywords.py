@@ -45,6 +45,21 @@ def test_the_order_of_boundary_conditions_does_not_count() -> None:
     assert "1, 3" in found[0][0]
 
 
+@pytest.mark.parametrize(
+    "other",
+    [
+        "$LOAD CASE\n*WAVE\n 2\n$LOAD CASE\n*WAVE\n 5\n*CURRENT\n 1\n",
+        "$LOAD CASE\n*CURRENT\n 1\n*WAVE\n 2\n*WAVE\n 5\n",
+        "$LOAD CASE\n*CURRENT\n 1\n*WAVE\n 2\n$LOAD CASE\n*WAVE\n 5\n$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n 1, 2\n",
+    ],
+    ids=["current in the second", "one load case", "a third one"],
+)
+def test_load_cases_are_apart(other: str) -> None:
+    one = "$LOAD CASE\n*CURRENT\n 1\n*WAVE\n 2\n$LOAD CASE\n*WAVE\n 5\n"
+    assert between(one, one) == []
+    assert between(one, other) != []
+
+
 def test_the_order_of_soil_curves_does_not_count() -> None:
     head, first, second = "*P-Y\n SET=Pipe\n", *SOIL.removeprefix("*P-Y\n SET=Pipe\n").split(" DEPTH=2.0\n")
     assert between(SOIL, f"{head} DEPTH=2.0\n{second}{first}") == []

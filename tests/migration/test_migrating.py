@@ -113,6 +113,12 @@ def test_documents_are_migrated_in_their_own_form(form: str) -> None:
     assert verify(found).differences == ()
 
 
+def test_a_rigid_bed_without_friction_stays_one() -> None:
+    found = migrated(PIPE + "*RIGID SURFACE\n ,,\n")
+    assert found.content.decode().endswith("*SEABED PROPERTIES\n TYPE=RIGID\n SET=ALL\n")
+    assert verify(found).differences == ()
+
+
 def test_points_before_any_set_mean_all() -> None:
     found = migrated(PIPE + "*ELASTIC SURFACE\n 1e4\n*EMBEDMENT\n0, 0\n 1, 5\n SET=West\n 0, 0\n 1, 7\n")
     text = found.content.decode()

@@ -36,6 +36,32 @@ def test_the_reason_and_its_place(text: str, line: int, column: int, words: str)
     assert (found.code, found.line, found.column) == ("MIG001", LINES + line, column)
 
 
+VARIED = "$PREPROCESSOR\n*VARIATION\n NAME=Soil\n ACTION={}, KEYWORD={}\n"
+
+
+@pytest.mark.parametrize(
+    ("action", "keyword"), [("ADD", "EMBEDMENT"), ("REMOVE", "elastic  surface"), ("REMOVE", "SEABED STIFFNESS")]
+)
+def test_variations_of_seabed_keywords(action: str, keyword: str) -> None:
+    with pytest.raises(DeckError) as caught:
+        migrate(deck_of(VARIED.format(action, keyword) + PIPE + SURFACE + "\n"))
+    ((code, line),) = [(one.code, one.line) for one in caught.value.diagnostics]
+    assert (code, line) == ("MIG001", 4)
+    assert migrate(deck_of(VARIED.format("ADD", "OCEAN") + PIPE + SURFACE + "\n")).replaced
+
+
+def test_a_value_of_an_equation_is_neither_zero_nor_the_default() -> None:
+    head = "$PREPROCESSOR\n*PARAMETERS\n mu, 0\n Lc, 3.048\n"
+    for fields in (", =[mu], 0.5, , , , 2.0", ", 0.3, 0.5, , , , =[Lc]"):
+        with pytest.raises(DeckError, match="characteristic length"):
+            migrate(deck_of(head + PIPE + f"*ELASTIC SURFACE\n 1e4{fields}\n"))
+
+
+def test_decks_that_continue_this_one() -> None:
+    with pytest.raises(DeckError, match=r"dynamic.keyxm continues this deck"):
+        migrate(deck_of(PIPE + SURFACE + "\n"), ["dynamic.keyxm"])
+
+
 def test_a_deck_with_errors_is_left_alone() -> None:
     with pytest.raises(DeckError) as caught:
         migrate(deck_of(PIPE + SURFACE.replace("1e4", "-1e4") + "\n"))

@@ -168,7 +168,7 @@ def test_names_of_lines_are_suggested() -> None:
 def test_a_set_in_quotes_that_the_deck_defines_itself() -> None:
     text = PIPE + '*LINES\n LINE=a\n*ELEMENT SETS\n SET="a"\n 1\n SET=b\n SUBSET="a"\n'
     sets = resolve(load_bytes(text.encode(), "deck.keyxm")).set_table.named
-    assert (sets["b"].elements.tolist(), sets["b"].open, sets["a"].open) == ([0], False, True)
+    assert (sets["b"].elements.tolist(), sets["b"].open, sets["a"].open) == ([0], False, False)
 
 
 # -------------------------------------------------------------------------------------------------- what lines may make

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.scene.decks import PIPE, all_told, members, messages, scene_of, told
+from tests.scene.decks import PIPE, STEEL, all_told, members, messages, scene_of, told
 
 SETS = PIPE + "*ELEMENT SETS\n"
 FIRST = SETS.count("\n") + 1
@@ -176,3 +176,11 @@ def test_only_the_first_thousand_are_listed() -> None:
     assert messages(SETS + " SET=a\n" + lines)[-1].endswith("the first 1000 are listed")
     circles = "".join(f" SET=s{number}\n SUBSET=s{number}\n" for number in range(1500))
     assert len(told(SETS + circles)) == 1001
+
+
+@pytest.mark.parametrize(("defined", "used"), [('"Flow Line"', "flow line"), ("Flow Line", '"FLOW LINE"')])
+def test_quotes_around_a_name_do_not_count(defined: str, used: str) -> None:
+    sets = f"*ELEMENT SETS\n SET={defined}\n 1, 2\n SET=Both\n SUBSET={used}\n 3\n"
+    deck = PIPE + STEEL + sets + f"*SEABED PROPERTIES\n TYPE=ELASTIC\n SET={used}\n STIFFNESS=1e5\n"
+    assert told(deck) == []
+    assert scene_of(deck).law_names == ["linear"] * 2 + ["none"] * 8

@@ -17,6 +17,7 @@ from mudline.cli.writing import write_bytes
 from mudline.deck.loading import dump, form_of, load_bytes
 from mudline.diagnostics import DeckError
 from mudline.linting.output.visible import visible
+from mudline.migration.continuing import Continuations
 from mudline.migration.migrating import Migration, legacy_blocks, migrate
 from mudline.migration.verification import Verdict, verify
 from mudline.syntax.source import Source
@@ -56,8 +57,9 @@ def command(
     if output is not None and len(inputs.files) > 1:
         raise click.UsageError("-o takes one deck; without it decks are rewritten where they stand")
     code = DONE
+    continuations = Continuations(Path(file.path) for file in inputs.files if file.path is not None)
     for file, data in inputs.contents():
-        run = _Run(file, data, output, view)
+        run = _Run(file, data, output, view, continuations)
         try:
             code = max(code, run.migrate(units, diff=diff, proved=proved))
         except DeckError as error:
@@ -69,8 +71,9 @@ def command(
 class _Run:
     """One deck."""
 
-    def __init__(self, file: Input, data: bytes, output: str | None, view: View) -> None:
+    def __init__(self, file: Input, data: bytes, output: str | None, view: View, continuations: Continuations) -> None:
         self.file = file
+        self.continuations = continuations
         self.data = data
         self.target = Path(output) if output is not None else Path(file.path) if file.path is not None else None
         self.view = view
@@ -83,7 +86,7 @@ class _Run:
             if not diff and (self.target is None or self.target != Path(self.file.path or "")):
                 self._write(self.data, {})
             return DONE
-        migration = migrate(deck)
+        migration = migrate(deck, self.continuations.of(Path(self.file.path)) if self.file.path else ())
         if proved and not self._proved(verify(migration)):
             return FOUND
         content = self._content(migration)

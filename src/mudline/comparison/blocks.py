@@ -17,6 +17,8 @@ _RESOLVED = {
     *(("MODEL", name) for name in ("NODE", "ELEMENT", "ELEMENT SETS", "SEABED STIFFNESS", "EMBEDMENT")),
     ("PREPROCESSOR", "PARAMETERS"),
 }
+_ONE_IN_ALL = ("MODEL", "PREPROCESSOR")
+"""Sections of which several make one."""
 _COMMENT = re.compile(r"[Cc](?:(?:[ \t]|[-*=#_.~+]{2}).*)?$")
 _MOST_MATCHED = 2000
 """Lines of a block between which the longest common part is sought."""
@@ -62,12 +64,23 @@ def _group(name: _Name) -> str:
 
 def _modelled(side: Side) -> dict[_Name, list[tuple[Where, Block]]]:
     found: dict[_Name, list[tuple[Where, Block]]] = {}
+    titles = _titles(side)
     for i, section in enumerate(side.scene.deck.sections):
         for j, block in enumerate(section.blocks):
-            name = (section.name, block.keyword)
+            name = (titles[i], block.keyword)
             if isinstance(block, Block) and name not in _RESOLVED:
                 found.setdefault(name, []).append((Where(i, j), block))
     return found
+
+
+def _titles(side: Side) -> list[str]:
+    """The sections by name; a second load case, which is another one than the first, with its number."""
+    counts: dict[str, int] = {}
+    titles: list[str] = []
+    for section in side.scene.deck.sections:
+        count = counts[section.name] = counts.get(section.name, 0) + 1
+        titles.append(section.name if count == 1 or section.name in _ONE_IN_ALL else f"{section.name} {count}")
+    return titles
 
 
 _Blocks = dict[_Name, list[tuple[Where, Block]]]
@@ -93,14 +106,15 @@ def _lines(side: Side) -> dict[_Name, _Lines]:
     """Data lines without the blanks at their ends; those of blocks of one keyword follow one another."""
     found: dict[_Name, _Lines] = {}
     deck = side.scene.deck
+    titles = _titles(side)
     if data := [(line, Where()) for line in _data(deck.preamble)]:
         found["", ""] = data
     for i, section in enumerate(deck.sections):
         if section.lines:
-            found.setdefault((section.name, ""), []).extend((line, Where(i)) for line in _data(section.lines))
+            found.setdefault((titles[i], ""), []).extend((line, Where(i)) for line in _data(section.lines))
         for j, block in enumerate(section.blocks):
             if isinstance(block, Opaque):
-                lines = found.setdefault((section.name, block.keyword), [])
+                lines = found.setdefault((titles[i], block.keyword), [])
                 lines.append((f"*{block.keyword}", Where(i, j)))
                 lines += [(line, Where(i, j)) for line in _data(block.lines)]
     return found

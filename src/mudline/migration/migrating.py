@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
+
+import numpy as np
 
 from mudline.codes import MIG001
 from mudline.deck.keyword_form import to_keyword
@@ -41,13 +43,14 @@ def legacy_blocks(deck: Deck) -> Counter[str]:
     return Counter({keyword: count for keyword in LEGACY if (count := sum(1 for _ in deck.blocks(keyword)))})
 
 
-def migrate(deck: Deck) -> Migration:
+def migrate(deck: Deck, continued_by: Sequence[str] = ()) -> Migration:
     """The deck with its legacy seabed keywords in the new family, in the form that it has.
 
-    Raises DeckError for a deck with errors, and (MIG001) for what the new family cannot say.
+    `continued_by` names decks that go on from this one with seabed keywords of their own. Raises DeckError for a deck
+    with errors, and (MIG001) for what the new family cannot say.
     """
     before = resolve(deck).require()
-    if problems := list(refusals(deck, before)):
+    if problems := list(refusals(deck, continued_by)):
         raise DeckError(deck.diagnose(problems))
     text = _as_text(deck)
     made = rewrite(text)
@@ -81,6 +84,8 @@ def _checked(deck: Deck, before: Scene, changed: Deck, made: Rewriting) -> Scene
         faults.append("a block of another keyword would change")
     expected = Counter(problem.code.code for problem in [*deck.problems, *before.problems])
     new = Counter(problem.code.code for problem in [*changed.problems, *after.problems])
+    if not np.array_equal(before.law, after.law):
+        faults.append("an element would have a law of another kind")
     for code in (new - expected) - Counter({"REF015": len(made.files)}):
         faults.append(f"it would have a new finding {code}")
     if faults:

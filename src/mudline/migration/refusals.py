@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any, cast
+from collections.abc import Iterator, Sequence
+from typing import Any
 
 from mudline.codes import MIG001
 from mudline.deck.model import Deck
@@ -11,10 +11,11 @@ from mudline.diagnostics import Problem, Where
 from mudline.keywords.common import Surface
 from mudline.keywords.values import Equation
 from mudline.migration.surface import lengths_in_force
-from mudline.scene.model import Scene
+from mudline.syntax.tree import canonical_name
 
 SURFACES = ("ELASTIC SURFACE", "RIGID SURFACE")
 LEGACY = (*SURFACES, "EMBEDMENT")
+_NEW = ("SEABED PROPERTIES", "SEABED STIFFNESS", "SEABED PROFILE")
 _DEFAULT_LENGTH = {"metric": 3.048, "imperial": 10.0}
 
 
@@ -23,16 +24,20 @@ def surfaces(deck: Deck) -> list[tuple[Where, Surface]]:
     return sorted((found for keyword in SURFACES for found in deck.blocks(keyword)), key=lambda found: found[0])
 
 
-def refusals(deck: Deck, scene: Scene) -> Iterator[Problem]:
-    """The reasons why a deck is left as it is; `deck` has its equations as written, `scene` is its scene."""
+def refusals(deck: Deck, continued_by: Sequence[str] = ()) -> Iterator[Problem]:
+    """The reasons why a deck is left as it is; `deck` has its equations as written.
+
+    `continued_by` names decks that go on from this one with seabed keywords of their own.
+    """
     yield from _other_family(deck)
     yield from _other_deck(deck)
+    yield from _continued(deck, continued_by)
+    yield from _actions(deck)
     found = surfaces(deck)
     for where, block in found[1:]:
         yield _told(f"a second surface: remove all but one, then migrate *{block.keyword}", where)
     for where, block in found[:1]:
-        evaluated = scene.deck.sections[where.section].blocks[where.block]
-        yield from _lengths(block, cast("Surface", evaluated), where, deck.units)
+        yield from _lengths(block, where, deck.units)
         yield from _bed(deck, block, where)
 
 
@@ -60,13 +65,35 @@ def _other_deck(deck: Deck) -> Iterator[Problem]:
                 yield _told(message, Where(section, block))
 
 
-def _lengths(block: Surface, evaluated: Surface, where: Where, units: str) -> Iterator[Problem]:
-    """Largest characteristic lengths that bound the mobilisation length and are not the default."""
-    written: dict[str, str] = {
-        name: "given" for name in type(block.properties).model_fields if getattr(block.properties, name) is not None
-    }
-    values: Any = evaluated.properties
-    frictionless = {name: not getattr(values, name) for name in ("longitudinal", "transverse")}
+def _continued(deck: Deck, continued_by: Sequence[str]) -> Iterator[Problem]:
+    """In a deck that goes on from this one, its keywords would meet other ones than before."""
+    where = next(where for keyword in LEGACY for where, _ in deck.blocks(keyword))
+    for name in continued_by:
+        message = f"{name} continues this deck and has seabed keywords of its own, which would meet others: keep both"
+        yield _told(message, where)
+
+
+def _actions(deck: Deck) -> Iterator[Problem]:
+    """Actions of `*VARIATION` on what a migration takes away or makes."""
+    for where, block in deck.blocks("VARIATION", "PREPROCESSOR"):
+        for i, variation in enumerate(block.variations):
+            for j, item in enumerate(variation.blocks):
+                keyword = canonical_name("*" + ",".join(item.keyword))
+                if keyword in (*LEGACY, *_NEW):
+                    message = (
+                        f"a variation adds or removes *{keyword}, which means another thing then: remove the action"
+                    )
+                    yield _told(message, where._replace(path=("variations", i, "blocks", j)))
+
+
+def _lengths(block: Surface, where: Where, units: str) -> Iterator[Problem]:
+    """Largest characteristic lengths that bound the mobilisation length and are not the default.
+
+    What an equation gives may be another number tomorrow: it counts as neither 0 nor the default.
+    """
+    values: Any = block.properties
+    written = {name: "given" for name in type(values).model_fields if getattr(values, name) is not None}
+    frictionless = {name: getattr(values, name) in (None, 0.0) for name in ("longitudinal", "transverse")}
     for name in lengths_in_force(written, frictionless):
         if getattr(values, name) != _DEFAULT_LENGTH.get(units):
             direction = name.removesuffix("_length")

@@ -101,7 +101,8 @@ class _Rewriter:
         self._head(where, "SEABED PROPERTIES")
         rows = self._rows(self._raw(where))
         fields = self._fields(where, block)
-        lines = ["TYPE=" + block.keyword.split()[0], *_sets(surface_lines(fields), by_set)]
+        type_ = block.keyword.split()[0]
+        lines = [f"TYPE={type_}", *_sets(surface_lines(fields), by_set, rigid=type_ == "RIGID")]
         indent = self._indent(rows[0].start)
         self._edit(rows[0], f"\n{indent}".join(lines))
         start = self._line_start(rows[0].start)
@@ -148,9 +149,12 @@ class _Rewriter:
         return name
 
 
-def _sets(surface: SurfaceLines, by_set: list[tuple[str, str]]) -> list[str]:
-    """A block for ALL with what is linear, then one for each curve, so that the curves win; each has all of it."""
-    blocks = surface.block("ALL", surface.stiffness) if surface.stiffness or surface.others else []
+def _sets(surface: SurfaceLines, by_set: list[tuple[str, str]], *, rigid: bool) -> list[str]:
+    """A block for ALL with what is linear, then one for each curve, so that the curves win; each has all of it.
+
+    On a rigid bed the block alone says something: that its elements lie on that bed.
+    """
+    blocks = surface.block("ALL", surface.stiffness) if rigid or surface.stiffness or surface.others else []
     for set_name, curve in by_set:
         blocks += surface.block(set_name, curve)
     return blocks

@@ -58,6 +58,12 @@ def continued(deck: Deck) -> tuple[Deck, list[Problem]]:
     return continuation(deck, chain.bases, incomplete=bool(chain.fault)), problems
 
 
+def decks_before(deck: Deck) -> list[Path]:
+    """The files of the decks that a deck continues, the nearest first, as far as they are found."""
+    bases = (base.deck for base in _follow(deck).bases)
+    return [base.folder / Path(base.file).name for base in bases if base.folder is not None]
+
+
 def _names(deck: Deck) -> Iterator[tuple[Where, str]]:
     """Every LAST=, with the values of parameters put in."""
     blocks = [(where, cast("Restart", block)) for where, block in deck.blocks("RESTART", "LOAD CASE")]

@@ -53,7 +53,7 @@ class Sets:
 
     def find(self, name: str, where: Where) -> NamedSet | None:
         """The set that a SET= names; None, and a problem, when there is no such set."""
-        found = self.named.get(folded(name)) or self.named.get(folded(bare(name)))
+        found = self.named.get(folded(bare(name)))
         if found is None:
             near = self.context.near(name, self.named)
             hint = f" (did you mean {self.named[near].name}?)" if near else ""
@@ -100,7 +100,7 @@ class _Reader:
         if name is None:
             self.context.unread.add("ELEMENT SETS")
             return
-        key = folded(name)
+        key = folded(bare(name))
         if key == ALL:
             message = "set ALL is predefined and holds every element: choose another name"
             self.context.tell(REF009, message, where._replace(path=(*where.path, "name")))
@@ -126,7 +126,7 @@ class _Reader:
     def _needed(self, key: str, unfinished: set[str]) -> Iterator[str]:
         """The subsets that are to be expanded before a set; those that cannot be are told."""
         for name, where in self._subsets(key):
-            other = self._key(name)
+            other = folded(bare(name))
             if other in unfinished:
                 message = f"set {shown(name)} contains itself: SUBSET= leads back to it; remove one of these lines"
                 self.context.tell(REF008, message, where)
@@ -142,11 +142,6 @@ class _Reader:
     def _names(self) -> dict[str, str]:
         """Every name of a set, by its folded form."""
         return self.context.harvested | {key: entries[0][0].name for key, entries in self.definitions.items()}
-
-    def _key(self, name: str) -> str:
-        """What a name is known by; a set that a line makes also answers to its name in quotes."""
-        plain = folded(bare(name))
-        return plain if plain in self.context.harvested and folded(name) not in self.definitions else folded(name)
 
     def _subsets(self, key: str) -> Iterator[tuple[str, Where]]:
         for entry, where in self.definitions[key]:
@@ -178,7 +173,7 @@ class _Reader:
             self.context.tell(REF010, f"set {shown(first.name)} has no element: give it some, or remove it", place)
 
     def _subset(self, name: str | None) -> tuple[Indices, bool]:
-        found = None if name is None else self.sets.named.get(self._key(name))
+        found = None if name is None else self.sets.named.get(folded(bare(name)))
         return (_NOTHING, False) if found is None else (found.elements, not found.open)
 
     def _listed(self, member: SetList, where: Where) -> tuple[Indices, bool]:
