@@ -1,0 +1,123 @@
+"""Unloading and reloading of `*SEABED UNLOADING`, beside the virgin loading path of a curve or a linear law.
+
+At a new largest penetration the reaction is that of the virgin path. Elsewhere it is that of a straight line through
+the deepest point (z_max, F_max) with the stiffness ku', down to 0 at the trench bottom z_p and 0 above it:
+
+    F = max(0, F_max - ku' (z_max - z)),  z_p = z_max - F_max / ku'.
+
+ku' is the largest of the unloading stiffness that was given, the steepest slope that the virgin path reached, and the
+secant F_max / z_max. So the line lies nowhere above the virgin path, no closed loop gives work, and the trench bottom
+is never above the mudline (the secant counts only where the virgin path jumps at the mudline).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from mudline.contact.arrays import BoolArray, FloatArray
+from mudline.curves import ForceCurve
+
+_LARGEST = np.finfo(np.float64).max
+
+
+class VirginPath(NamedTuple):
+    """The virgin path at the penetrations of a step, arrays (m,), per unit length.
+
+    force: F(z).
+    slope: dF/dz.
+    steepest: the steepest slope between the mudline and z: the slope itself for a linear law, `steepest_slope` for a
+        curve. Only with it does a step that passes several segments find the same path as many small ones.
+    """
+
+    force: FloatArray
+    slope: FloatArray
+    steepest: FloatArray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class UnloadingHistory:
+    """What the elements (m,) remember. A step gives a new one and leaves the old one as it is.
+
+    Attributes:
+        stiffness: ku, raised to the steepest slope of the virgin path so far.
+        z_max: the largest penetration so far, 0 before the first contact.
+        force_max: the virgin force there, F_max; 0 where the path pulls.
+        z_p: penetration of the trench bottom, where the reaction vanishes.
+    """
+
+    stiffness: FloatArray
+    z_max: FloatArray
+    force_max: FloatArray
+    z_p: FloatArray
+
+    @classmethod
+    def initial(cls, stiffness: FloatArray) -> UnloadingHistory:
+        """Return the history of elements that never touched the bed, of unloading stiffness `stiffness` > 0."""
+        shape = stiffness.shape
+        return cls(stiffness.copy(), np.zeros(shape), np.zeros(shape), np.zeros(shape))
+
+
+class UnloadingReaction(NamedTuple):
+    """Reaction of elements, arrays (m,).
+
+    force: per unit length, positive pushing out of the bed.
+    stiffness: d force / d penetration, per unit length and length of penetration.
+    compressed: the element is below the trench bottom.
+    uplift: z_p - z, the way up from the trench bottom, from which suction counts.
+    """
+
+    force: FloatArray
+    stiffness: FloatArray
+    compressed: BoolArray
+    uplift: FloatArray
+
+
+def step(history: UnloadingHistory, z: FloatArray, virgin: VirginPath) -> tuple[UnloadingReaction, UnloadingHistory]:
+    """Return the reaction and the next history of elements (m,) at the penetrations `z`.
+
+    At z_max itself, after the step that reached it, the stiffness is that of unloading.
+    """
+    deeper = z > history.z_max
+    with np.errstate(all="ignore"):
+        after = _deepened(history, z, virgin, deeper)
+        stiffness = _line_stiffness(after)
+        compressed = z > after.z_p
+        on_line = np.where(compressed, np.maximum(after.force_max - stiffness * (after.z_max - z), 0.0), 0.0)
+        reaction = UnloadingReaction(
+            force=np.where(deeper, virgin.force, on_line),
+            stiffness=np.where(deeper, virgin.slope, np.where(compressed, stiffness, 0.0)),
+            compressed=compressed,
+            uplift=after.z_p - z,
+        )
+    return reaction, after
+
+
+def _deepened(history: UnloadingHistory, z: FloatArray, virgin: VirginPath, deeper: BoolArray) -> UnloadingHistory:
+    """The history with the deepest point where it is now."""
+    steepest = np.maximum(virgin.slope, virgin.steepest)
+    after = UnloadingHistory(
+        stiffness=np.where(deeper, np.maximum(history.stiffness, steepest), history.stiffness),
+        z_max=np.where(deeper, z, history.z_max),
+        force_max=np.where(deeper, np.maximum(virgin.force, 0.0), history.force_max),
+        z_p=history.z_p.copy(),
+    )
+    bottom = np.maximum(after.z_max - after.force_max / _line_stiffness(after), 0.0)
+    after.z_p[deeper] = bottom[deeper]
+    return after
+
+
+def _line_stiffness(history: UnloadingHistory) -> FloatArray:
+    """Stiffness ku' of the line through the deepest point."""
+    secant = np.minimum(history.force_max / np.where(history.z_max > 0.0, history.z_max, 1.0), _LARGEST)
+    return np.maximum(history.stiffness, secant)
+
+
+def steepest_slope(curve: ForceCurve, ratio: FloatArray) -> FloatArray:
+    """Return the steepest slope (d force / d ratio) of the curve between the mudline and each embedment ratio > 0."""
+    first, last = curve.segment(np.zeros(1))[0], curve.segment(ratio)
+    so_far = np.maximum.accumulate(curve.slopes[first:])
+    steepest: FloatArray = so_far[np.maximum(last - first, 0)]
+    return steepest
