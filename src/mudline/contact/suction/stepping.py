@@ -31,13 +31,23 @@ class Suction(NamedTuple):
     by_velocity: FloatArray
     depth: FloatArray
 
+    @classmethod
+    def blank(cls, elements: int) -> Suction:
+        """Return arrays for so many elements, without force."""
+        return cls(*(np.zeros(elements) for _ in cls._fields))
+
     def rows(self, rows: slice) -> Suction:
         """Return some elements, as views."""
         return Suction(*(values[rows] for values in self))
 
 
 def step(
-    law: SuctionLaw, history: SuctionHistory, uplift: FloatArray, velocity: FloatArray, compressed: BoolArray
+    law: SuctionLaw,
+    history: SuctionHistory,
+    uplift: FloatArray,
+    velocity: FloatArray,
+    compressed: BoolArray,
+    out: tuple[Suction, SuctionHistory] | None = None,
 ) -> tuple[Suction, SuctionHistory]:
     """Return the suction and the next history of elements (m,).
 
@@ -48,10 +58,12 @@ def step(
     else in suction, with -F_max(v) times the trapezoid at x / Delta_B. F_max follows the velocity of the moment: the
     force vanishes as the motion stops. Delta_B follows the largest velocity of the episode: who slows down does not
     break out for that.
+
+    The values go to `out` where it is given, which must not be the memory of `history`: fresh arrays for 10^5 elements
+    cost as much as the law.
     """
     elements = len(uplift)
-    suction = Suction(*(np.zeros(elements) for _ in Suction._fields))
-    after = SuctionHistory.initial(elements)
+    suction, after = (Suction.blank(elements), SuctionHistory.initial(elements)) if out is None else out
     with np.errstate(all="ignore"):
         for start in range(0, elements, _BLOCK):
             rows = slice(start, start + _BLOCK)
@@ -84,11 +96,13 @@ def _step_rows(
     after.state[...] += (bound & ~moving) * np.int8(SuctionState.HOLD)
     after.state[...] += (breaks | stays_broken) * np.int8(SuctionState.BROKEN)
     after.armed[...] = compressed | (bound & ~breaks)
-    np.copyto(after.v_max, v_max, where=after.state > SuctionState.COMPRESSION)
-    if sucks.any():
-        grows = velocity > np.maximum(before.v_max, law.regularisation)
-        for whole, values in zip(suction, _pull(law, uplift, velocity, suction.depth, grows), strict=False):
-            np.copyto(whole, values, where=sucks)
+    after.v_max[...] = np.where(after.state > SuctionState.COMPRESSION, v_max, 0.0)
+    if not sucks.any():
+        suction.force[...] = suction.by_uplift[...] = suction.by_velocity[...] = 0.0
+        return
+    grows = velocity > np.maximum(before.v_max, law.regularisation)
+    for whole, values in zip(suction, _pull(law, uplift, velocity, suction.depth, grows), strict=False):
+        whole[...] = np.where(sucks, values, 0.0)
 
 
 def _pull(

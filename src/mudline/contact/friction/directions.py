@@ -1,0 +1,59 @@
+"""The two directions of friction at a node, in the plane of the bed."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mudline.contact.arrays import FloatArray, IndexArray
+
+_ALONG_Y = np.array([0.0, 1.0, 0.0])
+_ALONG_Z = np.array([0.0, 0.0, 1.0])
+_STEEPEST = 1.0e-9
+"""Sine of the angle to the bed normal below which a direction has no projection on the bed."""
+
+
+def axial(points: FloatArray, element_nodes: IndexArray, normals: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Directions u1 along the line and u2 = n x u1, each (n, 3), of nodes at `points` (n, 3).
+
+    u1 is the mean of the unit tangents of the node's elements (m, 2), projected on the plane with the unit normal
+    (n, 3); where that leaves nothing, +Y is projected instead.
+    """
+    first, second = element_nodes.T
+    span = points[second] - points[first]
+    length = np.sqrt(np.einsum("ij,ij->i", span, span))
+    unit = np.divide(span, length[:, None], out=np.zeros_like(span), where=length[:, None] > 0.0)
+    total = np.zeros_like(points)
+    for axis in range(3):
+        for end in (first, second):
+            total[:, axis] += np.bincount(end, unit[:, axis], len(points))
+    return in_plane(total, normals)
+
+
+def at_angle(angles: FloatArray, normals: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Directions of nodes whose u1 is +Y in the bed, turned by an angle (n,), degrees, about the bed normal."""
+    along, across = in_plane(np.broadcast_to(_ALONG_Y, normals.shape), normals)
+    turn = np.radians(angles)[:, None]
+    first = np.cos(turn) * along + np.sin(turn) * across
+    return first, np.cross(normals, first)
+
+
+def in_plane(wanted: FloatArray, normals: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Unit vectors (n, 3) in the planes of unit normals: `wanted` (n, 3) projected, and across it, n x u1.
+
+    A vector along the normal has no projection: +Y takes its place, and +Z where that stands on the bed too.
+    """
+    first = _projected(wanted, normals)
+    for instead in (_ALONG_Y, _ALONG_Z):
+        lost = np.isnan(first[:, 0])
+        if not lost.any():
+            break
+        first[lost] = _projected(np.broadcast_to(instead, (int(lost.sum()), 3)), normals[lost])
+    return first, np.cross(normals, first)
+
+
+def _projected(wanted: FloatArray, normals: FloatArray) -> FloatArray:
+    """Unit vectors in the planes, NaN where there is none."""
+    rest = wanted - np.einsum("ij,ij->i", wanted, normals)[:, None] * normals
+    size, whole = (np.sqrt(np.einsum("ij,ij->i", part, part)) for part in (rest, wanted))
+    seen = size > _STEEPEST * whole
+    return np.divide(rest, size[:, None], out=np.full(rest.shape, np.nan), where=seen[:, None])
