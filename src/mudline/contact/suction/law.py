@@ -20,6 +20,8 @@ FORCE_EXPONENT = 0.18
 DEPTH_EXPONENT = 0.26
 _FORCE_NUMBER = 1.12
 _DEPTH_NUMBER = 0.98
+_SLOWEST = np.nextafter(0.0, 1.0)
+"""Keeps 0 / 0 away at rest where there is no cap."""
 
 
 class SuctionFactors(NamedTuple):
@@ -90,14 +92,14 @@ def from_cohesion(
 
 
 def maximum_force(law: SuctionLaw, velocity: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return F_max per unit length and dF_max/dv at pull-out velocities v >= 0 (> 0 where v_r = 0).
+    """Return F_max per unit length and dF_max/dv at pull-out velocities v >= 0.
 
     Below v_r the power is replaced by v_r^n ((2 - n) r + (n - 1) r^2), r = v / v_r: 0 at rest, with a finite slope, and
     the same value and slope at v_r. From n = 2 on the power is smooth by itself (at n = 2 the two are one).
     """
     n = law.force_exponent
     with np.errstate(all="ignore"):
-        pace = np.maximum(velocity, law.regularisation * (n < 2.0))
+        pace = np.maximum(velocity, np.maximum(law.regularisation * (n < 2.0), _SLOWEST))
         share = velocity / pace
         at_pace = law.force_factor * law.cyclic * np.power(pace, n)
         linear, square = 2.0 - n, (n - 1.0) * share

@@ -84,7 +84,7 @@ def _step_rows(
     """Write the suction and the history of some elements."""
     uplift, velocity, compressed = motion
     bound = before.armed & ~compressed
-    v_max = np.where(bound, np.maximum(before.v_max, velocity), before.v_max)
+    v_max = np.where(compressed, 0.0, np.maximum(before.v_max, velocity * before.armed))
     suction.depth[...] = suction_depth(law, v_max)
     beyond = uplift >= suction.depth
     moving = bound & (velocity > 0.0)

@@ -1,0 +1,168 @@
+"""The two power laws: worked numbers, scaling, cap, units, refusals."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mudline.contact.laws.spring import LawError
+from mudline.contact.suction import SuctionFactors, from_cohesion, maximum_force, suction_depth
+from tests.contact.suction.pulls import DEPTH, FORCE, bridge_law, floats, pull
+
+# D, cu, v, alpha_f, alpha_D, F_max, Delta_B, dF/dv
+WORKED = [
+    (0.3, 5000.0, 0.1, 2086.5435606, 0.294, 1378.5656595, 0.16156501691, 2481.4181871),
+    (0.3, 5000.0, 0.01, 2086.5435606, 0.294, 910.80929887, 0.08878658058, 16394.56738),
+    (0.3, 5000.0, 0.001, 2086.5435606, 0.294, 601.76573615, 0.048791855079, 108317.83251),
+    (0.3, 5000.0, 1.0, 2086.5435606, 0.294, 2086.5435606, 0.294, 375.57784091),
+    (0.1683, 3500.0, 0.1, 909.23269089, 0.164934, 600.72408159, 0.090637974489, 1081.3033469),
+    (0.1683, 3500.0, 0.01, 909.23269089, 0.164934, 396.89446477, 0.049809271705, 7144.1003658),
+    (0.5, 2000.0, 0.3, 1268.8299515, 0.49, 1021.6102644, 0.35830065844, 612.96615862),
+    (0.27305, 10000.0, 0.05, 3863.1058759, 0.267589, 2252.9482273, 0.12280059122, 8110.6136184),
+]
+
+# v, F_max, Delta_B, slope of the rise, dF/dv, without a cap
+SLOW = [
+    (1e-6, 173.55113405, 0.0080974323878, 107164.29958, 31239204.13),
+    (1e-5, 262.68027113, 0.014734904669, 89135.38195, 4728244.8803),
+    (1e-4, 397.58267911, 0.026813118677, 74139.581429, 715648.82239),
+    (1e-3, 601.76573615, 0.048791855079, 61666.617838, 108317.83251),
+    (1e-2, 910.80929887, 0.08878658058, 51292.058604, 16394.56738),
+    (1e-1, 1378.5656595, 0.16156501691, 42662.876092, 2481.4181871),
+    (1.0, 2086.5435606, 0.294, 35485.434704, 375.57784091),
+]
+
+FOOT, POUND = 0.3048, 4.4482216152605
+
+speeds = st.floats(1e-2, 1e3)
+
+
+def test_worked_table_of_constants() -> None:
+    diameter, cohesion, v, alpha_f, alpha_d, force, depth, slope = np.array(WORKED).T
+    law = bridge_law(len(v), cohesion, diameter)
+    assert law.force_factor == pytest.approx(alpha_f, rel=1e-10)
+    assert law.depth_factor == pytest.approx(alpha_d, rel=1e-10)
+    assert maximum_force(law, v)[0] == pytest.approx(force, rel=1e-10)
+    assert maximum_force(law, v)[1] == pytest.approx(slope, rel=1e-9)
+    assert suction_depth(law, v) == pytest.approx(depth, rel=1e-10)
+
+
+def test_table_of_small_velocities_without_a_cap() -> None:
+    v, force, depth, rise, slope = np.array(SLOW).T
+    law = bridge_law(len(v), regularisation=0.0)
+    assert maximum_force(law, v)[0] == pytest.approx(force, rel=1e-10)
+    assert maximum_force(law, v)[1] == pytest.approx(slope, rel=1e-9)
+    suction = pull(law, 0.1 * depth, v)
+    assert suction.depth == pytest.approx(depth, rel=1e-10)
+    assert -suction.by_uplift == pytest.approx(rise, rel=1e-10)
+
+
+@pytest.mark.parametrize(
+    ("v", "force", "slope"),
+    [(0.0, 0.0, 1095213.6398), (5e-4, 424.24484398, None), (1e-3, 601.76573615, 108317.83251)],
+)
+def test_cap_below_the_regularisation_velocity(v: float, force: float, slope: float | None) -> None:
+    values = maximum_force(bridge_law(), floats(v))
+    assert values[0].item() == pytest.approx(force, rel=1e-10)
+    if slope is not None:
+        assert values[1].item() == pytest.approx(slope, rel=1e-10)
+
+
+def test_cap_meets_the_power_with_one_value_and_one_slope() -> None:
+    law = bridge_law(2)
+    below, above = (
+        np.array(values) for values in zip(*maximum_force(law, np.array([1e-3 * (1 - 1e-12), 1e-3])), strict=True)
+    )
+    assert below == pytest.approx(above, rel=1e-10)
+
+
+def test_cap_is_on_the_force_only() -> None:
+    assert suction_depth(bridge_law(), floats(1e-9)).item() == pytest.approx(0.048791855079, rel=1e-10)
+    assert suction_depth(bridge_law(), floats(0.0)).item() == pytest.approx(0.048791855079, rel=1e-10)
+
+
+@pytest.mark.parametrize("exponent", [0.0, 0.18, 1.0, 1.5, 2.0, 3.0])
+def test_capped_force_never_falls_below_zero(exponent: float) -> None:
+    law = bridge_law(41)._replace(force_exponent=floats(exponent, 41), force_factor=floats(1.0, 41))
+    force, slope = maximum_force(law, np.linspace(0.0, 2e-3, 41))
+    assert (force >= 0.0).all()
+    assert (np.diff(force) >= -1e-15).all()
+    assert (slope >= -1e-12).all()
+
+
+@given(v=speeds)
+def test_doubling_the_velocity(v: float) -> None:
+    law = bridge_law(2)
+    force, depth = maximum_force(law, np.array([v, 2 * v]))[0], suction_depth(law, np.array([v, 2 * v]))
+    assert force[1] / force[0] == pytest.approx(1.1328838853, rel=1e-10)
+    assert depth[1] / depth[0] == pytest.approx(1.1974787046, rel=1e-10)
+
+
+@given(v=speeds, diameter=st.floats(0.01, 10.0))
+def test_relative_depth_depends_on_the_velocity_alone(v: float, diameter: float) -> None:
+    ratio = suction_depth(bridge_law(diameter=diameter), floats(v)) / diameter
+    assert ratio.item() == pytest.approx(0.98 * v**0.26, rel=1e-13)
+
+
+def test_cyclic_factor_scales_the_force_and_nothing_else() -> None:
+    law = bridge_law()
+    half = law._replace(cyclic=floats(0.5))
+    whole, cut = pull(law, 0.01, 0.1), pull(half, 0.01, 0.1)
+    assert cut.depth == whole.depth
+    for name in ("force", "by_uplift", "by_velocity"):
+        assert getattr(cut, name) == pytest.approx(0.5 * getattr(whole, name), rel=1e-14)
+
+
+def test_millimetres_would_be_wrong_without_conversion() -> None:
+    naive = bridge_law(cohesion=0.005, diameter=300.0, regularisation=1.0)
+    assert maximum_force(naive, floats(100.0))[0].item() == pytest.approx(1.3785656595, rel=1e-10)
+    assert suction_depth(naive, floats(100.0)).item() == pytest.approx(973.52549716, rel=1e-10)
+    assert suction_depth(naive, floats(100.0)).item() / (1000.0 * DEPTH) == pytest.approx(6.0255958607, rel=1e-10)
+    right = naive._replace(**from_cohesion(floats(0.005), floats(300.0), 1e-3, 1.0)._asdict())
+    assert maximum_force(right, floats(100.0))[0].item() == pytest.approx(FORCE / 1000.0, rel=1e-10)
+    assert suction_depth(right, floats(100.0)).item() == pytest.approx(DEPTH * 1000.0, rel=1e-10)
+
+
+@pytest.mark.parametrize(("length", "force"), [(FOOT, POUND), (1e-3, 1.0), (1.0, 1000.0), (1.0, 1.0)])
+def test_a_deck_in_other_units_describes_the_same_soil(length: float, force: float) -> None:
+    diameter, cohesion, v = (np.array(column) for column in list(zip(*WORKED, strict=True))[:3])
+    si = bridge_law(len(v), cohesion, diameter)
+    factors = from_cohesion(cohesion / (force / length**2), diameter / length, length, force)
+    own = si._replace(**factors._asdict(), regularisation=si.regularisation / length)
+    for speed in (v, 0.3 * si.regularisation):
+        expected, got = maximum_force(si, speed), maximum_force(own, speed / length)
+        assert got[0] * (force / length) == pytest.approx(expected[0], rel=1e-13)
+        assert got[1] * (force / length**2) == pytest.approx(expected[1], rel=1e-13)
+        assert suction_depth(own, speed / length) * length == pytest.approx(suction_depth(si, speed), rel=1e-13)
+
+
+def test_factors_name_their_values() -> None:
+    factors = from_cohesion(floats(5000.0, 3), floats(0.3, 3))
+    assert isinstance(factors, SuctionFactors)
+    assert factors.force_exponent.tolist() == [0.18] * 3
+    assert factors.depth_exponent.tolist() == [0.26] * 3
+
+
+@pytest.mark.parametrize(
+    ("field", "value", "what"),
+    [
+        ("force_factor", -1.0, "force_factor"),
+        ("force_factor", np.inf, "force_factor"),
+        ("force_exponent", -0.1, "force_exponent"),
+        ("depth_factor", 0.0, "depth_factor"),
+        ("depth_exponent", np.nan, "depth_exponent"),
+        ("cyclic", -1.0, "cyclic"),
+        ("regularisation", -1e-3, "regularisation"),
+        ("first_corner", 0.0, "corners"),
+        ("first_corner", 0.9, "corners"),
+        ("second_corner", 1.0, "corners"),
+    ],
+)
+def test_a_value_out_of_range_is_refused_and_the_row_named(field: str, value: float, what: str) -> None:
+    law = bridge_law(3)
+    getattr(law, field)[1] = value
+    with pytest.raises(LawError, match=what) as caught:
+        law.checked()
+    assert caught.value.index == 1

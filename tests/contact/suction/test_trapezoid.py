@@ -1,0 +1,105 @@
+"""Rise, plateau and release over the uplift: worked table, work, corners, net force with a bed."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mudline.contact.suction import step, suction_spring, trapezoid
+from tests.contact.suction.pulls import BROKEN, DEPTH, FORCE, SUCTION, bridge_law, floats, lifted, pull, walk
+
+# share of the uplift at breakout, uplift, suction at 0.1 m/s
+WORKED = [
+    (0.05, 0.0080782508457, 344.64141487),
+    (0.1, 0.016156501691, 689.28282974),
+    (0.2, 0.032313003383, 1378.5656595),
+    (0.5, 0.080782508457, 1378.5656595),
+    (0.8, 0.12925201353, 1378.5656595),
+    (0.9, 0.14540851522, 689.28282974),
+    (0.95, 0.15348676607, 344.64141487),
+    (1.0, 0.16156501691, 0.0),
+]
+
+
+def test_worked_table() -> None:
+    share, _, suction = np.array(WORKED).T
+    law = bridge_law(len(share))
+    exact = pull(law, 0.0, 0.1).depth * share
+    assert exact == pytest.approx(np.array(WORKED)[:, 1], rel=1e-10)
+    assert -pull(law, exact, 0.1).force == pytest.approx(suction, rel=1e-10, abs=1e-6)
+
+
+def test_slopes_of_rise_plateau_and_release() -> None:
+    suction = pull(bridge_law(3), DEPTH * np.array([0.1, 0.5, 0.9]), 0.1)
+    assert suction.by_uplift == pytest.approx([-42662.876092, 0.0, 42662.876092], rel=1e-10)
+
+
+def test_work_to_breakout() -> None:
+    law = bridge_law(100_001)
+    uplift = np.linspace(0.0, 1.0, 100_001) * pull(law, 0.0, 0.1).depth
+    force = -pull(law, uplift, 0.1).force
+    work = float(np.sum(0.5 * (force[1:] + force[:-1]) * np.diff(uplift)))
+    assert work == pytest.approx(178.18238727, rel=1e-10)
+
+
+def test_nodal_force_of_two_metres() -> None:
+    assert -2.0 * pull(bridge_law(), 0.08, 0.1).force.item() == pytest.approx(2757.131319, rel=1e-10)
+
+
+def test_net_force_with_a_linear_bed_on_a_slow_pull_out() -> None:
+    z = [0.02, 0.01, 0.0, -0.01, -0.032313003383, -0.08, -0.14, -0.17]
+    net = [1000.0, 500.0, 0.0, -426.62876092, -1378.5656595, -1378.5656595, -920.02564453, 0.0]
+    path = walk(bridge_law(), [(-depth, 0.1) for depth in z])
+    bed = [50000.0 * max(depth, 0.0) for depth in z]
+    assert [a + b for a, b in zip(bed, path.forces, strict=True)] == pytest.approx(net, rel=1e-10)
+
+
+def test_corners_exactly() -> None:
+    first, second = np.array([0.25, 0.5]), np.array([0.75, 0.5])
+    part, slope = trapezoid(first, first, second)
+    assert part.tolist() == [1.0, 1.0]
+    assert slope.tolist() == [0.0, 0.0]
+    assert trapezoid(second, first, second)[0].tolist() == [1.0, 1.0]
+    for end in (0.0, 1.0):
+        ends = trapezoid(np.full(2, end), first, second)
+        assert [values.tolist() for values in ends] == [[0.0, 0.0], [0.0, 0.0]]
+
+
+@pytest.mark.parametrize("share", [-np.inf, -1.0, 1.0 + 1e-15, 2.0, 1e300, np.inf])
+def test_nothing_outside(share: float) -> None:
+    values = trapezoid(floats(share), floats(0.01), floats(0.99))
+    assert [array.item() for array in values] == [0.0, 0.0]
+
+
+@pytest.mark.parametrize("corner", [0.2, 0.8])
+def test_on_a_corner_the_whole_force_acts_and_the_slope_is_that_of_the_plateau(corner: float) -> None:
+    law = bridge_law(corners=(corner, corner))._replace(depth_exponent=floats(0.0), depth_factor=floats(1.0))
+    suction = pull(law, corner, 0.1)
+    assert suction.force.item() == pytest.approx(-FORCE, rel=1e-10)
+    assert suction.by_uplift.item() == 0.0
+    assert not np.signbit(suction.by_uplift.item())
+
+
+def test_breakout_exactly_at_the_end() -> None:
+    law = bridge_law(2)._replace(depth_exponent=floats(0.0, 2), depth_factor=floats(1.0, 2))
+    uplift = np.array([np.nextafter(1.0, 0.0), 1.0])
+    suction, after = step(law, lifted(2), uplift, floats(0.1, 2), np.zeros(2, np.bool_))
+    assert after.state.tolist() == [SUCTION, BROKEN]
+    assert after.armed.tolist() == [True, False]
+    assert suction.force[0] < 0.0
+    assert suction.force[1] == 0.0
+
+
+def test_simple_suction_has_an_extent_and_no_history() -> None:
+    uplift = np.array([-0.1, 0.0, 1e-3, 0.05, np.nextafter(0.05, 1.0), 1e308])
+    force, slope = suction_spring(uplift, floats(15000.0, 6), floats(0.05, 6))
+    assert force == pytest.approx([0.0, 0.0, -15.0, -750.0, 0.0, 0.0], rel=1e-15)
+    assert slope.tolist() == [0.0, 0.0, -15000.0, -15000.0, 0.0, 0.0]
+    assert not np.signbit(force[[0, 1, 4, 5]]).any()
+    assert np.array_equal(suction_spring(np.stack([uplift, uplift]), floats(15000.0, 6), floats(0.05, 6))[0][1], force)
+
+
+def test_no_simple_suction_without_a_stiffness() -> None:
+    for values in suction_spring(floats(0.01), floats(0.0), floats(0.05)):
+        assert values.item() == 0.0
+        assert not np.signbit(values.item())
