@@ -1,1 +1,1 @@
-"""Friction of nodes on the bed: two directions, each a spring up to its Coulomb limit; trenches raise the lateral one."""
+"""Friction of nodes on the bed: two directions, each a spring up to its limit; trenches raise the lateral one."""

@@ -56,4 +56,5 @@ def _projected(wanted: FloatArray, normals: FloatArray) -> FloatArray:
     rest = wanted - np.einsum("ij,ij->i", wanted, normals)[:, None] * normals
     size, whole = (np.sqrt(np.einsum("ij,ij->i", part, part)) for part in (rest, wanted))
     seen = size > _STEEPEST * whole
-    return np.divide(rest, size[:, None], out=np.full(rest.shape, np.nan), where=seen[:, None])
+    unit: FloatArray = np.divide(rest, size[:, None], out=np.full(rest.shape, np.nan), where=seen[:, None])
+    return unit
