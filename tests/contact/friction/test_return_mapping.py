@@ -189,7 +189,8 @@ def test_the_tangent_is_consistent(
         limit = ExtraLimit(*(np.array([value]) for value in (400.0 + 3.0e3 * second, 3.0e3, outward)))
         step = move(held, start, (first, second), pressing, limit)
         states.add(tuple(step.history.states[0].tolist()))
-        return step.force[0]
+        moved: FloatArray = step.force[0]
+        return moved
 
     states: set[tuple[int, ...]] = set()
     limit = ExtraLimit(*(np.array([value]) for value in (400.0 + 3.0e3 * place[1], 3.0e3, outward)))
