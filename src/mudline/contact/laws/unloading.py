@@ -104,7 +104,9 @@ def _deepened(history: UnloadingHistory, z: FloatArray, virgin: VirginPath, deep
         force_max=np.where(deeper, np.maximum(virgin.force, 0.0), history.force_max),
         z_p=history.z_p.copy(),
     )
-    bottom = np.maximum(after.z_max - after.force_max / _line_stiffness(after), 0.0)
+    # A bottom that rounds to z_max would leave no place for the reaction there.
+    deepest = np.where(after.force_max > 0.0, np.nextafter(after.z_max, 0.0), after.z_max)
+    bottom = np.clip(after.z_max - after.force_max / _line_stiffness(after), 0.0, deepest)
     after.z_p[deeper] = bottom[deeper]
     return after
 
