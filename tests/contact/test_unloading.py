@@ -108,6 +108,13 @@ def test_one_step_over_several_segments_is_the_same_as_many() -> None:
     assert back[2].force.item() == back[0].force.item()
 
 
+def test_at_a_point_of_the_curve_the_steeper_segment_is_not_reached_yet() -> None:
+    reactions, history = travel(curved(SOFTENING), 500.0, [0.1, 0.09])
+    assert reactions[0].stiffness.item() == pytest.approx(10000.0)
+    assert history.stiffness.tolist() == [500.0]
+    assert reactions[1].force.item() == pytest.approx(5.0, rel=1e-12)
+
+
 def test_the_slope_alone_already_keeps_the_trench_below_the_mudline() -> None:
     virgin = VirginPath(np.array([124.0]), np.array([100.0]), np.array([100.0]))
     history = step(UnloadingHistory.initial(np.array([50.0])), np.array([0.25]), virgin)[1]
@@ -155,10 +162,12 @@ def test_extremes_are_finite_and_quiet(stiffness: float, depth: float) -> None:
 
 def test_steepest_slope_of_a_curve_between_the_mudline_and_a_depth() -> None:
     curve = ForceCurve([(-1.0, -100.0), (-0.5, 0.0), (0.5, 10.0), (1.0, 20.0), (2.0, 25.0), (3.0, 125.0)])
-    ratio = np.array([1e-9, 0.4, 0.5, 0.7, 1.5, 2.5, 9.0])
-    assert steepest_slope(curve, ratio) == pytest.approx([10.0, 10.0, 20.0, 20.0, 20.0, 100.0, 100.0])
+    ratio = np.array([1e-9, 0.4, 0.5, 0.7, 1.5, 2.0, 2.5, 3.0, 9.0])
+    assert steepest_slope(curve, ratio) == pytest.approx([10.0, 10.0, 10.0, 20.0, 20.0, 20.0, 100.0, 100.0, 100.0])
     late = ForceCurve([(1.0, 0.0), (2.0, 5.0), (3.0, 15.0)])
     assert steepest_slope(late, np.array([0.5, 1.5, 2.5])) == pytest.approx([5.0, 5.0, 10.0])
+    pair = ForceCurve([(0.0, 0.0), (1.0, 5.0)])
+    assert steepest_slope(pair, np.array([0.5, 1.0, 3.0])).tolist() == [5.0] * 3
     ended = ForceCurve([(-2.0, 0.0), (-1.5, 50.0), (-1.0, 60.0)])
     assert steepest_slope(ended, np.array([0.5])) == pytest.approx([20.0])
 

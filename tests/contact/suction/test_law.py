@@ -148,11 +148,11 @@ def test_factors_name_their_values() -> None:
 @pytest.mark.parametrize(
     ("field", "value", "what"),
     [
-        ("force_factor", -1.0, "force_factor"),
-        ("force_factor", np.inf, "force_factor"),
-        ("force_exponent", -0.1, "force_exponent"),
-        ("depth_factor", 0.0, "depth_factor"),
-        ("depth_exponent", np.nan, "depth_exponent"),
+        ("force_factor", -1.0, "force factor"),
+        ("force_factor", np.inf, "force factor"),
+        ("force_exponent", -0.1, "force exponent"),
+        ("depth_factor", 0.0, "depth factor"),
+        ("depth_exponent", np.nan, "depth exponent"),
         ("cyclic", -1.0, "cyclic"),
         ("regularisation", -1e-3, "regularisation"),
         ("first_corner", 0.0, "corners"),

@@ -13,12 +13,14 @@ is never above the mudline (the secant counts only where the virgin path jumps a
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray
-from mudline.curves import ForceCurve
+
+if TYPE_CHECKING:  # a linear law does not load the curves
+    from mudline.curves import ForceCurve
 
 _LARGEST = np.finfo(np.float64).max
 
@@ -29,7 +31,7 @@ class VirginPath(NamedTuple):
     force: F(z).
     slope: dF/dz.
     steepest: the steepest slope between the mudline and z: the slope itself for a linear law, `steepest_slope` for a
-        curve. Only with it does a step that passes several segments find the same path as many small ones.
+        curve. So a step that passes several segments finds the same path as many small ones.
     """
 
     force: FloatArray
@@ -97,9 +99,8 @@ def step(history: UnloadingHistory, z: FloatArray, virgin: VirginPath) -> tuple[
 
 def _deepened(history: UnloadingHistory, z: FloatArray, virgin: VirginPath, deeper: BoolArray) -> UnloadingHistory:
     """The history with the deepest point where it is now."""
-    steepest = np.maximum(virgin.slope, virgin.steepest)
     after = UnloadingHistory(
-        stiffness=np.where(deeper, np.maximum(history.stiffness, steepest), history.stiffness),
+        stiffness=np.where(deeper, np.maximum(history.stiffness, virgin.steepest), history.stiffness),
         z_max=np.where(deeper, z, history.z_max),
         force_max=np.where(deeper, np.maximum(virgin.force, 0.0), history.force_max),
         z_p=history.z_p.copy(),
@@ -118,8 +119,11 @@ def _line_stiffness(history: UnloadingHistory) -> FloatArray:
 
 
 def steepest_slope(curve: ForceCurve, ratio: FloatArray) -> FloatArray:
-    """Return the steepest slope (d force / d ratio) of the curve between the mudline and each embedment ratio > 0."""
-    first, last = curve.segment(np.zeros(1))[0], curve.segment(ratio)
+    """Return the steepest slope (d force / d ratio) of the curve between the mudline and each embedment ratio > 0.
+
+    At a point of the curve the segment to its right does not count yet.
+    """
+    first, last = curve.segment(np.zeros(1))[0], np.searchsorted(curve.ratios[1:-1], ratio)
     so_far = np.maximum.accumulate(curve.slopes[first:])
     steepest: FloatArray = so_far[np.maximum(last - first, 0)]
     return steepest

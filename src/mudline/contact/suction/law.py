@@ -68,8 +68,11 @@ class SuctionLaw(NamedTuple):
             LawError: a value is not finite or out of its range; its `index` is the element.
         """
         for name, values in self._asdict().items():
-            _require(np.isfinite(values) & (values >= 0.0), f"{name} of its suction is not finite and >= 0")
-        _require(self.depth_factor > 0.0, "depth_factor of its suction is not > 0")
+            _require(
+                np.isfinite(values) & (values >= 0.0),
+                f"the {name.replace('_', ' ')} of its suction is not finite and >= 0",
+            )
+        _require(self.depth_factor > 0.0, "the depth factor of its suction is not > 0")
         ordered = (self.first_corner > 0.0) & (self.first_corner <= self.second_corner) & (self.second_corner < 1.0)
         _require(ordered, "the corners of its suction are not 0 < first <= second < 1")
         return self
@@ -103,7 +106,7 @@ def maximum_force(law: SuctionLaw, velocity: FloatArray) -> tuple[FloatArray, Fl
         share = velocity / pace
         at_pace = law.force_factor * law.cyclic * np.power(pace, n)
         linear, square = 2.0 - n, (n - 1.0) * share
-        return at_pace * ((linear + square) * share), at_pace * (linear + 2.0 * square) / pace
+        return at_pace * ((linear + square) * share), at_pace * (linear + square + square) / pace
 
 
 def suction_depth(law: SuctionLaw, velocity: FloatArray) -> FloatArray:
