@@ -12,6 +12,8 @@ from mudline.contact.arrays import FloatArray
 
 _CHUNK = 16384
 """Points worked on at a time: the work arrays stay in the cache."""
+STEEPEST = 1e150
+"""Largest slope of a surface: its square is finite."""
 _QUARTERS = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))
 
 
@@ -52,7 +54,10 @@ class SurfaceFloor(Floor):
 
     @abstractmethod
     def surface(self, y: FloatArray, z: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return elevation and its derivatives to Y and Z at `y` (n,) and `z` (n,); elevation is NaN without bed."""
+        """Return elevation and its derivatives to Y and Z at `y` (n,) and `z` (n,); elevation is NaN without bed.
+
+        The derivatives have magnitudes up to `STEEPEST`.
+        """
 
     def locate(self, points: FloatArray, gap: FloatArray, normal: FloatArray) -> None:
         """Write gaps and normals, see `Floor`."""
@@ -60,15 +65,16 @@ class SurfaceFloor(Floor):
         flat_gap, flat_normal = np.empty(len(rows)), np.empty_like(rows)
         for start in range(0, len(rows), self.chunk):
             part = slice(start, start + self.chunk)
-            x, y, z = rows[part].T
+            x, y, z = np.ascontiguousarray(rows[part].T)
             with np.errstate(over="ignore"):  # an elevation beyond the largest number makes an infinite gap
                 level, along_y, along_z = self.surface(y, z)
-                upward = 1.0 / np.hypot(1.0, np.hypot(along_y, along_z))
+                upward = 1.0 / np.sqrt(1.0 + along_y * along_y + along_z * along_z)
                 flat_gap[part] = (x - level) * upward + 0.0
-            void = np.isnan(level)
-            flat_normal[part, 0] = np.where(void, 1.0, upward)
-            flat_normal[part, 1] = np.where(void, 0.0, 0.0 - along_y * upward)
-            flat_normal[part, 2] = np.where(void, 0.0, 0.0 - along_z * upward)
+            unit = flat_normal[part]
+            unit[:, 0] = upward
+            unit[:, 1] = 0.0 - along_y * upward
+            unit[:, 2] = 0.0 - along_z * upward
+            unit[np.isnan(level)] = (1.0, 0.0, 0.0)
         gap[...] = flat_gap.reshape(gap.shape)
         normal[...] = flat_normal.reshape(normal.shape)
 

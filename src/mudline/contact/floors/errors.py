@@ -22,7 +22,7 @@ def checked(what: str, values: ArrayLike, *shape: int | None) -> FloatArray:
         wanted = ", ".join("n" if n is None else str(n) for n in shape)
         raise FloorError(f"{what} has shape {array.shape}; expected ({wanted})")
     wrong = np.argwhere(~(np.abs(array) <= LARGEST))
-    if wrong.size:
+    if len(wrong):
         index = tuple(wrong[0].tolist())
         place = f" of point {index[0] + 1}" if index else ""
         raise FloorError(f"{what}{place} is {array[index]}; expected a finite number of magnitude up to {LARGEST:g}")

@@ -39,18 +39,18 @@ class PlanesFloor(SurfaceFloor):
         self._headings = np.array([heading(turn) for turn in turns.tolist()])
         self._rises = np.tan(np.radians(angles))
         self._bounds = _checked_bounds(bounds, planes)
-        self._gradients = self._rises[:, None] * self._headings
+        self._gradients = self._headings.T * self._rises
         if planes == 1 and np.isinf(self._bounds).all():
-            normal = np.array([1.0, *(0.0 - self._gradients[0])]) / np.hypot(1.0, self._rises[0]) + 0.0
+            normal = np.array([1.0, *(0.0 - self._gradients[:, 0])]) / np.hypot(1.0, self._rises[0]) + 0.0
             normal.setflags(write=False)
             self.same_normal = normal
 
     def surface(self, y: FloatArray, z: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return elevation and derivatives, see `SurfaceFloor`."""
         level, plane = self._highest(y, z)
-        void = plane < 0
-        level[void] = np.nan
-        return level, self._gradients[plane, 0], self._gradients[plane, 1]
+        level[plane < 0] = np.nan
+        along_y, along_z = self._gradients
+        return level, along_y[plane], along_z[plane]
 
     def _highest(self, y: FloatArray, z: FloatArray) -> tuple[FloatArray, IndexArray]:
         """Return the highest elevation at each place and the plane it is of, -1 for none."""
@@ -66,8 +66,7 @@ class PlanesFloor(SurfaceFloor):
             for edge, sign, place in zip(self._bounds[number], (1.0, -1.0) * 2, (y, y, z, z), strict=True):
                 if np.isfinite(edge):
                     wins &= (place - edge) * sign >= 0.0
-            np.copyto(best, level, where=wins)
-            np.copyto(plane, number, where=wins)
+            best, plane = np.where(wins, level, best), np.where(wins, number, plane)  # without branches: quicker
         return best, plane
 
     def describe(self) -> str:
@@ -90,7 +89,6 @@ def _checked_bounds(bounds: ArrayLike | None, planes: int) -> FloatArray:
     for axis, low, high in (("Y", 0, 1), ("Z", 2, 3)):
         least, most = given[:, low], given[:, high]
         for number in np.flatnonzero(~((least <= most) & (least < np.inf) & (most > -np.inf))).tolist():
-            raise FloorError(
-                f"plane {number + 1} has {axis} from {least[number]:g} to {most[number]:g}; expected smallest, then largest"
-            )
+            extent = f"{axis} from {least[number]:g} to {most[number]:g}"
+            raise FloorError(f"plane {number + 1} has {extent}; expected the smallest, then the largest")
     return given

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mudline.contact.arrays import FloatArray
-from mudline.contact.floors.base import SurfaceFloor, heading
+from mudline.contact.floors.base import STEEPEST, SurfaceFloor, heading
 from mudline.contact.floors.errors import FloorError, checked
 from mudline.contact.floors.slopes import bessel_slopes, spline_slopes
 
@@ -28,7 +28,7 @@ class ProfileFloor(SurfaceFloor):
         direction_degrees: turns the profile from +Y counter-clockwise about X: it is taken at Y cos + Z sin.
 
     Raises:
-        FloorError: fewer than two points, one Y with two elevations, a slope that overflows, an unknown interpolation,
+        FloorError: fewer than two points, one Y with two elevations, a slope beyond 1e149, an unknown interpolation,
             or a value that is not finite. (A point that is given twice counts once.)
     """
 
@@ -50,10 +50,10 @@ class ProfileFloor(SurfaceFloor):
     def surface(self, y: FloatArray, z: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return elevation and derivatives, see `SurfaceFloor`."""
         cosine, sine = self._heading
-        along = np.clip(y * cosine + z * sine, self._y[0], self._y[-1])
+        along = y * cosine + z * sine
         piece = np.searchsorted(self._y, along, side="right")
         origin, level, first = (column[piece] for column in self._pieces[:3])
-        u = along - origin
+        u = np.clip(along, self._y[0], self._y[-1]) - origin
         if self.facetted:
             return level + u * first, first * cosine, first * sine
         width, second, third = (column[piece] for column in self._pieces[3:])
@@ -75,7 +75,7 @@ def _sorted_points(y: ArrayLike, elevation: ArrayLike) -> tuple[FloatArray, Floa
     points = np.unique(np.column_stack([places, levels]) + 0.0, axis=0)
     twice = np.flatnonzero(np.diff(points[:, 0]) == 0.0)
     if twice.size:
-        place, one, other = points[twice[0], 0], *points[twice[0] : twice[0] + 2, 1]
+        (place, one), (_, other) = points[twice[0] : twice[0] + 2].tolist()
         raise FloorError(f"the profile has elevations {one:g} and {other:g} at Y = {place!r}; expected one for each Y")
     if len(points) < 2:
         raise FloorError(f"the profile has {len(points)} different points; expected two or more")
@@ -96,11 +96,11 @@ def _pieces(y: FloatArray, x: FloatArray, interpolation: Interpolation) -> tuple
             slopes = (spline_slopes if interpolation == "CUBIC SPLINE" else bessel_slopes)(h, chord)
         second = 3.0 * chord - 2.0 * slopes[:-1] - slopes[1:]
         third = slopes[:-1] + slopes[1:] - 2.0 * chord
-        overflow = ~np.isfinite(9.0 * second + 9.0 * third)
-    steep = np.flatnonzero(overflow | ~np.isfinite(chord))
+        largest = np.abs(chord) + np.abs(slopes[:-1]) + np.abs(slopes[1:])  # the cubic is nowhere 9 times as steep
+    steep = np.flatnonzero(~(9.0 * largest < STEEPEST))
     if steep.size:
-        one, other = y[steep[0]], y[steep[0] + 1]
-        raise FloorError(f"the profile's slope overflows from Y = {one!r} to {other!r}; expected points further apart")
+        one, other = y[steep[0] : steep[0] + 2].tolist()
+        raise FloorError(f"the profile is too steep from Y = {one!r} to {other!r}; expected points further apart")
     columns = {"origin": (y[0], y[:-1], y[-1]), "level": (x[0], x[:-1], x[-1]), "first": (0.0, slopes[:-1], 0.0)}
     if interpolation != "LINEAR":
         columns |= {"width": (1.0, h, 1.0), "second": (0.0, second, 0.0), "third": (0.0, third, 0.0)}

@@ -10,11 +10,13 @@ from scipy.interpolate import CloughTocher2DInterpolator
 from scipy.spatial import Delaunay, QhullError
 
 from mudline.contact.arrays import FloatArray, IndexArray
-from mudline.contact.floors.base import SurfaceFloor
+from mudline.contact.floors.base import STEEPEST, SurfaceFloor
 from mudline.contact.floors.errors import FloorError, checked
 
 _STEP = 1e-5
 """Step of a difference, as a part of the way to a corner of the triangle."""
+_TOLERANCE = 1e-10
+"""To which the gradients at the points are iterated, relative."""
 _THIN = 1e-10
 """Below this spread of directions a triangle is a line to the differences: its plane's gradient stands in."""
 
@@ -46,7 +48,11 @@ class ScatteredFloor(SurfaceFloor):
         self._levels = given[:, 0]
         self._triangles = _triangulated(self._places)
         self._gradients = _plane_gradients(self._places, self._levels, self._triangles.simplices.astype(np.intp))
-        self._cubic = None if self.facetted else CloughTocher2DInterpolator(self._triangles, self._levels)
+        if not (np.abs(self._gradients) < 1e-3 * STEEPEST * self._scale).all():
+            raise FloorError("the surface is too steep to compute with; expected its points further apart")
+        self._cubic = (
+            None if self.facetted else CloughTocher2DInterpolator(self._triangles, self._levels, tol=_TOLERANCE)
+        )
 
     def surface(self, y: FloatArray, z: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return elevation and derivatives, see `SurfaceFloor`."""
@@ -114,7 +120,7 @@ def _plane_gradients(places: FloatArray, levels: FloatArray, corners: IndexArray
 
 
 def _least_squares(ways: FloatArray, rises: FloatArray, otherwise: FloatArray) -> FloatArray:
-    """Gradients (n, 2) that fit the rises (n, 3) along the ways (n, 3, 2) best; `otherwise` where these are on a line."""
+    """Gradients (n, 2) that best fit the rises (n, 3) along ways (n, 3, 2); `otherwise` where these are on a line."""
     a, b = ways[..., 0], ways[..., 1]
     aa, ab, bb = (a * a).sum(axis=1), (a * b).sum(axis=1), (b * b).sum(axis=1)
     ar, br = (a * rises).sum(axis=1), (b * rises).sum(axis=1)
