@@ -10,7 +10,7 @@ import numpy as np
 
 from mudline.contact.arrays import FloatArray
 
-_CHUNK = 16384
+_CHUNK = 8192
 """Points worked on at a time: the work arrays stay in the cache."""
 STEEPEST = 1e150
 """Largest slope of a surface: its square is finite."""
@@ -62,7 +62,7 @@ class SurfaceFloor(Floor):
     def locate(self, points: FloatArray, gap: FloatArray, normal: FloatArray) -> None:
         """Write gaps and normals, see `Floor`."""
         rows = points.reshape(-1, 3)
-        flat_gap, flat_normal = np.empty(len(rows)), np.empty_like(rows)
+        flat_gap, flat_normal = gap.reshape(-1), normal.reshape(-1, 3)  # views where the arrays allow it, else copies
         for start in range(0, len(rows), self.chunk):
             part = slice(start, start + self.chunk)
             x, y, z = np.ascontiguousarray(rows[part].T)
@@ -74,9 +74,13 @@ class SurfaceFloor(Floor):
             unit[:, 0] = upward
             unit[:, 1] = 0.0 - along_y * upward
             unit[:, 2] = 0.0 - along_z * upward
-            unit[np.isnan(level)] = (1.0, 0.0, 0.0)
-        gap[...] = flat_gap.reshape(gap.shape)
-        normal[...] = flat_normal.reshape(normal.shape)
+            void = np.isnan(level)
+            if void.any():
+                unit[void] = (1.0, 0.0, 0.0)
+        if not np.may_share_memory(flat_gap, gap):
+            gap[...] = flat_gap.reshape(gap.shape)
+        if not np.may_share_memory(flat_normal, normal):
+            normal[...] = flat_normal.reshape(normal.shape)
 
     def elevation(self, y: FloatArray, z: FloatArray) -> FloatArray:
         """Return elevations, see `Floor`."""
