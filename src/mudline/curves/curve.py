@@ -18,12 +18,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mudline.curves.arrays import FloatArray, IndexArray, real_numbers
-from mudline.curves.blocks import BLOCK, Work, blocks
-from mudline.curves.errors import QueryError
+from mudline.curves.blocks import BLOCK, blocks
+from mudline.curves.knots import Knots
+from mudline.curves.law import NumpyLaw, mend, refuse
 from mudline.curves.points import checked_points, difference_quotient
-
-_COUNTED_POINTS = 16
-"""Up to this many points, counting the points passed is faster than a binary search."""
+from mudline.curves.search import search_for
 
 _SHOWN_POINTS = 8
 
@@ -38,14 +37,13 @@ class ForceCurve:
         slopes: (n - 1,) d force / d ratio of each segment, read-only.
     """
 
-    __slots__ = ("_inner", "_tails", "forces", "name", "ratios", "slopes")
+    __slots__ = ("_knots", "forces", "name", "ratios", "slopes")
 
     name: str | None
     ratios: FloatArray
     forces: FloatArray
     slopes: FloatArray
-    _inner: FloatArray  # the points that can be passed: all but the first
-    _tails: FloatArray  # slope to the right of each point
+    _knots: Knots
 
     def __init__(self, points: ArrayLike, name: str | None = None) -> None:
         """Sort and check `points`: pairs (ratio, force) in any order; a repeated pair counts once.
@@ -55,16 +53,14 @@ class ForceCurve:
             ValueError: `points` are no pairs of real numbers.
         """
         ratios, forces, slopes = checked_points(points)
-        tails = np.append(slopes, slopes[-1])
-        for array in (ratios, forces, slopes, tails):
+        for array in (ratios, forces, slopes):
             array.setflags(write=False)
         fields = {
             "name": name,
             "ratios": ratios,
             "forces": forces,
             "slopes": slopes,
-            "_inner": ratios[1:],
-            "_tails": tails,
+            "_knots": Knots(ratios, forces, slopes),
         }
         for field, value in fields.items():
             object.__setattr__(self, field, value)
@@ -83,11 +79,19 @@ class ForceCurve:
         """
         query = real_numbers(ratios, "ratios")
         force, slope = (np.empty(query.shape), np.empty(query.shape)) if out is None else _checked_out(out, query.shape)
-        work = Work(min(query.size, BLOCK))
+        size = min(query.size, BLOCK)
+        law = NumpyLaw(self._knots, search_for(self._knots, query.size), size)
+        # Where the results replace the ratios, these are still needed to tell what is wrong.
+        kept = np.empty(size) if out and any(np.may_share_memory(query, array) for array in out) else None
         done = 0
         with np.errstate(all="ignore"), blocks(query, force, slope) as pieces:
-            for ratio, block_force, block_slope in pieces:
-                self._evaluate_block(ratio, block_force, block_slope, work.cut(len(ratio)), done)
+            for block, block_force, block_slope in pieces:
+                ratio = block
+                if kept is not None:
+                    ratio = kept[: len(block)]
+                    ratio[...] = block
+                if not law.fill(ratio, block_force, block_slope):
+                    mend(self._knots, ratio, block_force, done)
                 done += len(ratio)
         return force, slope
 
@@ -99,10 +103,10 @@ class ForceCurve:
         """
         query = _finite(ratios)
         found = np.empty(query.shape, np.intp)
-        work = Work(min(query.size, BLOCK))
+        search = search_for(self._knots, query.size)
         with blocks(query, found) as pieces:
             for ratio, block_found in pieces:
-                np.minimum(self._points_passed(ratio, work.cut(len(ratio))), len(self.slopes) - 1, out=block_found)
+                np.minimum(search.passed(ratio), len(self.slopes) - 1, out=block_found)
         return found
 
     def extrapolated(self, ratios: ArrayLike) -> NDArray[np.int8]:
@@ -153,37 +157,6 @@ class ForceCurve:
                     found.append(float(ratio))
         return found
 
-    def _points_passed(self, ratio: FloatArray, work: Work) -> IndexArray:
-        """How many points after the first lie at or below each ratio: the index of the point to evaluate from."""
-        if len(self._inner) >= _COUNTED_POINTS:
-            return np.searchsorted(self._inner, ratio, side="right")
-        np.greater_equal(ratio, self._inner[0], out=work.count.view(np.bool_))
-        for point in self._inner[1:]:
-            np.greater_equal(ratio, point, out=work.flag)
-            np.add(work.count, work.flag.view(np.uint8), out=work.count)
-        work.index[...] = work.count
-        return work.index
-
-    def _evaluate_block(self, ratio: FloatArray, force: FloatArray, slope: FloatArray, work: Work, start: int) -> None:
-        point = self._points_passed(ratio, work)
-        np.take(self.ratios, point, out=work.offset, mode="clip")
-        np.subtract(ratio, work.offset, out=work.offset)
-        np.take(self._tails, point, out=slope, mode="clip")
-        np.multiply(work.offset, slope, out=work.offset)
-        np.take(self.forces, point, out=force, mode="clip")
-        np.add(force, work.offset, out=force)
-        if not np.isfinite(force, out=work.flag).all():
-            self._mend(ratio, force, point, np.flatnonzero(~work.flag), start)
-
-    def _mend(self, ratio: FloatArray, force: FloatArray, point: IndexArray, where: IndexArray, start: int) -> None:
-        """Evaluate again where an intermediate value overflowed: added in two halves the force may well be finite."""
-        at = point[where]
-        half = self._tails[at] * (0.5 * ratio[where] - 0.5 * self.ratios[at])
-        force[where] = self.forces[at] + half + half
-        bad = where[~np.isfinite(force[where])]
-        if bad.size:
-            _refuse(ratio, int(bad[0]), start)
-
     def __setattr__(self, name: str, value: object) -> NoReturn:
         raise AttributeError(f"a ForceCurve does not change: cannot set {name}")
 
@@ -215,14 +188,8 @@ def _finite(ratios: ArrayLike) -> FloatArray:
         query = real_numbers(ratios, "ratios").astype(np.float64, copy=False)
     bad = np.flatnonzero(~np.isfinite(query))
     if bad.size:
-        _refuse(query.reshape(-1), int(bad[0]), 0)
+        refuse(query.reshape(-1), int(bad[0]), 0)
     return query
-
-
-def _refuse(ratio: FloatArray, index: int, start: int) -> NoReturn:
-    value = float(ratio[index])
-    why = "the force there overflows" if np.isfinite(value) else "it is not finite"
-    raise QueryError(start + index, value, f"no force at ratio {value!r} (index {start + index}): {why}")
 
 
 def _checked_out(out: tuple[FloatArray, FloatArray], shape: tuple[int, ...]) -> tuple[FloatArray, FloatArray]:

@@ -1,0 +1,70 @@
+"""Force and slope of a block of ratios, and the ratios that have none."""
+
+from __future__ import annotations
+
+from typing import NoReturn, Protocol
+
+import numpy as np
+
+from mudline.curves.arrays import FloatArray
+from mudline.curves.errors import QueryError
+from mudline.curves.knots import Knots
+from mudline.curves.search import Search
+
+
+class Law(Protocol):
+    """A way to evaluate a curve.
+
+    All ways do the same operations in the same order and round after each, so that they agree bit for bit.
+    """
+
+    def fill(self, ratio: FloatArray, force: FloatArray, slope: FloatArray) -> bool:
+        """Write force and slope at each ratio; return whether every force is finite."""
+        ...
+
+
+class NumpyLaw:
+    """Evaluates with numpy alone, at most `size` ratios at a time."""
+
+    def __init__(self, knots: Knots, search: Search, size: int) -> None:
+        self._knots = knots
+        self._search = search
+        self._offset = np.empty(size)
+        self._finite = np.empty(size, np.bool_)
+
+    def fill(self, ratio: FloatArray, force: FloatArray, slope: FloatArray) -> bool:
+        """See `Law`."""
+        knots, size = self._knots, len(ratio)
+        offset = self._offset[:size]
+        point = self._search.passed(ratio)
+        np.take(knots.ratios, point, out=offset, mode="clip")
+        np.subtract(ratio, offset, out=offset)
+        np.take(knots.tails, point, out=slope, mode="clip")
+        np.multiply(offset, slope, out=offset)
+        np.take(knots.forces, point, out=force, mode="clip")
+        np.add(force, offset, out=force)
+        return bool(np.isfinite(force, out=self._finite[:size]).all())
+
+
+def mend(knots: Knots, ratio: FloatArray, force: FloatArray, start: int) -> None:
+    """Evaluate again where `force` is not finite: only an intermediate value may have overflowed.
+
+    Added in two halves the force may well be finite.
+
+    Raises:
+        QueryError: it is not; `start` is the index of the first ratio in the query.
+    """
+    where = np.flatnonzero(~np.isfinite(force))
+    at = np.minimum(np.searchsorted(knots.inner, ratio[where], side="right"), len(knots.inner))
+    half = knots.tails[at] * (0.5 * ratio[where] - 0.5 * knots.ratios[at])
+    force[where] = knots.forces[at] + half + half
+    bad = where[~np.isfinite(force[where])]
+    if bad.size:
+        refuse(ratio, int(bad[0]), start)
+
+
+def refuse(ratio: FloatArray, index: int, start: int) -> NoReturn:
+    """Raise the QueryError of the ratio at `index`."""
+    value = float(ratio[index])
+    why = "the force there overflows" if np.isfinite(value) else "it is not finite"
+    raise QueryError(start + index, value, f"no force at ratio {value!r} (index {start + index}): {why}")
