@@ -37,15 +37,19 @@ class FrictionForce:
 
     Attributes:
         force: (n, 2) force on the pipe.
-        by_position: (n, 2, 2) d force[i] / d displacement along u_j, at one normal force and frozen directions.
+        by_position: (n, 2, 2) d force[i] / d (elongation along u_j), at one normal force and limit.
+        by_offset: (n, 2) d force[i] / d (offset from the centreline of a trench).
         by_compression: (n, 2) d force[i] / d N.
+        elongation: (n, 2) way from the anchor before the step, along u1 and u2.
         dissipated: (n,) work done against slipping in this step, >= 0.
         history: what the next step begins with.
     """
 
     force: FloatArray
     by_position: FloatArray
+    by_offset: FloatArray
     by_compression: FloatArray
+    elongation: FloatArray
     dissipated: FloatArray
     history: FrictionHistory
 
@@ -68,10 +72,11 @@ class _Springs(NamedTuple):
 
 
 class _Mapped(NamedTuple):
-    """Spring forces (n, 2), their derivatives (n, 2, 2) and (n, 2), and what slips (n, 2)."""
+    """Spring forces (n, 2), their derivatives (n, 2, 2), (n, 2) and (n, 2), and what slips (n, 2)."""
 
     force: FloatArray
     by_position: FloatArray
+    by_offset: FloatArray
     by_compression: FloatArray
     slips: BoolArray
 
@@ -105,7 +110,9 @@ def slide(
     return FrictionForce(
         _on_pipe(mapped.force, closed),
         _on_pipe(mapped.by_position, closed),
+        _on_pipe(mapped.by_offset, closed),
         _on_pipe(mapped.by_compression, closed),
+        springs.elongation,
         np.where(closed, (mapped.force * moved).sum(axis=1), 0.0),
         _remembered(law, closed, anchors, states.astype(np.int8)),
     )
@@ -134,9 +141,9 @@ def _box(springs: _Springs, limits: _Limits) -> _Mapped:
     by_position = np.zeros((*force.shape, 2))
     for axis in range(2):
         by_position[:, axis, axis] = np.where(slips[:, axis], 0.0, springs.stiffness[:, axis])
-        by_position[:, axis, 1] += np.where(slips[:, axis], side[:, axis] * limits.by_offset[:, axis], 0.0)
+    by_offset = np.where(slips, side * limits.by_offset, 0.0)
     by_compression = np.where(slips, side * limits.by_compression, springs.by_compression)
-    return _Mapped(force, by_position, by_compression, slips)
+    return _Mapped(force, by_position, by_offset, by_compression, slips)
 
 
 def _ellipse(springs: _Springs, limits: _Limits) -> _Mapped:
@@ -154,15 +161,16 @@ def _ellipse(springs: _Springs, limits: _Limits) -> _Mapped:
     by_limit = np.divide(unit * unit, limits.force, out=np.zeros_like(trial), where=able)
     stiffness = np.where(able, springs.stiffness, 0.0)
     growth_by_position = by_trial * stiffness
-    growth_by_position[:, 1] -= (by_limit * limits.by_offset).sum(axis=1)
+    growth_by_offset = 0.0 - (by_limit * limits.by_offset).sum(axis=1)
     trial_by_n = np.where(able, springs.by_compression, 0.0)
     growth_by_n = (by_trial * trial_by_n - by_limit * limits.by_compression).sum(axis=1)
     by_position = -force[:, :, None] * growth_by_position[:, None, :]
     for axis in range(2):
         by_position[:, axis, axis] += stiffness[:, axis] / scale[:, 0]
+    by_offset = 0.0 - force * growth_by_offset[:, None]
     by_compression = trial_by_n / scale - force * growth_by_n[:, None]
     slips = slides[:, None] | (~able & (springs.trial != 0.0))
-    return _Mapped(force, by_position, by_compression, slips)
+    return _Mapped(force, by_position, by_offset, by_compression, slips)
 
 
 def _chosen(where: BoolArray, one: _Mapped, other: _Mapped) -> _Mapped:
@@ -170,6 +178,7 @@ def _chosen(where: BoolArray, one: _Mapped, other: _Mapped) -> _Mapped:
     return _Mapped(
         np.where(by_node, one.force, other.force),
         np.where(by_node[..., None], one.by_position, other.by_position),
+        np.where(by_node, one.by_offset, other.by_offset),
         np.where(by_node, one.by_compression, other.by_compression),
         np.where(by_node, one.slips, other.slips),
     )
