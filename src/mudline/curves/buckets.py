@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mudline.curves.arrays import FloatArray
+from mudline.curves.arrays import FloatArray, read_only
 
 _BUCKETS_PER_POINT = 16
 """At most; and at least half as many."""
@@ -66,7 +66,12 @@ def _table(points: FloatArray, addend: float) -> BucketTable:
     below = np.cumsum(held) - held
     crowd = held > 1
     below[crowd] = count + 1
-    smallest = np.uint16 if count + 1 <= np.iinfo(np.uint16).max else np.uint32
+    kind = np.uint16 if count + 1 <= np.iinfo(np.uint16).max else np.uint32
     return BucketTable(
-        np.append(points, np.inf), below.astype(smallest), addend, shift, base, int(held[crowd].sum(initial=0))
+        read_only(np.append(points, np.inf)),
+        read_only(below.astype(kind)),
+        addend,
+        shift,
+        base,
+        crowded=int(held[crowd].sum()),
     )

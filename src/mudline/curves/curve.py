@@ -17,10 +17,11 @@ from typing import NoReturn
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mudline.curves.arrays import FloatArray, IndexArray, real_numbers
+from mudline.curves.arrays import FloatArray, IndexArray, read_only, real_numbers
+from mudline.curves.backends import Backend, law_for
 from mudline.curves.blocks import BLOCK, blocks
 from mudline.curves.knots import Knots
-from mudline.curves.law import NumpyLaw, mend, refuse
+from mudline.curves.law import mend, refuse
 from mudline.curves.points import checked_points, difference_quotient
 from mudline.curves.search import search_for
 
@@ -52,9 +53,7 @@ class ForceCurve:
             CurveError: the points do not make a curve; its `code` and `index` say why and which.
             ValueError: `points` are no pairs of real numbers.
         """
-        ratios, forces, slopes = checked_points(points)
-        for array in (ratios, forces, slopes):
-            array.setflags(write=False)
+        ratios, forces, slopes = (read_only(array) for array in checked_points(points))
         fields = {
             "name": name,
             "ratios": ratios,
@@ -66,21 +65,29 @@ class ForceCurve:
             object.__setattr__(self, field, value)
 
     def evaluate(
-        self, ratios: ArrayLike, *, out: tuple[FloatArray, FloatArray] | None = None
+        self,
+        ratios: ArrayLike,
+        *,
+        out: tuple[FloatArray, FloatArray] | None = None,
+        backend: Backend = "auto",
     ) -> tuple[FloatArray, FloatArray]:
         """Return force and slope (d force / d ratio) at `ratios`, each of their shape.
 
         `out=(force, slope)` receives the values in place: float64 arrays of the shape of `ratios`, which may be the
         memory of `ratios` itself; after an error their content is undefined.
 
+        `backend` is "numpy", "fast" (compiled loops; the same results bit for bit) or "auto": "fast" for large queries
+        if the extra `mudline[fast]` is installed.
+
         Raises:
+            ImportError: `backend="fast"` without the extra.
             QueryError: a ratio is NaN or infinite, or the force there overflows.
             ValueError: `ratios` are no real numbers, or `out` does not fit.
         """
         query = real_numbers(ratios, "ratios")
         force, slope = (np.empty(query.shape), np.empty(query.shape)) if out is None else _checked_out(out, query.shape)
         size = min(query.size, BLOCK)
-        law = NumpyLaw(self._knots, search_for(self._knots, query.size), size)
+        law = law_for(self._knots, query.size, backend)
         # Where the results replace the ratios, these are still needed to tell what is wrong.
         kept = np.empty(size) if out and any(np.may_share_memory(query, array) for array in out) else None
         done = 0

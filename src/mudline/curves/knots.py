@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mudline.curves.arrays import FloatArray
+from mudline.curves.arrays import FloatArray, read_only
 from mudline.curves.buckets import BucketTable, bucket_table
 
 
@@ -26,7 +26,7 @@ class Knots:
     def __init__(self, ratios: FloatArray, forces: FloatArray, slopes: FloatArray) -> None:
         self.ratios = ratios
         self.forces = forces
-        self.tails = np.append(slopes, slopes[-1])
+        self.tails = read_only(np.append(slopes, slopes[-1]))
         self.inner = ratios[1:]
         self.table = None
 

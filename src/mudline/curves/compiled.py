@@ -1,0 +1,143 @@
+"""Compiled loops for curves; needs numba, the extra `mudline[fast]`.
+
+No reassociation, no contraction of products and sums: bit for bit the results of `NumpyLaw`. The arrays go through in
+chunks that stay in the first-level cache, one plain loop per step, which is what the compiler makes vectors of.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Final, TypeVar, cast
+
+import numba
+import numpy as np
+
+from mudline.curves.arrays import FloatArray, read_only
+from mudline.curves.buckets import BucketTable
+from mudline.curves.knots import Knots
+
+_COUNTED_POINTS: Final = 8
+"""Up to this many points counting is as fast as a table."""
+
+_COUNTED_IF_CROWDED: Final = 32
+"""Up to this many points counting is faster than a table in which points share a bucket."""
+
+_CHUNK: Final = 1024
+
+Curve = tuple[FloatArray, FloatArray, FloatArray]
+Function = TypeVar("Function", bound=Callable[..., object])
+
+
+def _compiled(function: Function, *examples: tuple[object, ...]) -> Function:
+    """Compile for arguments like these, or load what an earlier process left in the cache."""
+    type_of = cast("Callable[[object], object]", numba.typeof)
+    signatures = [tuple(type_of(argument) for argument in example) for example in examples]
+    try:
+        compiled = numba.njit(signatures, cache=True, error_model="numpy", nogil=True)(function)
+    except RuntimeError:
+        # There is no place where numba may write.
+        compiled = numba.njit(signatures, error_model="numpy", nogil=True)(function)
+    return cast("Function", compiled)
+
+
+def _passed(knots: FloatArray, value: float) -> int:
+    """How many of the knots lie at or below the value; the last is infinity."""
+    first, count = 0, len(knots)
+    while count > 1:
+        half = count // 2
+        first = first + half if value >= knots[first + half - 1] else first
+        count -= half
+    return first
+
+
+def _fill_counting(curve: Curve, ratio: FloatArray, force: FloatArray, slope: FloatArray) -> bool:
+    ratios, forces, tails = curve
+    counts = np.empty(_CHUNK, np.int64)
+    finite = True
+    for start in range(0, len(ratio), _CHUNK):
+        r, f, s = ratio[start : start + _CHUNK], force[start : start + _CHUNK], slope[start : start + _CHUNK]
+        first = ratios[1]
+        for j in range(len(r)):
+            counts[j] = r[j] >= first
+        for k in range(2, len(ratios)):
+            point = ratios[k]
+            for j in range(len(r)):
+                counts[j] += r[j] >= point
+        for j in range(len(r)):
+            i = np.uint64(counts[j])
+            value = forces[i] + tails[i] * (r[j] - ratios[i])
+            f[j], s[j] = value, tails[i]
+            finite &= np.isfinite(value)
+    return finite
+
+
+def _fill_bucketing(curve: Curve, table: BucketTable, ratio: FloatArray, force: FloatArray, slope: FloatArray) -> bool:
+    ratios, forces, tails = curve
+    knots, below = table.knots, table.below
+    addend, shift, base = table.addend, table.shift, table.base
+    sums = np.empty(_CHUNK)
+    keys = sums.view(np.int64)
+    last = len(below) - 1
+    finite = True
+    for start in range(0, len(ratio), _CHUNK):
+        r, f, s = ratio[start : start + _CHUNK], force[start : start + _CHUNK], slope[start : start + _CHUNK]
+        for j in range(len(r)):
+            sums[j] = r[j] + addend
+        for j in range(len(r)):
+            keys[j] = min(max((keys[j] >> shift) - base, 0), last)
+        for j in range(len(r)):
+            i = np.uint64(below[np.uint64(keys[j])])
+            if i < len(knots):
+                i += np.uint64(r[j] >= knots[i])
+            else:
+                i = np.uint64(passed(knots, r[j]))
+            i = min(i, np.uint64(len(ratios) - 1))
+            value = forces[i] + tails[i] * (r[j] - ratios[i])
+            f[j], s[j] = value, tails[i]
+            finite &= np.isfinite(value)
+    return finite
+
+
+# The types to compile for are those of examples.
+_GIVEN: Final = read_only(np.empty(0))
+_FILLED: Final = np.empty(0)
+_CURVE: Final = (_GIVEN, _GIVEN, _GIVEN)
+_TABLES: Final = [
+    BucketTable(_GIVEN, read_only(np.empty(0, kind)), addend=0.0, shift=0, base=0, crowded=0)
+    for kind in (np.uint16, np.uint32)
+]
+
+passed = _compiled(_passed, (_GIVEN, 0.0))
+fill_counting = _compiled(_fill_counting, (_CURVE, _GIVEN, _FILLED, _FILLED))
+fill_bucketing = _compiled(_fill_bucketing, *((_CURVE, table, _GIVEN, _FILLED, _FILLED) for table in _TABLES))
+
+
+class CountingLaw:
+    """Compares every ratio with every point."""
+
+    def __init__(self, knots: Knots) -> None:
+        self._curve = (knots.ratios, knots.forces, knots.tails)
+
+    def fill(self, ratio: FloatArray, force: FloatArray, slope: FloatArray) -> bool:
+        """See `Law`."""
+        return bool(fill_counting(self._curve, ratio, force, slope))
+
+
+class BucketingLaw:
+    """Looks into the table of buckets; bisects for ratios in a bucket of several points."""
+
+    def __init__(self, knots: Knots) -> None:
+        self._curve = (knots.ratios, knots.forces, knots.tails)
+        self._table = knots.prepare()
+
+    def fill(self, ratio: FloatArray, force: FloatArray, slope: FloatArray) -> bool:
+        """See `Law`."""
+        return bool(fill_bucketing(self._curve, self._table, ratio, force, slope))
+
+
+def compiled_law(knots: Knots) -> CountingLaw | BucketingLaw:
+    """Return the fastest compiled law of the curve."""
+    points = len(knots.inner)
+    if points <= _COUNTED_POINTS or (points <= _COUNTED_IF_CROWDED and knots.prepare().crowded):
+        return CountingLaw(knots)
+    return BucketingLaw(knots)
