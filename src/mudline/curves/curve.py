@@ -21,7 +21,7 @@ from mudline.curves.arrays import FloatArray, IndexArray, read_only, real_number
 from mudline.curves.backends import Backend, law_for
 from mudline.curves.blocks import BLOCK, blocks
 from mudline.curves.knots import Knots
-from mudline.curves.law import mend, refuse
+from mudline.curves.law import mend, refuse_infinite
 from mudline.curves.points import checked_points, difference_quotient
 from mudline.curves.search import search_for
 
@@ -108,12 +108,15 @@ class ForceCurve:
         Raises:
             QueryError: a ratio is NaN or infinite.
         """
-        query = _finite(ratios)
+        query = real_numbers(ratios, "ratios")
         found = np.empty(query.shape, np.intp)
         search = search_for(self._knots, query.size)
-        with blocks(query, found) as pieces:
+        done = 0
+        with np.errstate(all="ignore"), blocks(query, found) as pieces:
             for ratio, block_found in pieces:
+                refuse_infinite(ratio, done)
                 np.minimum(search.passed(ratio), len(self.slopes) - 1, out=block_found)
+                done += len(ratio)
         return found
 
     def extrapolated(self, ratios: ArrayLike) -> NDArray[np.int8]:
@@ -122,9 +125,15 @@ class ForceCurve:
         Raises:
             QueryError: a ratio is NaN or infinite.
         """
-        query = _finite(ratios)
-        beyond = np.greater(query, self.ratios[-1]).astype(np.int8)
-        return np.asarray(beyond - np.less(query, self.ratios[0]))
+        query = real_numbers(ratios, "ratios")
+        found = np.empty(query.shape, np.int8)
+        done = 0
+        with np.errstate(all="ignore"), blocks(query, found) as pieces:
+            for ratio, block_found in pieces:
+                refuse_infinite(ratio, done)
+                np.subtract(ratio > self.ratios[-1], ratio < self.ratios[0], out=block_found, dtype=np.int8)
+                done += len(ratio)
+        return found
 
     def ratios_at_force(self, force: float) -> tuple[float, ...]:
         """Return every ratio at which the curve, its continued ends included, has this force, ascending.
@@ -188,15 +197,6 @@ class ForceCurve:
         pairs = list(zip(self.ratios.tolist(), self.forces.tolist(), strict=True))
         shown = repr(pairs) if count <= _SHOWN_POINTS else f"<{count} points from {pairs[0]} to {pairs[-1]}>"
         return f"ForceCurve({shown}, name={self.name!r})"
-
-
-def _finite(ratios: ArrayLike) -> FloatArray:
-    with np.errstate(over="ignore"):
-        query = real_numbers(ratios, "ratios").astype(np.float64, copy=False)
-    bad = np.flatnonzero(~np.isfinite(query))
-    if bad.size:
-        refuse(query.reshape(-1), int(bad[0]), 0)
-    return query
 
 
 def _checked_out(out: tuple[FloatArray, FloatArray], shape: tuple[int, ...]) -> tuple[FloatArray, FloatArray]:

@@ -60,11 +60,21 @@ def mend(knots: Knots, ratio: FloatArray, force: FloatArray, start: int) -> None
     force[where] = knots.forces[at] + half + half
     bad = where[~np.isfinite(force[where])]
     if bad.size:
-        refuse(ratio, int(bad[0]), start)
+        _refuse(ratio, int(bad[0]), start)
 
 
-def refuse(ratio: FloatArray, index: int, start: int) -> NoReturn:
-    """Raise the QueryError of the ratio at `index`."""
+def refuse_infinite(ratio: FloatArray, start: int) -> None:
+    """Refuse ratios that are not finite, for questions that need no force.
+
+    Raises:
+        QueryError: a ratio is NaN or infinite; `start` is the index of the first ratio in the query.
+    """
+    finite = np.isfinite(ratio)
+    if not finite.all():
+        _refuse(ratio, int(np.argmin(finite)), start)
+
+
+def _refuse(ratio: FloatArray, index: int, start: int) -> NoReturn:
     value = float(ratio[index])
     why = "the force there overflows" if np.isfinite(value) else "it is not finite"
     raise QueryError(start + index, value, f"no force at ratio {value!r} (index {start + index}): {why}")
