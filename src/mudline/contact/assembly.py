@@ -1,4 +1,4 @@
-"""Stage `assembly`: element forces become nodal reactions.
+"""Stage `assembly`: element forces become normal forces of nodes.
 
 An element of length L and force f per unit length gives f L / 2 to each of its two nodes, also to one above the bed,
 along the normal of the bed at that node.
@@ -24,7 +24,7 @@ class Assembly:
         self._half_length = 0.5 * inputs.length[elements]
 
     def apply(self, part: ContactResult, first_step: int) -> None:
-        """Write `normal_force` (steps, n) and `reaction` (steps, n, 3) of `part` from its `force` (steps, m).
+        """Write `normal_force` (steps, n) of `part` from its `force` (steps, m).
 
         Raises:
             ElementError: an element's force or the sum at a node overflows.
@@ -40,11 +40,6 @@ class Assembly:
             total += np.bincount((row + end).reshape(-1), load.reshape(-1), len(total))
         for end in self._ends:
             self._check(part.normal_force[:, end], first_step)
-        for axis in range(3):
-            np.multiply(part.normal_force, part.normal[..., axis], out=part.reaction[..., axis])
-        np.add(
-            part.reaction, 0.0, out=part.reaction
-        )  # a negative force times a zero component is -0, which is no reaction of its own
 
     def _check(self, values: FloatArray, first_step: int) -> None:
         """Refuse values (steps, elements) that overflowed."""

@@ -12,8 +12,10 @@ from numpy.typing import NDArray
 
 from mudline.contact.arrays import BoolArray, FloatArray, IdArray, IndexArray
 from mudline.contact.errors import ElementError
+from mudline.contact.extras import Extras
 
-if TYPE_CHECKING:  # a scene without curves does not load them
+if TYPE_CHECKING:  # a scene without curves does not load them, nor does a flat bed load the others
+    from mudline.contact.floors.base import Floor
     from mudline.curves import ForceCurve
 
 Tension = Literal["keep", "cut"]
@@ -50,6 +52,8 @@ class ContactInput:
         curves: the curves that `curve_index` points to.
         linear_stiffness: (m,) force per unit length and penetration of elements with a linear law; NaN for the others.
         tension: what happens where a curve pulls: "keep" its negative force, or "cut" force and stiffness to 0.
+        floor: the bed; None for a flat one at X = 0.
+        extras: smoothing, nodal springs, unloading, suction, friction, lateral springs, trenches.
         left_out: reasons, by stage of the plan, why something the scene asks for is not evaluated.
 
     Raises:
@@ -68,6 +72,8 @@ class ContactInput:
     curves: tuple[ForceCurve, ...]
     linear_stiffness: FloatArray
     tension: Tension = "keep"
+    floor: Floor | None = None
+    extras: Extras = field(default_factory=Extras)
     left_out: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:

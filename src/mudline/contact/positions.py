@@ -56,3 +56,31 @@ def read_steps(series: RealArray, steps: range, node_ids: IdArray, present: Bool
         place = tuple(points[row, column].tolist())
         raise PositionError(f"node {node} at step {step}: its position {place} is not finite", node, step)
     return points if present.all() else np.where(present[:, np.newaxis], points, np.nan)
+
+
+def as_velocities(velocities: ArrayLike | None, shape: tuple[int, ...]) -> RealArray | None:
+    """Return velocities as (steps, nodes, 3), neither copied nor converted; None where there are none.
+
+    Raises:
+        ValueError: they are no real numbers of the shape of the positions.
+    """
+    if velocities is None:
+        return None
+    given: RealArray = np.asarray(velocities)
+    if given.dtype.kind not in "iuf" or given.shape not in (shape, shape[1:]):
+        raise ValueError(f"velocities must be real numbers of the shape of the positions, {shape}, not {given.shape}")
+    return given.reshape(shape)
+
+
+def as_times(times: ArrayLike | None, steps: int) -> FloatArray | None:
+    """Return times as (steps,) float64; None where there are none.
+
+    Raises:
+        ValueError: they are not as many finite numbers as there are steps, each later than the one before.
+    """
+    if times is None:
+        return None
+    given = np.asarray(times, dtype=np.float64)
+    if given.shape != (steps,) or not np.isfinite(given).all() or not (np.diff(given) > 0.0).all():
+        raise ValueError(f"times must be {steps} finite numbers, each later than the one before")
+    return given

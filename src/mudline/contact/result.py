@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mudline.contact import floor
-from mudline.contact.arrays import BoolArray, FloatArray
+from mudline.contact.arrays import BoolArray, FloatArray, StateArray
+from mudline.contact.extras import Extras
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -29,6 +29,9 @@ class ContactResult:
         normal: (..., n, 3) unit normal of the bed at the node, out of the soil; may be a read-only view.
         reaction: (..., n, 3) total force of the bed on the node.
         normal_force: the reaction along the normal, positive pushing out of the bed.
+        state: (..., m) `SuctionState` of the elements, -1 without suction; None where no element has it.
+        friction: (..., n, 2) force of friction and lateral springs on the pipe along u1 and u2; None without any.
+        friction_state: (..., n, 2) `FrictionState` of the nodes; None without friction.
         evaluated: (m,) elements whose two nodes have positions.
         present: (n,) nodes that have a position.
     """
@@ -46,6 +49,9 @@ class ContactResult:
     normal_force: FloatArray
     evaluated: BoolArray
     present: BoolArray
+    state: StateArray | None = None
+    friction: FloatArray | None = None
+    friction_state: StateArray | None = None
 
     def step(self, index: int) -> ContactResult:
         """Return one step of a series, as views."""
@@ -70,12 +76,21 @@ class ContactResult:
             normal_force=self.normal_force[key],
             evaluated=self.evaluated,
             present=self.present,
+            state=None if self.state is None else self.state[key],
+            friction=None if self.friction is None else self.friction[key],
+            friction_state=None if self.friction_state is None else self.friction_state[key],
         )
 
 
-def blank_result(steps: int, evaluated: BoolArray, present: BoolArray) -> ContactResult:
-    """Return a series of results to be filled in: no force anywhere, depths, ratios and gaps not yet set."""
+def blank_result(
+    steps: int, evaluated: BoolArray, present: BoolArray, extras: Extras, same_normal: FloatArray | None
+) -> ContactResult:
+    """Return a series of results to be filled in: no force anywhere, depths, ratios and gaps not yet set.
+
+    Arrays for `extras` that are not there are left out. Where all points of the bed share a normal, it is a view.
+    """
     on_elements, on_nodes = (steps, len(evaluated)), (steps, len(present))
+    slides = extras.friction is not None
     return ContactResult(
         depth=np.empty(on_elements),
         ratio=np.empty(on_elements),
@@ -85,9 +100,12 @@ def blank_result(steps: int, evaluated: BoolArray, present: BoolArray) -> Contac
         stiffness=np.zeros(on_elements),
         cut=np.zeros(on_elements, np.bool_),
         gap=np.empty(on_nodes),
-        normal=floor.normals(on_nodes),
+        normal=np.empty((*on_nodes, 3)) if same_normal is None else np.broadcast_to(same_normal, (*on_nodes, 3)),
         reaction=np.zeros((*on_nodes, 3)),
         normal_force=np.zeros(on_nodes),
         evaluated=evaluated,
         present=present,
+        state=None if extras.suction is None else np.full(on_elements, -1, np.int8),
+        friction=np.zeros((*on_nodes, 2)) if slides or extras.lateral is not None else None,
+        friction_state=np.full((*on_nodes, 2), -1, np.int8) if slides else None,
     )

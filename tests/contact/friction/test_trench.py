@@ -53,7 +53,7 @@ def test_it_acts_against_outward_motion_only() -> None:
 
 
 def test_straight_centreline() -> None:
-    found = StraightCentreline((0.0, 1.0), (10.0, 1.0)).nearest(np.array([[-3.0, 4.0, 3.5], [0.5, -20.0, 0.0]]))
+    found = StraightCentreline((0.0, 1.0), (10.0, 1.0)).nearest(np.array([[-3.0, 4.0, 3.5], [0.5, -20.0, 0.0]]))[0]
     assert found.tolist() == [[-3.0, 4.0, 1.0], [0.5, -20.0, 1.0]]
 
 
@@ -66,23 +66,23 @@ def bent() -> tuple[FloatArray, IndexArray]:
 def test_laid_centreline() -> None:
     laid, ends = bent()
     line = LaidCentreline(laid, ends)
-    np.testing.assert_array_equal(line.nearest(laid), laid)
+    np.testing.assert_array_equal(line.nearest(laid)[0], laid)
     moved = laid + np.array([0.0, 0.0, 0.2])
     expected = laid.copy()
     expected[3:, 2] = [0.2, 1.2, 2.0]
-    np.testing.assert_allclose(line.nearest(moved), expected, atol=1e-15)
+    np.testing.assert_allclose(line.nearest(moved)[0], expected, atol=1e-15)
 
 
 def test_a_node_finds_its_place_far_along_the_line() -> None:
     laid, ends = bent()
     points = np.broadcast_to(np.array([0.0, 2.6, 0.1]), laid.shape).copy()
-    np.testing.assert_allclose(LaidCentreline(laid, ends).nearest(points)[:4], [[0.0, 2.6, 0.0]] * 4, atol=1e-15)
+    np.testing.assert_allclose(LaidCentreline(laid, ends).nearest(points)[0][:4], [[0.0, 2.6, 0.0]] * 4, atol=1e-15)
 
 
 def test_a_node_without_elements_is_its_own_centreline() -> None:
     laid = np.array([[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [5.0, 5.0, 5.0]])
     points = laid + 1.0
-    found = LaidCentreline(laid, np.array([[0, 1]])).nearest(points)
+    found = LaidCentreline(laid, np.array([[0, 1]])).nearest(points)[0]
     assert found[2].tolist() == points[2].tolist()
     assert found[0].tolist() == [0.0, 1.0, 0.0]
 
@@ -95,7 +95,7 @@ def test_nearest_point_of_a_gentle_line(count: int, seed: int) -> None:
     laid = np.column_stack([np.zeros(count), y, 0.3 * np.sin(0.3 * y)])
     ends = np.array([[k, k + 1] for k in range(count - 1)])
     points = laid + random.uniform(-0.3, 0.3, laid.shape)
-    found = LaidCentreline(laid, ends).nearest(points)
+    found = LaidCentreline(laid, ends).nearest(points)[0]
     shares = np.linspace(0.0, 1.0, 201)
     dense = (laid[:-1, None] + shares[:, None] * (laid[1:, None] - laid[:-1, None])).reshape(-1, 3)
     best = np.sqrt(((points[:, None] - dense) ** 2).sum(axis=2)).min(axis=1)

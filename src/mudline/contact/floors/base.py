@@ -38,6 +38,10 @@ class Floor(ABC):
         it. Where there is no seabed the gap is NaN and the normal (1, 0, 0).
         """
 
+    def gaps(self, points: FloatArray, gap: FloatArray) -> None:
+        """Write the gaps alone."""
+        self.locate(points, gap, np.empty(points.shape))
+
     @abstractmethod
     def elevation(self, y: FloatArray, z: FloatArray) -> FloatArray:
         """Return the elevation X of the bed at `y` and `z`, arrays of one shape; NaN where there is no seabed."""

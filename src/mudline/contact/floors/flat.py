@@ -18,8 +18,12 @@ class FlatFloor(Floor):
 
     def locate(self, points: FloatArray, gap: FloatArray, normal: FloatArray) -> None:
         """Write gaps and normals, see `Floor`."""
-        np.add(points[..., 0], 0.0, out=gap)  # a sum with 0 knows no -0
+        self.gaps(points, gap)
         normal[...] = _UP
+
+    def gaps(self, points: FloatArray, gap: FloatArray) -> None:
+        """Write the heights."""
+        np.add(points[..., 0], 0.0, out=gap)  # a sum with 0 knows no -0
 
     def elevation(self, y: FloatArray, z: FloatArray) -> FloatArray:
         """Return elevations, see `Floor`."""

@@ -109,7 +109,7 @@ def slide(
     states = np.where(mapped.slips, FrictionState.SLIP, FrictionState.STICK)
     return FrictionForce(
         _on_pipe(mapped.force, closed),
-        _on_pipe(mapped.by_position, closed),
+        _on_pipe(mapped.by_position, anchored),  # where it touches down there is no force, wherever that is
         _on_pipe(mapped.by_offset, closed),
         _on_pipe(mapped.by_compression, closed),
         springs.elongation,

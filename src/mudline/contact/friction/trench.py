@@ -19,8 +19,11 @@ from mudline.contact.friction.return_mapping import ExtraLimit
 class Centreline(Protocol):
     """The line that a trench follows."""
 
-    def nearest(self, points: FloatArray) -> FloatArray:
-        """The nearest points (n, 3) of the line to `points` (n, 3), each the place of its own node."""
+    def nearest(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """The nearest points (n, 3) of the line to `points` (n, 3), each the place of its own node.
+
+        Also how the way from there to the point changes with the point, (n, 3, 3).
+        """
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -63,13 +66,15 @@ class StraightCentreline:
     start: tuple[float, float]
     end: tuple[float, float]
 
-    def nearest(self, points: FloatArray) -> FloatArray:
-        """The foot of each point in the plan, at the point's own elevation."""
+    def nearest(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """The foot of each point in the plan, at the point's own elevation; see `Centreline`."""
         start, end = np.array(self.start), np.array(self.end)
         along = (end - start) / np.hypot(*(end - start))
         found = points.copy()
         found[:, 1:] = start + ((points[:, 1:] - start) @ along)[:, None] * along
-        return found
+        across = np.zeros((3, 3))
+        across[1:, 1:] = np.eye(2) - np.outer(along, along)
+        return found, np.broadcast_to(across, (len(points), 3, 3))
 
 
 class LaidCentreline:
@@ -86,8 +91,8 @@ class LaidCentreline:
         self._ends = element_nodes
         self._elements_at = _two_of_each(element_nodes, len(laid))
 
-    def nearest(self, points: FloatArray) -> FloatArray:
-        """The nearest points of the laid line."""
+    def nearest(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """The nearest points of the laid line; see `Centreline`."""
         current, other = self._elements_at.T.copy()
         held = np.flatnonzero(current >= 0)
         found = points.copy()
@@ -106,7 +111,19 @@ class LaidCentreline:
             nearer = distance < before
             held, share, distance = held[nearer], share[nearer], distance[nearer]
             current[held], found[held] = following[nearer], foot[nearer]
-        return found
+        return found, self._across(points, current)
+
+    def _across(self, points: FloatArray, elements: IndexArray) -> FloatArray:
+        """I - d d where the foot moves along the element's direction d, I where it stands at an end."""
+        across = np.broadcast_to(np.eye(3), (len(points), 3, 3)).copy()
+        inside = np.flatnonzero(elements >= 0)
+        share, _, _ = self._foot(points[inside], elements[inside])
+        inside = inside[(share > 0.0) & (share < 1.0)]
+        span, square = self._span[elements[inside]], self._square[elements[inside]]
+        across[inside] -= span[:, :, None] * span[:, None, :] / square[:, None, None]
+        # a node without elements is its own centreline
+        across[elements < 0] = 0.0
+        return across
 
     def _foot(self, points: FloatArray, elements: IndexArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Share of the element, nearest point and distance of each point on an element."""

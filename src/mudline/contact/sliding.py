@@ -1,0 +1,91 @@
+"""Stages `friction` and `trench`: the forces of the bed along u1 and u2 of the nodes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mudline.contact.arrays import BoolArray, FloatArray
+from mudline.contact.extras import NodeFriction, NodeTrench
+from mudline.contact.friction.directions import at_angle, axial
+from mudline.contact.friction.law import FrictionHistory
+from mudline.contact.friction.return_mapping import ExtraLimit, FrictionForce, slide
+from mudline.contact.friction.trench import LaidCentreline, StraightCentreline
+from mudline.contact.inputs import ContactInput
+from mudline.contact.result import ContactResult
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sliding:
+    """Friction of one step at nodes (n,): forces and derivatives, the directions, and where trenches are.
+
+    `follows` (n,) marks nodes whose directions turn with the line. `to_centreline` (n, 3) is the way from the
+    centreline to the node, None without trenches, and `offset_gradient` (n, 3) the derivative of the offset along u2 by
+    the node's position.
+    """
+
+    force: FrictionForce
+    directions: tuple[FloatArray, FloatArray]
+    follows: BoolArray
+    to_centreline: FloatArray | None = None
+    offset_gradient: FloatArray | None = None
+
+
+class FrictionStage:
+    """Friction of the nodes that have it, with the trenches they lie in."""
+
+    def __init__(self, inputs: ContactInput, friction: NodeFriction, trench: NodeTrench | None) -> None:
+        self._law = friction.law
+        self._angle = friction.angle
+        self._turned = np.flatnonzero(~np.isnan(friction.angle))
+        self._elements = inputs.element_nodes
+        self._trench = trench
+
+    def initial(self) -> FrictionHistory:
+        """Nothing has touched the bed."""
+        return FrictionHistory.start(self._law)
+
+    def directions(self, points: FloatArray, normals: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """u1 and u2 of all nodes, each (n, 3)."""
+        first, second = axial(points, self._elements, normals)
+        if self._turned.size:
+            at = self._turned
+            first[at], second[at] = at_angle(self._angle[at], normals[at])
+        return first, second
+
+    def apply(
+        self, part: ContactResult, points: FloatArray, history: FrictionHistory, laid: FloatArray
+    ) -> tuple[Sliding, FrictionHistory]:
+        """Add to the reaction of the one step of `part`, whose nodes stand at `points` (n, 3).
+
+        A node without a position, or off the bed, is open.
+        """
+        known = ~np.isnan(part.gap[0])
+        places = np.where(known[:, None], points, 0.0)
+        directions = self.directions(places, part.normal[0])
+        compression = np.where(known, part.normal_force[0], 0.0)
+        away, gradient, extra = self._in_trench(places, directions[1], laid)
+        moved = slide(self._law, history, places, directions, compression, extra)
+        for side, axis in enumerate(directions):
+            part.reaction[0] += moved.force[:, side, None] * axis
+        if part.friction is not None and part.friction_state is not None:
+            part.friction[0] += moved.force
+            part.friction_state[0] = moved.history.states
+        return Sliding(moved, directions, np.isnan(self._angle), away, gradient), moved.history
+
+    def _in_trench(
+        self, points: FloatArray, lateral: FloatArray, laid: FloatArray
+    ) -> tuple[FloatArray | None, FloatArray | None, ExtraLimit | None]:
+        """The way from the centreline, the gradient of the offset, and what the trenches add to the lateral limit."""
+        if self._trench is None:
+            return None, None, None
+        nearest, across = LaidCentreline(laid, self._elements).nearest(points)
+        straight = self._trench.straight
+        for line in np.unique(straight[~np.isnan(straight[:, 0])], axis=0):
+            nodes = np.flatnonzero((straight == line).all(axis=1))
+            y0, z0, y1, z1 = line.tolist()
+            nearest[nodes], across[nodes] = StraightCentreline((y0, z0), (y1, z1)).nearest(points[nodes])
+        away = points - nearest
+        gradient = np.einsum("ni,nij->nj", lateral, across)
+        return away, gradient, self._trench.law.limit(np.einsum("ij,ij->i", lateral, away))
