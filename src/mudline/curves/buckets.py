@@ -51,14 +51,16 @@ def _addends(ratios: FloatArray) -> list[float]:
     """For even spacing, for distances that grow from zero, and for distances that grow from the first point."""
     span = ratios[-1] - ratios[1]
     even = np.ldexp(1.0, int(np.frexp(span)[1])) - ratios[1]
-    addends = [float(even), 0.0, float(-ratios[0])]
+    # 0.0 - x is never -0.0, so that neither is r + c, whose bits would not follow the order.
+    addends = [float(even), 0.0, float(0.0 - ratios[0])]
     return [addend for addend in addends if np.isfinite(addend)]
 
 
 def _table(points: FloatArray, addend: float) -> BucketTable:
     count = len(points)
-    bits = np.maximum(points + addend, 0.0).view(np.int64)
-    first, last = int(bits[np.searchsorted(bits, 1) % count]), int(bits[-1])
+    bits = (points + addend).view(np.int64)
+    positive = bits[bits > 0]
+    first, last = (int(positive[0]), int(positive[-1])) if positive.size else (1, 1)
     # Of the bits one at least has to go, or the difference of a negative number and the base might not fit.
     shift = max(1, ((last - first) // (_BUCKETS_PER_POINT * count)).bit_length())
     base = (first >> shift) - 1
