@@ -18,6 +18,7 @@ from mudline.curves.backends import Backend, law_for
 from mudline.curves.blocks import BLOCK
 from mudline.curves.buckets import BucketTable
 from mudline.curves.law import NumpyLaw
+from mudline.curves.work import Work
 from tests.curves.plain import POINTS, near, plain_values, steps
 
 BACKENDS: tuple[Backend, ...] = ("numpy", "fast")
@@ -47,16 +48,16 @@ def test_both_backends_follow_the_law_to_the_last_bit(curve: ForceCurve, more: l
         force, slope = plain_values(curve, query)
     good = np.isfinite(force)
     # Long enough to be worth a table.
-    query, force, slope = (np.resize(values[good], 1000) for values in (query, force, slope))
+    query, force, slope = (np.resize(values[good], 2000) for values in (query, force, slope))
     for backend in BACKENDS:
         found = curve.evaluate(query, backend=backend)
         assert found[0].tobytes() == force.tobytes()
         assert found[1].tobytes() == slope.tobytes()
 
 
-@given(curves(), st.floats(allow_nan=True, allow_infinity=True), st.integers(0, 999))
+@given(curves(), st.floats(allow_nan=True, allow_infinity=True), st.integers(0, 1999))
 def test_both_backends_mend_and_refuse_the_same(curve: ForceCurve, odd: float, where: int) -> None:
-    query = np.full(1000, curve.ratios[1])
+    query = np.full(2000, curve.ratios[1])
     query[where] = odd
     answers: list[object] = []
     for backend in BACKENDS:
@@ -161,15 +162,16 @@ def test_a_place_without_a_cache_compiles_anyway(monkeypatch: pytest.MonkeyPatch
 
 def test_the_backend_that_a_query_gets(monkeypatch: pytest.MonkeyPatch) -> None:
     knots = ForceCurve([(0.0, 0.0), (1.0, 1.0), (2.0, 5.0)])._knots
-    assert isinstance(law_for(knots, 10**7, "numpy"), NumpyLaw)
-    assert isinstance(law_for(knots, 1, "fast"), compiled.CountingLaw)
+    work = Work()
+    assert isinstance(law_for(knots, 10**7, work, "numpy"), NumpyLaw)
+    assert isinstance(law_for(knots, 1, work, "fast"), compiled.CountingLaw)
     # Once loaded, from some thousands on; not yet loaded, from some millions on.
-    assert isinstance(law_for(knots, 100), NumpyLaw)
-    assert isinstance(law_for(knots, 10_000), compiled.CountingLaw)
+    assert isinstance(law_for(knots, 100, work), NumpyLaw)
+    assert isinstance(law_for(knots, 10_000, work), compiled.CountingLaw)
     monkeypatch.delitem(sys.modules, "mudline.curves.compiled")
     backends._loads.cache_clear()
-    assert isinstance(law_for(knots, 10_000), NumpyLaw)
-    assert not isinstance(law_for(knots, 10**7), NumpyLaw)
+    assert isinstance(law_for(knots, 10_000, work), NumpyLaw)
+    assert not isinstance(law_for(knots, 10**7, work), NumpyLaw)
 
 
 def test_without_the_extra(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -178,7 +180,7 @@ def test_without_the_extra(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "numba", None)
     backends._loads.cache_clear()
     try:
-        assert isinstance(law_for(curve._knots, 10**7), NumpyLaw)
+        assert isinstance(law_for(curve._knots, 10**7, Work()), NumpyLaw)
         with pytest.raises(ImportError):
             curve.evaluate(0.5, backend="fast")
     finally:

@@ -11,10 +11,10 @@ from functools import cache
 from importlib import import_module
 from typing import Literal, cast
 
-from mudline.curves.blocks import BLOCK
 from mudline.curves.knots import Knots
 from mudline.curves.law import Law, NumpyLaw
 from mudline.curves.search import search_for
+from mudline.curves.work import Work
 
 Backend = Literal["auto", "numpy", "fast"]
 
@@ -24,7 +24,7 @@ _WORTH_LOADING = 2**22
 _WORTH_CALLING = 2**12
 
 
-def law_for(knots: Knots, total: int, backend: Backend = "auto") -> Law:
+def law_for(knots: Knots, total: int, work: Work, backend: Backend = "auto") -> Law:
     """Return the way to evaluate a query of `total` ratios.
 
     Raises:
@@ -35,7 +35,7 @@ def law_for(knots: Knots, total: int, backend: Backend = "auto") -> Law:
         raise ValueError(f"backend must be auto, numpy or fast, not {backend!r}")
     if backend == "fast" or (backend == "auto" and _pays(total)):
         return cast("Law", import_module(_COMPILED).compiled_law(knots))
-    return NumpyLaw(knots, search_for(knots, total), min(total, BLOCK))
+    return NumpyLaw(knots, search_for(knots, total, work), work)
 
 
 def _pays(total: int) -> bool:

@@ -19,11 +19,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from mudline.curves.arrays import FloatArray, IndexArray, read_only, real_numbers
 from mudline.curves.backends import Backend, law_for
-from mudline.curves.blocks import BLOCK, blocks
+from mudline.curves.blocks import blocks
 from mudline.curves.knots import Knots
 from mudline.curves.law import mend, refuse_infinite
 from mudline.curves.points import checked_points, difference_quotient
 from mudline.curves.search import search_for
+from mudline.curves.work import lent
 
 _SHOWN_POINTS = 8
 
@@ -86,16 +87,15 @@ class ForceCurve:
         """
         query = real_numbers(ratios, "ratios")
         force, slope = (np.empty(query.shape), np.empty(query.shape)) if out is None else _checked_out(out, query.shape)
-        size = min(query.size, BLOCK)
-        law = law_for(self._knots, query.size, backend)
-        # Where the results replace the ratios, these are still needed to tell what is wrong.
-        kept = np.empty(size) if out and any(np.may_share_memory(query, array) for array in out) else None
+        # Where results replace the ratios, these are still needed to tell what is wrong.
+        replaced = out is not None and any(np.may_share_memory(query, array) for array in out)
         done = 0
-        with np.errstate(all="ignore"), blocks(query, force, slope) as pieces:
+        with lent() as work, np.errstate(all="ignore"), blocks(query, force, slope) as pieces:
+            law = law_for(self._knots, query.size, work, backend)
             for block, block_force, block_slope in pieces:
                 ratio = block
-                if kept is not None:
-                    ratio = kept[: len(block)]
+                if replaced:
+                    ratio = work.kept[: len(block)]
                     ratio[...] = block
                 if not law.fill(ratio, block_force, block_slope):
                     mend(self._knots, ratio, block_force, done)
@@ -110,9 +110,9 @@ class ForceCurve:
         """
         query = real_numbers(ratios, "ratios")
         found = np.empty(query.shape, np.intp)
-        search = search_for(self._knots, query.size)
         done = 0
-        with np.errstate(all="ignore"), blocks(query, found) as pieces:
+        with lent() as work, np.errstate(all="ignore"), blocks(query, found) as pieces:
+            search = search_for(self._knots, query.size, work)
             for ratio, block_found in pieces:
                 refuse_infinite(ratio, done)
                 np.minimum(search.passed(ratio), len(self.slopes) - 1, out=block_found)

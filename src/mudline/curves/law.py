@@ -10,6 +10,7 @@ from mudline.curves.arrays import FloatArray
 from mudline.curves.errors import QueryError
 from mudline.curves.knots import Knots
 from mudline.curves.search import Search
+from mudline.curves.work import Work
 
 
 class Law(Protocol):
@@ -24,26 +25,25 @@ class Law(Protocol):
 
 
 class NumpyLaw:
-    """Evaluates with numpy alone, at most `size` ratios at a time."""
+    """Evaluates with numpy alone."""
 
-    def __init__(self, knots: Knots, search: Search, size: int) -> None:
+    def __init__(self, knots: Knots, search: Search, work: Work) -> None:
         self._knots = knots
         self._search = search
-        self._offset = np.empty(size)
-        self._finite = np.empty(size, np.bool_)
+        self._work = work
 
     def fill(self, ratio: FloatArray, force: FloatArray, slope: FloatArray) -> bool:
         """See `Law`."""
-        knots, size = self._knots, len(ratio)
-        offset = self._offset[:size]
+        knots, work, size = self._knots, self._work, len(ratio)
         point = self._search.passed(ratio)
+        offset = work.real[:size]
         np.take(knots.ratios, point, out=offset, mode="clip")
         np.subtract(ratio, offset, out=offset)
         np.take(knots.tails, point, out=slope, mode="clip")
         np.multiply(offset, slope, out=offset)
         np.take(knots.forces, point, out=force, mode="clip")
         np.add(force, offset, out=force)
-        return bool(np.isfinite(force, out=self._finite[:size]).all())
+        return bool(np.isfinite(force, out=work.flag[:size]).all())
 
 
 def mend(knots: Knots, ratio: FloatArray, force: FloatArray, start: int) -> None:

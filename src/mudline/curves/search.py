@@ -1,7 +1,7 @@
 """How many points of a curve lie at or below each ratio: one answer, three ways to find it.
 
-A search serves one query and holds work arrays of a fixed size, for at most `size` ratios at a time. `passed` is asked
-for the points after the first only, so its answer is also the index of the point to reckon the force from.
+A search serves one query, a block at a time. `passed` is asked for the points after the first only, so its answer is
+also the index of the point to reckon the force from.
 """
 
 from __future__ import annotations
@@ -11,14 +11,14 @@ from typing import Protocol
 import numpy as np
 
 from mudline.curves.arrays import FloatArray, IndexArray
-from mudline.curves.blocks import BLOCK
 from mudline.curves.buckets import BucketTable
 from mudline.curves.knots import Knots
+from mudline.curves.work import Work
 
 _COUNTED_POINTS = 20
 """Up to this many points, counting is faster than a table."""
 
-_FEW_RATIOS = 512
+_FEW_RATIOS = 1024
 """Below this, the calls that the other ways make cost more than a binary search."""
 
 
@@ -30,15 +30,14 @@ class Search(Protocol):
         ...
 
 
-def search_for(knots: Knots, total: int) -> Search:
+def search_for(knots: Knots, total: int, work: Work) -> Search:
     """Return the fastest search for a query of `total` ratios."""
-    size = min(total, BLOCK)
     if total < _FEW_RATIOS:
         return Bisection(knots.inner)
     if len(knots.inner) <= _COUNTED_POINTS:
-        return Counting(knots.inner, size)
+        return Counting(knots.inner, work)
     if knots.table is not None or total >= len(knots.inner):
-        return Bucketing(knots.prepare(), size)
+        return Bucketing(knots.prepare(), work)
     return Bisection(knots.inner)
 
 
@@ -56,16 +55,14 @@ class Bisection:
 class Counting:
     """Compares every ratio with every point: for few points, however they are spaced."""
 
-    def __init__(self, points: FloatArray, size: int) -> None:
+    def __init__(self, points: FloatArray, work: Work) -> None:
         self._points = points
-        self._count = np.empty(size, np.uint8)
-        self._flag = np.empty(size, np.bool_)
-        self._index = np.empty(size, np.intp)
+        self._work = work
 
     def passed(self, ratio: FloatArray) -> IndexArray:
         """See `Search`."""
-        size = len(ratio)
-        count, flag, index = self._count[:size], self._flag[:size], self._index[:size]
+        work, size = self._work, len(ratio)
+        count, flag, index = work.small.view(np.uint8)[:size], work.flag[:size], work.index[:size]
         more = flag.view(np.uint8)
         np.greater_equal(ratio, self._points[0], out=count.view(np.bool_))
         for point in self._points[1:]:
@@ -78,21 +75,19 @@ class Counting:
 class Bucketing:
     """Looks into a table of buckets; bisects for ratios in a bucket of several points."""
 
-    def __init__(self, table: BucketTable, size: int) -> None:
+    def __init__(self, table: BucketTable, work: Work) -> None:
         self._table = table
         self._points = table.knots[:-1]
+        self._work = work
         self._in_vain = False
-        self._below = np.empty(size, table.below.dtype)
-        self._flag = np.empty(size, np.bool_)
-        self._index = np.empty(size, np.intp)
-        self._sum = np.empty(size)
 
     def passed(self, ratio: FloatArray) -> IndexArray:
         """See `Search`."""
         if self._in_vain:
             return np.searchsorted(self._points, ratio, side="right")
-        table, size = self._table, len(ratio)
-        below, flag, index, knot = self._below[:size], self._flag[:size], self._index[:size], self._sum[:size]
+        table, work, size = self._table, self._work, len(ratio)
+        below, flag = work.small.view(table.below.dtype)[:size], work.flag[:size]
+        index, knot = work.index[:size], work.real[:size]
         key = np.add(ratio, table.addend, out=knot).view(np.int64)
         np.right_shift(key, table.shift, out=key)
         np.subtract(key, table.base, out=key)
