@@ -9,11 +9,15 @@ from mudline.diagnostics import Severity
 from mudline.linting.registry import Rule, rules
 
 
-def described(code: str, levels: Mapping[Severity, str], page: str) -> dict[str, Any]:
-    """The reporting descriptor of a code; one that no rule has (a file that is no deck) is told by its code only."""
+def described(code: str, levels: Mapping[Severity, str], address: str | None) -> dict[str, Any]:
+    """The reporting descriptor of a code; one that no rule has (a file that is no deck) is told by its code only.
+
+    `address` is that of its help on the web: SARIF wants a whole address, not the path of a page.
+    """
+    link = {} if address is None else {"helpUri": address}
     rule = next((rule for rule in rules() if rule.code.code == code), None)
     if rule is None:
-        return {"id": code, "helpUri": page}
+        return {"id": code, **link}
     return {
         "id": code,
         "name": "".join(word.capitalize() for word in rule.code.slug.split("-")),
@@ -21,7 +25,7 @@ def described(code: str, levels: Mapping[Severity, str], page: str) -> dict[str,
         "fullDescription": {"text": rule.why},
         "defaultConfiguration": {"level": levels[rule.code.severity], "enabled": not rule.off},
         "help": {"text": f"{rule.title}\n\n{rule.why}", "markdown": _markdown(rule)},
-        "helpUri": page,
+        **link,
     }
 
 
