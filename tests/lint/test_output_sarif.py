@@ -43,9 +43,12 @@ def test_a_rule_brings_its_help() -> None:
     assert rule["defaultConfiguration"]["level"] in {"error", "warning", "note"}
 
 
-def test_a_code_without_a_rule_is_named() -> None:
-    (rule,) = run_of(finding(code="XXX999"))["tool"]["driver"]["rules"]
-    assert rule == {"id": "XXX999"}
+def test_a_code_without_a_rule_is_described_by_its_name() -> None:
+    (rule,) = run_of(finding(code="XXX999", slug="no-such-rule"))["tool"]["driver"]["rules"]
+    assert (rule["id"], rule["name"], rule["shortDescription"]["text"]) == ("XXX999", "NoSuchRule", "No such rule.")
+    assert rule["defaultConfiguration"] == {"level": "warning", "enabled": True}
+    assert rule["help"]["text"].endswith(rule["fullDescription"]["text"])
+    assert "markdown" not in rule["help"]
 
 
 def test_fingerprints_do_not_depend_on_lines() -> None:

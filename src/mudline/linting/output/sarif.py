@@ -23,13 +23,14 @@ _BASE = "ROOT"
 def sarif(diagnostics: Iterable[Diagnostic], version: str) -> Iterator[str]:
     """One log with one run; its rules are those that something was found by; `version` is that of mudline."""
     listed = list(diagnostics)
-    codes = sorted({found.code for found in listed})
+    first = {found.code: found for found in reversed(listed)}
+    codes = sorted(first)
     fingerprints = Fingerprints()
     driver = {
         "name": "mudline",
         "version": version,
         "semanticVersion": version,
-        "rules": [described(code, LEVELS, address(code)) for code in codes],
+        "rules": [described(first[code], LEVELS, address(code)) for code in codes],
     }
     head = {"$schema": SCHEMA, "version": "2.1.0"}
     run = {
