@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cache
 from typing import cast
 
 from pydantic import ValidationError
@@ -65,7 +66,7 @@ class _Reader:
         for mismatch in mismatches:
             self._report(mismatch)
         built = builder.build(self.declared, node)
-        trailing = attach(self.comments, built)
+        trailing = attach(self.comments, built) if self.comments else []
         self.lost += builder.lost
         model = self._model(built, builder)
         return ReadBlock(model, places, self.problems, trailing, self.lost)
@@ -175,6 +176,7 @@ def _label(part: type[Part], place: tuple[str | int, ...]) -> str:
     return label
 
 
+@cache
 def all_keys(part: type[Part]) -> frozenset[str]:
     """Every KEY that the lines of a keyword may begin with or hold."""
     return frozenset(key for found in _layouts(part) for key in found.keys)

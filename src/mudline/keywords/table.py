@@ -230,7 +230,8 @@ def from_rows(raw: RawRows, columns: Sequence[Column]) -> tuple[Table, dict[tupl
         else:
             words[row, column] = _word(word)
     fewest = _fewest(columns)
-    for row in np.flatnonzero((raw.lengths < fewest) | (raw.lengths > len(columns))).tolist():
+    wrong = (raw.lengths < fewest) | (raw.lengths > len(columns))
+    for row in np.flatnonzero(wrong).tolist() if wrong.any() else ():
         faults[row, -1] = f"{_fields(raw.lengths[row])}, expected {_count(columns)}"
         raw.values[row, 1:] = math.nan  # the row still defines its number
     table = Table(raw.values, lengths, words)
@@ -256,6 +257,8 @@ def _count(columns: Sequence[Column]) -> str:
 
 def _not_whole(table: Table, columns: Sequence[Column]) -> dict[tuple[int, int], str]:
     faults: dict[tuple[int, int], str] = {}
+    if _all_whole(table.values, columns):
+        return faults
     for index in range(table.values.shape[1]):
         if not columns[index].whole:
             continue
@@ -268,3 +271,12 @@ def _not_whole(table: Table, columns: Sequence[Column]) -> dict[tuple[int, int],
             faults[row, index] = f"{value!r} is no whole number: {columns[index].label} needs one"
             values[row] = math.nan
     return faults
+
+
+def _all_whole(values: NDArray[np.float64], columns: Sequence[Column]) -> bool:
+    """Whether nothing but exact numbers stands in the whole columns, where these are the first ones and have no zero."""
+    count = next((index for index, column in enumerate(columns) if not column.whole), len(columns))
+    if any(column.whole for column in columns[count:]):
+        return False
+    first = values[:, :count]
+    return bool(((first == np.floor(first)) & (first != 0.0) & (np.abs(first) <= LARGEST_WHOLE)).all())

@@ -93,7 +93,9 @@ def _curve(context: Context, name: str | None, table: Table, where: Where, *, em
         ratio, force = points[index].tolist()
         message = f"a second force at ratio {ratio!r} ({force!r}): the slope there would be infinite; remove one"
         context.tell(CRV003, message, found.point(index))
-    keep = np.setdiff1d(np.arange(len(points)), clashing, assume_unique=True)
+    keep = np.arange(len(points))
+    if clashing.size:
+        keep = np.setdiff1d(keep, clashing, assume_unique=True)
     try:
         curve = ForceCurve(points[keep], found.name)
     except CurveError as error:
@@ -110,7 +112,7 @@ def _curve(context: Context, name: str | None, table: Table, where: Where, *, em
 
 def clashes_and_repeats(points: Floats) -> tuple[Indices, Indices]:
     """Indices of points at the ratio of an earlier one: those with another force than the first there, and the same."""
-    if len(points) < 2:
+    if (points[1:, 0] > points[:-1, 0]).all():
         return _NOWHERE, _NOWHERE
     order = np.argsort(points[:, 0], kind="stable")
     ratios, forces = points[order].T
