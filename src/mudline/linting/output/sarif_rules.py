@@ -8,7 +8,6 @@ from typing import Any
 from mudline.diagnostics import Diagnostic, Severity
 from mudline.linting.registry import Rule, rules
 
-
 _NO_RULE = "This is no rule and cannot be left out; the message says why the file could not be used or checked."
 
 
