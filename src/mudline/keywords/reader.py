@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cache
-from typing import cast
+from typing import Protocol, cast
 
 from pydantic import ValidationError
 
@@ -26,19 +26,36 @@ from mudline.syntax.tree import Kind, Leaf, RawBlock
 class ReadBlock:
     """A block that was read: its model, where its values stand, what was wrong, and the comments behind its last line.
 
-    `lost` counts lines that could not be used at all: what they would have defined is unknown.
+    `lost` counts lines that could not be used at all: what they would have defined is unknown. `own` are the places in
+    the text that was read; where that was a piece, `whole` is the text that it belongs to and where it begins there.
     """
 
     model: Block
-    places: Places
+    own: Places
     problems: list[Problem]
     trailing: list[str] = field(default_factory=list)
     lost: int = 0
+    whole: tuple[str, int] | None = None
+
+    @property
+    def places(self) -> Places:
+        """The places in the whole text; worked out when somebody asks."""
+        if self.whole:
+            self.own = self.own.moved(*self.whole)
+            self.whole = None
+        return self.own
 
     @property
     def unpublished(self) -> bool:
         """Whether the lines may have a form that is not public, so that they are kept as they are."""
         return any(problem.code in type(self.model).unpublished for problem in self.problems)
+
+
+class BlockReader(Protocol):
+    """Reads a block as `read_block` does."""
+
+    def __call__(self, text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
+        """`text` is the unified text of the source; `last` says that nothing follows the block in it."""
 
 
 def read_block(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:

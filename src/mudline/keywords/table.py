@@ -274,7 +274,7 @@ def _not_whole(table: Table, columns: Sequence[Column]) -> dict[tuple[int, int],
 
 
 def _all_whole(values: NDArray[np.float64], columns: Sequence[Column]) -> bool:
-    """Whether nothing but exact numbers stands in the whole columns, where these are the first ones and have no zero."""
+    """Whether the whole columns, where they are the first ones, hold nothing but whole numbers and no zero."""
     count = next((index for index, column in enumerate(columns) if not column.whole), len(columns))
     if any(column.whole for column in columns[count:]):
         return False
