@@ -94,7 +94,10 @@ def diagnostics(data: bytes, deck: Path, options: Expected) -> list[Diagnostic]:
 def findings(deck: Path, options: Expected) -> tuple[str, ...]:
     """What the linter finds in a deck: `line:column: CODE severity message`."""
     found = sorted(diagnostics(deck.read_bytes(), deck, options), key=lambda one: one.sort_key)
-    return tuple(f"{one.line}:{one.column}: {one.code} {one.severity} {visible(one.message)}" for one in found)
+    here = deck.parent.as_posix()
+    return tuple(
+        f"{one.line}:{one.column}: {one.code} {one.severity} {visible(one.message).replace(here, '.')}" for one in found
+    )
 
 
 def code_of(line: str) -> str:
@@ -135,7 +138,7 @@ def main() -> None:
     """Write the findings anew, and tell what changed."""
     for line in rewrite():
         sys.stdout.write(f"{line}\n")
-    sys.stdout.write(f"{len(decks())} decks; no deck shows {', '.join(sorted(codes_not_shown())) or 'no rule'}\n")
+    sys.stdout.write(f"{len(decks())} decks; rules that none of them shows: {sorted(codes_not_shown())}\n")
 
 
 if __name__ == "__main__":

@@ -1,0 +1,144 @@
+"""The golden corpus: every deck gives the findings beside it, and survives all that mudline does with decks."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+from pathlib import Path
+
+import pytest
+
+from mudline.deck.loading import dump, form_of, load_bytes
+from mudline.deck.model import Deck
+from mudline.diagnostics import DeckError, Diagnostic, Severity
+from mudline.formatting.document import formatted
+from mudline.linting.fixing import fix_bytes
+from mudline.linting.settings import Fixing, LintSettings
+from tests.lint import corpus
+
+DECKS = corpus.decks()
+GOOD = [deck for deck in DECKS if corpus.name_of(deck).startswith("good/")]
+NOT_SHOWN: set[str] = set()
+"""Codes that no deck of the corpus shows."""
+
+each_deck = pytest.mark.parametrize("deck", DECKS, ids=corpus.name_of)
+
+
+def read(deck: Path, data: bytes | None = None, name: str | None = None) -> Deck:
+    """The deck of a file, or of another content in its place; raises DeckError for JSON or YAML that is no deck."""
+    content = deck.read_bytes() if data is None else data
+    return load_bytes(content, name or deck.name, folder=deck.parent)
+
+
+def can_be_read(path: Path) -> bool:
+    """Whether reading a deck finds no error in it."""
+    try:
+        found = read(path).problems
+    except DeckError:
+        return False
+    return all(problem.weight is not Severity.ERROR for problem in found)
+
+
+READABLE = [deck for deck in DECKS if can_be_read(deck)]
+KEYWORD = [deck for deck in DECKS if form_of(deck.name) == "keyword"]
+
+
+def counted(found: Iterable[Diagnostic]) -> Counter[str]:
+    """How many findings each code has, but for those of style, which the layout of a text brings and takes."""
+    return Counter(one.code for one in found if not one.code.startswith("STY"))
+
+
+def errors(found: Iterable[Diagnostic]) -> int:
+    return sum(one.severity is Severity.ERROR for one in found)
+
+
+# --------------------------------------------------------------------------------------------------------- findings
+
+
+@each_deck
+def test_a_deck_gives_the_findings_beside_it(deck: Path) -> None:
+    assert corpus.beside(deck).exists(), "python -m tests.lint.corpus writes it"
+    options = corpus.expected(deck)
+    assert corpus.findings(deck, options) == options.findings
+    assert corpus.beside(deck).read_text(encoding="utf-8") == options.text()
+
+
+@pytest.mark.parametrize("deck", GOOD, ids=corpus.name_of)
+def test_a_good_deck_is_told_nothing_or_why(deck: Path) -> None:
+    given = corpus.expected(deck)
+    assert {corpus.severity_of(line) for line in given.findings} <= {"info"}
+    assert bool(given.findings) == bool(given.option("why"))
+
+
+def test_no_file_of_findings_is_left_over() -> None:
+    assert {path.with_suffix("") for path in corpus.CORPUS.rglob(f"*{corpus.SUFFIX}")} == set(DECKS)
+
+
+def test_every_rule_is_shown_by_a_deck() -> None:
+    assert corpus.codes_not_shown() == NOT_SHOWN
+
+
+def test_the_corpus_is_large_and_a_good_part_of_it_is_good() -> None:
+    assert len(DECKS) >= 66
+    assert 0.3 < len(GOOD) / len(DECKS) < 0.7
+
+
+# ------------------------------------------------------------------------------------------------------------ forms
+
+
+@pytest.mark.parametrize("deck", READABLE, ids=corpus.name_of)
+@pytest.mark.parametrize("form", ["keyword", "json", "yaml"])
+def test_a_deck_is_the_same_in_every_form(deck: Path, form: str) -> None:
+    first = read(deck)
+    name = f"{deck.stem}.{form}" if form != "keyword" else f"{deck.stem}{keyword_suffix(deck)}"
+    again = read(deck, dump(first, form).encode(), name)
+    assert again.sections == first.sections
+    assert again.comments == first.comments
+    assert again.preamble == first.preamble
+    assert again.units == first.units
+
+
+def keyword_suffix(deck: Path) -> str:
+    return deck.suffix if form_of(deck.name) == "keyword" else ".keyxm"
+
+
+@pytest.mark.parametrize("deck", READABLE, ids=corpus.name_of)
+def test_layout_is_settled_at_once_and_keeps_the_findings(deck: Path) -> None:
+    options = corpus.expected(deck)
+    once = formatted(deck.read_bytes(), deck.name)
+    assert formatted(once, deck.name) == once
+    before, after = (corpus.diagnostics(data, deck, options) for data in (deck.read_bytes(), once))
+    assert counted(after) == counted(before)
+
+
+@pytest.mark.parametrize("deck", [deck for deck in DECKS if deck not in READABLE], ids=corpus.name_of)
+def test_a_deck_with_an_error_of_reading_is_not_laid_out(deck: Path) -> None:
+    with pytest.raises(DeckError):
+        formatted(deck.read_bytes(), deck.name)
+
+
+# ------------------------------------------------------------------------------------------------------------ fixes
+
+
+@pytest.mark.parametrize("deck", KEYWORD, ids=corpus.name_of)
+@pytest.mark.parametrize("fixing", [Fixing.SAFE, Fixing.UNSAFE])
+def test_fixes_bring_no_error_and_are_soon_done(deck: Path, fixing: Fixing) -> None:
+    data, options = deck.read_bytes(), corpus.expected(deck)
+    settings = LintSettings(rules=options.rules, dialect=options.dialect, fixing=fixing)
+    result = fix_bytes(data, deck.name, settings, deck.parent)
+    fixed = data if result.changed is None else result.changed
+    assert errors(corpus.diagnostics(fixed, deck, options)) <= errors(corpus.diagnostics(data, deck, options))
+    assert fix_bytes(fixed, deck.name, settings, deck.parent).changed is None
+
+
+# ---------------------------------------------------------------------------------------------------------- helpers
+
+
+def test_a_file_of_findings_may_begin_with_options() -> None:
+    text = "# dialect: flexcom\n# why: as meant\n1:2: STB002 info coarse\n"
+    given = corpus.Expected.read(text)
+    assert (given.dialect, given.option("why")) == ("flexcom", "as meant")
+    assert [corpus.code_of(line) for line in given.findings] == ["STB002"]
+    assert given.text() == text
+    with pytest.raises(ValueError, match="no such option: colour"):
+        corpus.Expected.read("# colour: red\n")
