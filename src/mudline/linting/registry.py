@@ -27,6 +27,7 @@ MODULES = (
     "units",
     "stability",
     "legacy",
+    "style",
     "style_suppression",
 )
 """The modules of `mudline.linting.rules`."""
