@@ -51,9 +51,16 @@ def test_the_job_of_gitlab_passes_for_clean_decks(folder: Path) -> None:
 
 def test_the_workflow_of_github_gives_inputs_that_the_action_has() -> None:
     action = yaml.safe_load((ROOT / "action.yml").read_text(encoding="utf-8"))
-    given = [step["with"] for step in example("steps") if "with" in step]
-    assert given
+    steps = [*example("steps"), *example("jobs")["decks"]["steps"]]
+    given = [step["with"] for step in steps if step["uses"].startswith("OWNER/mudline@")]
+    assert len(given) == 2
     assert all(inputs.keys() <= action["inputs"].keys() for inputs in given)
+
+
+def test_the_sarif_that_is_uploaded_is_the_one_that_is_written() -> None:
+    _, lint, upload = example("jobs")["decks"]["steps"]
+    assert lint["with"]["args"] == f"--output-format sarif={upload['with']['sarif_file']}"
+    assert upload["if"] == "always()"
 
 
 def test_the_hooks_that_are_named_are_there() -> None:

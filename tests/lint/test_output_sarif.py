@@ -64,6 +64,8 @@ def test_fingerprints_do_not_depend_on_lines() -> None:
         ("./a b/ü#.keyxm", "a%20b/%C3%BC%23.keyxm"),
         ("/abs/a.keyxm", "file:///abs/a.keyxm"),
         ("C:/abs/a.keyxm", "file:///C:/abs/a.keyxm"),
+        ("c:deck.keyxm", "c%3Adeck.keyxm"),
+        ("\ud800.keyxm", "%5Cud800.keyxm"),
         ("<stdin>", "%3Cstdin%3E"),
     ],
 )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Iterator
+from pathlib import Path
 from typing import Any
 
 from mudline.diagnostics import Diagnostic, Severity
@@ -29,5 +30,11 @@ def _issue(found: Diagnostic, fingerprint: str) -> dict[str, Any]:
         "check_name": found.slug,
         "fingerprint": fingerprint,
         "severity": _SEVERITIES[found.severity],
-        "location": {"path": found.file.removeprefix("./"), "lines": {"begin": found.line, "end": found.end_line}},
+        "location": {"path": _path(found.file), "lines": {"begin": found.line, "end": found.end_line}},
     }
+
+
+def _path(file: str) -> str:
+    """GitLab knows paths from the top of the repository only, which is where its jobs run."""
+    path, top = Path(file), Path.cwd()
+    return path.relative_to(top).as_posix() if path.is_relative_to(top) else file.removeprefix("./")
