@@ -19,7 +19,7 @@ from tests.cli.decks import BAD_NUMBER, CLEAN
 from tests.cli.runner import TIMEOUT, run
 
 BASH = shutil.which("bash")
-FAULTS = 3000
+FAULTS = 1200
 
 COUNTED: dict[str, Callable[[str], int]] = {
     "concise": lambda text: lines(text, r"bad\.keyxm:6:11: SYN002 .+"),

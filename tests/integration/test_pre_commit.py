@@ -14,7 +14,7 @@ import yaml
 from tests.integration.recipes import CLEAN, FAULTY, ROOT, SOURCE
 
 HOOKS = {hook["id"]: hook for hook in yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text(encoding="utf-8"))}
-PRE_COMMIT = Path(sys.executable).parent / "pre-commit"
+PRE_COMMIT = [sys.executable, "-m", "pre_commit"]
 
 
 @pytest.fixture
@@ -38,7 +38,7 @@ def run(folder: Path, hook: str, **files: str) -> subprocess.CompletedProcess[st
         (folder / name.replace("__", ".")).write_text(text)
     subprocess.run(["git", "add", "-A"], cwd=folder, check=True)  # noqa: S607 - the git of the path
     env = {**os.environ, "PYTHONPATH": str(SOURCE), "PRE_COMMIT_HOME": str(folder.parent / "home")}
-    command = [str(PRE_COMMIT), "run", hook, "--all-files", "--color", "never"]
+    command = [*PRE_COMMIT, "run", hook, "--all-files", "--color", "never"]
     return subprocess.run(command, cwd=folder, env=env, capture_output=True, text=True, check=False, timeout=60)
 
 
@@ -81,7 +81,7 @@ def test_a_commit_is_held_up_by_a_finding_and_by_a_layout(repository: Path) -> N
 
     assert git("add", "-A").returncode == 0
     assert git("commit", "-q", "-m", "before the hooks").returncode == 0
-    subprocess.run([str(PRE_COMMIT), "install"], cwd=repository, env=env, check=True, capture_output=True)
+    subprocess.run([*PRE_COMMIT, "install"], cwd=repository, env=env, check=True, capture_output=True)
     deck = repository / "new.keyxm"
     deck.write_text(FAULTY)
     git("add", "new.keyxm")

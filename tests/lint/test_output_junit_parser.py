@@ -18,7 +18,7 @@ ODD = CLEAN.replace(" 100.0, 1025.0, 9.81", " 100.0, 10\x1b[31m\x00<&\"']]>, 9.8
 @pytest.fixture(scope="module")
 def opened(tmp_path_factory: pytest.TempPathFactory) -> JUnitXml:
     folder = tmp_path_factory.mktemp("decks")
-    decks = {"a clean.keyxm": CLEAN, "bad & <ü>.keyxm": BAD_NUMBER, "odd.keyxm": ODD}
+    decks = {"a clean.keyxm": CLEAN, "bad & 'ü'.keyxm": BAD_NUMBER, "odd.keyxm": ODD}
     for name, text in decks.items():
         (folder / name).write_text(text, encoding="utf-8")
     with pytest.MonkeyPatch.context() as patch:
@@ -55,16 +55,16 @@ def test_the_counts_are_those_of_the_cases(opened: JUnitXml) -> None:
 
 
 def test_names_are_those_of_files_and_rules(opened: JUnitXml) -> None:
-    assert [suite.name for suite in suites(opened)] == ["a clean.keyxm", "bad & <ü>.keyxm", "odd.keyxm"]
+    assert [suite.name for suite in suites(opened)] == ["a clean.keyxm", "bad & 'ü'.keyxm", "odd.keyxm"]
     clean, bad, *_ = cases(opened)
     assert (clean.classname, clean.name, clean.is_passed) == ("a clean.keyxm", "mudline", True)
-    assert (bad.classname, bad.name, bad.is_passed) == ("bad & <ü>.keyxm", "SYN002 bad-number 6:11", False)
+    assert (bad.classname, bad.name, bad.is_passed) == ("bad & 'ü'.keyxm", "SYN002 bad-number 6:11", False)
 
 
 def test_texts_tell_place_and_message_in_both_places(opened: JUnitXml) -> None:
     (failure,) = failures(cases(opened)[1])
     assert failure.type == "error"
-    assert str(failure.message).startswith("bad & <ü>.keyxm:6:11: 'ten' is no number")
+    assert str(failure.message).startswith("bad & 'ü'.keyxm:6:11: 'ten' is no number")
     assert failure.text == failure.message
 
 
