@@ -117,7 +117,7 @@ class _Reader:
         if raw.head:
             self.origin.heads[Where(index)] = trimmed(self.text, *raw.head.span)
         if raw.name not in catalogue.SECTIONS:
-            self.findings.unknown_section(raw.name, Where(index))
+            self.findings.unknown_section(raw.name, Where(index), self.origin.heads.get(Where(index)))
         self._stray(raw.leaves, f"of ${raw.name}")
         for leaf in raw.leaves:
             line = self._lines(leaf.span)
@@ -154,7 +154,7 @@ class _Reader:
     def _opaque(self, section: Section, where: Where, raw: RawBlock) -> None:
         lines = [line for leaf in raw.leaves for line in self._lines(leaf.span)]
         section.blocks.append(Opaque(keyword=raw.name, lines=lines))
-        self.findings.no_model(raw.name, section.name, where)
+        self.findings.no_model(raw.name, section.name, where, self.origin.heads[where])
 
     def _truncated(self) -> None:
         """A fault in the very last token of a file without a last line end means that the file was cut."""

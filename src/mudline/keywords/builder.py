@@ -12,7 +12,7 @@ from mudline.keywords.grammar import ROW, Content, Node
 from mudline.keywords.model import Block, ListRow, Part, Record, Slot, layout, row_format
 from mudline.keywords.places import Path, Places
 from mudline.keywords.tables import TableBuilder
-from mudline.keywords.text import UnreadableError, Value, decimal_comma, read_value, suggestion
+from mudline.keywords.text import UnreadableError, Value, decimal_comma, hint, instead, nearest, read_value
 from mudline.syntax.fields import Field, Group, read_line, split, trimmed
 from mudline.syntax.rows import blank_separated
 
@@ -132,9 +132,10 @@ class Builder:
             slot = found.keys.get(group.key)
             if slot is None:
                 expected = ", ".join(f"{key}=" for key in found.keys)
-                hint = suggestion(group.key, found.keys)
-                message = f"{group.key}= does not belong on this line{hint}: expected {expected}"
-                self.damage(path, Problem(SYN004, message, group.span))
+                near = nearest(group.key, found.keys)
+                message = f"{group.key}= does not belong on this line{hint(near)}: expected {expected}"
+                key = trimmed(self.text, group.span.start, self.text.find("=", group.span.start))
+                self.damage(path, Problem(SYN004, message, group.span, repair=instead(near, key)))
             elif slot.json in built.values:
                 self.damage(path, Problem(SYN001, f"{group.key}= is given twice", group.span))
             else:

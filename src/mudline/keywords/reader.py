@@ -16,7 +16,7 @@ from mudline.keywords.comments import CommentLine, attach
 from mudline.keywords.grammar import END, ROW, Content, Mismatch
 from mudline.keywords.model import Block, Layout, Part, layout, row_format
 from mudline.keywords.places import Places
-from mudline.keywords.text import shown, suggestion
+from mudline.keywords.text import hint, instead, nearest, shown, suggestion
 from mudline.syntax.fields import first_key, trimmed
 from mudline.syntax.rows import line_spans
 from mudline.syntax.tree import Kind, Leaf, RawBlock
@@ -133,9 +133,9 @@ class _Reader:
             self._setting(position, leaf.span, contents)
             return
         line = self.text[slice(*leaf.span)].rstrip("\r\n")
-        hint = suggestion(key, sorted(self.keys)) if key else ""
+        meant = suggestion(key, sorted(self.keys)) if key else ""
         message = (
-            f"{shown(line)} begins with C in column 1 and is read as a comment (inferred){hint}: "
+            f"{shown(line)} begins with C in column 1 and is read as a comment (inferred){meant}: "
             "put a blank after the C, or indent the line if it is data"
         )
         self.problems.append(Problem(SYN013, message, trimmed(self.text, *leaf.span)))
@@ -150,8 +150,10 @@ class _Reader:
         allowed = ", ".join(f"{name}=" for name in known) or "no KEY= at all"
         body = trimmed(self.text, *span)
         end = self.text.find("=", body.start, body.end)
-        message = f"*{self.raw.name} has no setting {key}={suggestion(key, known)}: it takes {allowed}"
-        self.problems.append(Problem(SYN004, message, Span(body.start, end + 1)))
+        near = nearest(key, known)
+        message = f"*{self.raw.name} has no setting {key}={hint(near)}: it takes {allowed}"
+        repair = instead(near, trimmed(self.text, body.start, end))
+        self.problems.append(Problem(SYN004, message, Span(body.start, end + 1), repair=repair))
         self.lost += 1
 
     def _report(self, mismatch: Mismatch) -> None:

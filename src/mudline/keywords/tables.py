@@ -11,7 +11,7 @@ from mudline.diagnostics import Problem, Span
 from mudline.keywords.model import Slot, columns_of, row_format
 from mudline.keywords.places import Path
 from mudline.keywords.table import Column, Table, from_rows
-from mudline.keywords.text import decimal_comma, maybe_label, number_fault
+from mudline.keywords.text import decimal_comma, in_braces, maybe_label, number_fault
 from mudline.keywords.values import Equation, Kind, Label
 from mudline.syntax.fields import split
 from mudline.syntax.rows import Rows as RawRows
@@ -90,7 +90,7 @@ class TableBuilder:
         table.words[row, column] = label
         place = row_fields(self.builder.text, line, len(self.columns))[column].span
         message = f"{word!r} is no number: is it the label {label}? Labels stand in braces"
-        self.builder.problems.append(Problem(SYN016, message, place))
+        self.builder.problems.append(Problem(SYN016, message, place, repair=in_braces(word, place)))
         return True
 
     def _brackets(self, line: Span) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from mudline.codes import SYN002, SYN005, SYN015, SYN016
-from mudline.diagnostics import Problem, Span
+from mudline.diagnostics import Problem, Repair, Span
 from mudline.keywords.model import Slot, layout
 from mudline.keywords.values import Equation, Kind, Label
 from mudline.syntax.fields import Field, split
@@ -100,12 +100,32 @@ def shown(text: str) -> str:
     return repr(text if len(text) <= 60 else text[:57] + "...")
 
 
-def suggestion(word: str, known: Iterable[str]) -> str:
-    """` (did you mean X?)` for the nearest known word within two edits (one for a short word), or nothing."""
+def nearest(word: str, known: Iterable[str]) -> str:
+    """The nearest known word within two edits (one for a short word), or nothing."""
     wanted = word.casefold()
     most = 1 if len(wanted) < 5 else 2
     near = min(((edits(wanted, name.casefold(), most), name) for name in known), default=(most + 1, ""))
-    return f" (did you mean {near[1]}?)" if near[0] <= most else ""
+    return near[1] if near[0] <= most else ""
+
+
+def hint(near: str) -> str:
+    """` (did you mean X?)`, or nothing where no word is near."""
+    return f" (did you mean {near}?)" if near else ""
+
+
+def suggestion(word: str, known: Iterable[str]) -> str:
+    """` (did you mean X?)` for the nearest known word within two edits (one for a short word), or nothing."""
+    return hint(nearest(word, known))
+
+
+def instead(near: str, span: Span) -> Repair | None:
+    """The repair that puts the word that was meant in the place of another; None where no word is near."""
+    return Repair("unsafe", f"write {near}", ((span, near),)) if near else None
+
+
+def in_braces(text: str, span: Span) -> Repair:
+    """The repair that makes a label of a text."""
+    return Repair("unsafe", "put the label in braces", ((span, "{" + text + "}"),))
 
 
 def edits(one: str, other: str, most: int) -> int:
@@ -147,8 +167,9 @@ def _choice(field: Field, slot: Slot) -> str:
     known = list(slot.choices)
     known = [*(["a number"] if slot.kind else []), *known, *([layout(slot.row).wanted] if slot.row else [])]
     listed = ", ".join(known[:-1]) + f" or {known[-1]}" if len(known) > 1 else known[0]
-    message = f"{shown(field.text)} is not allowed for {slot.label}: expected {listed}{suggestion(word, known)}"
-    raise UnreadableError(Problem(SYN005, message, field.span))
+    near = nearest(word, slot.choices)
+    message = f"{shown(field.text)} is not allowed for {slot.label}: expected {listed}{hint(near)}"
+    raise UnreadableError(Problem(SYN005, message, field.span, repair=instead(near, field.span)))
 
 
 def _whole(field: Field, number: float | None, slot: Slot) -> int:
@@ -169,5 +190,5 @@ def _ident(field: Field, number: float | None, slot: Slot, problems: list[Proble
     if braced is None:
         raise UnreadableError(Problem(SYN002, number_fault(field.text, slot.label), field.span))
     message = f"{shown(field.text)} is no number: is it the label {braced}? Labels stand in braces"
-    problems.append(Problem(SYN016, message, field.span))
+    problems.append(Problem(SYN016, message, field.span, repair=in_braces(field.text, field.span)))
     return braced

@@ -8,6 +8,7 @@ from mudline.codes import CRV001, CRV003, CRV011
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
+from mudline.linting.rules.curves.repairs import removal
 from mudline.scene.context import MOST_TOLD
 from mudline.scene.force_curves import clashes_and_repeats
 
@@ -123,7 +124,8 @@ def repeated_point(context: LintContext) -> Iterator[Problem]:
         for index in clashes_and_repeats(curve.points)[1][:MOST_TOLD].tolist():
             ratio, force = curve.points[index].tolist()
             message = f"the point ({ratio!r}, {force!r}) stands here a second time: it counts once; remove it"
-            yield Problem(CRV004, message, where=curve.point(index))
+            repair = removal(context.text, curve, index) if context.text else None
+            yield Problem(CRV004, message, where=curve.point(index), repair=repair)
 
 
 @rule(CRV011)

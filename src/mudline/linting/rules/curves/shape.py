@@ -9,6 +9,7 @@ import numpy as np
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
+from mudline.linting.rules.curves.repairs import sorting
 from mudline.scene.context import MOST_TOLD
 from mudline.scene.force_curves import SceneCurve, clashes_and_repeats
 from mudline.scene.model import Scene
@@ -57,7 +58,8 @@ def unsorted_points(context: LintContext) -> Iterator[Problem]:
         for index in (np.flatnonzero(ratios[1:] < ratios[:-1])[:1] + 1).tolist():
             before, ratio = ratios[index - 1 : index + 1].tolist()
             message = f"ratio {ratio!r} comes after {before!r}: legal, the points are sorted; put them in order"
-            yield Problem(CRV002, message, where=curve.point(index))
+            repair = sorting(context.text, curve) if context.text else None
+            yield Problem(CRV002, message, where=curve.point(index), repair=repair)
 
 
 @rule(CRV005)

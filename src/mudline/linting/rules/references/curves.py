@@ -13,6 +13,7 @@ from mudline.keywords.text import shown
 from mudline.keywords.values import Equation
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
+from mudline.linting.rules.references.removal import removal
 from mudline.syntax.rows import read_number
 
 if TYPE_CHECKING:
@@ -108,7 +109,8 @@ def unused_curve(context: LintContext) -> Iterator[Problem]:
             told.add(name)
             number = "; a name that reads as a number is taken for the number" if read_number(name) is not None else ""
             message = f"curve {shown(curve.name)} is not used: name it in a STIFFNESS=, or remove it{number}"
-            yield Problem(REF003, message, where=curve.title)
+            repair = removal(context.text, curve.where) if context.text else None
+            yield Problem(REF003, message, where=curve.title, repair=repair)
 
 
 def _chosen_elsewhere(context: LintContext) -> bool:
