@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from mudline.deck.json_form import to_json
 from mudline.deck.loading import load_bytes
 from mudline.linting.context import LintContext
 from mudline.linting.engine import lint_bytes
@@ -113,6 +114,8 @@ def _spoilt(draw: st.DrawFn, line: str) -> str:
         line = line.replace("E", draw(st.sampled_from("EDd")))
         part = draw(st.sampled_from([",", ", "])) if draw(st.booleans()) else draw(blanks)
         line = draw(blanks) + line.strip().replace(", ", part)
+    elif line.startswith(" GEN"):
+        line = line.replace(", ", draw(blanks))
     return line + draw(st.sampled_from(["", "", " ", "\t", "  "]))
 
 
@@ -233,6 +236,20 @@ def test_names_with_blanks_are_no_numbers_parted_by_blanks() -> None:
     assert found("$MODEL\n*OCEAN\n 500.0 1025.0-\n", "STY004") == []
 
 
+def test_numbers_behind_a_key_are_parted_by_blanks_too() -> None:
+    text = "$MODEL\n*ELEMENT SETS\n SET=1 2\n GEN= 1  11 2 \n GEN=1, 4\n"
+    assert found(text, "STY004") == [("STY004", 4, 7)]
+    assert mended(text, "STY004") == text.replace("1  11 2", "1,  11, 2")
+
+
+def test_many_names_of_numbers_are_looked_at_in_no_time() -> None:
+    text = "$MODEL\n*ELEMENT SETS\n" + " SET=1 2\n 1, 2\n" * 5000
+    context = LintContext(load_bytes(text.encode(), "deck.keyxm"))
+    start = perf_counter()
+    assert [problem for rule in STYLE for problem in rule.check(context)] == []
+    assert perf_counter() - start < 1.0
+
+
 def test_heads_are_mended_in_the_preamble_and_at_the_very_beginning() -> None:
     assert mended(" $model\n\t*Ocean\n 500.0\n", "STY005", "STY006") == "$MODEL\n*OCEAN\n 500.0\n"
     assert found(" *ocean\n", "STY005", "STY006") == [("STY005", 1, 2), ("STY006", 1, 2)]
@@ -246,8 +263,8 @@ def test_trailing_blanks_go_from_every_line_that_is_not_kept() -> None:
 
 
 def test_a_document_has_no_style() -> None:
-    data = b'{"mudline": 1}'
-    assert [one for one in lint_bytes(data, "deck.json", STYLE) if one.code in CODES] == []
+    data = to_json(load_bytes(GOOD.encode(), "deck.keyxm")).encode()
+    assert lint_bytes(data, "deck.json", STYLE) == []
 
 
 def test_a_suppressed_line_stays_as_it_is() -> None:

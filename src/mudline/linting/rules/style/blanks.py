@@ -14,7 +14,7 @@ from mudline.linting.registry import Check, rule
 from mudline.linting.rules.style.lines import data_leaves, first_of_lines, first_told, line_around, placed_leaves
 from mudline.syntax.fields import Group, read_line, trimmed
 from mudline.syntax.rows import blank_separated
-from mudline.syntax.tree import Kind
+from mudline.syntax.tree import Kind, Leaf
 
 STY001 = Code("STY001", "tab-character", Severity.WARNING)
 STY004 = Code("STY004", "blank-separated", Severity.WARNING)
@@ -23,8 +23,10 @@ STY007 = Code("STY007", "trailing-blank", Severity.INFO)
 _TAB_WIDTH = 8
 _TABS = re.compile(r"\t+")
 _NUMERALS = r"[-+.0-9][-+.0-9eEdD]*+"
-_BLANK_SEPARATED = re.compile(rf"^[ \t]*+{_NUMERALS}[ \t]++{_NUMERALS}[-+.0-9eEdD \t\r]*+$", re.MULTILINE)
-_GATE = re.compile(rf"\n[ \t]*+{_NUMERALS}[ \t]++{_NUMERALS}[-+.0-9eEdD \t\r]*+(?![^\n])")
+_ROW = rf"{_NUMERALS}[ \t]++{_NUMERALS}[-+.0-9eEdD \t\r]*+(?![^\n])"
+_BLANK_SEPARATED = re.compile(rf"^[ \t]*+{_ROW}", re.MULTILINE)
+_GATE = re.compile(rf"\n[ \t]*+{_ROW}")
+_BEHIND_KEY = re.compile(rf"=[ \t]*+(?={_ROW})")
 _GAP = re.compile(r"(?<=[^ \t])(?=[ \t]+[^ \t])")
 _TRAILING = re.compile(r"[ \t]++(?=\r?(?:\n|(?![^\n])))")
 _ENDINGS = (" \n", "\t\n", " \r", "\t\r")
@@ -142,22 +144,35 @@ def blank_separated_row(context: LintContext) -> Iterator[Problem]:
 
     Finds: 4:2
     """
-    if context.text and _GATE.search(context.text.source.unified):
-        yield from first_told(_without_commas(context.text))
+    if context.text:
+        source = context.text.source.unified
+        if _GATE.search(source) or _BEHIND_KEY.search(source):
+            yield from first_told(_without_commas(context.text))
 
 
 def _without_commas(text: TextOrigin) -> Iterator[Problem]:
     source = text.source.unified
-    for leaf, _ in data_leaves(text):
-        if leaf.kind is not Kind.RUN:
-            continue
-        for match in first_of_lines(_BLANK_SEPARATED, source, leaf.span):
-            row = trimmed(source, *match.span())
+    last: ReadBlock | None = None
+    values: set[Span] = set()
+    for leaf, read in data_leaves(text):
+        if read is not last:
+            last, values = read, set(read.places.spans.values())
+        for row in _rows(source, leaf, values):
             written = source[slice(*row)]
             if blank_separated(written):
                 repair = Repair("safe", "put commas between the numbers", ((row, _GAP.sub(",", written)),))
                 message = "the numbers are parted by blanks alone: put commas between them"
                 yield Problem(STY004, message, row, repair=repair)
+
+
+def _rows(source: str, leaf: Leaf, values: set[Span]) -> Iterator[Span]:
+    """The lines of a run, or what stands behind a KEY=, of numbers and blanks only; what is one value is a name."""
+    if leaf.kind is Kind.RUN:
+        yield from (trimmed(source, *match.span()) for match in first_of_lines(_BLANK_SEPARATED, source, leaf.span))
+    elif match := _BEHIND_KEY.search(source, *leaf.span):
+        row = trimmed(source, match.end(), leaf.span.end)
+        if row not in values:
+            yield row
 
 
 @rule(STY007, off=True)
