@@ -30,7 +30,7 @@ def test_a_result_names_its_rule_place_fix_and_fingerprint() -> None:
     (fix,) = result["fixes"]
     assert fix["description"] == {"text": "write it so"}
     assert fix["artifactChanges"] == [{"artifactLocation": location, "replacements": [replacement]}]
-    assert run["columnKind"] == "unicodeCodePoints"
+    assert (run["columnKind"], run["newlineSequences"]) == ("unicodeCodePoints", ["\r\n", "\r", "\n"])
     assert location["uriBaseId"] in run["originalUriBaseIds"]
     assert "fixes" not in run["results"][0]
 

@@ -36,6 +36,7 @@ def sarif(diagnostics: Iterable[Diagnostic], version: str) -> Iterator[str]:
     run = {
         "tool": {"driver": driver},
         "columnKind": "unicodeCodePoints",
+        "newlineSequences": ["\r\n", "\r", "\n"],
         "originalUriBaseIds": {_BASE: {"description": {"text": "the folder that the linter was run in"}}},
     }
     yield f'{json.dumps(head)[:-1]}, "runs": [\n{json.dumps(run)[:-1]}, "results": ['
