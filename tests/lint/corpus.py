@@ -67,7 +67,7 @@ class Expected:
 
 def decks() -> list[Path]:
     """All decks, by path."""
-    return sorted(path for path in CORPUS.rglob("*") if path.suffix in DECKS)
+    return sorted(path for path in CORPUS.rglob("*") if path.suffix.lower() in DECKS)
 
 
 def name_of(deck: Path) -> str:
