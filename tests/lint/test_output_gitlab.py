@@ -26,6 +26,8 @@ def test_paths_are_from_the_folder_of_the_job(tmp_path: Path, monkeypatch: pytes
     issues = json.loads("".join(gitlab(finding(file=file) for file in given)))
     paths = [issue["location"]["path"] for issue in issues]
     assert paths == ["decks/a.keyxm", "decks/a.keyxm", "../a.keyxm", given[3]]
+    (alone,) = json.loads("".join(gitlab([finding(file="decks/a.keyxm")])))
+    assert issues[0]["fingerprint"] == alone["fingerprint"]
 
 
 def test_fingerprints_stay_when_lines_move_and_are_unique() -> None:
