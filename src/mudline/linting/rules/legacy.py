@@ -7,8 +7,6 @@ from collections.abc import Iterator
 from mudline.diagnostics import Code, Problem, Repair, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
-from mudline.migration.refusals import refusals, surfaces
-from mudline.migration.rewriting import rewrite
 from mudline.syntax.edits import with_line_ends
 
 LEG001 = Code("LEG001", "superseded-keyword", Severity.INFO)
@@ -61,7 +59,12 @@ def superseded_keyword(context: LintContext) -> Iterator[Problem]:
 def _migration(context: LintContext) -> Repair | None:
     """What `mudline migrate` does, to all blocks at once; None where it refuses, or a second file is needed."""
     deck, text = context.deck, context.text
-    if text is None or context.scene.errors() or any(refusals(deck)):
+    if text is None or context.scene.errors():
+        return None
+    from mudline.migration.refusals import refusals, surfaces  # noqa: PLC0415 - few decks need it
+    from mudline.migration.rewriting import rewrite  # noqa: PLC0415 - few decks need it
+
+    if any(refusals(deck)):
         return None
     if any(surface.profile is not None for _, surface in surfaces(deck)):
         return None

@@ -17,39 +17,8 @@ from mudline.syntax.rows import line_spans
 _NO_PLAIN_NUMBERS = frozenset('["{')
 
 
-def sorting(text: TextOrigin, curve: SceneCurve) -> Repair | None:
-    """The rows in the order of their ratios.
-
-    None for a curve that could not be read whole, is very long or has equations, and where a comment would come to
-    stand beside another row than now.
-    """
-    if not curve.whole or (rows := _rows(text, curve)) is None or len(rows.lines) != len(curve.points):
-        return None
-    order = np.argsort(curve.points[:, 0], kind="stable")
-    if rows.parted_by(order):
-        return None
-    edits = [
-        (rows.lines[place], rows.source[slice(*rows.lines[row])])
-        for place, row in enumerate(order.tolist())
-        if place != row
-    ]
-    return Repair("safe", "put the points in order", tuple(edits)) if edits else None
-
-
-def removal(text: TextOrigin, curve: SceneCurve, index: int) -> Repair | None:
-    """A row less; None for a curve that is very long or has equations, as points that are equal now may differ then."""
-    rows = _rows(text, curve)
-    row = int(curve.rows[index])
-    if rows is None or row >= len(rows.lines):
-        return None
-    line = rows.lines[row]
-    following = rows.source.find("\n", line.end)
-    end = len(rows.source) if following < 0 else following + 1
-    return Repair("safe", "remove the point", ((Span(line.start, end), ""),))
-
-
 @dataclass(frozen=True, slots=True)
-class _Rows:
+class PlainRows:
     """The lines of a table, without blanks and line ends behind them; `before` is what its curve has above them."""
 
     source: str
@@ -69,7 +38,8 @@ class _Rows:
         return False
 
 
-def _rows(text: TextOrigin, curve: SceneCurve) -> _Rows | None:
+def plain_rows(text: TextOrigin, curve: SceneCurve) -> PlainRows | None:
+    """The rows of a curve; None where they are very many or have equations, which other parameters would change."""
     block = text.read.get((curve.where.section, curve.where.block))
     if block is None or len(curve.points) > MOST_TOLD:
         return None
@@ -79,6 +49,36 @@ def _rows(text: TextOrigin, curve: SceneCurve) -> _Rows | None:
         Span(line.start, line.start + len(source[slice(*line)].rstrip()))
         for line in chain.from_iterable(line_spans(source, run) for _, run in runs)
     ]
-    if not lines or not _NO_PLAIN_NUMBERS.isdisjoint(source[lines[0].start : lines[-1].end]):
+    if not lines or any(not _NO_PLAIN_NUMBERS.isdisjoint(source[slice(*line)]) for line in lines):
         return None
-    return _Rows(source, lines, source[block.places.find(curve.where.path).start : lines[0].start])
+    opening = block.places.find(curve.where.path).start
+    if opening >= lines[0].start:  # rows of *EMBEDMENT that stand under no SET=
+        opening = block.places.block.start
+    return PlainRows(source, lines, source[opening : lines[0].start])
+
+
+def sorting(text: TextOrigin, curve: SceneCurve) -> Repair | None:
+    """The rows in the order of their ratios.
+
+    None for a curve that could not be read whole, is very long or has equations, and where a comment would come to
+    stand beside another row than now.
+    """
+    if not curve.whole or (rows := plain_rows(text, curve)) is None or len(rows.lines) != len(curve.points):
+        return None
+    order = np.argsort(curve.points[:, 0], kind="stable")
+    if rows.parted_by(order):
+        return None
+    edits = [
+        (rows.lines[place], rows.source[slice(*rows.lines[row])])
+        for place, row in enumerate(order.tolist())
+        if place != row
+    ]
+    return Repair("safe", "put the points in order", tuple(edits)) if edits else None
+
+
+def removal(rows: PlainRows, row: int) -> Repair:
+    """A row less."""
+    line = rows.lines[row]
+    following = rows.source.find("\n", line.end)
+    end = len(rows.source) if following < 0 else following + 1
+    return Repair("safe", "remove the point", ((Span(line.start, end), ""),))
