@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterable
 from dataclasses import dataclass
 from difflib import unified_diff
 from pathlib import Path
@@ -34,12 +35,11 @@ class Expected:
     @classmethod
     def read(cls, text: str) -> Expected:
         """The content of a file; raises ValueError for an option that there is not."""
-        lines = text.splitlines()
-        heads = [line.removeprefix("# ").partition(": ") for line in lines if line.startswith("# ")]
+        heads = [line.removeprefix("# ").partition(": ") for line in text.splitlines() if line.startswith("# ")]
         unknown = {name for name, _, _ in heads} - set(OPTIONS)
         if unknown:
             raise ValueError(f"no such option: {', '.join(sorted(unknown))}")
-        findings = tuple(line for line in lines if not line.startswith("# "))
+        findings = tuple(line for line in text.splitlines() if not line.startswith("# "))
         return cls(tuple((name, words) for name, _, words in heads), findings)
 
     def option(self, name: str, default: str = "") -> str:
@@ -91,12 +91,17 @@ def diagnostics(data: bytes, deck: Path, options: Expected) -> list[Diagnostic]:
     return lint_bytes(data, deck.name, options.rules, folder=deck.parent, dialect=options.dialect)
 
 
-def findings(deck: Path, options: Expected) -> tuple[str, ...]:
-    """What the linter finds in a deck: `line:column: CODE severity message`."""
-    found = sorted(diagnostics(deck.read_bytes(), deck, options), key=lambda one: one.sort_key)
+def found_in(deck: Path) -> list[Diagnostic]:
+    """What the linter finds in a deck."""
+    return diagnostics(deck.read_bytes(), deck, expected(deck))
+
+
+def lines(found: Iterable[Diagnostic], deck: Path) -> tuple[str, ...]:
+    """The findings in a deck, in order: `line:column: CODE severity message`; its folder is `.` in messages."""
     here = deck.parent.as_posix()
     return tuple(
-        f"{one.line}:{one.column}: {one.code} {one.severity} {visible(one.message).replace(here, '.')}" for one in found
+        f"{one.line}:{one.column}: {one.code} {one.severity} {visible(one.message).replace(here, '.')}"
+        for one in sorted(found, key=lambda one: one.sort_key)
     )
 
 
@@ -121,7 +126,7 @@ def rewrite() -> list[str]:
     changes: list[str] = []
     for deck in decks():
         path, old = beside(deck), expected(deck)
-        before, after = old.text(), Expected(old.options, findings(deck, old)).text()
+        before, after = old.text(), Expected(old.options, lines(found_in(deck), deck)).text()
         if before != after or not path.exists():
             path.write_text(after, encoding="utf-8", newline="\n")
             name = name_of(deck)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from mudline.deck.loading import dump, form_of, load_bytes, load_path
+from mudline.deck.loading import dump, load_bytes, load_path
 from mudline.deck.model import Deck
 from mudline.diagnostics import DeckError, Diagnostic, Severity
 from mudline.formatting.document import formatted
@@ -42,19 +42,14 @@ def can_be_read(deck: Path) -> bool:
     return all(problem.weight is not Severity.ERROR for problem in found)
 
 
+found_in = cache(corpus.found_in)
 READABLE = [deck for deck in DECKS if can_be_read(deck)]
-KEYWORD = [deck for deck in DECKS if form_of(deck.name) == "keyword"]
+FIXABLE = [deck for deck in DECKS if any(one.fix for one in found_in(deck))]
 
 
 def counted(found: Iterable[Diagnostic]) -> Counter[str]:
     """How many findings each code has, but for those of style, which the layout of a text brings and takes."""
     return Counter(one.code for one in found if not one.code.startswith("STY"))
-
-
-@cache
-def found_in(deck: Path) -> list[Diagnostic]:
-    """The findings in a deck as it is."""
-    return corpus.diagnostics(deck.read_bytes(), deck, corpus.expected(deck))
 
 
 def errors(found: Iterable[Diagnostic]) -> int:
@@ -67,9 +62,9 @@ def errors(found: Iterable[Diagnostic]) -> int:
 @each_deck
 def test_a_deck_gives_the_findings_beside_it(deck: Path) -> None:
     assert corpus.beside(deck).exists(), "python -m tests.lint.corpus writes it"
-    options = corpus.expected(deck)
-    assert corpus.findings(deck, options) == options.findings
-    assert corpus.beside(deck).read_text(encoding="utf-8") == options.text()
+    given = corpus.expected(deck)
+    assert corpus.lines(found_in(deck), deck) == given.findings
+    assert corpus.beside(deck).read_text(encoding="utf-8") == given.text()
 
 
 @pytest.mark.parametrize("deck", GOOD, ids=corpus.name_of)
@@ -87,9 +82,10 @@ def test_every_rule_is_shown_by_a_deck() -> None:
     assert corpus.codes_not_shown() == NOT_SHOWN
 
 
-def test_the_corpus_is_large_and_a_good_part_of_it_is_good() -> None:
+def test_the_corpus_is_large_and_half_of_it_is_without_error() -> None:
+    sound = [deck for deck in DECKS if not errors(found_in(deck))]
     assert len(DECKS) >= 66
-    assert 0.3 < len(GOOD) / len(DECKS) < 0.7
+    assert 0.4 < len(sound) / len(DECKS) < 0.7
 
 
 # ------------------------------------------------------------------------------------------------------------ forms
@@ -124,7 +120,7 @@ def test_a_deck_with_an_error_of_reading_is_not_laid_out(deck: Path) -> None:
 # ------------------------------------------------------------------------------------------------------------ fixes
 
 
-@pytest.mark.parametrize("deck", KEYWORD, ids=corpus.name_of)
+@pytest.mark.parametrize("deck", FIXABLE, ids=corpus.name_of)
 @pytest.mark.parametrize("fixing", [Fixing.SAFE, Fixing.UNSAFE])
 def test_fixes_bring_no_error_and_are_soon_done(deck: Path, fixing: Fixing) -> None:
     data, options = deck.read_bytes(), corpus.expected(deck)
