@@ -8,6 +8,7 @@ from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
 from mudline.linting.rules.seabed.given import given, nothing, positive
+from mudline.linting.rules.seabed.replaced import friction_replaced
 
 SBD007 = Code("SBD007", "lateral-and-friction", Severity.WARNING)
 SBD013 = Code("SBD013", "legacy-friction-order", Severity.WARNING)
@@ -49,7 +50,8 @@ def lateral_and_friction(context: LintContext) -> Iterator[Problem]:
     """
     for entry in given(context):
         friction = entry.value("transverse")
-        if entry.type_ != "RIGID" and positive(entry.value("lateral")) and positive(friction):
+        both = entry.type_ != "RIGID" and positive(entry.value("lateral")) and positive(friction)
+        if both and not friction_replaced(context, entry):
             message = f"lateral resistance sets the transverse friction coefficient {friction!r} to zero: remove one"
             yield Problem(SBD007, message, where=entry.place("lateral"))
 
@@ -95,8 +97,8 @@ def unused_friction_stiffness(context: LintContext) -> Iterator[Problem]:
     """A friction stiffness is given in a direction whose coefficient is zero.
 
     Modal and frequency-domain runs put the stiffness in place of friction only where the coefficient is not zero; in
-    this direction the pipe is free, and the modes have less restraint than the deck seems to give. Give a coefficient,
-    or remove the stiffness.
+    this direction the pipe is free, and the modes have less restraint than the deck seems to give. The same holds for
+    *FRICTION of a load case or of modes. Give a coefficient, or remove the stiffness.
 
     Bad:
         $MODEL
@@ -119,9 +121,33 @@ def unused_friction_stiffness(context: LintContext) -> Iterator[Problem]:
     for entry in given(context):
         for direction in _DIRECTIONS:
             name = f"{direction}_stiffness"
-            if positive(entry.value(name)) and nothing(entry.value(direction)):
+            idle = positive(entry.value(name)) and nothing(entry.value(direction))
+            if idle and not friction_replaced(context, entry):
                 message = f"the {direction} friction stiffness is unused: the coefficient is 0; give one, or remove it"
                 yield Problem(SBD014, message, where=entry.place(name))
+    yield from _of_load_cases(context)
+
+
+def _of_load_cases(context: LintContext) -> Iterator[Problem]:
+    """Stiffnesses of *FRICTION in directions in which no place of the model has a coefficient."""
+    scene = context.scene
+    blocks = [found for section in ("LOAD CASE", "MODES") for found in scene.deck.blocks("FRICTION", section)]
+    if not blocks or scene.context.restart or "SEABED FRICTION" in scene.deck.keywords():
+        return
+    entries = list(given(context))
+    if not entries or any(scene.context.disturbed(entry.where) for entry in entries):
+        return
+    for direction in _DIRECTIONS:
+        if not all(nothing(entry.value(direction)) for entry in entries):
+            continue
+        for where, block in blocks:
+            stiffness = getattr(block, direction, None)
+            if isinstance(stiffness, float | int) and stiffness > 0.0:
+                message = (
+                    f"the {direction} friction stiffness is unused: the seabed has no {direction} coefficient; give "
+                    "one, or remove it"
+                )
+                yield Problem(SBD014, message, where=where._replace(path=(direction,)))
 
 
 @rule(SBD015)
@@ -180,6 +206,7 @@ def unused_characteristic_length(context: LintContext) -> Iterator[Problem]:
     for entry in given(context):
         for direction in _DIRECTIONS if entry.legacy else ():
             name = f"{direction}_length"
-            if positive(entry.value(name)) and positive(entry.value(f"{direction}_mobilisation")):
+            both = positive(entry.value(name)) and positive(entry.value(f"{direction}_mobilisation"))
+            if both and not friction_replaced(context, entry):
                 message = f"the {direction} mobilisation length overrides this characteristic length: remove one"
                 yield Problem(SBD020, message, where=entry.place(name))
