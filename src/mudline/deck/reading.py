@@ -154,6 +154,11 @@ class _Reader:
     def _opaque(self, section: Section, where: Where, raw: RawBlock) -> None:
         lines = [line for leaf in raw.leaves for line in self._lines(leaf.span)]
         section.blocks.append(Opaque(keyword=raw.name, lines=lines))
+        head = self.origin.heads[where]
+        if head.end == len(self.text) and catalogue.begins_keyword(raw.name):
+            message = f"the file ends inside *{raw.name}: it seems to be cut off, add what is missing"
+            self.problems.append(Problem(SYN014, message, head))
+            return
         self.findings.no_model(raw.name, section.name, where, self.origin.heads[where])
 
     def _truncated(self) -> None:

@@ -78,7 +78,8 @@ class _Reader:
         contents = self._contents()
         node, mismatches = grammar.parse(self.declared.rule, contents)
         places = Places(self.text, trimmed(self.text, *self.raw.head.span))
-        builder = Builder(self.text, places, self.problems, slashes=self.declared.slashes)
+        end = len(self.text.rstrip(" \t")) if self.last and not self.text.endswith("\n") else -1
+        builder = Builder(self.text, places, self.problems, slashes=self.declared.slashes, end=end)
         builder.damaged = any(mismatch.missing for mismatch in mismatches)
         for mismatch in mismatches:
             self._report(mismatch)

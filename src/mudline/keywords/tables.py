@@ -111,10 +111,17 @@ class TableBuilder:
                 self.builder.problems.append(problem)
             wanted = row_format([column.label for column in self.columns], required)
             place = Span(fields[0].span.start, fields[-1].span.end)
-            self.builder.damage(self.path[:-1], Problem(SYN003, f"{fault} (`{wanted}`)", place))
+            message = f"{fault} (`{wanted}`)"
+            if len(fields) < sum(required):
+                self.builder.short(self.path[:-1], message, place)
+            else:
+                self.builder.damage(self.path[:-1], Problem(SYN003, message, place))
             return
         place = row_fields(text, line, len(self.columns))[column].span
         word = raw.words.get((row, column))
         if word:
             fault = number_fault(word, self.columns[column].label)
-        self.builder.damage(self.path[:-1], Problem(SYN003 if word == "" else SYN002, fault, place))
+        if word == "":
+            self.builder.short(self.path[:-1], fault, place)
+        else:
+            self.builder.damage(self.path[:-1], Problem(SYN002, fault, place))

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
+from itertools import pairwise
 
 from mudline.codes import SYN002, SYN005, SYN015, SYN016
 from mudline.diagnostics import Problem, Repair, Span
@@ -14,6 +16,8 @@ from mudline.syntax.rows import read_number, spells_number
 Value = float | int | str | None
 LARGEST_WHOLE = 2.0**53
 _REAL = (Kind.REAL, Kind.REAL_OR_NAME)
+_WHOLE = re.compile(r"[-+]?[0-9]+")
+_FRACTION = re.compile(r"[0-9]+(?:[eEdD][-+]?[0-9]+)?")
 
 
 class UnreadableError(Exception):
@@ -76,6 +80,11 @@ def _looks_numeric(text: str) -> bool:
 
 def _not_finite(text: str) -> bool:
     return text.lower().lstrip("+-") in ("nan", "inf", "infinity")
+
+
+def cut_number(text: str) -> bool:
+    """Whether a text is the beginning of a number: a sign, or digits with an exponent that has none."""
+    return text in ("+", "-") or (text.rstrip("+-")[-1:] in ("e", "E", "d", "D") and spells_number(f"{text}0"))
 
 
 def number_fault(text: str, label: str) -> str:
@@ -158,6 +167,27 @@ def decimal_comma(values: list[Field], kinds: list[Kind | None], fewest: int) ->
             message = f"decimal comma? {one.text},{two.text} is two fields here: write {one.text}.{two.text}"
             return Problem(SYN015, message, one.span._replace(end=two.span.end))
     return None
+
+
+def mixed_commas(values: list[Field], kinds: list[Kind | None], fewest: int) -> Problem | None:
+    """The finding about a row in which some commas have no blank beside them, between digits, and others have one.
+
+    One such pair may be a slip of the fingers; two of them where real numbers belong are decimal commas.
+    """
+    tight = [one.span.end + 1 == two.span.start for one, two in pairwise(values)]
+    if not any(tight) or all(tight):
+        return None
+    pairs = [at for at, joined in enumerate(tight) if joined]
+    alone = all(later - at > 1 for at, later in pairwise(pairs))
+    halves = all(_WHOLE.fullmatch(values[at].text) and _FRACTION.fullmatch(values[at + 1].text) for at in pairs)
+    places = [at - before for before, at in enumerate(pairs)]
+    if len(pairs) < 2 or not alone or not halves or len(values) - len(pairs) < fewest:
+        return None
+    if any(kinds[place] not in _REAL for place in places):
+        return None
+    one, two = values[pairs[0] : pairs[0] + 2]
+    message = f"decimal comma? {one.text},{two.text} is two fields here: write {one.text}.{two.text}"
+    return Problem(SYN015, message, one.span._replace(end=two.span.end))
 
 
 def _choice(field: Field, slot: Slot) -> str:

@@ -103,8 +103,8 @@ def _curve(context: Context, name: str | None, table: Table, where: Where, *, em
             fault = str(error) if len(keep) == len(table) else "the slope to this point cannot be held by a float64"
             context.tell(_CODES[error.code], f"{fault}: correct the point", found.point(int(keep[error.index])))
         elif whole:
-            count = min(len(points), 1)
-            message = f"curve {shown(found.name)} has {count or 'no'} distinct point: it needs at least two"
+            has = "one distinct point" if len(points) else "no point"
+            message = f"curve {shown(found.name)} has {has}: it needs at least two"
             context.tell(CRV001, message, where)
         return found
     return replace(found, curve=curve)
