@@ -193,7 +193,7 @@ def test_short_mobilisation_of_friction_that_acts() -> None:
 @pytest.mark.parametrize("section", ["LOAD CASE", "MODES"])
 @pytest.mark.parametrize(
     ("friction", "expected"),
-    [(" FRICTION=0.3, 0.6\n", 0), (" FRICTION=0.3, 0.0\n", 1), ("", 2), (" FRICTION=x, 0.0\n", 0)],
+    [(" FRICTION=0.3, 0.6\n", 0), (" FRICTION=0.3, 0.0\n", 1), ("", 2), (" FRICTION=x, 0.0\n", 1)],
 )
 def test_stiffness_of_a_load_case_needs_a_coefficient(section: str, friction: str, expected: int) -> None:
     text = PIPE + LINEAR + friction + f"${section}\n*FRICTION\n 500.0, 250.0\n"

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
-from mudline.linting.rules.seabed.given import given, nothing, positive
+from mudline.linting.rules.seabed.given import absent, given, positive
 from mudline.linting.rules.seabed.replaced import friction_replaced
 
 SBD007 = Code("SBD007", "lateral-and-friction", Severity.WARNING)
@@ -121,7 +121,7 @@ def unused_friction_stiffness(context: LintContext) -> Iterator[Problem]:
     for entry in given(context):
         for direction in _DIRECTIONS:
             name = f"{direction}_stiffness"
-            idle = positive(entry.value(name)) and nothing(entry.value(direction))
+            idle = positive(entry.value(name)) and absent(context, entry, direction)
             if idle and not friction_replaced(context, entry):
                 message = f"the {direction} friction stiffness is unused: the coefficient is 0; give one, or remove it"
                 yield Problem(SBD014, message, where=entry.place(name))
@@ -135,10 +135,8 @@ def _of_load_cases(context: LintContext) -> Iterator[Problem]:
     if not blocks or scene.context.restart or "SEABED FRICTION" in scene.deck.keywords():
         return
     entries = list(given(context))
-    if not entries or any(scene.context.disturbed(entry.where) for entry in entries):
-        return
-    for direction in _DIRECTIONS:
-        if not all(nothing(entry.value(direction)) for entry in entries):
+    for direction in _DIRECTIONS if entries else ():
+        if not all(absent(context, entry, direction) for entry in entries):
             continue
         for where, block in blocks:
             stiffness = getattr(block, direction, None)
@@ -176,7 +174,7 @@ def extent_without_stiffness(context: LintContext) -> Iterator[Problem]:
     Finds: 6:15
     """
     for entry in given(context):
-        if positive(entry.value("suction_extent")) and nothing(entry.value("suction_stiffness")):
+        if positive(entry.value("suction_extent")) and absent(context, entry, "suction_stiffness"):
             message = "a suction zone without suction stiffness holds nothing: give the stiffness, or remove the extent"
             yield Problem(SBD015, message, where=entry.place("suction_extent"))
 

@@ -59,6 +59,10 @@ def positive(value: float | None) -> bool:
     return value is not None and value > 0.0
 
 
-def nothing(value: float | None) -> bool:
-    """Whether a value is absent or zero; one that could not be read is neither."""
-    return value is None or value == 0.0
+def absent(context: LintContext, entry: Given, name: str) -> bool:
+    """Whether the deck gives no value, or zero; of a line that could not be read whole nothing is said."""
+    value = entry.value(name)
+    place = entry.place(name)
+    line = place._replace(path=place.path[:-1])
+    resolving = context.scene.context
+    return value == 0.0 or (value is None and not resolving.disturbed(line) and not resolving.disturbed(entry.where))

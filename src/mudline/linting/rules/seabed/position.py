@@ -64,6 +64,8 @@ def short_mobilisation(context: LintContext) -> Iterator[Problem]:
     """
     scene = context.scene
     bed = scene.bed
+    if not any(length > 0.0 for given in bed.values for length in given.mobilisation):
+        return
     lengths, friction = bed.column("mobilisation"), bed.column("friction")
     friction[bed.column("lateral") > 0.0, 1] = 0.0  # a lateral spring takes its place
     if replacing := scene.extensions.get("SEABED FRICTION"):
