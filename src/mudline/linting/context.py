@@ -9,7 +9,9 @@ from functools import cached_property
 from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Code, Problem
+from mudline.linting.odd_curves import odd_curves
 from mudline.scene.build import resolve
+from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene
 
 
@@ -32,6 +34,11 @@ class LintContext:
     def scene(self) -> Scene:
         """The scene of the deck."""
         return resolve(self.deck)
+
+    @cached_property
+    def odd_curves(self) -> list[tuple[int, SceneCurve]]:
+        """The curves that rules about the shape of a curve have to look at, with their index in the table of laws."""
+        return odd_curves(self.scene.laws)
 
     @cached_property
     def _told(self) -> dict[str, list[Problem]]:

@@ -61,7 +61,7 @@ def steep_extrapolation(context: LintContext) -> Iterator[Problem]:
 
     Finds: 7:2
     """
-    for entry in context.scene.laws.curves:
+    for _, entry in context.odd_curves:
         if entry.curve is None or not entry.whole or entry.curve.slopes[-1] == 0.0:
             continue
         slopes = np.abs(entry.curve.slopes[entry.curve.slopes != 0.0])
@@ -107,7 +107,7 @@ def flat_last_segment(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:2
     """
-    for entry in context.scene.laws.curves:
+    for _, entry in context.odd_curves:
         if entry.curve is not None and entry.whole and entry.curve.slopes[-1] == 0.0:
             force = float(entry.curve.forces[-1])
             message = (

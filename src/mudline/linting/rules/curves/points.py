@@ -120,7 +120,7 @@ def repeated_point(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:2
     """
-    for curve in context.scene.laws.curves:
+    for _, curve in context.odd_curves:
         repeats = clashes_and_repeats(curve.points)[1][:MOST_TOLD].tolist()
         rows = plain_rows(context.text, curve) if context.text and repeats else None
         for index in repeats:

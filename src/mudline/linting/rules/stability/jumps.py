@@ -58,7 +58,7 @@ def stiff_jump(context: LintContext) -> Iterator[Problem]:
 
     Finds: 5:2
     """
-    for entry in context.scene.laws.curves:
+    for _, entry in context.odd_curves:
         if entry.curve is not None and entry.whole:
             yield from _inside(entry, entry.curve.ratios, entry.curve.slopes)
     yield from _beside(context.scene)
@@ -83,6 +83,8 @@ def _beside(scene: Scene) -> Iterator[Problem]:
     grants = scene.laws.grants
     told: set[tuple[int, int]] = set()
     linear, curved = _neighbours(scene)
+    if not linear.size:
+        return
     extremes = np.array([*map(_extremes, scene.laws.curves), (np.nan, np.nan)])
     curve_of = np.array([*(grant.curve for grant in grants), -1], dtype=np.intp)
     stiffness = np.array([*(grant.stiffness for grant in grants), np.nan])[scene.laws.of_element[linear]]
