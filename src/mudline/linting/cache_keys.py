@@ -40,7 +40,7 @@ def stands_alone(name: str, data: bytes) -> bool:
 def program() -> str:
     """What the program is: its version, its files as they are installed, and the libraries it reads decks with."""
     words = [__version__, *(f"{name} {_version(name)}" for name in _LIBRARIES)]
-    for root in {Path(__file__).parents[1], grammar_file("").parent}:
+    for root in {Path(__file__).parents[1], grammar_file("deck.lark").parent}:
         for folder, _, names in os.walk(root):
             words += (_state(os.path.join(folder, name)) for name in names if not name.endswith(".pyc"))  # noqa: PTH118
     words.sort()
