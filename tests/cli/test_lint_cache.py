@@ -208,10 +208,10 @@ def test_places_of_the_systems(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) 
     assert cache_files.cache_folder() == tmp_path / "mudline"
     monkeypatch.delenv("XDG_CACHE_HOME")
     monkeypatch.setattr(Path, "home", lambda: tmp_path)
-    monkeypatch.setattr(cache_files.sys, "platform", "linux")
+    monkeypatch.setattr("sys.platform", "linux")
     assert cache_files.cache_folder() == tmp_path / ".cache" / "mudline"
-    monkeypatch.setattr(cache_files.sys, "platform", "darwin")
+    monkeypatch.setattr("sys.platform", "darwin")
     assert cache_files.cache_folder() == tmp_path / "Library" / "Caches" / "mudline"
-    monkeypatch.setattr(cache_files.sys, "platform", "win32")
+    monkeypatch.setattr("sys.platform", "win32")
     monkeypatch.setenv("LOCALAPPDATA", str(tmp_path))
     assert cache_files.cache_folder() == tmp_path / "mudline" / "Cache"
