@@ -14,6 +14,7 @@ SUCTION = "*SEABED SUCTION\n SET=ALL\n"
 OCEAN = "*OCEAN\n 500, 1025, 9.81\n"
 HEAVY_WATER = "*OCEAN\n 500, 9000, 9.81\n"
 FLEXIBLE = "*GEOMETRIC SETS\n OPTION=FLEXIBLE\n SET=ALL\n 1E4, 1E4, 1E6, 1E8, 92.0, 0.9, 0.2, 0.3, 0.3, 0.3\n"
+AREA = "*GEOMETRIC SETS\n OPTION=RIGID\n SET=ALL\n 207.0E9, 79.6E9, 0.25, 0.22, 7850.0, 0.001\n"
 CHAIN = "*GEOMETRIC SETS\n OPTION=MOORING\n SET=ALL\n 1E8, 200.0, 0.1\n"
 PULLING = "*SEABED STIFFNESS\n CURVE=c\n 0, 0\n 1, -5\n" + PROPERTIES + " STIFFNESS=c\n"
 TRENCH = "*SEABED TRENCH\n SET=ALL\n GEOMETRY=0.5, 1.0, 3.0\n PEAK=2000\n"
@@ -57,6 +58,7 @@ TRENCH = "*SEABED TRENCH\n SET=ALL\n GEOMETRY=0.5, 1.0, 3.0\n PEAK=2000\n"
         ("EXT009", OCEAN + LINEAR + UNLOADING + "*SEABED CONTACT\n SET=ALL\n SMOOTHING=AUTO\n", 1),
         ("EXT009", LINEAR + UNLOADING + "*SEABED CONTACT\n SET=ALL\n SMOOTHING=0.01\n", 1),
         ("EXT009", LINEAR + UNLOADING + "*SEABED CONTACT\n SET=ALL\n SMOOTHING=0.0\n", 0),
+        ("EXT009", OCEAN + AREA + LINEAR + UNLOADING + "*SEABED CONTACT\n SET=ALL\n", 0),
         ("EXT009", HEAVY_WATER + LINEAR + UNLOADING + "*SEABED CONTACT\n SET=ALL\n", 0),
         ("EXT009", OCEAN + FLEXIBLE + LINEAR + UNLOADING + "*SEABED CONTACT\n SET=ALL\n", 1),
         ("EXT009", OCEAN + CHAIN + LINEAR + UNLOADING + "*SEABED CONTACT\n SET=ALL\n", 1),
@@ -86,6 +88,7 @@ def test_the_geometry_of_a_trench_is_told_once(geometry: str, code: str) -> None
 
 
 def test_an_unloading_stiffness_is_told_once() -> None:
+    assert len(found(PIPE + "*OCEAN\n -5, 1025, 9.81\n", "SBD010")) == 1
     lines = PIPE + LINEAR + UNLOADING.replace("9000", "0.0")
     assert [one[0] for one in found(lines, "EXT009", "SBD010")] == ["EXT009"]
     assert [one[0] for one in found(lines + TRENCH.replace("2000", "-1"), "SBD010")] == ["SBD010"]

@@ -93,6 +93,7 @@ PROFILE = "*RIGID SURFACE\n 0.3, 0.6\n 0.0, 0.0\n 50.0, 0.0\n 100.0, -0.1\n"
         (RIGID + SLOPE + HELD + " 1, 1, 0.5\n", 1),
         (RIGID + SLOPE + HELD + " 1, 2\n 1, 1\n", 0),
         (RIGID + SLOPE + HELD + " 1, 3\n 99, 2\n {End}, 2\n", 0),
+        (RIGID + SLOPE + HELD + " GEN=1, 5\n", 0),
         (RIGID + SLOPE + HELD + " GEN=1, 5, 2\n", 1),
         (RIGID + SLOPE + HELD + " GEN=1, 5, 2, 2, 0.0\n", 1),
         (RIGID + SLOPE + HELD + " GEN=1, 5, 0, 2, 0.0\n GEN=1, 5, 1, 3, 0.0\n", 0),
