@@ -38,9 +38,10 @@ def decoded(data: bytes, file: str, form: str) -> str:
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        line = data.count(b"\n", 0, error.start) + 1
-        message = f"byte 0x{data[error.start]:02X} is not UTF-8: {form} files are"
-        raise refusal(file, message, Range(line, 1, line, 1)) from error
+        before = Source("", error.object[: error.start].decode())
+        line, column = before.position(len(before.text))
+        message = f"byte 0x{error.object[error.start]:02X} is not UTF-8, which {form} has to be: save the file as UTF-8"
+        raise refusal(file, message, Range(line, column, line, column + 1)) from error
 
 
 def from_document(document: object, file: str, locate: Locate) -> Deck:

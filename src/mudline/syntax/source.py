@@ -87,7 +87,8 @@ def _refusal(body: bytes) -> str:
     sample = body[:_SAMPLE]
     strange = len(sample) - len(sample.translate(None, bytes({*range(9), 11, *range(14, 26), *range(27, 32), 127})))
     if strange > max(_BINARY_SHARE * len(sample), _FEW):
-        return f"the file looks like binary data ({strange} control characters in its first {len(sample)} bytes)"
+        share = f"{strange} control characters in its first {len(sample)} bytes"
+        return f"the file looks like binary data ({share}): choose the keyword file, or save it as text"
     return ""
 
 
