@@ -48,7 +48,7 @@ class ReadBlock:
     @property
     def unpublished(self) -> bool:
         """Whether the lines may have a form that is not public, so that they are kept as they are."""
-        return any(problem.code in type(self.model).unpublished for problem in self.problems)
+        return bool(self.problems) and self.model.other_form([problem.code for problem in self.problems])
 
 
 class BlockReader(Protocol):
