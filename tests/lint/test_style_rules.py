@@ -216,12 +216,26 @@ def test_a_tab_in_a_name_is_found_and_left() -> None:
 
 @pytest.mark.parametrize(
     ("line", "after"),
-    [("\t1,\t2", "        1,      2"), (" 1,\t\t2\t", " 1,             2" + " " * 7), (" SET=\tA", " SET=   A")],
+    [
+        ("\t1,\t2", "        1,      2"),
+        (" 1,\t\t2\t", " 1,             2"),
+        (" SET=\tA", " SET=   A"),
+        (" 1, 2 \t ", " 1, 2"),
+    ],
 )
 def test_tabs_become_blanks_up_to_the_next_stop(line: str, after: str) -> None:
     text = f"$MODEL\n*ELEMENT SETS\n SET=x\n 1\n{line}\n" + (" 1, 2\n" if "SET" in line else "")
     text = text.replace(" 1\n", "" if "SET" not in line else " 1\n", 1)
     assert mended(text, "STY001") == text.replace(line, after)
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r", ""])
+def test_a_tab_at_the_end_of_a_line_goes_with_the_blanks_beside_it(end: str) -> None:
+    text = f"$MODEL\n*OCEAN\n 500.0 \t \t{end}".replace("\n", end or "\n")
+    (found_one,) = lint_bytes(text.encode(), "deck.keyxm", select(["STY001"]))
+    assert found_one.fix
+    assert found_one.fix.message == "remove it"
+    assert mended(text, "STY001") == text.replace(" \t \t", "")
 
 
 def test_a_tab_in_a_key_is_left_and_tabs_in_comments_do_not_count() -> None:

@@ -53,8 +53,8 @@ def tab_character(context: LintContext) -> Iterator[Problem]:
     """A line with data holds a TAB.
 
     Programs differ in what they make of it: some take it for one blank, some for as many as an editor shows, some for
-    a character of a name or stop. Write blanks. The fix puts as many as reach the next column that 8 divides; where a
-    TAB stands inside a name or an equation, it is left to you.
+    a character of a name or stop. Write blanks. The fix puts as many as reach the next column that 8 divides, and none
+    at the end of a line; where a TAB stands inside a name or an equation, it is left to you.
 
     Bad:
         $MODEL
@@ -95,14 +95,17 @@ def _tabs(text: TextOrigin) -> Iterator[Problem]:
 
 
 def _spread(source: str, line: Span, read: ReadBlock) -> Repair | None:
-    """Blanks for the tabs of a line; None where one stands inside a value."""
+    """Blanks for the tabs of a line, nothing for those at its end; None where one stands inside a value."""
     groups = read_line(source, line, slashes=type(read.model).slashes).groups
     if any(_holds_tab(source, group) for group in groups):
         return None
-    body = source[slice(*line)]
+    body = source[slice(*line)].rstrip("\r")
+    inked = len(body.rstrip(" \t"))
     first, last = body.index("\t"), body.rindex("\t") + 1
-    new = body[:last].expandtabs(_TAB_WIDTH)[first:]
-    return Repair("safe", "put blanks in its place", ((Span(line.start + first, line.start + last), new),))
+    start, end = min(first, inked), last if last <= inked else len(body)
+    new = body[: min(last, inked)].expandtabs(_TAB_WIDTH)[start:]
+    message = "put blanks in its place" if new else "remove it"
+    return Repair("safe", message, ((Span(line.start + start, line.start + end), new),))
 
 
 def _holds_tab(source: str, group: Group) -> bool:
