@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import argparse
 import sys
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -139,8 +140,10 @@ def rewrite() -> list[str]:
     return changes
 
 
-def main() -> None:
+def main(arguments: list[str] | None = None) -> None:
     """Write the findings anew, and tell what changed."""
+    summary = "Write the findings beside every deck of the corpus anew. There are no arguments."
+    argparse.ArgumentParser(prog="python -m tests.lint.corpus", description=summary).parse_args(arguments)
     for line in rewrite():
         sys.stdout.write(f"{line}\n")
     sys.stdout.write(f"{len(decks())} decks; rules that none of them shows: {sorted(codes_not_shown())}\n")
