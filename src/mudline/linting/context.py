@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
 from functools import cached_property
+from typing import TypeVar, cast
 
 from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin
@@ -13,6 +14,8 @@ from mudline.linting.odd_curves import odd_curves
 from mudline.scene.build import resolve
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene
+
+T = TypeVar("T")
 
 
 @dataclass
@@ -24,6 +27,7 @@ class LintContext:
 
     deck: Deck
     dialect: str = "mudline"
+    _made: dict[object, object] = field(default_factory=dict, repr=False)
 
     @property
     def text(self) -> TextOrigin | None:
@@ -46,6 +50,12 @@ class LintContext:
         for problem in [*self.deck.problems, *self.scene.problems]:
             told.setdefault(problem.code.code, []).append(problem)
         return told
+
+    def once(self, make: Callable[[LintContext], T]) -> T:
+        """What a function makes of this deck, made once for all rules that ask."""
+        if make not in self._made:
+            self._made[make] = make(self)
+        return cast("T", self._made[make])
 
     def told(self, code: Code) -> Iterator[Problem]:
         """What reading and resolving the deck noticed under a code."""

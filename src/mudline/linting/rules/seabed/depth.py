@@ -63,6 +63,9 @@ def deep_node(context: LintContext) -> Iterator[Problem]:
     if not (scene.laws.types or scene.laws.grants) or scene.deck.keywords().intersection(_SOIL):
         return
     depth = depths(scene)
+    thinnest = np.fmin.reduce(scene.diameter, initial=np.inf)
+    if thinnest > 0.0 and np.fmax.reduce(depth, initial=-np.inf) <= _DEEPEST * thinnest:
+        return
     with np.errstate(over="ignore", invalid="ignore"):
         ends = scene.element_nodes
         known = (ends >= 0).all(axis=1) & (scene.diameter > 0.0)

@@ -42,8 +42,16 @@ class Given(NamedTuple):
         return (name,) if self.legacy else _OF_SET.get(name, ("friction", name))
 
 
-def given(context: LintContext) -> Iterator[Given]:
+def given(context: LintContext) -> list[Given]:
     """All of them: legacy surfaces first, then the sets of *SEABED PROPERTIES in the order of the file."""
+    return context.once(_found)
+
+
+def _found(context: LintContext) -> list[Given]:
+    return list(_each(context))
+
+
+def _each(context: LintContext) -> Iterator[Given]:
     deck = context.scene.deck
     for keyword in ("RIGID SURFACE", "ELASTIC SURFACE"):
         for where, block in deck.blocks(keyword):
