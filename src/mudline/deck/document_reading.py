@@ -19,7 +19,7 @@ from mudline.keywords.model import Block, Comment
 from mudline.keywords.reader import read_block
 from mudline.keywords.values import Text
 from mudline.syntax.source import Source
-from mudline.syntax.tree import Kind, Leaf, canonical_name, parse
+from mudline.syntax.tree import Kind, Leaf, canonical_name, mark_of, parse
 
 
 class DocumentOrigin(Nowhere):
@@ -112,9 +112,9 @@ class _Reader:
         """Raw lines, none of which opens a section or a block."""
         lines: list[str] = self._checked(list[Text], value, path, [])
         for index, line in enumerate(lines):
-            first = line.lstrip(" \t")[:1]
-            if first and first in openers:
-                self.faults.add((*path, index), f"a line that begins with {first} opens a section or a block")
+            mark = mark_of(line)
+            if mark and mark in openers:
+                self.faults.add((*path, index), f"a line that begins with {mark} opens a section or a block")
         return lines
 
     def _stray(self, lines: list[str], words: str, where: Where) -> tuple[list[str], list[str]]:

@@ -7,6 +7,7 @@ from mudline.diagnostics import Span
 from mudline.formatting.blocks import block_lines, comment_line
 from mudline.keywords.reader import ReadBlock
 from mudline.syntax.edits import TextEdit
+from mudline.syntax.source import CONTROLS
 from mudline.syntax.tree import Kind, Leaf, RawBlock
 
 _LINE_ENDS = ("\n", "\r\n", "\r")
@@ -78,7 +79,9 @@ class _Layout:
         self._go_on()
         written = self.text[slice(*leaf.span)].strip(" \t\r\n")
         known = written.isascii() or self.source.encoding == "utf-8"
-        self._put(leaf.span, f"{canonical if known else written}\n")
+        before = self.source.text[slice(*leaf.span)].partition(canonical[0])[0]
+        controls = "".join(char for char in before if char in CONTROLS)
+        self._put(leaf.span, f"{controls}{canonical if known else written}\n")
 
     def _kept(self, leaves: list[Leaf]) -> None:
         """Lines that stay as they are, but for their line ends."""

@@ -12,7 +12,10 @@ from mudline.diagnostics import Problem, Severity, Span
 
 _BOM = b"\xef\xbb\xbf"
 _LINE_END = re.compile(r"\r\n|\r|\n")
-_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f]")
+CONTROLS = "".join(map(chr, (*range(9), 11, 12, *range(14, 32), 127)))
+"""Characters that nobody sees and that are no blanks; in front of a `*` or `$` they are read over."""
+_CONTROL = re.compile(f"[{re.escape(CONTROLS)}]")
+_BEFORE_HEAD = re.compile(rf"[ \t{re.escape(CONTROLS)}]++(?=[*$])")
 _LONE_CR = re.compile(r"\r(?!\n)")
 _NOT_UTF8 = "{} is not UTF-8; the file is read as {}: save it as UTF-8"
 _BINARY_SHARE = 0.1
@@ -56,8 +59,11 @@ class Source:
 
     @cached_property
     def unified(self) -> str:
-        """A copy of equal length in which a lone CR is a LF, so that every line ends with LF."""
-        return _LONE_CR.sub("\n", self.text) if "\r" in self.text else self.text
+        """A copy of equal length in which a lone CR is a LF, so that every line ends with LF.
+
+        Control characters in front of a `*` or `$` at the beginning of a line are blanks in it.
+        """
+        return _heads_found(_LONE_CR.sub("\n", self.text) if "\r" in self.text else self.text)
 
     @cached_property
     def line_starts(self) -> list[int]:
@@ -78,6 +84,19 @@ class Source:
         start = self.line_starts[number - 1]
         end = self.line_starts[number] if number < len(self.line_starts) else len(self.text)
         return self.text[start:end].rstrip("\r\n")
+
+
+def _heads_found(text: str) -> str:
+    """A text of LF lines with blanks for the control characters in front of its heads."""
+    pieces: list[str] = []
+    done = at = 0
+    while found := _CONTROL.search(text, at):
+        start = max(text.rfind("\n", at, found.start()) + 1, at)
+        if match := _BEFORE_HEAD.match(text, start):
+            pieces += (text[done:start], " " * (match.end() - start))
+            done = match.end()
+        at = text.find("\n", found.end()) + 1 or len(text)
+    return "".join((*pieces, text[done:])) if pieces else text
 
 
 def _refusal(body: bytes) -> str:

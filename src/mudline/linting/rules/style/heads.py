@@ -55,7 +55,7 @@ def _indented(text: TextOrigin) -> Iterator[Problem]:
             mark = source[head.start]
             what = "section" if mark == "$" else "keyword"
             message = f"the {what} is indented: put its {mark} in column 1"
-            repair = Repair("safe", "remove the blanks before it", ((Span(start, head.start), ""),))
+            repair = Repair("safe", "remove what stands before it", ((Span(start, head.start), ""),))
             yield Problem(STY005, message, head, repair=repair)
 
 
