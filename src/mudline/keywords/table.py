@@ -20,6 +20,13 @@ LARGEST_WHOLE = 2**53
 _PART = 8192
 
 
+def not_whole(written: str, value: float, label: str) -> str:
+    """Why a number cannot stand where a whole one belongs; `written` is how it stands there."""
+    if value.is_integer():
+        return f"{written} is too large: {label} needs a whole number of at most 2^53 ({LARGEST_WHOLE})"
+    return f"{written} is no whole number: {label} needs one"
+
+
 class CellError(ValueError):
     """A cell or, without a column, a row of a list that a table cannot hold."""
 
@@ -268,7 +275,7 @@ def _not_whole(table: Table, columns: Sequence[Column]) -> dict[tuple[int, int],
             wrong = (values != np.floor(values)) & ~np.isnan(values) | (np.abs(values) > LARGEST_WHOLE)
         for row in np.flatnonzero(wrong).tolist():
             value = float(values[row])
-            faults[row, index] = f"{value!r} is no whole number: {columns[index].label} needs one"
+            faults[row, index] = not_whole(repr(value), value, columns[index].label)
             values[row] = math.nan
     return faults
 

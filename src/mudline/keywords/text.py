@@ -9,12 +9,12 @@ from itertools import pairwise
 from mudline.codes import SYN002, SYN005, SYN015, SYN016
 from mudline.diagnostics import Problem, Repair, Span
 from mudline.keywords.model import Slot, layout
+from mudline.keywords.table import LARGEST_WHOLE, not_whole
 from mudline.keywords.values import Equation, Kind, Label
 from mudline.syntax.fields import Field, split
 from mudline.syntax.rows import read_number, spells_number
 
 Value = float | int | str | None
-LARGEST_WHOLE = 2.0**53
 _REAL = (Kind.REAL, Kind.REAL_OR_NAME)
 _WHOLE = re.compile(r"[-+]?[0-9]+")
 _FRACTION = re.compile(r"[0-9]+(?:[eEdD][-+]?[0-9]+)?")
@@ -206,8 +206,7 @@ def _whole(field: Field, number: float | None, slot: Slot) -> int:
     if number is None:
         raise UnreadableError(Problem(SYN002, number_fault(field.text, slot.label), field.span))
     if not number.is_integer() or abs(number) > LARGEST_WHOLE:
-        message = f"{field.text} is no whole number: {slot.label} needs one"
-        raise UnreadableError(Problem(SYN002, message, field.span))
+        raise UnreadableError(Problem(SYN002, not_whole(field.text, number, slot.label), field.span))
     return int(number)
 
 
