@@ -16,6 +16,7 @@ HEAVY_WATER = "*OCEAN\n 500, 9000, 9.81\n"
 FLEXIBLE = "*GEOMETRIC SETS\n OPTION=FLEXIBLE\n SET=ALL\n 1E4, 1E4, 1E6, 1E8, 92.0, 0.9, 0.2, 0.3, 0.3, 0.3\n"
 AREA = "*GEOMETRIC SETS\n OPTION=RIGID\n SET=ALL\n 207.0E9, 79.6E9, 0.25, 0.22, 7850.0, 0.001\n"
 CHAIN = "*GEOMETRIC SETS\n OPTION=MOORING\n SET=ALL\n 1E8, 200.0, 0.1\n"
+PLANE = "*SEABED PLANES\n PLANE=a\n POINT=0, 0, 0\n SLOPE=0\n"
 PULLING = "*SEABED STIFFNESS\n CURVE=c\n 0, 0\n 1, -5\n" + PROPERTIES + " STIFFNESS=c\n"
 TRENCH = "*SEABED TRENCH\n SET=ALL\n GEOMETRY=0.5, 1.0, 3.0\n PEAK=2000\n"
 
@@ -48,6 +49,13 @@ TRENCH = "*SEABED TRENCH\n SET=ALL\n GEOMETRY=0.5, 1.0, 3.0\n PEAK=2000\n"
         ("EXT007", "*SEABED PLANES\n PLANE=a\n POINT=0, 0, 0\n", 1),
         ("EXT007", "*SEABED PLANES\n PLANE=a\n POINT=0, 0, 0\n SLOPE=x\n", 0),
         ("EXT007", "*SEABED PLANES\n PLANE=a\n POINT=0, 0, 0\n SLOPE=-90\n", 1),
+        ("EXT007", PLANE + " BOUNDS=50.0, 50.0\n", 1),
+        ("EXT007", PLANE + " BOUNDS=, , 10.0, 10.0\n", 1),
+        ("EXT007", PLANE + " BOUNDS=, 50.0, 50.0\n", 0),
+        ("EXT007", PLANE + PLANE[PLANE.index("\n") + 1 :].replace("=a", "=A"), 1),
+        ("EXT007", PLANE + PLANE.replace("=a", "=A"), 1),
+        ("EXT007", PLANE + PLANE.replace("=a", "=b"), 0),
+        ("EXT007", PLANE + PLANE.replace("=a", "="), 0),
         ("EXT008", LINEAR + UNLOADING, 0),
         ("EXT008", "*SEABED STIFFNESS\n" + CLAY + PROPERTIES + " STIFFNESS=Clay\n" + UNLOADING, 1),
         ("EXT008", PROPERTIES + " STIFFNESS=9999\n" + UNLOADING, 1),
