@@ -286,7 +286,7 @@ class Builder:
         fewest = max((index + 1 for index, needed in enumerate(required) if needed), default=0)
         if len(fields) == 1 and len(columns) > 1 and blank_separated(fields[0].text):
             fields = self._apart(fields[0])
-        while len(fields) > len(columns) and not fields[-1].text:
+        while len(fields) > max(fewest, 1) and not fields[-1].text:
             fields.pop()
         if fewest <= len(fields) <= len(columns):
             if problem := mixed_commas(fields, [slot.kind for slot in columns], fewest):

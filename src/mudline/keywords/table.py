@@ -202,7 +202,7 @@ def _cells(rows: list[list[object]], lengths: NDArray[np.intp], width: int, colu
                 raise CellError(fault, row, column)
             else:
                 words[row, column] = _word(cell or "")
-    return Table(values, lengths, words)
+    return _without_empty_ends(Table(values, lengths, words), columns)
 
 
 def _finite(cell: float, row: int, column: int) -> float:
@@ -226,7 +226,7 @@ def from_text(text: str, columns: Sequence[Column]) -> Table:
 def from_rows(raw: RawRows, columns: Sequence[Column]) -> tuple[Table, dict[tuple[int, int], str]]:
     """A table from raw rows, and what is wrong in it by row and column (column -1: the whole row).
 
-    Empty fields beyond the last column (a trailing comma) are dropped.
+    Empty fields behind the last one that holds something, as trailing commas leave them, are dropped.
     """
     faults: dict[tuple[int, int], str] = {}
     words: dict[tuple[int, int], Equation | Label | None] = {}
@@ -241,8 +241,21 @@ def from_rows(raw: RawRows, columns: Sequence[Column]) -> tuple[Table, dict[tupl
     for row in np.flatnonzero(wrong).tolist() if wrong.any() else ():
         faults[row, -1] = f"{_fields(raw.lengths[row])}, expected {_count(columns)}"
         raw.values[row, 1:] = math.nan  # the row still defines its number
-    table = Table(raw.values, lengths, words)
+    table = _without_empty_ends(Table(raw.values, lengths, words), columns)
     return table, faults | _not_whole(table, columns)
+
+
+def _without_empty_ends(table: Table, columns: Sequence[Column]) -> Table:
+    """The table without empty fields at the ends of its rows, as far as they may be left out."""
+    fewest = max(_fewest(columns), 1)
+    empty = [(row, column) for (row, column), word in table.words.items() if word is None and column >= fewest]
+    lengths = table.lengths.copy() if empty else table.lengths
+    for row, column in sorted(empty, reverse=True):
+        if column == lengths[row] - 1:
+            lengths[row] = column
+            del table.words[row, column]
+    width = int(lengths.max(initial=0)) if len(lengths) else table.values.shape[1]
+    return Table(np.ascontiguousarray(table.values[:, :width]), lengths, table.words)
 
 
 def _word(text: str) -> Equation | Label | None:
