@@ -190,7 +190,7 @@ class Builder:
             built.values[slot.json] = read_value(fields[0], slot, self.problems)
         except UnreadableError as fault:
             self._unreadable(path[:-1], fault.problem)
-            if slot.choices:
+            if slot.choices and slot.name == built.part.sticky:
                 self.unchosen.add(path[:-1])
 
     def _row(
