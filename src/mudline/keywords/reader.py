@@ -16,6 +16,7 @@ from mudline.keywords.comments import CommentLine, attach
 from mudline.keywords.grammar import END, ROW, Content, Mismatch
 from mudline.keywords.model import Block, Layout, Part, layout, row_format
 from mudline.keywords.places import Places
+from mudline.keywords.remarks import one_a_line
 from mudline.keywords.text import hint, instead, nearest, shown, suggestion
 from mudline.syntax.fields import first_key, trimmed
 from mudline.syntax.rows import line_spans
@@ -87,7 +88,7 @@ class _Reader:
         trailing = attach(self.comments, built) if self.comments else []
         self.lost += builder.lost
         model = self._model(built, builder)
-        return ReadBlock(model, places, self.problems, trailing, self.lost)
+        return ReadBlock(model, places, one_a_line(self.text, self.problems), trailing, self.lost)
 
     def _model(self, built: Built, builder: Builder) -> Block:
         """The validated model; of a block with faults, what could be read of it."""

@@ -12,6 +12,7 @@ import numpy as np
 from mudline.codes import REF001, REF005, REF008, REF009, REF010
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Severity, Where
+from mudline.keywords.remarks import advice_on
 from mudline.keywords.text import shown
 from mudline.scene.context import Context
 from mudline.scene.external import ExternalElements
@@ -57,7 +58,8 @@ class Sets:
         if found is None:
             near = self.context.near(name, self.named)
             hint = f" (did you mean {self.named[near].name}?)" if near else ""
-            message = f"set {shown(name)} is not defined{hint}: define it in *ELEMENT SETS"
+            advice = advice_on(name) or "define it in *ELEMENT SETS"
+            message = f"set {shown(name)} is not defined{hint}: {advice}"
             self.context.tell_missing(REF001, message, where, "ELEMENT SETS")
         return found
 
