@@ -9,7 +9,6 @@ import numpy as np
 
 from mudline.contact.inputs import LawKind
 from mudline.diagnostics import Where
-from mudline.keywords.library.geometric_sets import FlexibleSection, RigidSection
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Mask
 
@@ -65,11 +64,12 @@ def _heavy(scene: Scene) -> Mask:
 def _mass(scene: Scene, where: Where, water: float) -> float:
     """Mass per length of a section, less that of the water it displaces; NaN where it is not known."""
     block = cast("GeometricSets", scene.deck.sections[where.section].blocks[where.block])
-    section = block.sets[cast("int", where.path[1])].section
+    entry = block.sets[cast("int", where.path[1])]
+    section = entry.section
     buoyancy = number(section, "db")
-    if math.isnan(buoyancy) and not isinstance(section, FlexibleSection):
+    if math.isnan(buoyancy) and entry.flexible is None:
         buoyancy = number(section, "do")
-    mass = _wall(section) if isinstance(section, RigidSection) else number(section, "mass")
+    mass = number(section, "mass") if entry.rigid is None else _wall(entry.rigid)
     return mass - water * math.pi / 4 * buoyancy * buoyancy
 
 
