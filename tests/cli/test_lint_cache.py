@@ -75,7 +75,7 @@ def test_changed_content_is_linted_again_though_size_and_time_stay(place: Place,
 
 @pytest.mark.parametrize(
     ("path", "change"),
-    [("__version__", "9.9"), ("_LIBRARIES", ("click", "none-such"))],
+    [("version", lambda name: f"{name} 9.9"), ("_PACKAGES", ("click", "none-such"))],
     ids=["version", "libraries"],
 )
 def test_another_program_knows_nothing(

@@ -9,7 +9,6 @@ from hashlib import blake2b
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from mudline import __version__
 from mudline.deck.loading import form_of
 from mudline.linting.plugins import Guarded, origin
 from mudline.linting.registry import Rule
@@ -19,7 +18,7 @@ from mudline.resources import grammar_file
 KEY = 40
 """Letters of a key."""
 
-_LIBRARIES = ("lark", "numpy", "pydantic", "pyyaml")
+_PACKAGES = ("mudline", "lark", "numpy", "pydantic", "pyyaml")
 _NAMES_A_FILE = re.compile(r"FILE[^\r\nA-Z0-9]*=|RESTART")
 _NAMES_A_FILE_IN_A_FORM = re.compile(r"FILE|RESTART|\\")
 
@@ -39,7 +38,7 @@ def stands_alone(name: str, data: bytes) -> bool:
 
 def program() -> str:
     """What the program is: its version, its files as they are installed, and the libraries it reads decks with."""
-    words = [__version__, *(f"{name} {_version(name)}" for name in _LIBRARIES)]
+    words = [f"{name} {_version(name)}" for name in _PACKAGES]
     for root in {Path(__file__).parents[1], grammar_file("deck.lark").parent}:
         for folder, _, names in os.walk(root):
             words += (_state(os.path.join(folder, name)) for name in names if not name.endswith(".pyc"))  # noqa: PTH118
@@ -65,9 +64,9 @@ def key(start: bytes, name: str, data: bytes) -> str:
     return digest.hexdigest()
 
 
-def _version(library: str) -> str:
+def _version(package: str) -> str:
     try:
-        return version(library)
+        return version(package)
     except PackageNotFoundError:  # bundled into a program without its metadata
         return ""
 
