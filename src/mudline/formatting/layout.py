@@ -7,7 +7,7 @@ from mudline.diagnostics import Span
 from mudline.formatting.blocks import block_lines, comment_line
 from mudline.keywords.reader import ReadBlock
 from mudline.syntax.edits import TextEdit
-from mudline.syntax.source import CONTROLS
+from mudline.syntax.source import CONTROLS, END_MARK
 from mudline.syntax.tree import Kind, Leaf, RawBlock
 
 _LINE_ENDS = ("\n", "\r\n", "\r")
@@ -55,8 +55,12 @@ class _Layout:
                 else:
                     self._block(block, read)
         for span in self.blanks:
-            self._put(span, "")
+            self._put(span, self._marks(span))
         return self.found
+
+    def _marks(self, span: Span) -> str:
+        """The end-of-file marks of old systems among blanks, which are no business of a layout."""
+        return "".join(char for char in self.source.text[slice(*span)] if char == END_MARK)
 
     def _put(self, span: Span, lines: str) -> None:
         """Put lines, each with a LF, in the place of those of a span."""
@@ -88,6 +92,9 @@ class _Layout:
         for leaf in leaves:
             self._go_on()
             if self.mixed or leaf.span.end == len(self.text):
+                if marks := self._marks(leaf.span):
+                    self._put(leaf.span, marks)
+                    continue
                 lines = self.text[slice(*leaf.span)].replace("\r\n", "\n")
                 self._put(leaf.span, lines if lines.endswith("\n") else lines + "\n")
 
