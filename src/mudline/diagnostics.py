@@ -34,6 +34,10 @@ class Span(NamedTuple):
     start: int
     end: int
 
+    def moved(self, by: int) -> Span:
+        """The same range so many code points further behind."""
+        return Span(self.start + by, self.end + by)
+
 
 class Where(NamedTuple):
     """A place among the values of a deck: section, block in it, and the path inside the block; -1 stands for none."""

@@ -137,9 +137,9 @@ def test_lint_never_raises_for_content(path: Path) -> None:
 
 def test_lint_selects(path: Path) -> None:
     changed(path, UNUSED)
-    assert [found.code for found in mudline.lint(path)] == ["REF003"]
+    assert [found.code for found in mudline.lint(path)] == ["UNT002", "REF003"]
     assert mudline.lint(path, select=["SYN"]) == []
-    assert mudline.lint(path, ignore=["unused-curve"]) == []
+    assert mudline.lint(path, ignore=["unused-curve", "UNT002"]) == []
     with pytest.raises(ValueError, match="'XYZ' names no rule"):
         mudline.lint(path, select=["XYZ"])
 

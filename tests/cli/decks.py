@@ -38,8 +38,8 @@ BAD_NUMBER = CLEAN.replace(" 2, -0.1, 10.0\n", " 2, -0.1, ten\n")
 UNSORTED = CLEAN.replace(" 0.0, 0.0\n 0.1, 1000.0\n", " 0.1, 1000.0\n 0.0, 0.0\n")
 """A CRV002 (info) at 25:2, and nothing else."""
 
-UNUSED = CLEAN + " CURVE=Sand\n 0.0, 0.0\n 0.1, 1000.0\n"
-"""A REF003 (warning)."""
+UNUSED = CLEAN + " CURVE=Sand\n 0.0, 0.0\n 0.1, 1.0\n"
+"""A REF003 and a UNT002 (warnings)."""
 
 LINEAR = CLEAN.replace("STIFFNESS=Clay", "STIFFNESS=20000.0").partition("*SEABED STIFFNESS")[0]
 

@@ -19,9 +19,9 @@ def plain(text: str) -> str:
     return ESCAPE.sub("", text)
 
 
-def bad_line(line: str, name: str = "deck.keyxm") -> Outcome:
+def bad_line(line: str, *options: str, name: str = "deck.keyxm") -> Outcome:
     deck = CLEAN.replace(" 2, -0.1, 10.0", line)
-    return run("lint", "-", "--stdin-filename", name, stdin=deck.encode())
+    return run("lint", "-", "--stdin-filename", name, *options, stdin=deck.encode())
 
 
 def marked(outcome: Outcome) -> tuple[str, str]:
@@ -137,7 +137,7 @@ def test_conversion_is_harmless_on_a_terminal_and_exact_in_a_pipe(place: Place, 
 
 
 def test_hostile_file_name() -> None:
-    outcome = bad_line(" 2, -0.1, ten", "a\x1b[31mb\nc.keyxm")
+    outcome = bad_line(" 2, -0.1, ten", name="a\x1b[31mb\nc.keyxm")
     assert plain(outcome.out).startswith("a\ufffd[31mb\ufffdc.keyxm:6:11: ")
     assert "\x1b" not in outcome.out
 
@@ -147,7 +147,7 @@ def test_hostile_file_name() -> None:
 
 @pytest.mark.parametrize("line", [" 2, -0.1, ten", "\t2,\t-0.1,\tten", " 2, -0.1,\t\t ten"])
 def test_mark_stands_under_the_fault(line: str) -> None:
-    source, under = marked(bad_line(line))
+    source, under = marked(bad_line(line, "--select", "SYN002"))
     assert source == f" 6 | {line}".replace("\t", " ")
     assert under == f"   | {' ' * line.index('ten')}^^^"
 

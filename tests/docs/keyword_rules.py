@@ -26,7 +26,7 @@ _ALL = re.compile(r"=ALL\b")
 
 def rules_of(declared: Declared) -> list[Rule]:
     """The rules that concern a keyword, by code."""
-    own = [rule for rule in rules() if not rule.code.code.startswith("SYN")]
+    own = [rule for rule in rules() if not rule.code.code.startswith(("SYN", "STY"))]
     found = _in_examples(declared)
     return [rule for rule in own if rule.code.code in found or not _told_by(rule).isdisjoint(declared.names)]
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from mudline.linting.registry import rules
+from tests.docs.config_schema import CONFIG_SCHEMA, config_schema
 from tests.docs.keyword_index import keyword_index
 from tests.docs.keyword_page import keyword_pages
 from tests.docs.refresh import copy_of_files, refreshed
@@ -15,7 +16,7 @@ from tests.docs.rule_pages import rule_index, rule_page
 
 ROOT = Path(__file__).parents[2]
 
-BY_HAND = frozenset({"DOC001", "DOC002", "DAT001", "EXP001", "MIG001", "RUN001"})
+BY_HAND = frozenset({"DOC001", "DOC002", "DAT001", "EXP001", "MIG001", "RUN001", "RUN002"})
 """Codes that are no rules; their pages are written by hand."""
 
 
@@ -60,12 +61,15 @@ def _refresh(page: Path) -> None:
 
 
 def write() -> None:
-    """Write the pages, and remove those that nothing makes any more."""
+    """Write the pages and the schema of the configuration, and remove the pages that nothing makes any more."""
     wanted = pages()
     for path, text in wanted.items():
         file = ROOT / path
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(text, encoding="utf-8", newline="\n")
+    schema = ROOT / CONFIG_SCHEMA
+    schema.parent.mkdir(parents=True, exist_ok=True)
+    schema.write_text(config_schema(), encoding="utf-8", newline="\n")
     for path in made_files() - wanted.keys():
         (ROOT / path).unlink()
 

@@ -23,7 +23,7 @@ a choice of ours. An *info* is something to know.
 | --- | --- | --- | --- |
 {rows}
 
-Six more codes are no rules and cannot be left out; they say why a file could not be used or changed:
+Seven more codes are no rules and cannot be left out; they say why a file could not be used, changed or checked:
 
 | code | slug | severity | says |
 | --- | --- | --- | --- |
@@ -33,6 +33,7 @@ Six more codes are no rules and cannot be left out; they say why a file could no
 | [EXP001](EXP001.md) | `cannot-expand` | error | The decks that a deck describes cannot be made. |
 | [MIG001](MIG001.md) | `cannot-migrate` | error | The new family of seabed keywords cannot say what the deck says. |
 | [RUN001](RUN001.md) | `cannot-evaluate` | error | The deck cannot be evaluated. |
+| [RUN002](RUN002.md) | `rule-failed` | error | A rule of a plugin failed on the deck. |
 """
 
 _PAGE = """{made}
@@ -77,7 +78,7 @@ def _row(rule: Rule) -> str:
 
 def rule_page(rule: Rule) -> str:
     """docs/rules/CODE.md."""
-    found = lint_bytes(rule.bad_bytes, rule.file, [rule], folder=Path("decks"))
+    found = lint_bytes(rule.bad_bytes, rule.file, [rule], folder=Path("decks"), dialect=rule.dialect)
     return _PAGE.format(
         made=MADE,
         code=rule.code.code,

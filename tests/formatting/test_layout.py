@@ -7,7 +7,7 @@ from textwrap import dedent
 
 import pytest
 
-from mudline.deck.loading import load_bytes
+from mudline.deck.loading import dump, load_bytes
 from mudline.diagnostics import DeckError
 from mudline.formatting.document import formatted
 from mudline.formatting.places import Reading
@@ -66,7 +66,7 @@ def test_settings() -> None:
          TYPE=ELASTIC
          SET=Flow Line
          STIFFNESS=clay one
-         FRICTION=, 0.5, ,
+         FRICTION=, 0.5
          SET=ALL
          FRICTION=0.3, 0.5, 0.03
         """,
@@ -85,7 +85,7 @@ def test_several_settings_on_a_line() -> None:
         *GEOMETRIC SETS
          OPTION=FLEXIBLE
          SET=ALL, BUOYANCY=DISTRIBUTED, PLASTIC HARDENING=steel
-         , , , 1E6, 100., 0., .2, .3, .3, ,
+         , , , 1E6, 100., 0., .2, .3, .3
         """,
     )
 
@@ -122,13 +122,13 @@ def test_columns_of_numbers() -> None:
         """\
         *NODE
           1,    0,          0
-          2,    0.,       100.5,
+          2,    0.,       100.5
          10,   -1.5E+02, 1000.25, 0.0
         C between
          11,    1,          2
 
         c rows
-         12, =[depth/2],    3,
+         12, =[depth/2],    3
          GEN=1, 2
          100, 0, 0
         """,
@@ -169,13 +169,70 @@ def test_a_long_equation_does_not_widen_its_column() -> None:
 def test_rows_of_another_kind_have_columns_of_their_own() -> None:
     same(
         "*RIGID SURFACE\n.3,.5\n0 10\n100 -20.5\n*ELASTIC SURFACE\n50000.0,0.3,\n-2\n",
-        "*RIGID SURFACE\n .3, .5\n   0,  10\n 100, -20.5\n*ELASTIC SURFACE\n 50000.0, 0.3,\n -2\n",
+        "*RIGID SURFACE\n .3, .5\n   0,  10\n 100, -20.5\n*ELASTIC SURFACE\n 50000.0, 0.3\n -2\n",
     )
 
 
 def test_rows_of_empty_fields() -> None:
     same("*ELASTIC SURFACE\n,\n", "*ELASTIC SURFACE\n ,\n")
     same("*ELASTIC SURFACE\n,,, 2\n", "*ELASTIC SURFACE\n , , , 2\n")
+    same("*ELASTIC SURFACE\n , , , \n", "*ELASTIC SURFACE\n ,\n")
+
+
+TRAILING = """\
+$MODEL
+*OCEAN
+ 350.0, 1025.0, 9.81
+*NODE
+ 1, -0.0055, 0.0, 0.0
+ 6, -0.0055, 25.0
+ GEN=1, 6
+*ELEMENT
+ 1, 1, 2
+ 2, 2, {End}, , , 1
+ GEN=1, 5
+*ELEMENT SETS
+ SET=Line
+ 1, 2, 3
+ GEN=1, 5
+*GEOMETRIC SETS
+ OPTION=RIGID
+ SET=Line
+ 207.0E9, 79.6E9, 0.2191, 0.1905, 7850.0
+*SEABED PROPERTIES
+ TYPE=ELASTIC
+ SET=Line
+ STIFFNESS=60000.0
+ FRICTION=0.35, , 0.1
+*SEABED STIFFNESS
+ CURVE=Clay
+ 0.0,    0.0
+ 0.5, 4200.0
+*ELASTIC SURFACE
+ ,
+"""
+
+
+@pytest.mark.parametrize("commas", [",", " ,", ",,", " , , ,", ",,,,,,,,,,,,"])
+def test_commas_behind_the_last_field_go(commas: str) -> None:
+    alone = [line for line in TRAILING.splitlines() if line[0] == " " and "=" not in line]
+    keyed = [line for line in TRAILING.splitlines() if "GEN=" in line or "SET=" in line or "FRICTION=" in line]
+    more = "".join(f"{line}{commas if line in alone + keyed else ''}\n" for line in TRAILING.splitlines())
+    assert layout(more) == layout(TRAILING)
+    one, other = (load_bytes(text.encode(), "deck.keyxm") for text in (TRAILING, more))
+    assert dump(one, "json") == dump(other, "json")
+
+
+def test_a_setting_of_commas_alone_stays() -> None:
+    head = "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=1.0\n"
+    same(f"{head} FRICTION=, , ,\n", f"{head} FRICTION=\n")
+
+
+def test_commas_at_the_ends_of_a_long_table_go() -> None:
+    rows = "".join(f" {row}, 0.0, {row}.5\n" for row in range(1000, 1200))
+    same(f"*NODE\n{rows}", f"*NODE\n{rows}")
+    same("*NODE\n" + rows.replace("\n", ",\n"), f"*NODE\n{rows}")
+    same("*NODE\n" + rows.replace("5\n", "5, , , ,\n", 100), f"*NODE\n{rows}")
 
 
 def test_comments_and_blank_lines() -> None:

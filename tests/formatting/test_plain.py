@@ -87,9 +87,9 @@ def test_empty_fields_behind_those_that_count_go() -> None:
 
 
 def test_decimal_points_stand_under_each_other() -> None:
-    rows = PlainRows.read("1,0,-1.5E+02\n10,100.25,3D0\n100,.5,\n", 4)
+    rows = PlainRows.read("1,0,-1.5E+02\n10,100.25,3D0\n100,.5,,\n", 4)
     assert rows is not None
-    assert laid_out(rows, NodeRow) == "   1,   0,    -1.5E+02\n  10, 100.25,  3D0\n 100,    .5,\n"
+    assert laid_out(rows, NodeRow) == "   1,   0,    -1.5E+02\n  10, 100.25,  3D0\n 100,    .5\n"
 
 
 def test_a_very_long_number_does_not_widen_its_column() -> None:

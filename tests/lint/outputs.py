@@ -1,6 +1,13 @@
 from __future__ import annotations
 
+import os
+from pathlib import Path
+
+import mudline
 from mudline.diagnostics import Diagnostic, Edit, Fix, Severity
+from tests.cli.runner import ROOT, Outcome, process
+
+NO_FRICTION = "$MODEL\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=50000.0\n"
 
 
 def finding(**changed: object) -> Diagnostic:
@@ -17,3 +24,17 @@ def finding(**changed: object) -> Diagnostic:
         "fix": Fix("safe", "write it so", (Edit((3, 2), (3, 6), "a\tb"),)),
     } | changed
     return Diagnostic(**given)  # type: ignore[arg-type] # the values are those of the fields
+
+
+def plugin_lint(folder: Path, form: str, project_url: str) -> Outcome:
+    """Lint a deck with the rule of samples/plugin, whose package tells an address of this kind."""
+    info = folder / "acme_mudline-1.0.dist-info"
+    info.mkdir(exist_ok=True)
+    url = f"Project-URL: {project_url}\n" if project_url else ""
+    (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: acme-mudline\nVersion: 1.0\n{url}")
+    (info / "entry_points.txt").write_text("[mudline.rules]\nacme = acme_mudline.friction\n")
+    (folder / "deck.keyxm").write_text(NO_FRICTION)
+    path = [Path(mudline.__file__).parents[1], folder, ROOT / "samples" / "plugin" / "src"]
+    env = {"PYTHONPATH": os.pathsep.join(str(each) for each in path)}
+    words = ("lint", "deck.keyxm", "--select", "ACM", "--isolated", "--output-format", form)
+    return process(*words, env=env, cwd=folder)

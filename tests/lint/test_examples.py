@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pkgutil
 import re
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -17,7 +18,9 @@ from mudline.deck.yaml_form import to_yaml
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.engine import lint_bytes
+from mudline.linting.fix_state import FixState, Reader
 from mudline.linting.registry import MODULES, Rule, rule, rules
+from mudline.linting.settings import LintSettings
 
 AGREED = """
 SYN001 unreadable-line E
@@ -134,6 +137,14 @@ ADVICE = re.compile(
     r"missing|superseded by|stand in)\b"
 )
 
+FIXED = {
+    "safe": "CRV002 CRV004 REF012 STY001 STY002 STY003 STY004 STY005 STY006 STY007 STY008",
+    "unsafe": "SYN004 SYN005 SYN009 SYN010 SYN016 REF003 CRV009 LEG001 STY010",
+}
+"""The codes with a fix, as the examples show it; the others have none. STY010 guesses there, and removes safely."""
+
+KIND_OF_FIX = {code: kind for kind, codes in FIXED.items() for code in codes.split()}
+
 NOWHERE = Path("decks")
 """A folder that is not there: files that an example names are looked for and not found."""
 
@@ -175,6 +186,32 @@ def test_code_slug_and_severity_are_as_agreed(given: Rule) -> None:
     assert given.off == bool(off)
 
 
+@each_rule
+def test_the_finding_has_the_kind_of_fix_that_was_agreed(given: Rule) -> None:
+    found = lint_bytes(given.bad_bytes, given.file, [given], folder=NOWHERE, dialect=given.dialect)
+    assert [one.fix and one.fix.applicability for one in found] == [KIND_OF_FIX.get(given.code.code)]
+
+
+FIXABLE = [given for given in rules() if given.code.code in KIND_OF_FIX]
+
+
+@pytest.mark.parametrize("given", FIXABLE, ids=lambda given: given.code.code)
+def test_the_fix_clears_the_finding_and_brings_no_other(given: Rule) -> None:
+    """All rules are on, those too that are off unless they are selected."""
+    reader = Reader(given.file, LintSettings(tuple(rules()), dialect=given.dialect), NOWHERE)
+    before = reader.read(given.bad_bytes)
+    fixes = [one.repair for one in before.told if one.code == given.code and one.repair]
+    assert len(fixes) == 1
+    after = reader.after(before, fixes)
+    assert after is not None
+    assert given.code.code not in _codes(after)
+    assert not _codes(after) - _codes(before)
+
+
+def _codes(state: FixState) -> Counter[str]:
+    return Counter(problem.code.code for problem in state.told)
+
+
 SYNTAX = [given for given in rules() if given.code.code.startswith("SYN")]
 
 
@@ -185,7 +222,14 @@ def test_a_fault_of_writing_is_told_once(given: Rule) -> None:
     assert found - {given.code.code} == ({"SYN003"} if given.code.code == "SYN015" else set())
 
 
-MEANING = [given for given in rules() if not load_bytes(given.bad_bytes, given.file).problems]
+SPELLING = {f"STY00{number}" for number in range(1, 10)}
+"""What only a text can have: tabs, blanks, case, the letter of an exponent."""
+
+MEANING = [
+    given
+    for given in rules()
+    if given.code.code not in SPELLING and not load_bytes(given.bad_bytes, given.file).problems
+]
 
 
 @pytest.mark.parametrize("given", MEANING, ids=lambda given: given.code.code)

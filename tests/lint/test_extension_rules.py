@@ -6,11 +6,18 @@ import pytest
 
 from mudline.linting.engine import lint_bytes
 from mudline.linting.selection import select
-from tests.lint.findings import CLAY, PIPE, PROPERTIES, RESTART, found
+from tests.lint.findings import CLAY, PIPE, PROPERTIES, RESTART, found, messages
 
 LINEAR = PROPERTIES + " STIFFNESS=5000\n"
 UNLOADING = "*SEABED UNLOADING\n SET=ALL\n STIFFNESS=9000\n"
 SUCTION = "*SEABED SUCTION\n SET=ALL\n"
+OCEAN = "*OCEAN\n 500, 1025, 9.81\n"
+HEAVY_WATER = "*OCEAN\n 500, 9000, 9.81\n"
+FLEXIBLE = "*GEOMETRIC SETS\n OPTION=FLEXIBLE\n SET=ALL\n 1E4, 1E4, 1E6, 1E8, 92.0, 0.9, 0.2, 0.3, 0.3, 0.3\n"
+AREA = "*GEOMETRIC SETS\n OPTION=RIGID\n SET=ALL\n 207.0E9, 79.6E9, 0.25, 0.22, 7850.0, 0.001\n"
+CHAIN = "*GEOMETRIC SETS\n OPTION=MOORING\n SET=ALL\n 1E8, 200.0, 0.1\n"
+PLANE = "*SEABED PLANES\n PLANE=a\n POINT=0, 0, 0\n SLOPE=0\n"
+PULLING = "*SEABED STIFFNESS\n CURVE=c\n 0, 0\n 1, -5\n" + PROPERTIES + " STIFFNESS=c\n"
 TRENCH = "*SEABED TRENCH\n SET=ALL\n GEOMETRY=0.5, 1.0, 3.0\n PEAK=2000\n"
 
 
@@ -38,21 +45,61 @@ TRENCH = "*SEABED TRENCH\n SET=ALL\n GEOMETRY=0.5, 1.0, 3.0\n PEAK=2000\n"
         ("EXT006", "*ELASTIC SURFACE\n 100, , , , 50\n" + SUCTION, 1),
         ("EXT006", "*SEABED STIFFNESS\n CURVE=c\n 0, 0\n 1, -5\n" + PROPERTIES + " STIFFNESS=c\n" + SUCTION, 1),
         ("EXT006", "*SEABED STIFFNESS\n" + CLAY + PROPERTIES + " STIFFNESS=Clay\n" + SUCTION, 0),
+        ("EXT006", PULLING + SUCTION + "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=50\n", 0),
         ("EXT007", "*SEABED PLANES\n PLANE=a\n POINT=0, 0, 0\n", 1),
         ("EXT007", "*SEABED PLANES\n PLANE=a\n POINT=0, 0, 0\n SLOPE=x\n", 0),
         ("EXT007", "*SEABED PLANES\n PLANE=a\n POINT=0, 0, 0\n SLOPE=-90\n", 1),
+        ("EXT007", PLANE + " BOUNDS=50.0, 50.0\n", 1),
+        ("EXT007", PLANE + " BOUNDS=, , 10.0, 10.0\n", 1),
+        ("EXT007", PLANE + " BOUNDS=, 50.0, 50.0\n", 0),
+        ("EXT007", PLANE + PLANE[PLANE.index("\n") + 1 :].replace("=a", "=A"), 1),
+        ("EXT007", PLANE + PLANE.replace("=a", "=A"), 1),
+        ("EXT007", PLANE + PLANE.replace("=a", "=b"), 0),
+        ("EXT007", PLANE + PLANE.replace("=a", "="), 0),
         ("EXT008", LINEAR + UNLOADING, 0),
         ("EXT008", "*SEABED STIFFNESS\n" + CLAY + PROPERTIES + " STIFFNESS=Clay\n" + UNLOADING, 1),
         ("EXT008", PROPERTIES + " STIFFNESS=9999\n" + UNLOADING, 1),
         ("EXT008", PROPERTIES + " STIFFNESS==[unknown]\n" + UNLOADING, 0),
         ("EXT008", PROPERTIES + " STIFFNESS=9999\n*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=5\n" + UNLOADING, 0),
-        ("EXT009", LINEAR + UNLOADING + "*SEABED CONTACT\n SET=ALL\n", 1),
+        ("EXT009", LINEAR + UNLOADING + "*SEABED CONTACT\n SET=ALL\n", 0),
+        ("EXT009", OCEAN + LINEAR + UNLOADING + "*SEABED CONTACT\n SET=ALL\n", 1),
+        ("EXT009", OCEAN + LINEAR + UNLOADING + "*SEABED CONTACT\n SET=ALL\n SMOOTHING=AUTO\n", 1),
+        ("EXT009", LINEAR + UNLOADING + "*SEABED CONTACT\n SET=ALL\n SMOOTHING=0.01\n", 1),
+        ("EXT009", LINEAR + UNLOADING + "*SEABED CONTACT\n SET=ALL\n SMOOTHING=0.0\n", 0),
+        ("EXT009", OCEAN + AREA + LINEAR + UNLOADING + "*SEABED CONTACT\n SET=ALL\n", 0),
+        ("EXT009", HEAVY_WATER + LINEAR + UNLOADING + "*SEABED CONTACT\n SET=ALL\n", 0),
+        ("EXT009", OCEAN + FLEXIBLE + LINEAR + UNLOADING + "*SEABED CONTACT\n SET=ALL\n", 1),
+        ("EXT009", OCEAN + CHAIN + LINEAR + UNLOADING + "*SEABED CONTACT\n SET=ALL\n", 1),
         ("EXT009", LINEAR + UNLOADING + "*SEABED CONTACT\n SET=ALL\n SMOOTHING=NONE\n", 0),
         ("EXT009", LINEAR + UNLOADING, 0),
     ],
 )
 def test_findings_of_a_rule(code: str, lines: str, expected: int) -> None:
     assert len(found(PIPE + lines, code)) == expected
+
+
+def test_a_curve_that_pulls_is_a_warning_as_its_tension_may_be_cut() -> None:
+    found_ = lint_bytes((PIPE + PULLING + SUCTION).encode(), "deck.keyxm", select(["EXT006"]))
+    assert [str(one.severity) for one in found_] == ["warning"]
+    assert "--tension cut" in found_[0].message
+    one = PIPE.replace("GEN=1, 10", "GEN=1, 1") + LINEAR + " SUCTION=50.0\n" + SUCTION
+    assert messages(one, "EXT006") == ["element 1 has SUCTION= of the seabed too: remove one of the two"]
+
+
+@pytest.mark.parametrize(
+    ("geometry", "code"),
+    [("0.5, 3.0, 1.0", "EXT003"), ("-0.5, 1.0, 3.0", "EXT003"), ("0.5, 0.0, 3.0", "EXT003"), ("0.5, x, 0.0", "EXT003")],
+)
+def test_the_geometry_of_a_trench_is_told_once(geometry: str, code: str) -> None:
+    trench = TRENCH.replace("0.5, 1.0, 3.0", geometry)
+    assert [one[0] for one in found(PIPE + LINEAR + " FRICTION=0.3, 0.5\n" + trench, "EXT003", "SBD010")] == [code]
+
+
+def test_an_unloading_stiffness_is_told_once() -> None:
+    assert len(found(PIPE + "*OCEAN\n -5, 1025, 9.81\n", "SBD010")) == 1
+    lines = PIPE + LINEAR + UNLOADING.replace("9000", "0.0")
+    assert [one[0] for one in found(lines, "EXT009", "SBD010")] == ["EXT009"]
+    assert [one[0] for one in found(lines + TRENCH.replace("2000", "-1"), "SBD010")] == ["SBD010"]
 
 
 def test_user_units_need_all_values() -> None:

@@ -1,6 +1,9 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
+
+import pytest
 
 from mudline.linting.output.gitlab import gitlab
 from tests.lint.outputs import finding
@@ -15,6 +18,16 @@ def test_an_issue_has_what_the_report_asks_for() -> None:
         "severity": "minor",
         "location": {"path": "a.keyxm", "lines": {"begin": 3, "end": 3}},
     }
+
+
+def test_paths_are_from_the_folder_of_the_job(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    given = [f"{tmp_path.as_posix()}/decks/a.keyxm", "./decks/a.keyxm", "../a.keyxm", f"{tmp_path.as_posix()}x.keyxm"]
+    issues = json.loads("".join(gitlab(finding(file=file) for file in given)))
+    paths = [issue["location"]["path"] for issue in issues]
+    assert paths == ["decks/a.keyxm", "decks/a.keyxm", "../a.keyxm", given[3]]
+    (alone,) = json.loads("".join(gitlab([finding(file="decks/a.keyxm")])))
+    assert issues[0]["fingerprint"] == alone["fingerprint"]
 
 
 def test_fingerprints_stay_when_lines_move_and_are_unique() -> None:

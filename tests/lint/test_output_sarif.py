@@ -30,7 +30,7 @@ def test_a_result_names_its_rule_place_fix_and_fingerprint() -> None:
     (fix,) = result["fixes"]
     assert fix["description"] == {"text": "write it so"}
     assert fix["artifactChanges"] == [{"artifactLocation": location, "replacements": [replacement]}]
-    assert run["columnKind"] == "unicodeCodePoints"
+    assert (run["columnKind"], run["newlineSequences"]) == ("unicodeCodePoints", ["\r\n", "\r", "\n"])
     assert location["uriBaseId"] in run["originalUriBaseIds"]
     assert "fixes" not in run["results"][0]
 
@@ -38,15 +38,17 @@ def test_a_result_names_its_rule_place_fix_and_fingerprint() -> None:
 def test_a_rule_brings_its_help() -> None:
     (rule,) = run_of(finding())["tool"]["driver"]["rules"]
     assert rule["name"] == "SupersededKeyword"
-    assert rule["helpUri"] == "docs/rules/LEG001.md"
     assert rule["help"]["markdown"].startswith(f"# {rule['shortDescription']['text']}")
     assert rule["help"]["text"].endswith(rule["fullDescription"]["text"])
     assert rule["defaultConfiguration"]["level"] in {"error", "warning", "note"}
 
 
-def test_a_code_without_a_rule_is_named() -> None:
-    (rule,) = run_of(finding(code="XXX999"))["tool"]["driver"]["rules"]
-    assert rule == {"id": "XXX999", "helpUri": "docs/rules/XXX999.md"}
+def test_a_code_without_a_rule_is_described_by_its_name() -> None:
+    (rule,) = run_of(finding(code="XXX999", slug="no-such-rule"))["tool"]["driver"]["rules"]
+    assert (rule["id"], rule["name"], rule["shortDescription"]["text"]) == ("XXX999", "NoSuchRule", "No such rule.")
+    assert rule["defaultConfiguration"] == {"level": "warning", "enabled": True}
+    assert rule["help"]["text"].endswith(rule["fullDescription"]["text"])
+    assert "markdown" not in rule["help"]
 
 
 def test_fingerprints_do_not_depend_on_lines() -> None:
@@ -62,6 +64,8 @@ def test_fingerprints_do_not_depend_on_lines() -> None:
         ("./a b/ü#.keyxm", "a%20b/%C3%BC%23.keyxm"),
         ("/abs/a.keyxm", "file:///abs/a.keyxm"),
         ("C:/abs/a.keyxm", "file:///C:/abs/a.keyxm"),
+        ("c:deck.keyxm", "c%3Adeck.keyxm"),
+        ("\ud800.keyxm", "%5Cud800.keyxm"),
         ("<stdin>", "%3Cstdin%3E"),
     ],
 )

@@ -144,6 +144,12 @@ def test_points_above_the_mudline_are_told_each() -> None:
     assert ["invert" in message for message in messages(text, "CRV006")] == [True, False]
 
 
+@pytest.mark.parametrize(("first", "expected"), [((-1.0, 0.0), 0), ((-1.0, 5.0), 1), ((-1.0, -0.5), 1)])
+def test_no_force_up_to_ratio_0_loses_nothing(first: tuple[float, float], expected: int) -> None:
+    assert len(found(CURVES + curve("a", first, (0.0, 0.0), (0.5, 9.0)), "CRV006")) == expected
+    assert len(found(CURVES + curve("a", first, (0.5, 9.0)), "CRV006")) == 1
+
+
 def test_values_of_equations_are_looked_at_and_the_text_is_pointed_at() -> None:
     text = "$PREPROCESSOR\n*PARAMETERS\n r, -0.5\n" + CURVES + " CURVE=a\n 0, 0\n =[r], =[2*r]\n 1, 0\n"
     assert found(text, "CRV002", "CRV005", "CRV006") == [("CRV002", 8, 2), ("CRV006", 8, 2)]
@@ -174,7 +180,7 @@ def test_decks_of_which_nothing_is_to_be_said(text: str) -> None:
 
 
 def test_a_table_of_faults_is_told_up_to_a_limit() -> None:
-    rows = "".join(f" -{row}.5, 0\n 0.5, 1\n 0.5, 1\n" for row in range(2000))
+    rows = "".join(f" -{row}.5, 1\n 0.5, 1\n 0.5, 1\n" for row in range(2000))
     text = CURVES + " CURVE=a\n 0, 0\n" + rows
     codes = [code for code, _, _ in found(text, "CRV004", "CRV006")]
     assert codes.count("CRV004") == codes.count("CRV006") == 1000

@@ -52,6 +52,8 @@ def test_more_rules_are_added_to_what_is_chosen() -> None:
         ("syn099x", "did you mean SYN00"),
         ("bad-numbers", "did you mean bad-number?"),
         ("Unkown-Keyword", "did you mean unknown-keyword?"),
+        ("REFX", "did you mean REF?"),
+        ("crb", "did you mean CRV?"),
         ("zzz", "`mudline rules` lists all rules"),
         ("", "`mudline rules` lists all rules"),
         ("-", "`mudline rules` lists all rules"),

@@ -12,8 +12,10 @@ from mudline.deck.json_form import to_json
 from mudline.deck.loading import load_bytes
 from mudline.deck.yaml_form import to_yaml
 from mudline.linting.engine import lint_bytes
+from mudline.linting.fixing import fix_bytes
 from mudline.linting.registry import rules
 from mudline.linting.selection import select
+from mudline.linting.settings import Fixing, LintSettings
 from tests.lint.findings import CURVES, found
 
 FALLING = f"{CURVES} CURVE=Clay\n 0.0, 0.0\n 0.1, 1200.0\n 0.5, 900.0\n 1.0, 2000.0\n"
@@ -107,6 +109,15 @@ def test_words_that_name_no_rule_are_told_with_what_was_meant() -> None:
         "'xyz' names no rule: `mudline rules` lists all rules; remove it",
     ]
     assert [one.fix and one.fix.applicability for one in told] == ["unsafe"] * 3
+
+
+def test_a_misspelt_suppression_is_never_safely_removed() -> None:
+    text = before(" 0.5, 900.0", "C mudline: ignore CRV0O5\nC mudline: ignore-block decreasing-forces, CRV001")
+    data, name = text.encode(), "deck.keyxm"
+    safe = fix_bytes(data, name, LintSettings(select(["STY010", "CRV"]), fixing=Fixing.SAFE)).changed
+    assert safe == data.replace(b", CRV001", b"")
+    near = fix_bytes(data, name, LintSettings(select(["STY010"]), fixing=Fixing.UNSAFE)).changed
+    assert near == data.replace(b"CRV0O5", b"CRV005").replace(b"forces", b"force")
 
 
 def test_a_misspelt_instruction_is_told_and_prose_is_not() -> None:

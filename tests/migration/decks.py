@@ -121,7 +121,9 @@ def legacy_decks(draw: st.DrawFn) -> str:
     else:
         blocks = [draw(rigid())]
     existing = draw(st.sampled_from(["", "*SEABED STIFFNESS\n CURVE=WEST\n 0, 0\n 1, 1\n"]))
-    text = PIPE + existing + "".join(draw(comments) + block for block in blocks)
+    indent = draw(st.sampled_from([" ", "", "    "]))
+    seabed = "".join(draw(comments) + block for block in blocks)
+    text = PIPE + existing + seabed.replace("\n ", f"\n{indent}")
     text += draw(st.sampled_from(["", "$LOAD CASE\n*ANALYSIS TYPE\n TYPE=STATIC\n"]))
     end = draw(st.sampled_from(["\n", "\r\n", "\r"]))
     return text.replace("\n", end)

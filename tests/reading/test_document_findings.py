@@ -246,3 +246,38 @@ def test_decks_made_by_a_program_are_tried_too(path: str, deck: Deck) -> None:
     message = caught.value.diagnostics[0].message
     assert message.startswith(path)
     assert "cannot be said in keyword text" in message
+
+
+ONE_SHAPE: list[tuple[Document, list[str]]] = [
+    ({"nodes": [[1, -0.004]]}, ["nodes[0]: 2 fields, expected 3 to 4"]),
+    ({"nodes": [[1, 0.0, 0.0]], "colour": "red"}, ["colour: unknown key"]),
+    ({"generate": [1, 2, 3, 4]}, ["generate: 4 values, expected start, end [, increment]"]),
+    ({"nodez": []}, ["generate: is missing", "nodes: is missing", "nodez: unknown key"]),
+]
+
+
+@pytest.mark.parametrize(("entry", "messages"), ONE_SHAPE)
+def test_of_several_shapes_the_one_with_its_mandatory_key_is_meant(entry: Document, messages: list[str]) -> None:
+    found = refused(made(section({"keyword": "NODE", "entries": [entry]})))
+    assert [one.message.removeprefix("sections[0].blocks[0].entries[0].") for one in found] == messages
+
+
+def test_an_object_in_the_place_of_a_number_is_one_fault() -> None:
+    (found,) = refused(made(section({"keyword": "OCEAN", "depth": {}})))
+    assert found.message.startswith("sections[0].blocks[0].depth: expected a number or ")
+
+
+@pytest.mark.parametrize(
+    ("data", "place"),
+    [
+        (b'{"name": "M\xfcller"}', (1, 12)),
+        (b'\xef\xbb\xbf{\r\n "\xc3\xa4\xc3\xa4": "M\xfcller"}', (2, 10)),
+    ],
+)
+def test_a_byte_that_is_not_utf8_is_told_where_it_stands(data: bytes, place: tuple[int, int]) -> None:
+    for name, form in (("a.json", "JSON"), ("a.yaml", "YAML")):
+        with pytest.raises(DeckError) as caught:
+            load_bytes(data, name)
+        (found,) = caught.value.diagnostics
+        assert (found.code, found.line, found.column, found.end_column) == ("DOC001", *place, place[1] + 1)
+        assert found.message == f"byte 0xFC is not UTF-8, which {form} has to be: save the file as UTF-8"

@@ -302,3 +302,17 @@ def test_mutated_json_is_read_or_refused(data: bytes, as_yaml: bool) -> None:
 def test_random_text_is_refused(text: str, name: str) -> None:
     with pytest.raises(DeckError):
         load_bytes(text.encode(), name)
+
+
+def test_an_empty_end_of_a_row_is_no_field() -> None:
+    def read(rows: list[list[object]] | str, generated: list[int | None]) -> Deck:
+        entries = [{"elements": rows}, {"generate": generated}]
+        sections = [{"name": "MODEL", "blocks": [{"keyword": "ELEMENT", "entries": entries}]}]
+        return load_bytes(json.dumps({"format": "mudline-deck/1", "sections": sections}).encode(), "a.json")
+
+    plain = read([[1, 1, 2], [2, 2, 3, None, None, 1]], [1, 5])
+    assert read([[1, 1, 2, None], [2, 2, 3, None, None, 1]], [1, 5, None]).sections == plain.sections
+    assert read(" 1, 1, 2, ,\n 2, 2, 3, , , 1\n", [1, 5]).sections == plain.sections
+    assert read([[1, 1, 2, None], [2, 2, 3, None]], [1, 5]).sections == read([[1, 1, 2], [2, 2, 3]], [1, 5]).sections
+    text = "$MODEL\n*ELEMENT\n 1, 1, 2\n 2, 2, 3, , , 1.0\n GEN=1, 5\n"
+    assert dump(read([[1, 1, 2, None], [2, 2, 3, None, None, 1]], [1, 5, None]), "keyword") == text

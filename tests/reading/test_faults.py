@@ -37,6 +37,7 @@ def messages(text: str) -> list[str]:
 
 SEABED = "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=a\n"
 CURVE = "*SEABED STIFFNESS\n CURVE=a\n 0, 0\n"
+GEOMETRIC = "*GEOMETRIC SETS\n OPTION=RIGID\n SET=a\n"
 
 IN_MODEL: Faults = [
     ("*OCEAN\n 1O0.0, 1025.0\n", [("SYN002", 3, 2)]),
@@ -239,17 +240,46 @@ def test_a_keyword_with_a_comma(head: str) -> None:
         *((CURVE + " 1, 3.", []), ("*OCEAN\n", [("SYN014", 2, 1)]), ("*OCEAN", [("SYN014", 2, 1)])),
         *(("*GEOMETRIC SETS\n SET=a\n", [("SYN014", 3, 2)]), ("*OCEAN\n*NODE\n 1,1,1\n", [("SYN001", 2, 1)])),
         ("*ELEMENT SETS\n SET={a", [("SYN014", 3, 6)]),
+        *((SEABED + " STIFFNESS=85.0E", [("SYN014", 5, 12)]), (SEABED + " STIFFNESS=-", [("SYN014", 5, 12)])),
+        *((SEABED + " STIFFNESS=85.0E\n", []), (SEABED + " STIFFNESS=Clay", [])),
+        *(("*NODE\n 1, 0, 0\n 2, -", [("SYN014", 4, 2)]), ("*NODE\n 1, 0, 0\n 2, -\n", [("SYN003", 4, 2)])),
+        *(("*ELEMENT\n 1, 2,", [("SYN014", 3, 7)]), ("*ELEMENT\n 1, 2,\n", [("SYN003", 3, 7)])),
+        *((GEOMETRIC + " 207E9, 79E9", [("SYN014", 5, 2)]), (GEOMETRIC + " 207E9, 79E9\n", [("SYN003", 5, 2)])),
+        *((GEOMETRIC + " 1, 1, 1, 1, 1, , , , , , , 9", [("SYN003", 5, 2)]), (CURVE + " 1, 2, 3", [("SYN003", 5, 2)])),
+        *(("*SEABED PROP", [("SYN014", 2, 1)]), ("*SEABED PROP\n", [("SYN009", 2, 1)]), ("*XYZ", [("SYN009", 2, 1)])),
     ],
 )
 def test_files_that_were_cut_off(text: str, found: list[Found]) -> None:
     assert problems(MODEL + text) == found
 
 
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        (GEOMETRIC + " 207E9, 79,6E9, 0,2191, 0.19, 7850\n", [("SYN015", 5, 9)]),
+        (SEABED + " FRICTION=0,5, 0,8\n", [("SYN015", 5, 11)]),
+        (SEABED + " FRICTION=0,5\n", []),
+        (SEABED + " FRICTION=0.5,0, 3,1\n", []),
+        (SEABED + " FRICTION=0,5,0, 8\n", []),
+        ("*NODE\n 1, 0,0, 5\n", []),
+        ("*NODE\n 1,0, 5,5\n", []),
+        ("*ELEMENT SETS\n SET=a\n 1,2, 3,4, 5,6\n", []),
+    ],
+)
+def test_commas_without_a_blank_among_others(text: str, found: list[Found]) -> None:
+    assert problems(MODEL + text) == found
+
+
+def test_a_row_whose_format_was_misspelt_is_not_judged() -> None:
+    text = MODEL + "*GEOMETRIC SETS\n OPTION=RIDGID\n SET=a\n 1, 2, 3\n"
+    assert problems(text) == [("SYN005", 3, 9)]
+
+
 def test_severities() -> None:
     text = "x\n$MODEL\n*OCEAN\n 1,0, 2,0\nCx\n*NEW THING\n*HYDRODYNAMIC SET\n$NEW\n$LOADCASE\n"
     deck = read(text)
     found = [(one.code, one.severity.value) for one in deck.diagnose(deck.problems)]
-    wanted = "SYN011 warning, SYN013 warning, SYN009 info, SYN009 warning, SYN010 info, SYN010 warning"
+    wanted = "SYN011 warning, SYN015 warning, SYN013 warning, SYN009 info, SYN009 warning, SYN010 info, SYN010 warning"
     assert ", ".join(f"{code} {severity}" for code, severity in found) == wanted
 
 

@@ -176,6 +176,6 @@ def test_nothing_of_a_kept_block_is_lost(keyword: str, lines: list[str]) -> None
     lines = [line if line.lstrip(" \t")[:1] not in ("$", "*") else "x" + line for line in lines]
     text = f"$MODEL\n*{keyword}\n" + "".join(f"{line}\n" for line in lines)
     deck = read(text)
-    assert deck.problems == []
+    assert {problem.code.code for problem in deck.problems} == ({"SYN012"} if "\ufeff" in text else set())
     held(deck)
     assert dump(deck, "keyword") == text

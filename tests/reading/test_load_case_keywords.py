@@ -120,16 +120,39 @@ def test_restart() -> None:
     assert faults("$LOAD CASE\n*RESTART\n LAST=\n") == ["3:2 SYN003 LAST= has no value"]
 
 
+FAULTS = [
+    ("*BOUNDARY\n 1, 2\nC between\n", ["3:2 SYN001 expected TYPE= before this line"]),
+    ("*BOUNDARY\n TYP=CONSTANT\n", ["3:2 SYN004 *BOUNDARY has no setting TYP= (did you mean TYPE?)"]),
+    (
+        "*BOUNDARY\n TYPE=CONSTANT\n 1, two\n 1, 3, FIXATION=ABSOLUTE\n AMPLITUDE=2\n",
+        ["4:5 SYN002 'two'", "5:17 SYN005 'ABSOLUTE' is not allowed for FIXATION=", "6:2 SYN004 *BOUNDARY has no"],
+    ),
+    ("*TIME\n", ["2:1 SYN014 the file ends too early: expected STEP="]),
+    ("*TIME\n STEP=FIXED\n", ["3:2 SYN014 the file ends too early: expected a row"]),
+    ("*TIME\n STEP=\n 0, 100\n", ["3:2 SYN003 STEP= has no value"]),
+    ("*TIME\n STEP=FIXED\n 0, sixty, 1\n", ["4:5 SYN002 'sixty' is no number"]),
+    ("*TIME\n STEP=FIXED\n 0, 100, 1, 2, 3\n", ["4:2 SYN003 2 to 4 fields expected"]),
+    ("*TIME\n STEP=FIXED\n 0, =[a\n", ["4:5 SYN006"]),
+    ("*TIME\n STEP=FIXED\n 0, 1\n SPAN=2\n", ["5:2 SYN004 *TIME has no setting SPAN="]),
+    ("*RESTART\n", ["2:1 SYN001 LAST= is missing here"]),
+    ("*RESTART\n TYPE=DYNAMIC\n", ["2:1 SYN001 LAST= is missing here"]),
+]
+
+
+@pytest.mark.parametrize(("lines", "expected"), FAULTS)
+def test_faults_of_a_known_form_are_told(lines: str, expected: Lines) -> None:
+    text = f"$LOAD CASE\n{lines}"
+    found = faults(text)
+    assert [message.startswith(words) for message, words in zip(found, expected, strict=True)] == [True] * len(expected)
+
+
 KEPT = [
     "LOAD CASE|*BOUNDARY\n TYPE=CONSTANT\n 1, 2\n TYPE=VESSEL\n VESSEL=Semi\n 201, 1\n",
     "LOAD CASE|*BOUNDARY\n TYPE=SINUSOIDAL, AMPLITUDE=2\n 1\n",
-    "LOAD CASE|*BOUNDARY\n 1, 2\nC between\n",
     "LOAD CASE|*TIME\n 0, 100\n",
+    "LOAD CASE|*TIME\n FROM=0\n",
     "LOAD CASE|*TIME\n STEP=VARIABLE\n 0, 100, x\n",
-    "LOAD CASE|*TIME\n STEP=FIXED\n 0, 100, 1, 2, 3\n",
-    "LOAD CASE|*TIME\n STEP=FIXED\n 0, =[a\n",
     "LOAD CASE|*RESTART\n FROM=static\n",
-    "LOAD CASE|*RESTART\n TYPE=DYNAMIC\n",
     "LOAD CASE|*FRICTION\n",
     "MODES|*FRICTION\n MODE=1\n",
     "MODEL|*P-Y\n TYPE=SAND\n SET=Pile\n 35.0, 10.0\n",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
@@ -9,9 +10,13 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from mudline.deck.loading import load_bytes
-from mudline.diagnostics import Severity
+from mudline.diagnostics import DeckError, Severity
+from mudline.formatting.document import formatted
+from mudline.linting.fixing import fix_bytes
+from mudline.linting.selection import select
+from mudline.linting.settings import Fixing, LintSettings
 from mudline.syntax.source import Source
-from mudline.syntax.tree import parse
+from mudline.syntax.tree import mark_of, parse
 from tests.reading.decks import deck_texts, mutated
 from tests.samples import SAMPLES
 
@@ -147,3 +152,33 @@ def test_control_characters_are_told_once_at_the_first() -> None:
     found = [problem for problem in deck.diagnose(deck.problems) if problem.code == "SYN012"]
     assert [(problem.severity, problem.line, problem.column) for problem in found] == [(Severity.WARNING, 4, 3)]
     assert "U+0007 (and 2 more" in found[0].message
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
+def test_control_characters_before_a_head_are_read_over(end: str) -> None:
+    plain = f"$MODEL{end}*OCEAN{end} 1.0{end} *NODE{end} 1, 0.0, 0.0{end}"
+    strange = plain.replace("$", "\x0c$").replace("*O", " \x0c\x00 *O").replace(" *N", "\x1a*N")
+    deck, again = (load_bytes(text.encode(), "deck.keyxm") for text in (plain, strange))
+    assert again.sections == deck.sections
+    assert again.preamble == []
+    assert [problem.code.code for problem in again.problems] == ["SYN012"]
+    assert read_back(strange.encode()).text == strange
+    laid = formatted(strange.encode(), "deck.keyxm").decode()
+    assert laid == plain.replace("$", "\x0c$").replace("*O", "\x0c\x00*O").replace(" *N", "\x1a*N")
+    fixed = fix_bytes(strange.encode(), "deck.keyxm", LintSettings(select(["STY005"]), fixing=Fixing.SAFE)).changed
+    assert fixed == plain.replace(" *N", "*N").encode()
+
+
+def test_control_characters_elsewhere_stay_in_their_line() -> None:
+    source = Source("", "\x0cC *x\n1\x0c*2\n" + "\x0c" * 100_000 + "x\n")
+    assert source.unified == source.text
+    assert mark_of("\x0c\t*OCEAN") == "*"
+    assert mark_of("\x0cC *") == mark_of("") == ""
+
+
+@pytest.mark.parametrize("line", ["\x0c*OCEAN", " \x00 $MODEL"])
+def test_a_raw_line_of_a_document_opens_nothing_behind_a_control_character(line: str) -> None:
+    sections = [{"name": "MODEL", "blocks": [{"keyword": "TITLE", "lines": [line]}]}]
+    data = json.dumps({"format": "mudline-deck/1", "sections": sections}).encode()
+    with pytest.raises(DeckError, match="opens a section or a block"):
+        load_bytes(data, "deck.json")

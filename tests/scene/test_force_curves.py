@@ -43,7 +43,7 @@ def test_points_are_evaluated() -> None:
 def test_a_curve_of_too_few_points_is_told_at_its_line() -> None:
     assert told(STIFFNESS + " CURVE=a\n CURVE=b\n 1, 1\n") == [("E", "CRV001", 3, 2), ("E", "CRV001", 4, 2)]
     assert told(STIFFNESS + " CURVE=b\n 1, 1\n 1, 1\n") == [("E", "CRV001", 3, 2)]
-    assert "curve 'a' has no distinct point" in messages(STIFFNESS + " CURVE=a\n")[0]
+    assert "curve 'a' has no point" in messages(STIFFNESS + " CURVE=a\n")[0]
 
 
 def test_two_forces_at_one_ratio_are_told_at_the_later_point() -> None:

@@ -24,6 +24,25 @@ def test_values_of_rows(lines: str, column: int, message: str) -> None:
 
 
 @pytest.mark.parametrize(
+    ("keyword", "line", "names"),
+    [
+        (
+            "SEABED PROPERTIES",
+            "FRICTION=-0.3, 0.6, 0.0, -0.01",
+            ["longitudinal friction coefficient", "longitudinal mobilisation length", "transverse mobilisation length"],
+        ),
+        ("SEABED PROPERTIES", "STIFFNESS=-1.0", ["STIFFNESS="]),
+        ("SEABED FRICTION", "COEFFICIENTS=-0.3, 0.6", ["friction coefficient along u1"]),
+        ("SEABED TRENCH", "GEOMETRY=-0.5, 1.0, 3.0", ["depth of the trench"]),
+    ],
+)
+def test_a_field_is_named_once(keyword: str, line: str, names: list[str]) -> None:
+    kind = " TYPE=ELASTIC\n" if keyword == "SEABED PROPERTIES" else ""
+    found = [message for message in messages(f"$MODEL\n*{keyword}\n{kind} SET=ALL\n {line}\n") if "must" in message]
+    assert [message.partition(" is ")[0] for message in found] == names
+
+
+@pytest.mark.parametrize(
     ("line", "column"),
     [
         ("STIFFNESS=-1", 12),
@@ -45,6 +64,8 @@ def test_values_of_sections_are_named_by_their_symbol() -> None:
         "external diameter Do is 0.0: it must be greater than 0",
         "internal diameter Di is -0.2: it must not be less than 0",
     ]
+    text = "$MODEL\n*GEOMETRIC SETS\n OPTION=RIGID\n SET=ALL\n 1, 1, 0.3, 0.2, 7850, , -1.0\n"
+    assert [message.partition(" is ")[0] for message in messages(text)] == ["second moment of area (I)"]
 
 
 def test_the_value_of_an_equation_is_looked_at() -> None:

@@ -9,10 +9,12 @@ import click
 from mudline.cli import options
 from mudline.cli.exits import DONE, FOUND
 from mudline.cli.inputs import collect
+from mudline.cli.lint_jobs import Effort
 from mudline.cli.lint_outputs import TEXT, outputs
 from mudline.cli.lint_report import Report
 from mudline.cli.lint_run import Run
 from mudline.cli.lint_settings import Configured, Given, merged
+from mudline.cli.lint_watch import Watched, refuse, watched
 from mudline.cli.options import View
 from mudline.cli.terminal import reason, tell
 from mudline.cli.writing import write_text
@@ -62,6 +64,15 @@ def _words(given: tuple[str, ...]) -> tuple[str, ...]:
 @click.option("--isolated", is_flag=True, help="Use no configuration file.")
 @click.option("--statistics", is_flag=True, help="Count the findings of each rule instead of listing them.")
 @click.option("--exit-zero", is_flag=True, help="Exit with 0 whatever is found.")
+@click.option(
+    "--jobs",
+    type=click.IntRange(min=0),
+    default=0,
+    metavar="N",
+    help="Use at most N processes, when that pays; 0 (default): one for each processor.",
+)
+@click.option("--no-cache", "uncached", is_flag=True, help="Look at every deck, and remember nothing of it.")
+@click.option("--watch", is_flag=True, help="Lint again whenever a deck or a configuration changes, until Ctrl-C.")
 @options.stdin_name
 @options.units
 @options.common
@@ -83,6 +94,9 @@ def command(
     isolated: bool,
     statistics: bool,
     exit_zero: bool,
+    jobs: int,
+    uncached: bool,
+    watch: bool,
     stdin_name: str,
     units: str | None,
     view: View,
@@ -93,19 +107,28 @@ def command(
     """
     fixing = Fixing.NONE if not (fix or diff) else Fixing.UNSAFE if unsafe else Fixing.SAFE
     given = Given(_words(chosen), _words(ignored), _words(also), fail_on, dialect, units, fixing)
-    configured = Configured(config, isolated)
+    Configured(config, isolated)  # wrong usage is told once, before anything is watched
     merged(Configuration(), given)  # a wrong code is told whatever the files are
     told = outputs(forms)
-    known = _baseline(baseline, recording=recording)
-    inputs = collect(paths, stdin_name, configured.wanted)
-    aside = diff or (fix and any(file.path is None for file in inputs.files))
-    report = Report(told, view, statistics=statistics, aside=aside, fixing=fixing is not Fixing.NONE)
-    run = Run(inputs, lambda file: configured.settings(file, given), report, known, recording, diff)
-    run.go()
-    if known is not None and baseline is not None:
-        _tell_baseline(known, Path(baseline), view, recording=recording)
-    failing = not exit_zero and (report.failing or run.differs)
-    return max(inputs.code, FOUND if failing else DONE)
+
+    def once() -> int:
+        configured = Configured(config, isolated)
+        known = _baseline(baseline, recording=recording)
+        inputs = collect(paths, stdin_name, configured.wanted)
+        aside = diff or (fix and any(file.path is None for file in inputs.files))
+        report = Report(told, view, statistics=statistics, aside=aside, fixing=fixing is not Fixing.NONE)
+        effort = Effort(jobs, not uncached)
+        run = Run(inputs, lambda file: configured.settings(file, given), report, known, recording, diff, effort)
+        run.go()
+        if known is not None and baseline is not None:
+            _tell_baseline(known, Path(baseline), view, recording=recording)
+        failing = not exit_zero and (report.failing or run.differs)
+        return max(inputs.code, FOUND if failing else DONE)
+
+    if watch:
+        refuse({"--fix": fix, "--diff": diff, "--write-baseline": recording}, paths, told)
+        watched(once, Watched(paths, tuple(path for path in (config, baseline) if path)), view)
+    return once()
 
 
 def _baseline(given: str | None, *, recording: bool) -> Baseline | None:

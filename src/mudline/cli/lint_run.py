@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Generator
+from contextlib import closing
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from mudline.cli.changes import tell_changes
 from mudline.cli.inputs import Input, Inputs
+from mudline.cli.lint_jobs import Effort, Linted, cache_for, linted, task
 from mudline.cli.lint_report import Report
 from mudline.cli.streams import emit_deck
 from mudline.cli.terminal import reason, tell
@@ -24,10 +26,13 @@ SettingsOf = Callable[[Input], LintSettings]
 """What holds for a file."""
 
 
-def lint_all(inputs: Inputs, settings_of: SettingsOf) -> Iterator[tuple[Input, bytes, FileReport]]:
+def lint_all(inputs: Inputs, settings_of: SettingsOf, effort: Effort) -> Generator[Linted, None, None]:
     """Each file that can be read with its content and its report, in the order of the files."""
-    for file, data in inputs.contents():
-        yield file, data, lint_one(file.name, data, settings_of(file), file.folder)
+    cache = cache_for(inputs, effort)
+    tasks = (task(file, data, settings_of(file), cache) for file, data in inputs.contents())
+    yield from linted(tasks, len(inputs.files), effort, cache)
+    if cache is not None:
+        cache.save()
 
 
 @dataclass
@@ -43,13 +48,15 @@ class Run:
     known: Baseline | None = None
     recording: bool = False
     diff: bool = False
+    effort: Effort = field(default_factory=Effort)
     differs: bool = False
     documents: int = 0
 
     def go(self) -> None:
         """All files."""
-        for file, data, result in lint_all(self.inputs, self.settings_of):
-            self._take(file, data, result)
+        with closing(lint_all(self.inputs, self.settings_of, self.effort)) as results:
+            for file, data, result in results:
+                self._take(file, data, result)
         if self.documents:
             tell(f"{self.documents} deck{'s' * (self.documents != 1)} in JSON or YAML not fixed: only keyword text is")
         self.report.finish()

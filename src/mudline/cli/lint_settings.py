@@ -43,6 +43,7 @@ class Configured:
     isolated: bool = False
     _search: Search = field(default_factory=Search)
     _settings: dict[object, LintSettings] = field(default_factory=dict)
+    _of_folder: dict[str, LintSettings] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if self.config is not None and self.isolated:
@@ -69,6 +70,9 @@ class Configured:
 
     def settings(self, file: Input, given: Given) -> LintSettings:
         """What holds for a file."""
+        folder = os.path.dirname(file.path or "-")  # noqa: PTH120 - asked for each of many files
+        if folder in self._of_folder:
+            return self._of_folder[folder]
         found = self.of(file.path)
         relative = place(found, file.path or file.name)
         ignores = found.table("per-file-ignores")
@@ -76,6 +80,8 @@ class Configured:
         key = (found.path, hidden)
         if key not in self._settings:
             self._settings[key] = merged(found, given, hidden)
+        if not ignores:
+            self._of_folder[folder] = self._settings[key]
         return self._settings[key]
 
 

@@ -19,7 +19,7 @@ from mudline.keywords.model import Block, Comment
 from mudline.keywords.reader import read_block
 from mudline.keywords.values import Text
 from mudline.syntax.source import Source
-from mudline.syntax.tree import Kind, Leaf, canonical_name, parse
+from mudline.syntax.tree import Kind, Leaf, canonical_name, mark_of, parse
 
 
 class DocumentOrigin(Nowhere):
@@ -38,9 +38,10 @@ def decoded(data: bytes, file: str, form: str) -> str:
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        line = data.count(b"\n", 0, error.start) + 1
-        message = f"byte 0x{data[error.start]:02X} is not UTF-8: {form} files are"
-        raise refusal(file, message, Range(line, 1, line, 1)) from error
+        before = Source("", error.object[: error.start].decode())
+        line, column = before.position(len(before.text))
+        message = f"byte 0x{error.object[error.start]:02X} is not UTF-8, which {form} has to be: save the file as UTF-8"
+        raise refusal(file, message, Range(line, column, line, column + 1)) from error
 
 
 def from_document(document: object, file: str, locate: Locate) -> Deck:
@@ -111,9 +112,9 @@ class _Reader:
         """Raw lines, none of which opens a section or a block."""
         lines: list[str] = self._checked(list[Text], value, path, [])
         for index, line in enumerate(lines):
-            first = line.lstrip(" \t")[:1]
-            if first and first in openers:
-                self.faults.add((*path, index), f"a line that begins with {first} opens a section or a block")
+            mark = mark_of(line)
+            if mark and mark in openers:
+                self.faults.add((*path, index), f"a line that begins with {mark} opens a section or a block")
         return lines
 
     def _stray(self, lines: list[str], words: str, where: Where) -> tuple[list[str], list[str]]:

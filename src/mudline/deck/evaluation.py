@@ -15,6 +15,7 @@ from mudline.keywords.model import ListRow, Part, Slot, columns_of, layout
 from mudline.keywords.table import Table
 from mudline.keywords.values import Equation, Kind
 
+_PLAIN = frozenset({float, int, str})
 _EVALUATED = (Kind.REAL, Kind.WHOLE, Kind.REAL_OR_NAME)
 
 
@@ -42,6 +43,8 @@ def _evaluated_slots(part: type[Part]) -> tuple[str, ...]:
 
 def _has_equation(value: object) -> bool:
     """Whether there is an equation in a value or below it."""
+    if value is None or type(value) in _PLAIN:
+        return False
     if isinstance(value, Part):
         return any(_has_equation(getattr(value, name)) for name in _evaluated_slots(type(value)))
     if isinstance(value, Table):

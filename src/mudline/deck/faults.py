@@ -113,8 +113,13 @@ class Faults:
     def extend(self, path: DocumentPath, error: ValidationError) -> None:
         """The faults of a model; of a choice between forms, those of the form that fits best."""
         known: dict[DocumentPath, list[ErrorDetails]] = {}
-        for fault in error.errors(include_url=False):
-            known.setdefault(self._real_path((*path, *fault["loc"])), []).append(fault)
+        placed = [((*path, *fault["loc"]), fault) for fault in error.errors(include_url=False)]
+        steps = {loc: self._alternatives(loc, len(path), fault["type"]) for loc, fault in placed}
+        unfit = _unfit(placed, steps)
+        for loc, fault in placed:
+            if all(loc[: step + 1] not in unfit for step in steps[loc]):
+                real = tuple(part for index, part in enumerate(loc) if index not in steps[loc])
+                known.setdefault(real, []).append(fault)
         deepest = max(known, key=len)
         around = {inner[:length] for inner in known for length in range(len(inner))}
         for inner, faults in known.items():
@@ -131,19 +136,30 @@ class Faults:
         problems = [Problem(DOC002, message, Span(number, number)) for number, (_, message) in enumerate(self.found)]
         raise DeckError(Deck(self.file, origin=_Numbered(places)).diagnose(problems))
 
-    def _real_path(self, loc: DocumentPath) -> DocumentPath:
-        """The path without the names of alternatives that pydantic puts in."""
-        found: list[str | int] = []
+    def _alternatives(self, loc: DocumentPath, given: int, kind: str) -> set[int]:
+        """Which steps of a path, behind the given ones, are names of alternatives that pydantic puts in."""
+        found: set[int] = set()
         value: Any = self.document
-        for part in loc:
+        for index, part in enumerate(loc):
             if _holds(value, part):
                 value = value[part]
             elif isinstance(value, str) and isinstance(part, int):
                 pass  # a row or a cell of a table that is a text
-            elif part != loc[-1] or not isinstance(value, dict):
-                continue
-            found.append(part)
-        return tuple(found)
+            elif index >= given and (kind != "missing" or index < len(loc) - 1):
+                found.add(index)
+        return found
+
+
+def _unfit(placed: list[tuple[DocumentPath, ErrorDetails]], steps: dict[DocumentPath, set[int]]) -> set[DocumentPath]:
+    """The alternatives whose mandatory key is missing, where another one has all of its mandatory keys."""
+    lacking: dict[DocumentPath, bool] = {}
+    for loc, fault in placed:
+        for step in steps[loc]:
+            below = len(loc) - step - 1
+            wrong = below == 0 or (below == 1 and fault["type"] == "missing")
+            lacking[loc[: step + 1]] = wrong or lacking.get(loc[: step + 1], False)
+    choices = {inner[:-1] for inner, wrong in lacking.items() if not wrong}
+    return {inner for inner, wrong in lacking.items() if wrong and inner[:-1] in choices}
 
 
 def _holds(value: object, part: str | int) -> bool:

@@ -7,7 +7,7 @@ from collections import Counter
 from mudline.codes import SYN007, SYN008, SYN009, SYN010, SYN011
 from mudline.diagnostics import Code, Problem, Severity, Span, Where
 from mudline.keywords import catalogue
-from mudline.keywords.text import suggestion
+from mudline.keywords.text import hint, instead, nearest
 
 MOST_TOLD = 1000
 """Findings of one code about lines, blocks or sections told one by one."""
@@ -20,27 +20,35 @@ class Findings:
         self.problems = problems
         self.told: Counter[str] = Counter()
 
-    def unknown_section(self, name: str, where: Where) -> None:
-        """A section that is not in the catalogue."""
+    def unknown_section(self, name: str, where: Where, head: Span | None = None) -> None:
+        """A section that is not in the catalogue; `head` is its line in a text."""
         if not self._tells(SYN010, None, where):
             return
-        hint = suggestion(name, list(catalogue.SECTIONS))
-        message = f"section ${name} is not known{hint}: it is kept as it is"
-        self.problems.append(Problem(SYN010, message, None, Severity.WARNING if hint else None, where))
+        near = nearest(name, list(catalogue.SECTIONS))
+        message = f"section ${name} is not known{hint(near)}: it is kept as it is"
+        self._misspelt(SYN010, message, where, f"${near}" if near else "", head)
 
-    def no_model(self, keyword: str, section: str, where: Where) -> None:
-        """A block that is kept as it is: nothing to tell if its keyword is known and may stand in the section."""
+    def no_model(self, keyword: str, section: str, where: Where, head: Span | None = None) -> None:
+        """A block that is kept as it is: nothing to tell if its keyword is known and may stand in the section.
+
+        `head` is its first line in a text.
+        """
         sections = catalogue.sections_of(keyword)
         if sections is None:
             if self._tells(SYN009, None, where):
-                hint = suggestion(keyword, list(catalogue.keywords()))
-                message = f"keyword *{keyword} is not known{hint}: the block is kept as it is"
-                self.problems.append(Problem(SYN009, message, None, Severity.WARNING if hint else None, where))
+                near = nearest(keyword, list(catalogue.keywords()))
+                message = f"keyword *{keyword} is not known{hint(near)}: the block is kept as it is"
+                self._misspelt(SYN009, message, where, f"*{near}" if near else "", head)
         elif (
             sections and section not in sections and section in catalogue.SECTIONS and self._tells(SYN008, None, where)
         ):
             message = f"*{keyword} does not belong in ${section}: it belongs in {_belongs(keyword)}"
             self.problems.append(Problem(SYN008, message, None, None, where))
+
+    def _misspelt(self, code: Code, message: str, where: Where, meant: str, head: Span | None) -> None:
+        """A name that is not known, which is a warning where another one was meant."""
+        repair = instead(meant, head) if head else None
+        self.problems.append(Problem(code, message, None, Severity.WARNING if meant else None, where, repair))
 
     def before_sections(self, keyword: str, span: Span | None = None, where: Where | None = None) -> None:
         """A block before the first section."""

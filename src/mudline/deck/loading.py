@@ -9,6 +9,7 @@ from typing import cast
 
 from mudline.deck.model import Deck
 from mudline.deck.reading import read_source
+from mudline.keywords.reader import BlockReader, read_block
 from mudline.syntax.source import Source
 
 FORMS = ("keyword", "json", "yaml")
@@ -26,15 +27,22 @@ def load_path(path: Path, name: str | None = None, *, form: str | None = None, u
 
 
 def load_bytes(
-    data: bytes, name: str, *, form: str | None = None, units: str | None = None, folder: Path | None = None
+    data: bytes,
+    name: str,
+    *,
+    form: str | None = None,
+    units: str | None = None,
+    folder: Path | None = None,
+    read: BlockReader = read_block,
 ) -> Deck:
     """The deck of a file's content. A keyword text never fails: what is wrong is in the deck's problems.
 
-    `folder` is where files that the deck names stand; without it none of them is looked for.
+    `folder` is where files that the deck names stand; without it none of them is looked for. `read` reads the blocks of
+    a keyword text.
     """
     form = form or form_of(name)
     if form == "keyword":
-        deck = read_source(Source.from_bytes(data, name), units=units)
+        deck = read_source(Source.from_bytes(data, name), units=units, read=read)
     else:
         deck = cast("Deck", _form(form).read(data, name))
         deck.units = units or deck.units

@@ -12,7 +12,7 @@ from mudline.deck.units import units_of
 from mudline.diagnostics import Problem, Span, Where
 from mudline.keywords import catalogue
 from mudline.keywords.model import Comment
-from mudline.keywords.reader import ReadBlock, read_block
+from mudline.keywords.reader import BlockReader, ReadBlock, read_block
 from mudline.syntax.fields import trimmed
 from mudline.syntax.source import Source
 from mudline.syntax.tree import Kind, Leaf, RawBlock, RawSection, SyntaxTree, parse
@@ -50,7 +50,7 @@ class TextOrigin:
     def damaged(self, where: Where) -> bool:
         """Whether something at this place could not be read."""
         block = self.read.get((where.section, where.block))
-        return block is not None and where.path in block.places.damaged
+        return block is not None and where.path in block.own.damaged
 
     def lost(self, section: int, block: int) -> int:
         """How many lines of a block could not be used at all."""
@@ -60,18 +60,19 @@ class TextOrigin:
     def written(self, where: Where) -> bool:
         """Whether exactly this value stands in the file."""
         block = self.read.get((where.section, where.block))
-        return block is not None and block.places.has(where.path)
+        return block is not None and block.own.has(where.path)
 
 
-def read_source(source: Source, *, units: str | None = None) -> Deck:
+def read_source(source: Source, *, units: str | None = None, read: BlockReader = read_block) -> Deck:
     """The deck of a keyword text, as far as it can be read; what was wrong is in its `problems`."""
-    reader = _Reader(parse(source))
+    reader = _Reader(parse(source), read)
     return reader.read(units)
 
 
 class _Reader:
-    def __init__(self, tree: SyntaxTree) -> None:
+    def __init__(self, tree: SyntaxTree, read: BlockReader) -> None:
         self.tree = tree
+        self.read_block = read
         self.text = tree.source.unified
         self.origin = TextOrigin(tree)
         self.problems: list[Problem] = list(tree.source.problems)
@@ -116,7 +117,7 @@ class _Reader:
         if raw.head:
             self.origin.heads[Where(index)] = trimmed(self.text, *raw.head.span)
         if raw.name not in catalogue.SECTIONS:
-            self.findings.unknown_section(raw.name, Where(index))
+            self.findings.unknown_section(raw.name, Where(index), self.origin.heads.get(Where(index)))
         self._stray(raw.leaves, f"of ${raw.name}")
         for leaf in raw.leaves:
             line = self._lines(leaf.span)
@@ -137,7 +138,7 @@ class _Reader:
         tree = self.tree
         final = tree.sections[-1].blocks
         last = bool(final) and raw is final[-1]
-        read = read_block(self.text, raw, declared, last=last)
+        read = self.read_block(self.text, raw, declared, last=last)
         if read.unpublished:
             self._opaque(section, Where(index, number), raw)
             return
@@ -153,7 +154,12 @@ class _Reader:
     def _opaque(self, section: Section, where: Where, raw: RawBlock) -> None:
         lines = [line for leaf in raw.leaves for line in self._lines(leaf.span)]
         section.blocks.append(Opaque(keyword=raw.name, lines=lines))
-        self.findings.no_model(raw.name, section.name, where)
+        head = self.origin.heads[where]
+        if head.end == len(self.text) and catalogue.begins_keyword(raw.name):
+            message = f"the file ends inside *{raw.name}: it seems to be cut off, add what is missing"
+            self.problems.append(Problem(SYN014, message, head))
+            return
+        self.findings.no_model(raw.name, section.name, where, self.origin.heads[where])
 
     def _truncated(self) -> None:
         """A fault in the very last token of a file without a last line end means that the file was cut."""

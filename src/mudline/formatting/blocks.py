@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from mudline.diagnostics import Span
-from mudline.formatting.places import RowKind, reading_of
+from mudline.formatting.columns import cut
+from mudline.formatting.places import reading_of
 from mudline.formatting.rows import Rows, Run, Single
 from mudline.keywords.reader import ReadBlock, all_keys
 from mudline.syntax.fields import Group, first_key, read_line, split
@@ -72,13 +73,13 @@ class _Block:
         if self.rows is None or self.rows.kind.slot is not kind.slot:
             yield from self.flush()
             self.rows = Rows(kind)
-        self.rows.members.append(Run(self.text, span) if kind.table else Single(self._fields(kind, span), span))
+        self.rows.members.append(Run(self.text, span) if kind.table else Single(self._fields(span), span))
 
-    def _fields(self, kind: RowKind, span: Span) -> list[str]:
+    def _fields(self, span: Span) -> list[str]:
         """The fields of a row that is no table's."""
         fields, _ = split(self.text, span, slashes=self.declared.slashes)
         texts = [self.reading.choices.get(given.span.start, given.text) for given in fields]
-        return kind.cut(apart(texts))
+        return cut(apart(texts))
 
     def _setting(self, span: Span) -> str:
         line = read_line(self.text, span, slashes=self.declared.slashes)
@@ -92,10 +93,7 @@ class _Block:
         """
         texts = [self.reading.choices.get(given.span.start, given.text) for given in group.fields]
         kind = self.reading.kinds.get(group.span.start)
-        if kind:
-            texts = kind.cut(apart(texts) if len(kind.columns) > 1 else texts)
-        while not kind and len(texts) > 1 and not texts[-1]:
-            texts.pop()
+        texts = cut(apart(texts) if kind and len(kind.columns) > 1 else texts)
         first = group.fields[0].span.start
         blank = " " if texts[0].startswith("[") and self.text[first - 1] != "=" else ""
         return [f"{group.key}={blank}{texts[0]}", *texts[1:]]

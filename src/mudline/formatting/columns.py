@@ -117,6 +117,14 @@ class WordRows:
         return "".join(f"{line(row, shapes)}\n" for row in self.rows)
 
 
+def cut(fields: list[str]) -> list[str]:
+    """The fields of a row without the empty ones behind the last that holds something."""
+    length = len(fields)
+    while length > 1 and not fields[length - 1]:
+        length -= 1
+    return fields[:length]
+
+
 def line(row: Sequence[str], shapes: Iterable[Shape]) -> str:
     """A row, indented by one blank; a row of one empty field is a comma, as an empty line would be no row."""
     *first, last = map(Shape.padded, shapes, row)

@@ -7,6 +7,7 @@ from mudline.diagnostics import Span
 from mudline.formatting.blocks import block_lines, comment_line
 from mudline.keywords.reader import ReadBlock
 from mudline.syntax.edits import TextEdit
+from mudline.syntax.source import CONTROLS, END_MARK
 from mudline.syntax.tree import Kind, Leaf, RawBlock
 
 _LINE_ENDS = ("\n", "\r\n", "\r")
@@ -54,8 +55,12 @@ class _Layout:
                 else:
                     self._block(block, read)
         for span in self.blanks:
-            self._put(span, "")
+            self._put(span, self._marks(span))
         return self.found
+
+    def _marks(self, span: Span) -> str:
+        """The end-of-file marks of old systems among blanks, which are no business of a layout."""
+        return "".join(char for char in self.source.text[slice(*span)] if char == END_MARK)
 
     def _put(self, span: Span, lines: str) -> None:
         """Put lines, each with a LF, in the place of those of a span."""
@@ -78,13 +83,18 @@ class _Layout:
         self._go_on()
         written = self.text[slice(*leaf.span)].strip(" \t\r\n")
         known = written.isascii() or self.source.encoding == "utf-8"
-        self._put(leaf.span, f"{canonical if known else written}\n")
+        before = self.source.text[slice(*leaf.span)].partition(canonical[0])[0]
+        controls = "".join(char for char in before if char in CONTROLS)
+        self._put(leaf.span, f"{controls}{canonical if known else written}\n")
 
     def _kept(self, leaves: list[Leaf]) -> None:
         """Lines that stay as they are, but for their line ends."""
         for leaf in leaves:
             self._go_on()
             if self.mixed or leaf.span.end == len(self.text):
+                if marks := self._marks(leaf.span):
+                    self._put(leaf.span, marks)
+                    continue
                 lines = self.text[slice(*leaf.span)].replace("\r\n", "\n")
                 self._put(leaf.span, lines if lines.endswith("\n") else lines + "\n")
 

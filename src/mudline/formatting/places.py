@@ -25,18 +25,6 @@ class RowKind(NamedTuple):
     many: bool = False
     table: bool = False
 
-    @property
-    def most(self) -> int:
-        """Fields of a row that count; empty ones behind them do not."""
-        return 1 if self.many else len(self.columns)
-
-    def cut(self, fields: list[str]) -> list[str]:
-        """The fields of a row without the empty ones behind the last that counts."""
-        length = len(fields)
-        while length > self.most and not fields[length - 1]:
-            length -= 1
-        return fields[:length]
-
     def is_text(self, column: int) -> bool:
         """Whether a column holds names or text; others hold numbers, with an equation or a label here and there."""
         slot = self.columns[0] if self.many else self.columns[min(column, len(self.columns) - 1)]

@@ -61,16 +61,16 @@ class PlainRows:
         points = np.flatnonzero((characters == _POINT) | (characters >= _LETTERS))
         point = np.append(points, len(characters))[np.searchsorted(points, starts)]
         rows = cls(characters, sizes, np.minimum(point, ends) - starts, column, last)
-        return rows._cut(most)
+        return rows._cut(opens, most)
 
-    def _cut(self, most: int) -> Self | None:
-        """The rows without empty fields beyond those that count."""
-        kept = self.column < most
-        if kept.all():
-            return self
-        if self.sizes[~kept].any():
+    def _cut(self, opens: _Array, most: int) -> Self | None:
+        """The rows, each of which begins at one of the fields `opens`, without the empty fields at their ends."""
+        filled = np.maximum.reduceat(np.where(self.sizes > 0, self.column, -1), opens)
+        if filled.max() >= most:
             return None
-        last = (self.last | ~np.append(kept[1:], True))[kept]
+        end = np.repeat(filled, np.diff(opens, append=len(self.column)))
+        kept = self.column <= end
+        last = (self.column == end)[kept]
         return type(self)(self.characters, self.sizes[kept], self.lefts[kept], self.column[kept], last)
 
     def measure(self, columns: Columns) -> None:
@@ -87,10 +87,7 @@ class PlainRows:
         point = np.array([shape.point for shape in shapes])[self.column]
         before = np.maximum(point - self.lefts, 0)
         after = np.maximum(width - before - self.sizes, 0) + 1
-        hollow = self.last & (self.sizes == 0)
-        before[hollow] = 0
         after[self.last] = 0
-        after[:-1][hollow[1:]] = 0
         before[self.column == 0] += 1
         room = before + self.sizes + 1 + after
         begins = np.cumsum(room) - room + before

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from mudline.diagnostics import Span
-from mudline.formatting.columns import Columns, WordRows
+from mudline.formatting.columns import Columns, WordRows, cut
 from mudline.formatting.places import RowKind
 from mudline.formatting.plain import PlainRows
 from mudline.syntax.rows import line_spans, row_fields
@@ -42,9 +42,9 @@ def word_rows(text: str, most: int) -> WordRows:
     for line in line_spans(text, Span(0, len(text))):
         body = text[slice(*line)]
         if "," not in body or _HELD_TOGETHER.search(body):
-            rows.append([given.text for given in row_fields(text, line, most)])
+            rows.append(cut([given.text for given in row_fields(text, line, most)]))
         else:
-            rows.append([piece.strip(" \t\r") for piece in body.split(",")[:most]])
+            rows.append(cut([piece.strip(" \t\r") for piece in body.split(",")[:most]]))
     return WordRows(rows)
 
 

@@ -6,13 +6,23 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from mudline.codes import SYN001, SYN003, SYN004
+from mudline.codes import SYN001, SYN003, SYN004, SYN014
 from mudline.diagnostics import Problem, Span
 from mudline.keywords.grammar import ROW, Content, Node
 from mudline.keywords.model import Block, ListRow, Part, Record, Slot, layout, row_format
 from mudline.keywords.places import Path, Places
 from mudline.keywords.tables import TableBuilder
-from mudline.keywords.text import UnreadableError, Value, decimal_comma, read_value, suggestion
+from mudline.keywords.text import (
+    UnreadableError,
+    Value,
+    cut_number,
+    decimal_comma,
+    hint,
+    instead,
+    mixed_commas,
+    nearest,
+    read_value,
+)
 from mudline.syntax.fields import Field, Group, read_line, split, trimmed
 from mudline.syntax.rows import blank_separated
 
@@ -45,16 +55,18 @@ class Built:
 
 
 class Builder:
-    """Reads the lines of one block."""
+    """Reads the lines of one block; `end` is where the file ends behind a last line that has no line end, or -1."""
 
-    def __init__(self, text: str, places: Places, problems: list[Problem], *, slashes: bool) -> None:
+    def __init__(self, text: str, places: Places, problems: list[Problem], *, slashes: bool, end: int = -1) -> None:
         self.text = text
+        self.end = end
         self.slashes = slashes
         self.places = places
         self.problems = problems
         self.damaged = False
         self.lost = 0
         self.unclosed: Span | None = None
+        self.unchosen: set[Path] = set()
 
     def build(self, part: type[Record], node: Node, path: Path = (), last: object = None) -> Built:
         """The values of a record; `last` is what the sticky field of the records before it gave."""
@@ -84,6 +96,14 @@ class Builder:
         self.problems.append(problem)
         self.places.damaged.add(path)
         self.damaged = True
+
+    def short(self, path: Path, message: str, span: Span) -> None:
+        """A value or more is missing in a row; at the very end of the file it was cut off."""
+        if 0 <= self.end <= span.end:
+            message = f"the file ends before this row is complete, it seems to be cut off: {message}"
+            self.damage(path, Problem(SYN014, message, span))
+        else:
+            self.damage(path, Problem(SYN003, message, span))
 
     def _brackets(self, problems: list[Problem], path: Path) -> None:
         """The bracket that a line does not close; it reaches to the end of the line, so there is one at most."""
@@ -132,9 +152,10 @@ class Builder:
             slot = found.keys.get(group.key)
             if slot is None:
                 expected = ", ".join(f"{key}=" for key in found.keys)
-                hint = suggestion(group.key, found.keys)
-                message = f"{group.key}= does not belong on this line{hint}: expected {expected}"
-                self.damage(path, Problem(SYN004, message, group.span))
+                near = nearest(group.key, found.keys)
+                message = f"{group.key}= does not belong on this line{hint(near)}: expected {expected}"
+                key = trimmed(self.text, group.span.start, self.text.find("=", group.span.start))
+                self.damage(path, Problem(SYN004, message, group.span, repair=instead(near, key)))
             elif slot.json in built.values:
                 self.damage(path, Problem(SYN001, f"{group.key}= is given twice", group.span))
             else:
@@ -161,10 +182,16 @@ class Builder:
             self.damage(path[:-1], Problem(SYN003, f"{slot.label} has no value", group.span))
             return
         self.places.spans[path] = fields[0].span
+        if fields[0].span.end == self.end and cut_number(fields[0].text):
+            message = f"the file ends inside {fields[0].text!r}: it seems to be cut off, add what is missing"
+            self.damage(path[:-1], Problem(SYN014, message, fields[0].span))
+            return
         try:
             built.values[slot.json] = read_value(fields[0], slot, self.problems)
         except UnreadableError as fault:
             self._unreadable(path[:-1], fault.problem)
+            if slot.choices and slot.name == built.part.sticky:
+                self.unchosen.add(path[:-1])
 
     def _row(
         self,
@@ -177,6 +204,9 @@ class Builder:
     ) -> None:
         found = layout(built.part)
         behind: list[Group] = []
+        if path in self.unchosen and sum(column.row is not None for column in found.columns) > 1:
+            built.reach(content.position)  # which format it has is not known
+            return
         if found.table and not found.columns:
             slot, fields = found.table, list[Field]()
         else:
@@ -241,7 +271,7 @@ class Builder:
             if not given.text:
                 values[slot.json] = None
                 if slot.required and not miscounted:
-                    self.damage(path, Problem(SYN003, f"{slot.label} is missing", given.span))
+                    self.short(path, f"{slot.label} is missing", given.span)
                 continue
             try:
                 values[slot.json] = read_value(given, slot, self.problems)
@@ -256,9 +286,11 @@ class Builder:
         fewest = max((index + 1 for index, needed in enumerate(required) if needed), default=0)
         if len(fields) == 1 and len(columns) > 1 and blank_separated(fields[0].text):
             fields = self._apart(fields[0])
-        while len(fields) > len(columns) and not fields[-1].text:
+        while len(fields) > max(fewest, 1) and not fields[-1].text:
             fields.pop()
         if fewest <= len(fields) <= len(columns):
+            if problem := mixed_commas(fields, [slot.kind for slot in columns], fewest):
+                self.problems.append(problem)
             return fields
         if self.unclosed:  # the open bracket holds the fields that are missing
             return fields[: len(columns)]
@@ -268,7 +300,10 @@ class Builder:
         count = f"{fewest}" if fewest == len(columns) else f"{fewest} to {len(columns)}"
         message = f"{count} fields expected (`{wanted}`), found {len(fields)}"
         span = Span(fields[0].span.start, fields[-1].span.end) if fields else self.places.find(path)
-        self.damage(path, Problem(SYN003, message, span))
+        if len(fields) < fewest:
+            self.short(path, message, span)
+        else:
+            self.damage(path, Problem(SYN003, message, span))
         return fields[: len(columns)]
 
     def _apart(self, given: Field) -> list[Field]:

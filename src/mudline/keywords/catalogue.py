@@ -218,6 +218,11 @@ def sections_of(keyword: str) -> tuple[str, ...] | None:
     return _OPAQUE.get(keyword)
 
 
+def begins_keyword(text: str) -> bool:
+    """Whether known keywords begin with a text that is none itself."""
+    return text not in keywords() and any(known.startswith(text) for known in keywords())
+
+
 @cache
 def keywords() -> tuple[str, ...]:
     """Every known keyword."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from typing import NamedTuple, cast
 
 from lark import Lark, Token, Tree, UnexpectedToken
@@ -17,6 +17,9 @@ from mudline.resources import grammar_file
 
 END = "$END"
 ROW = "ROW"
+
+_SMALL = 64
+"""Contents of a block whose tree is remembered: decks of one family hold blocks of the same few forms."""
 
 
 class Content(NamedTuple):
@@ -87,6 +90,27 @@ def parse(rule: str, contents: list[Content]) -> tuple[Node, list[Mismatch]]:
 
     A line that does not fit is left out, unless putting in a missing line before it makes it fit; each is reported.
     """
+    if len(contents) <= _SMALL:
+        tree = _fitting(rule, tuple([content.terminal for content in contents]))
+        if tree is not None:
+            return _node(tree, contents), []
+    return _parsed(rule, contents)
+
+
+@lru_cache(maxsize=1024)
+def _fitting(rule: str, terminals: tuple[str, ...]) -> Tree[Token] | None:
+    """The tree of lines by their terminals, if all of them fit."""
+    parser = _parser(rule).parse_interactive()
+    try:
+        for index, terminal in enumerate(terminals):
+            parser.feed_token(Token(terminal, "", start_pos=index))
+        return cast("Tree[Token]", parser.feed_eof())
+    except UnexpectedToken:
+        return None
+
+
+def _parsed(rule: str, contents: list[Content]) -> tuple[Node, list[Mismatch]]:
+    """The same line by line, whatever fits."""
     parser = _parser(rule).parse_interactive()
     mismatches: list[Mismatch] = []
     for index, content in enumerate(contents):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass, field
 from functools import cache
 from types import NoneType, UnionType
@@ -196,7 +197,8 @@ class Block(Record):
 
     `sections` are those where it belongs; `tabular` keeps runs of numeric lines whole, as arrays; `slashes` says that
     /.../ is one field; `example` is a block that reads without a finding. `unpublished` are the codes of faults that
-    may be a form which is not public: a block in which one is found is kept as it is, without a finding.
+    may be a form which is not public: a block in which one is found is kept as it is, without a finding. Where it
+    depends on more than the code, `other_form` says so.
     """
 
     names: ClassVar[tuple[str, ...]]
@@ -207,6 +209,10 @@ class Block(Record):
     unpublished: ClassVar[tuple[Code, ...]] = ()
     example: ClassVar[str]
     keyword: str
+
+    def other_form(self, faults: Collection[Code]) -> bool:
+        """Whether the lines, of which this could be read, may have a form that is not public; `faults` were told."""
+        return not set(self.unpublished).isdisjoint(faults)
 
 
 @dataclass(slots=True)

@@ -41,6 +41,12 @@ class Places:
         """Whether exactly this value was written in the deck."""
         return path in self.spans or path in self.runs
 
+    def moved(self, text: str, by: int) -> Places:
+        """The same in a text in which all of it stands further behind."""
+        spans = {path: span.moved(by) for path, span in self.spans.items()}
+        runs = {path: [(row, span.moved(by)) for row, span in found] for path, found in self.runs.items()}
+        return Places(text, self.block.moved(by), spans, runs, self.damaged)
+
     def _cell(self, runs: list[tuple[int, Span]], inner: Path) -> Span:
         row = int(inner[0]) if inner else 0
         first, run = runs[max(bisect_right(runs, row, key=itemgetter(0)) - 1, 0)]

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import cast
+from functools import cache
+from typing import Protocol, cast
 
 from pydantic import ValidationError
 
@@ -15,7 +16,8 @@ from mudline.keywords.comments import CommentLine, attach
 from mudline.keywords.grammar import END, ROW, Content, Mismatch
 from mudline.keywords.model import Block, Layout, Part, layout, row_format
 from mudline.keywords.places import Places
-from mudline.keywords.text import shown, suggestion
+from mudline.keywords.remarks import one_a_line
+from mudline.keywords.text import hint, instead, nearest, shown, suggestion
 from mudline.syntax.fields import first_key, trimmed
 from mudline.syntax.rows import line_spans
 from mudline.syntax.tree import Kind, Leaf, RawBlock
@@ -25,19 +27,36 @@ from mudline.syntax.tree import Kind, Leaf, RawBlock
 class ReadBlock:
     """A block that was read: its model, where its values stand, what was wrong, and the comments behind its last line.
 
-    `lost` counts lines that could not be used at all: what they would have defined is unknown.
+    `lost` counts lines that could not be used at all: what they would have defined is unknown. `own` are the places in
+    the text that was read; where that was a piece, `whole` is the text that it belongs to and where it begins there.
     """
 
     model: Block
-    places: Places
+    own: Places
     problems: list[Problem]
     trailing: list[str] = field(default_factory=list)
     lost: int = 0
+    whole: tuple[str, int] | None = None
+
+    @property
+    def places(self) -> Places:
+        """The places in the whole text; worked out when somebody asks."""
+        if self.whole:
+            self.own = self.own.moved(*self.whole)
+            self.whole = None
+        return self.own
 
     @property
     def unpublished(self) -> bool:
         """Whether the lines may have a form that is not public, so that they are kept as they are."""
-        return any(problem.code in type(self.model).unpublished for problem in self.problems)
+        return bool(self.problems) and self.model.other_form([problem.code for problem in self.problems])
+
+
+class BlockReader(Protocol):
+    """Reads a block as `read_block` does."""
+
+    def __call__(self, text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
+        """`text` is the unified text of the source; `last` says that nothing follows the block in it."""
 
 
 def read_block(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
@@ -60,15 +79,16 @@ class _Reader:
         contents = self._contents()
         node, mismatches = grammar.parse(self.declared.rule, contents)
         places = Places(self.text, trimmed(self.text, *self.raw.head.span))
-        builder = Builder(self.text, places, self.problems, slashes=self.declared.slashes)
+        end = len(self.text.rstrip(" \t")) if self.last and not self.text.endswith("\n") else -1
+        builder = Builder(self.text, places, self.problems, slashes=self.declared.slashes, end=end)
         builder.damaged = any(mismatch.missing for mismatch in mismatches)
         for mismatch in mismatches:
             self._report(mismatch)
         built = builder.build(self.declared, node)
-        trailing = attach(self.comments, built)
+        trailing = attach(self.comments, built) if self.comments else []
         self.lost += builder.lost
         model = self._model(built, builder)
-        return ReadBlock(model, places, self.problems, trailing, self.lost)
+        return ReadBlock(model, places, one_a_line(self.text, self.problems), trailing, self.lost)
 
     def _model(self, built: Built, builder: Builder) -> Block:
         """The validated model; of a block with faults, what could be read of it."""
@@ -115,9 +135,9 @@ class _Reader:
             self._setting(position, leaf.span, contents)
             return
         line = self.text[slice(*leaf.span)].rstrip("\r\n")
-        hint = suggestion(key, sorted(self.keys)) if key else ""
+        meant = suggestion(key, sorted(self.keys)) if key else ""
         message = (
-            f"{shown(line)} begins with C in column 1 and is read as a comment (inferred){hint}: "
+            f"{shown(line)} begins with C in column 1 and is read as a comment (inferred){meant}: "
             "put a blank after the C, or indent the line if it is data"
         )
         self.problems.append(Problem(SYN013, message, trimmed(self.text, *leaf.span)))
@@ -132,8 +152,10 @@ class _Reader:
         allowed = ", ".join(f"{name}=" for name in known) or "no KEY= at all"
         body = trimmed(self.text, *span)
         end = self.text.find("=", body.start, body.end)
-        message = f"*{self.raw.name} has no setting {key}={suggestion(key, known)}: it takes {allowed}"
-        self.problems.append(Problem(SYN004, message, Span(body.start, end + 1)))
+        near = nearest(key, known)
+        message = f"*{self.raw.name} has no setting {key}={hint(near)}: it takes {allowed}"
+        repair = instead(near, trimmed(self.text, body.start, end))
+        self.problems.append(Problem(SYN004, message, Span(body.start, end + 1), repair=repair))
         self.lost += 1
 
     def _report(self, mismatch: Mismatch) -> None:
@@ -175,6 +197,7 @@ def _label(part: type[Part], place: tuple[str | int, ...]) -> str:
     return label
 
 
+@cache
 def all_keys(part: type[Part]) -> frozenset[str]:
     """Every KEY that the lines of a keyword may begin with or hold."""
     return frozenset(key for found in _layouts(part) for key in found.keys)

@@ -20,6 +20,13 @@ LARGEST_WHOLE = 2**53
 _PART = 8192
 
 
+def not_whole(written: str, value: float, label: str) -> str:
+    """Why a number cannot stand where a whole one belongs; `written` is how it stands there."""
+    if value.is_integer():
+        return f"{written} is too large: {label} needs a whole number of at most 2^53 ({LARGEST_WHOLE})"
+    return f"{written} is no whole number: {label} needs one"
+
+
 class CellError(ValueError):
     """A cell or, without a column, a row of a list that a table cannot hold."""
 
@@ -195,7 +202,7 @@ def _cells(rows: list[list[object]], lengths: NDArray[np.intp], width: int, colu
                 raise CellError(fault, row, column)
             else:
                 words[row, column] = _word(cell or "")
-    return Table(values, lengths, words)
+    return _without_empty_ends(Table(values, lengths, words), columns)
 
 
 def _finite(cell: float, row: int, column: int) -> float:
@@ -219,7 +226,7 @@ def from_text(text: str, columns: Sequence[Column]) -> Table:
 def from_rows(raw: RawRows, columns: Sequence[Column]) -> tuple[Table, dict[tuple[int, int], str]]:
     """A table from raw rows, and what is wrong in it by row and column (column -1: the whole row).
 
-    Empty fields beyond the last column (a trailing comma) are dropped.
+    Empty fields behind the last one that holds something, as trailing commas leave them, are dropped.
     """
     faults: dict[tuple[int, int], str] = {}
     words: dict[tuple[int, int], Equation | Label | None] = {}
@@ -230,11 +237,25 @@ def from_rows(raw: RawRows, columns: Sequence[Column]) -> tuple[Table, dict[tupl
         else:
             words[row, column] = _word(word)
     fewest = _fewest(columns)
-    for row in np.flatnonzero((raw.lengths < fewest) | (raw.lengths > len(columns))).tolist():
+    wrong = (raw.lengths < fewest) | (raw.lengths > len(columns))
+    for row in np.flatnonzero(wrong).tolist() if wrong.any() else ():
         faults[row, -1] = f"{_fields(raw.lengths[row])}, expected {_count(columns)}"
         raw.values[row, 1:] = math.nan  # the row still defines its number
-    table = Table(raw.values, lengths, words)
+    table = _without_empty_ends(Table(raw.values, lengths, words), columns)
     return table, faults | _not_whole(table, columns)
+
+
+def _without_empty_ends(table: Table, columns: Sequence[Column]) -> Table:
+    """The table without empty fields at the ends of its rows, as far as they may be left out."""
+    fewest = max(_fewest(columns), 1)
+    empty = [(row, column) for (row, column), word in table.words.items() if word is None and column >= fewest]
+    lengths = table.lengths.copy() if empty else table.lengths
+    for row, column in sorted(empty, reverse=True):
+        if column == lengths[row] - 1:
+            lengths[row] = column
+            del table.words[row, column]
+    width = int(lengths.max(initial=0)) if len(lengths) else table.values.shape[1]
+    return Table(np.ascontiguousarray(table.values[:, :width]), lengths, table.words)
 
 
 def _word(text: str) -> Equation | Label | None:
@@ -256,6 +277,8 @@ def _count(columns: Sequence[Column]) -> str:
 
 def _not_whole(table: Table, columns: Sequence[Column]) -> dict[tuple[int, int], str]:
     faults: dict[tuple[int, int], str] = {}
+    if _all_whole(table.values, columns):
+        return faults
     for index in range(table.values.shape[1]):
         if not columns[index].whole:
             continue
@@ -265,6 +288,15 @@ def _not_whole(table: Table, columns: Sequence[Column]) -> dict[tuple[int, int],
             wrong = (values != np.floor(values)) & ~np.isnan(values) | (np.abs(values) > LARGEST_WHOLE)
         for row in np.flatnonzero(wrong).tolist():
             value = float(values[row])
-            faults[row, index] = f"{value!r} is no whole number: {columns[index].label} needs one"
+            faults[row, index] = not_whole(repr(value), value, columns[index].label)
             values[row] = math.nan
     return faults
+
+
+def _all_whole(values: NDArray[np.float64], columns: Sequence[Column]) -> bool:
+    """Whether the whole columns, where they are the first ones, hold nothing but whole numbers and no zero."""
+    count = next((index for index, column in enumerate(columns) if not column.whole), len(columns))
+    if any(column.whole for column in columns[count:]):
+        return False
+    first = values[:, :count]
+    return bool(((first == np.floor(first)) & (first != 0.0) & (np.abs(first) <= LARGEST_WHOLE)).all())

@@ -11,7 +11,7 @@ from mudline.diagnostics import Problem, Span
 from mudline.keywords.model import Slot, columns_of, row_format
 from mudline.keywords.places import Path
 from mudline.keywords.table import Column, Table, from_rows
-from mudline.keywords.text import decimal_comma, maybe_label, number_fault
+from mudline.keywords.text import decimal_comma, in_braces, maybe_label, number_fault
 from mudline.keywords.values import Equation, Kind, Label
 from mudline.syntax.fields import split
 from mudline.syntax.rows import Rows as RawRows
@@ -90,7 +90,7 @@ class TableBuilder:
         table.words[row, column] = label
         place = row_fields(self.builder.text, line, len(self.columns))[column].span
         message = f"{word!r} is no number: is it the label {label}? Labels stand in braces"
-        self.builder.problems.append(Problem(SYN016, message, place))
+        self.builder.problems.append(Problem(SYN016, message, place, repair=in_braces(word, place)))
         return True
 
     def _brackets(self, line: Span) -> bool:
@@ -111,10 +111,17 @@ class TableBuilder:
                 self.builder.problems.append(problem)
             wanted = row_format([column.label for column in self.columns], required)
             place = Span(fields[0].span.start, fields[-1].span.end)
-            self.builder.damage(self.path[:-1], Problem(SYN003, f"{fault} (`{wanted}`)", place))
+            message = f"{fault} (`{wanted}`)"
+            if len(fields) < sum(required):
+                self.builder.short(self.path[:-1], message, place)
+            else:
+                self.builder.damage(self.path[:-1], Problem(SYN003, message, place))
             return
         place = row_fields(text, line, len(self.columns))[column].span
         word = raw.words.get((row, column))
         if word:
             fault = number_fault(word, self.columns[column].label)
-        self.builder.damage(self.path[:-1], Problem(SYN003 if word == "" else SYN002, fault, place))
+        if word == "":
+            self.builder.short(self.path[:-1], fault, place)
+        else:
+            self.builder.damage(self.path[:-1], Problem(SYN002, fault, place))

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
+from itertools import pairwise
 
 from mudline.codes import SYN002, SYN005, SYN015, SYN016
-from mudline.diagnostics import Problem, Span
+from mudline.diagnostics import Problem, Repair, Span
 from mudline.keywords.model import Slot, layout
+from mudline.keywords.table import LARGEST_WHOLE, not_whole
 from mudline.keywords.values import Equation, Kind, Label
 from mudline.syntax.fields import Field, split
 from mudline.syntax.rows import read_number, spells_number
 
 Value = float | int | str | None
-LARGEST_WHOLE = 2.0**53
 _REAL = (Kind.REAL, Kind.REAL_OR_NAME)
+_WHOLE = re.compile(r"[-+]?[0-9]+")
+_FRACTION = re.compile(r"[0-9]+(?:[eEdD][-+]?[0-9]+)?")
 
 
 class UnreadableError(Exception):
@@ -78,6 +82,11 @@ def _not_finite(text: str) -> bool:
     return text.lower().lstrip("+-") in ("nan", "inf", "infinity")
 
 
+def cut_number(text: str) -> bool:
+    """Whether a text is the beginning of a number: a sign, or digits with an exponent that has none."""
+    return text in ("+", "-") or (text.rstrip("+-")[-1:] in ("e", "E", "d", "D") and spells_number(f"{text}0"))
+
+
 def number_fault(text: str, label: str) -> str:
     """Why a text is no number, in words that say what to do."""
     lower = text.lower().lstrip("+-")
@@ -100,12 +109,32 @@ def shown(text: str) -> str:
     return repr(text if len(text) <= 60 else text[:57] + "...")
 
 
-def suggestion(word: str, known: Iterable[str]) -> str:
-    """` (did you mean X?)` for the nearest known word within two edits (one for a short word), or nothing."""
+def nearest(word: str, known: Iterable[str]) -> str:
+    """The nearest known word within two edits (one for a short word), or nothing."""
     wanted = word.casefold()
     most = 1 if len(wanted) < 5 else 2
     near = min(((edits(wanted, name.casefold(), most), name) for name in known), default=(most + 1, ""))
-    return f" (did you mean {near[1]}?)" if near[0] <= most else ""
+    return near[1] if near[0] <= most else ""
+
+
+def hint(near: str) -> str:
+    """` (did you mean X?)`, or nothing where no word is near."""
+    return f" (did you mean {near}?)" if near else ""
+
+
+def suggestion(word: str, known: Iterable[str]) -> str:
+    """` (did you mean X?)` for the nearest known word within two edits (one for a short word), or nothing."""
+    return hint(nearest(word, known))
+
+
+def instead(near: str, span: Span) -> Repair | None:
+    """The repair that puts the word that was meant in the place of another; None where no word is near."""
+    return Repair("unsafe", f"write {near}", ((span, near),)) if near else None
+
+
+def in_braces(text: str, span: Span) -> Repair:
+    """The repair that makes a label of a text."""
+    return Repair("unsafe", "put the label in braces", ((span, "{" + text + "}"),))
 
 
 def edits(one: str, other: str, most: int) -> int:
@@ -140,6 +169,27 @@ def decimal_comma(values: list[Field], kinds: list[Kind | None], fewest: int) ->
     return None
 
 
+def mixed_commas(values: list[Field], kinds: list[Kind | None], fewest: int) -> Problem | None:
+    """The finding about a row in which some commas have no blank beside them, between digits, and others have one.
+
+    One such pair may be a slip of the fingers; two of them where real numbers belong are decimal commas.
+    """
+    tight = [one.span.end + 1 == two.span.start for one, two in pairwise(values)]
+    if not any(tight) or all(tight):
+        return None
+    pairs = [at for at, joined in enumerate(tight) if joined]
+    alone = all(later - at > 1 for at, later in pairwise(pairs))
+    halves = all(_WHOLE.fullmatch(values[at].text) and _FRACTION.fullmatch(values[at + 1].text) for at in pairs)
+    places = [at - before for before, at in enumerate(pairs)]
+    if len(pairs) < 2 or not alone or not halves or len(values) - len(pairs) < fewest:
+        return None
+    if any(kinds[place] not in _REAL for place in places):
+        return None
+    one, two = values[pairs[0] : pairs[0] + 2]
+    message = f"decimal comma? {one.text},{two.text} is two fields here: write {one.text}.{two.text}"
+    return Problem(SYN015, message, one.span._replace(end=two.span.end))
+
+
 def _choice(field: Field, slot: Slot) -> str:
     word = " ".join(field.text.upper().split())
     if word in slot.choices:
@@ -147,16 +197,16 @@ def _choice(field: Field, slot: Slot) -> str:
     known = list(slot.choices)
     known = [*(["a number"] if slot.kind else []), *known, *([layout(slot.row).wanted] if slot.row else [])]
     listed = ", ".join(known[:-1]) + f" or {known[-1]}" if len(known) > 1 else known[0]
-    message = f"{shown(field.text)} is not allowed for {slot.label}: expected {listed}{suggestion(word, known)}"
-    raise UnreadableError(Problem(SYN005, message, field.span))
+    near = nearest(word, slot.choices)
+    message = f"{shown(field.text)} is not allowed for {slot.label}: expected {listed}{hint(near)}"
+    raise UnreadableError(Problem(SYN005, message, field.span, repair=instead(near, field.span)))
 
 
 def _whole(field: Field, number: float | None, slot: Slot) -> int:
     if number is None:
         raise UnreadableError(Problem(SYN002, number_fault(field.text, slot.label), field.span))
     if not number.is_integer() or abs(number) > LARGEST_WHOLE:
-        message = f"{field.text} is no whole number: {slot.label} needs one"
-        raise UnreadableError(Problem(SYN002, message, field.span))
+        raise UnreadableError(Problem(SYN002, not_whole(field.text, number, slot.label), field.span))
     return int(number)
 
 
@@ -169,5 +219,5 @@ def _ident(field: Field, number: float | None, slot: Slot, problems: list[Proble
     if braced is None:
         raise UnreadableError(Problem(SYN002, number_fault(field.text, slot.label), field.span))
     message = f"{shown(field.text)} is no number: is it the label {braced}? Labels stand in braces"
-    problems.append(Problem(SYN016, message, field.span))
+    problems.append(Problem(SYN016, message, field.span, repair=in_braces(field.text, field.span)))
     return braced

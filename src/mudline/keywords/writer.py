@@ -104,8 +104,8 @@ def _value(value: Any) -> str:
 
 
 def _row(part: Part, columns: list[Slot]) -> str:
-    given = [slot.name in part.model_fields_set for slot in columns]
-    length = max((index + 1 for index, here in enumerate(given) if here), default=0)
+    given = [getattr(part, slot.name) is not None for slot in columns]
+    length = max((index + 1 for index, here in enumerate(given) if here), default=1)
     values = [getattr(part, slot.name) for slot in columns[:length]]
     if len(values) == 1 and isinstance(values[0], list):
         values = values[0]

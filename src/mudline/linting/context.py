@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
 from functools import cached_property
+from typing import TypeVar, cast
 
 from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Code, Problem
+from mudline.linting.odd_curves import odd_curves
 from mudline.scene.build import resolve
+from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene
+
+T = TypeVar("T")
 
 
 @dataclass
@@ -22,6 +27,7 @@ class LintContext:
 
     deck: Deck
     dialect: str = "mudline"
+    _made: dict[object, object] = field(default_factory=dict, repr=False)
 
     @property
     def text(self) -> TextOrigin | None:
@@ -34,11 +40,22 @@ class LintContext:
         return resolve(self.deck)
 
     @cached_property
+    def odd_curves(self) -> list[tuple[int, SceneCurve]]:
+        """The curves that rules about the shape of a curve have to look at, with their index in the table of laws."""
+        return odd_curves(self.scene.laws)
+
+    @cached_property
     def _told(self) -> dict[str, list[Problem]]:
         told: dict[str, list[Problem]] = {}
         for problem in [*self.deck.problems, *self.scene.problems]:
             told.setdefault(problem.code.code, []).append(problem)
         return told
+
+    def once(self, make: Callable[[LintContext], T]) -> T:
+        """What a function makes of this deck, made once for all rules that ask."""
+        if make not in self._made:
+            self._made[make] = make(self)
+        return cast("T", self._made[make])
 
     def told(self, code: Code) -> Iterator[Problem]:
         """What reading and resolving the deck noticed under a code."""

@@ -8,10 +8,14 @@ from pathlib import Path
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import Deck
 from mudline.diagnostics import DeckError, Diagnostic, Problem
+from mudline.keywords.memory import BlockMemory
 from mudline.linting.context import LintContext
 from mudline.linting.registry import Rule
 from mudline.linting.suppression import suppressions
 from mudline.scene.continued import of_base
+
+_MEMORY = BlockMemory()
+"""Rules look at decks and do not change them."""
 
 
 def lint_deck(deck: Deck, chosen: Sequence[Rule]) -> list[Diagnostic]:
@@ -57,7 +61,7 @@ def lint_bytes(
     are chosen, as nothing else can be said of it.
     """
     try:
-        deck = load_bytes(data, name, units=units, folder=folder)
+        deck = load_bytes(data, name, units=units, folder=folder, read=_MEMORY.read)
     except DeckError as error:
         return list(error.diagnostics)
     return lint_context(LintContext(deck, dialect=dialect), chosen)

@@ -103,7 +103,7 @@ class _Run:
         if state.unreadable:
             codes = {error.code.code for error in state.unreadable}
             cleared = [one for one in wanted if one.code.code in codes and one.weight is Severity.ERROR]
-            return _disjoint(cleared) if len(cleared) >= len(state.unreadable) else []
+            return _disjoint(cleared)
         return _disjoint([problem for problem in wanted if _repair(problem).applicability == "safe"] or wanted)
 
     def _sound(self, state: FixState, problems: list[Problem]) -> tuple[list[Problem], FixState | None]:

@@ -27,6 +27,7 @@ MODULES = (
     "units",
     "stability",
     "legacy",
+    "style",
     "style_suppression",
 )
 """The modules of `mudline.linting.rules`."""
@@ -151,7 +152,8 @@ def rules() -> tuple[Rule, ...]:
 def find(word: str) -> list[Rule]:
     """The rules that a code, a prefix of a code or a slug names, in any case."""
     wanted = word.strip()
-    exact = [found for found in rules() if wanted.upper() == found.code.code or wanted.lower() == found.code.slug]
+    code, slug = wanted.upper(), wanted.lower()
+    exact = [found for found in rules() if code == found.code.code or slug == found.code.slug]
     if exact or not wanted.isalnum():
         return exact
-    return [found for found in rules() if found.code.code.startswith(wanted.upper())]
+    return [found for found in rules() if found.code.code.startswith(code)]

@@ -37,6 +37,8 @@ def _named(words: Iterable[str]) -> set[str]:
 
 def _hint(word: str) -> str:
     codes = [rule.code.code for rule in rules()]
+    if word.isalpha():  # a code has digits: this was to be a beginning
+        codes = sorted({code.rstrip("0123456789") for code in codes})
     slugs = [rule.code.slug for rule in rules()]
     near = get_close_matches(word.lower(), slugs, 1) or get_close_matches(word.upper(), codes, 1)
     return f": did you mean {near[0]}?" if near else ": `mudline rules` lists all rules"

@@ -28,6 +28,7 @@ STY010 = Code("STY010", "unused-suppression", Severity.WARNING)
 MARK = re.compile(r"[Cc][ \t]+mudline[ \t]*:[ \t]*", re.IGNORECASE)
 """How a comment begins that speaks to mudline."""
 
+_NAMED = re.compile(r"mudline", re.IGNORECASE)
 _ORDER = re.compile(r"[\w-]+")
 _WORD = re.compile(r"[^,\s]+")
 _REASON = re.compile(r"(?:(?<=[\s,])|^)--(?=\s|$)")
@@ -215,6 +216,8 @@ def _within(part: Part) -> Iterator[str]:
 
 def _read(origin: TextOrigin, *, own_text: bool) -> Suppressions | None:
     text = origin.source.unified
+    if _NAMED.search(text) is None:
+        return None
     if not any(leaf.kind is Kind.COMMENT and MARK.match(text, *leaf.span) for leaf in origin.tree.leaves()):
         return None
     found = Suppressions(origin, own_text)

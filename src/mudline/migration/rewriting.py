@@ -83,8 +83,7 @@ class _Rewriter:
         first = places.spans[("curves", index)]
         line = f"CURVE={name}"
         if places.has(("curves", index, "set")):
-            start = self._line_start(first.start)
-            self._edit(first, line if start < first.start else f" {line}")
+            self._row(first, line)
         else:
             start = self._line_start(first.start)
             self._edit(Span(start, start), f"{self._indent(first.start)}{line}\n")
@@ -97,6 +96,10 @@ class _Rewriter:
             for line in line_spans(self.text, leaf.span)
         ]
 
+    def _row(self, row: Span, lines: str) -> None:
+        """Settings in the place of a row, indented as it is or by a blank."""
+        self._edit(row, lines if self._line_start(row.start) < row.start else f" {lines}")
+
     def _surface(self, where: Where, block: Surface, by_set: list[tuple[str, str]]) -> None:
         self._head(where, "SEABED PROPERTIES")
         rows = self._rows(self._raw(where))
@@ -104,10 +107,8 @@ class _Rewriter:
         type_ = block.keyword.split()[0]
         lines = [f"TYPE={type_}", *_sets(surface_lines(fields), by_set, rigid=type_ == "RIGID")]
         indent = self._indent(rows[0].start)
-        self._edit(rows[0], f"\n{indent}".join(lines))
+        self._row(rows[0], f"\n{indent}".join(lines))
         start = self._line_start(rows[0].start)
-        if start == rows[0].start:
-            self._edit(Span(start, start), " ")
         if given := lengths_given(fields):
             listed = ", ".join(given)
             comment = f"C largest characteristic lengths ({listed}) left out: the default, or without effect\n"
@@ -128,10 +129,10 @@ class _Rewriter:
         self._edit(Span(after, after), "*SEABED PROFILE\n")
         if block.profile is None:
             value = self.text[slice(*rows[1])].strip(" \t,")
-            self._edit(rows[1], f"TYPE=SLOPING\n{indent}SLOPE={value}")
+            self._row(rows[1], f"TYPE=SLOPING\n{indent}SLOPE={value}")
             return
         name = self._file_name()
-        self._edit(rows[1], f"TYPE=2D\n{indent}INTERPOLATION=LINEAR\n{indent}FILE={name}")
+        self._row(rows[1], f"TYPE=2D\n{indent}INTERPOLATION=LINEAR\n{indent}FILE={name}")
         for row in rows[2:]:
             end = self.text.find("\n", row.end)
             self._edit(Span(self._line_start(row.start), len(self.text) if end < 0 else end + 1), "")

@@ -66,7 +66,7 @@ def read_bed(context: Context, laws: LawTable) -> Bed:
     values = [entry for _, entry in surfaces]
     places = [where for where, _ in surfaces]
     of_element = np.full(len(laws.covered), len(surfaces) - 1, dtype=np.intp)
-    for index in np.unique(laws.covered[laws.covered >= 0]).tolist():
+    for index in np.flatnonzero(np.bincount(laws.covered[laws.covered >= 0])).tolist():
         where = laws.grants[index].where
         block = cast("SeabedProperties", context.deck.sections[where.section].blocks[where.block])
         position = cast("int", where.path[1])

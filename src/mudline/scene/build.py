@@ -5,6 +5,7 @@ from __future__ import annotations
 from mudline.deck.evaluation import evaluated
 from mudline.deck.model import Deck
 from mudline.scene.bed import read_bed
+from mudline.scene.boundaries import check_boundaries
 from mudline.scene.context import Context
 from mudline.scene.elements import read_elements
 from mudline.scene.extensions import read_extensions
@@ -20,6 +21,7 @@ from mudline.scene.ranges import check_ranges
 from mudline.scene.restart import continued
 from mudline.scene.sections import read_sections
 from mudline.scene.sets import read_sets
+from mudline.scene.soil import check_soil
 
 
 def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:
@@ -44,6 +46,9 @@ def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:
     extensions = read_extensions(context, sets, count)
     floor = read_floor(context)
     check_lines(context)
+    if external is None:  # a file of elements does not tell of every node and set
+        check_soil(context, sets, nodes)
+        check_boundaries(context, nodes)
     check_laws(context, laws)
     check_diameters(context, laws, sections, elements.numbered)
     check_ranges(context)

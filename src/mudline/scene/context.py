@@ -19,7 +19,7 @@ from mudline.keywords.model import ListRow
 from mudline.scene.continued import ContinuedDeck
 from mudline.scene.harvest import LAID, definers, harvested_labels, harvested_sets, may_define
 from mudline.scene.numbering import LARGEST
-from mudline.syntax.tree import canonical_name
+from mudline.syntax.tree import canonical_name, mark_of
 
 MOST_TOLD = 1000
 """Findings of one code told one by one; the rest is left out."""
@@ -191,7 +191,7 @@ class Context:
     @cached_property
     def _astray(self) -> list[tuple[str, str]]:
         """Keywords that stand where they are not read: outside any section, in a wrong one, or misspelt."""
-        outside = [canonical_name(line) for line in self.deck.preamble if line.lstrip(" \t").startswith("*")]
+        outside = [canonical_name(line) for line in self.deck.preamble if mark_of(line) == "*"]
         found = [(name, f"the *{name} before the first section") for name in outside]
         for section in self.deck.sections:
             for block in section.blocks:

@@ -125,7 +125,10 @@ def _join(context: Context, elements: Numbered, nodes: Numbered) -> Indices:
     given = np.abs(elements.values) <= 2 * LARGEST
     numbers = np.where(given, elements.values, 0).astype(np.int64)
     indices = np.where(given, nodes.indices(numbers), -1)
-    lost = np.argwhere(given & (indices < 0))
+    missing = given & (indices < 0)
+    if not missing.any():
+        return indices
+    lost = np.argwhere(missing)
     batches = elements.batches_of(elements.rows[lost[:, 0]])
     generators = np.array([not batch.table for batch in elements.batches], dtype=bool)[batches]
     _, firsts = np.unique(np.where(generators, batches, -1 - np.arange(len(lost))), return_index=True)

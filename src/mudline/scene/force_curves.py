@@ -93,7 +93,9 @@ def _curve(context: Context, name: str | None, table: Table, where: Where, *, em
         ratio, force = points[index].tolist()
         message = f"a second force at ratio {ratio!r} ({force!r}): the slope there would be infinite; remove one"
         context.tell(CRV003, message, found.point(index))
-    keep = np.setdiff1d(np.arange(len(points)), clashing, assume_unique=True)
+    keep = np.arange(len(points))
+    if clashing.size:
+        keep = np.setdiff1d(keep, clashing, assume_unique=True)
     try:
         curve = ForceCurve(points[keep], found.name)
     except CurveError as error:
@@ -101,8 +103,8 @@ def _curve(context: Context, name: str | None, table: Table, where: Where, *, em
             fault = str(error) if len(keep) == len(table) else "the slope to this point cannot be held by a float64"
             context.tell(_CODES[error.code], f"{fault}: correct the point", found.point(int(keep[error.index])))
         elif whole:
-            count = min(len(points), 1)
-            message = f"curve {shown(found.name)} has {count or 'no'} distinct point: it needs at least two"
+            has = "one distinct point" if len(points) else "no point"
+            message = f"curve {shown(found.name)} has {has}: it needs at least two"
             context.tell(CRV001, message, where)
         return found
     return replace(found, curve=curve)
@@ -110,7 +112,7 @@ def _curve(context: Context, name: str | None, table: Table, where: Where, *, em
 
 def clashes_and_repeats(points: Floats) -> tuple[Indices, Indices]:
     """Indices of points at the ratio of an earlier one: those with another force than the first there, and the same."""
-    if len(points) < 2:
+    if (points[1:, 0] > points[:-1, 0]).all():
         return _NOWHERE, _NOWHERE
     order = np.argsort(points[:, 0], kind="stable")
     ratios, forces = points[order].T

@@ -92,6 +92,8 @@ def check_diameters(context: Context, laws: LawTable, sections: SectionTable, el
     """Elements on a curve need a diameter; told once for each place that gives the curve."""
     on_curve = np.array([*(grant.kind is LawKind.CURVE for grant in laws.grants), False])[laws.of_element]
     missing = np.flatnonzero(on_curve & np.isnan(sections.diameter) & ~sections.faulty)
+    if not missing.size:
+        return
     found = np.unique(laws.of_element[missing], return_index=True, return_counts=True)
     for index, first, count in zip(*(part.tolist() for part in found), strict=True):
         number = elements.ids[missing[first]]

@@ -109,7 +109,7 @@ class Gathered:
         starts = np.array(self._starts, dtype=np.intp)
         if (np.diff(ids) > 0).all():
             rows = np.arange(len(ids), dtype=np.intp)
-            return Numbered(ids, values, rows, rows, rows[:0], starts, self.batches)
+            return Numbered(ids, values, rows, rows, rows[:0], starts, self.batches, (rows, ids))
         order = np.argsort(ids, kind="stable")
         new = np.append(True, np.diff(ids[order]) > 0)
         begins = np.flatnonzero(new)

@@ -62,8 +62,10 @@ def _fault(value: float, slot: Slot) -> str:
 
 
 def _name(slot: Slot) -> str:
-    """The field in words: `FRICTION=`, `water depth`, `external diameter Do`."""
+    """The field in words: `FRICTION=`, `water depth`, `external diameter Do`, `area of the section (A)`."""
     meaning = slot.about.meaning.partition(";")[0]
     if slot.key:
         return slot.label
-    return meaning if slot.label.lower() in meaning.lower().split() else f"{meaning} {slot.label}"
+    if slot.label.islower():  # words of the meaning; a symbol has capitals
+        return meaning
+    return f"{meaning} ({slot.label})" if " of " in meaning else f"{meaning} {slot.label}"

@@ -12,6 +12,7 @@ import numpy as np
 from mudline.codes import REF001, REF005, REF008, REF009, REF010
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Severity, Where
+from mudline.keywords.remarks import advice_on
 from mudline.keywords.text import shown
 from mudline.scene.context import Context
 from mudline.scene.external import ExternalElements
@@ -57,7 +58,8 @@ class Sets:
         if found is None:
             near = self.context.near(name, self.named)
             hint = f" (did you mean {self.named[near].name}?)" if near else ""
-            message = f"set {shown(name)} is not defined{hint}: define it in *ELEMENT SETS"
+            advice = advice_on(name) or "define it in *ELEMENT SETS"
+            message = f"set {shown(name)} is not defined{hint}: {advice}"
             self.context.tell_missing(REF001, message, where, "ELEMENT SETS")
         return found
 
@@ -181,24 +183,25 @@ class _Reader:
         positions = [position for position, element in enumerate(member.elements) if isinstance(element, int)]
         numbers = np.array([member.elements[position] for position in positions], dtype=np.int64)
         indices = self.elements.indices(numbers)
-        self._missing(numbers, indices, [where._replace(path=(*where.path, "elements", at)) for at in positions])
+        missing = np.flatnonzero(indices < 0).tolist()
+        places = [where._replace(path=(*where.path, "elements", positions[at])) for at in missing]
+        self._missing(numbers[missing], places)
         for position, element in enumerate(member.elements):
             if isinstance(element, str):
                 self._label(element, where._replace(path=(*where.path, "elements", position)))
         found = indices[indices >= 0]
         whole = len(found) == len(member.elements)
-        return np.unique(found), whole and not self.context.disturbed(where._replace(path=(*where.path, "elements")))
+        return _ascending(found), whole and not self.context.disturbed(where._replace(path=(*where.path, "elements")))
 
-    def _missing(self, numbers: Ids, indices: Indices, places: list[Where]) -> None:
+    def _missing(self, numbers: Ids, places: list[Where]) -> None:
         """Elements of a list that are not defined; where they may be defined out of sight, a word for a list."""
-        missing = np.flatnonzero(indices < 0).tolist()
-        if len(missing) > 1 and (self.context.definers or self.context.restart):
-            message = f"{len(missing)} elements of this list (first: {numbers[missing[0]]}) are not defined"
-            self.context.tell_missing(REF005, message, places[missing[0]], "ELEMENT")
+        if len(numbers) > 1 and (self.context.definers or self.context.restart):
+            message = f"{len(numbers)} elements of this list (first: {numbers[0]}) are not defined"
+            self.context.tell_missing(REF005, message, places[0], "ELEMENT")
             return
-        for at in missing:
-            message = f"element {numbers[at]} is not defined: define it in *ELEMENT"
-            self.context.tell_missing(REF005, message, places[at], "ELEMENT", int(numbers[at]))
+        for number, place in zip(numbers.tolist(), places, strict=True):
+            message = f"element {number} is not defined: define it in *ELEMENT"
+            self.context.tell_missing(REF005, message, place, "ELEMENT", number)
 
     def _label(self, label: str, where: Where) -> None:
         if not self.context.definers and not self.context.doubted(where):
@@ -226,6 +229,11 @@ class _Reader:
             message = f"{written}: {lacking} of its {wanted} elements are not defined: correct it, or define them"
             self.context.tell(REF005, message, place, Severity.WARNING if len(found) else None)
         return found, not lacking
+
+
+def _ascending(indices: Indices) -> Indices:
+    """Indices in ascending order, each once."""
+    return indices if (indices[1:] > indices[:-1]).all() else np.unique(indices)
 
 
 def _union(parts: list[Indices]) -> Indices:

@@ -17,6 +17,7 @@ _KEY = re.compile(r"[ \t]*([A-Za-z][\w \t-]*)=")
 _BLANKS = re.compile(r"[ \t]+")
 _SPECIAL = re.compile(r'[\["{/]')
 _MARKS = ',"[{/'
+_OUTER = " \t\r\n"
 _NESTING = re.compile(r'[\[\]"/]')
 _CLOSERS = {"[": "]", "{": "}", '"': '"', "/": "/"}
 
@@ -48,23 +49,26 @@ class Line(NamedTuple):
 def trimmed(text: str, start: int, end: int) -> Span:
     """The span without blanks, tabs and line ends on both sides; an empty one stands at `start`."""
     piece = text[start:end]
-    inner = piece.strip(" \t\r\n")
-    if not inner:
+    right = piece.lstrip(_OUTER)
+    if not right:
         return Span(start, start)
-    left = start + len(piece) - len(piece.lstrip(" \t\r\n"))
-    return Span(left, left + len(inner))
+    left = start + len(piece) - len(right)
+    return Span(left, left + len(right.rstrip(_OUTER)))
 
 
 def canonical_key(key: str) -> str:
     """A KEY in upper case with single blanks."""
-    return _BLANKS.sub(" ", key.strip(" \t")).upper()
+    key = key.strip(" \t")
+    return key.upper() if key.isalpha() else _BLANKS.sub(" ", key).upper()
 
 
 def read_line(text: str, span: Span, *, slashes: bool = False) -> Line:
     """Cut one line of `text` into groups of fields. `slashes`: `/.../` is one field."""
     body = trimmed(text, *span)
+    fields, problems = _split(text, body, slashes=slashes)
+    if text.find("=", body.start, body.end) < 0:
+        return Line(body, [Group("", body, fields)] if fields else [], problems)
     groups = [Group("", body)]
-    fields, problems = split(text, body, slashes=slashes)
     for field_ in fields:
         match = _KEY.match(field_.text)
         if match is None:
@@ -91,16 +95,34 @@ def _field(text: str, piece: Span) -> Field:
 
 def split(text: str, span: Span, *, slashes: bool = False) -> tuple[list[Field], list[Problem]]:
     """The fields between the top-level commas of a line, and what was wrong with its brackets."""
-    body = trimmed(text, *span)
+    return _split(text, trimmed(text, *span), slashes=slashes)
+
+
+def _split(text: str, body: Span, *, slashes: bool) -> tuple[list[Field], list[Problem]]:
+    special = _SPECIAL.search(text, body.start, body.end)
+    if special is None and body.end - body.start < MOST_FIELDS:
+        return _parted(text[body.start : body.end], body.start), []
     if sum(text.count(mark, *body) for mark in _MARKS) >= MOST_FIELDS:
         message = f"more than {MOST_FIELDS} fields or brackets on one line: is this a deck?"
         return [], [Problem(SYN003, message, Span(body.start, body.start + 1))]
     commas = _commas(text, body)
     problems: list[Problem] = []
-    if _SPECIAL.search(text, body.start, body.end):
+    if special:
         commas = _outside(commas, _protected(text, body, problems, slashes=slashes))
     edges = pairwise([body.start - 1, *commas, body.end])
     return [_field(text, Span(left + 1, right)) for left, right in edges], problems
+
+
+def _parted(body: str, start: int) -> list[Field]:
+    """The fields of a line in which only commas have a meaning; it begins at the offset `start`."""
+    fields: list[Field] = []
+    for piece in body.split(","):
+        right = piece.lstrip(_OUTER)
+        text = right.rstrip(_OUTER)
+        left = start + len(piece) - len(right) if text else start
+        fields.append(Field(text, Span(left, left + len(text))))
+        start += len(piece) + 1
+    return fields
 
 
 def _commas(text: str, body: Span) -> list[int]:

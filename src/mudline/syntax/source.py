@@ -12,7 +12,18 @@ from mudline.diagnostics import Problem, Severity, Span
 
 _BOM = b"\xef\xbb\xbf"
 _LINE_END = re.compile(r"\r\n|\r|\n")
-_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f]")
+CONTROLS = "".join(map(chr, (*range(9), 11, 12, *range(14, 32), 127, 0xFEFF)))
+"""Characters that nobody sees and that are no blanks; in front of a `*` or `$` they are read over."""
+_CONTROL = re.compile(f"[{re.escape(CONTROLS)}]")
+_BEFORE_HEAD = re.compile(rf"[ \t{re.escape(CONTROLS)}]++(?=[*$])")
+END_MARK = "\x1a"
+"""What old systems put behind the last character of a file (Ctrl-Z)."""
+_END = f"{END_MARK} \t\r\n"
+_CALLED = {
+    "\0": "NUL character",
+    END_MARK: "end-of-file mark (Ctrl-Z)",
+    "\ufeff": "byte-order mark inside the file",
+}
 _LONE_CR = re.compile(r"\r(?!\n)")
 _NOT_UTF8 = "{} is not UTF-8; the file is read as {}: save it as UTF-8"
 _BINARY_SHARE = 0.1
@@ -56,8 +67,12 @@ class Source:
 
     @cached_property
     def unified(self) -> str:
-        """A copy of equal length in which a lone CR is a LF, so that every line ends with LF."""
-        return _LONE_CR.sub("\n", self.text) if "\r" in self.text else self.text
+        """A copy of equal length in which a lone CR is a LF, so that every line ends with LF.
+
+        Control characters in front of a `*` or `$` at the beginning of a line are blanks in it, and so is what old
+        systems put at the end of a file.
+        """
+        return _ended(_heads_found(_LONE_CR.sub("\n", self.text) if "\r" in self.text else self.text))
 
     @cached_property
     def line_starts(self) -> list[int]:
@@ -80,6 +95,25 @@ class Source:
         return self.text[start:end].rstrip("\r\n")
 
 
+def _ended(text: str) -> str:
+    """A text with blanks for the end-of-file marks behind its last character."""
+    body = text.rstrip(_END)
+    return body + text[len(body) :].replace(END_MARK, " ") if END_MARK in text[len(body) :] else text
+
+
+def _heads_found(text: str) -> str:
+    """A text of LF lines with blanks for the control characters in front of its heads."""
+    pieces: list[str] = []
+    done = at = 0
+    while found := _CONTROL.search(text, at):
+        start = max(text.rfind("\n", at, found.start()) + 1, at)
+        if match := _BEFORE_HEAD.match(text, start):
+            pieces += (text[done:start], " " * (match.end() - start))
+            done = match.end()
+        at = text.find("\n", found.end()) + 1 or len(text)
+    return "".join((*pieces, text[done:])) if pieces else text
+
+
 def _refusal(body: bytes) -> str:
     """Why these bytes are not read at all, or nothing."""
     if body.startswith((b"\xff\xfe", b"\xfe\xff")) or _looks_like_utf16(body[:_SAMPLE]):
@@ -87,7 +121,8 @@ def _refusal(body: bytes) -> str:
     sample = body[:_SAMPLE]
     strange = len(sample) - len(sample.translate(None, bytes({*range(9), 11, *range(14, 26), *range(27, 32), 127})))
     if strange > max(_BINARY_SHARE * len(sample), _FEW):
-        return f"the file looks like binary data ({strange} control characters in its first {len(sample)} bytes)"
+        share = f"{strange} control characters in its first {len(sample)} bytes"
+        return f"the file looks like binary data ({share}): choose the keyword file, or save it as text"
     return ""
 
 
@@ -119,6 +154,6 @@ def _control_characters(text: str) -> list[Problem]:
         return []
     count = sum(1 for _ in _CONTROL.finditer(text))
     more = f" (and {count - 1} more control characters)" if count > 1 else ""
-    what = "NUL" if first.group() == "\0" else "end-of-file mark (Ctrl-Z)" if first.group() == "\x1a" else "control"
-    message = f"{what} character U+{ord(first.group()):04X}{more}: remove it"
+    what = _CALLED.get(first.group(), "control character")
+    message = f"{what} U+{ord(first.group()):04X}{more}: remove it"
     return [Problem(SYN012, message, Span(*first.span()))]

@@ -13,7 +13,7 @@ from lark import Lark, Token, Tree
 
 from mudline.diagnostics import Span
 from mudline.resources import grammar_file
-from mudline.syntax.source import Source
+from mudline.syntax.source import CONTROLS, Source
 
 _BLANKS = re.compile(r"[ \t]+")
 _COMMA = re.compile(r" *, *")
@@ -85,8 +85,14 @@ def _parser() -> Lark:
 
 def canonical_name(line: str) -> str:
     """The name that a `$` or `*` line gives: upper case, single blanks, none around a comma."""
-    name = _BLANKS.sub(" ", line.strip(" \t\r\n")[1:].strip(" \t"))
+    name = _BLANKS.sub(" ", line.lstrip(f" \t{CONTROLS}").rstrip(" \t\r\n")[1:].strip(" \t"))
     return _COMMA.sub(",", name).upper()
+
+
+def mark_of(line: str) -> str:
+    """The `$` or `*` with which a line opens a section or a block, or nothing."""
+    first = line.lstrip(f" \t{CONTROLS}")[:1]
+    return first if first in ("$", "*") else ""
 
 
 def parse(source: Source) -> SyntaxTree:

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 
 from mudline.codes import EXP001, REF013
 from mudline.deck.model import Deck
-from mudline.deck.parameters import NoValueError, folded
+from mudline.deck.parameters import NoValueError
 from mudline.diagnostics import Problem, Where
 from mudline.keywords.text import shown
 from mudline.keywords.values import Equation
 from mudline.variations.actions import action_of
 from mudline.variations.model import MOST_DECKS, Action, Cases
-from mudline.variations.names import unquoted
+from mudline.variations.names import name_key, unquoted
 from mudline.variations.targets import Target, Targets
 
 if TYPE_CHECKING:
@@ -126,11 +126,6 @@ class CaseReader:
             self._tell(f"GEN= gives more than {MOST_DECKS} values: is the step right?", where)
             return []
         return [_spelled(start + step * index) for index in range(int(steps) + 1)]
-
-
-def name_key(name: str) -> str:
-    """The name of a variation as names compare."""
-    return folded(" ".join(unquoted(name).split()))
 
 
 def _spelled(number: Decimal) -> str:

@@ -7,6 +7,8 @@ import unicodedata
 from collections.abc import Callable
 from itertools import chain
 
+from mudline.deck.parameters import folded
+
 _PLACEHOLDER = re.compile(r"%([^%]+)%")
 _FORBIDDEN = re.compile(r'[\x00-\x1f\x7f<>:"|?*]')
 _DRIVE = re.compile(r"[A-Za-z]:")
@@ -23,6 +25,11 @@ LONGEST_PATH = 1000
 def unquoted(text: str) -> str:
     """A text without the double quotes around it."""
     return text[1:-1] if len(text) > 1 and text[0] == text[-1] == '"' else text
+
+
+def name_key(name: str) -> str:
+    """The name of a variation as names compare."""
+    return folded(" ".join(unquoted(name).split()))
 
 
 def placeholders(template: str) -> list[str]:

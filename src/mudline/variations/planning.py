@@ -15,11 +15,11 @@ from mudline.deck.reading import read_source
 from mudline.diagnostics import DeckError, Problem, Severity, Where
 from mudline.keywords.text import shown, suggestion
 from mudline.syntax.source import Source
-from mudline.variations.cases import CaseReader, name_key
+from mudline.variations.cases import CaseReader
 from mudline.variations.companions import companions
 from mudline.variations.manifest import MANIFEST
 from mudline.variations.model import MOST_DECKS, Cases, PlannedDeck
-from mudline.variations.names import Taken, placeholders, unquoted
+from mudline.variations.names import Taken, name_key, placeholders, unquoted
 from mudline.variations.paths import Namer, Template
 from mudline.variations.rewriting import Rewriter, as_text
 from mudline.variations.targets import Targets, Values

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, ClassVar, Literal
+from collections.abc import Collection
+from typing import Annotated, ClassVar, Literal, cast
 
 from pydantic import BeforeValidator, Field
 
-from mudline.codes import SYN001, SYN004, SYN005
+from mudline.codes import SYN005
 from mudline.diagnostics import Code
 from mudline.keywords.model import Block, ListRow, Record, about, setting
 from mudline.keywords.table import LARGEST_WHOLE
@@ -81,11 +82,14 @@ class Boundary(Block):
     names: ClassVar[tuple[str, ...]] = ("BOUNDARY",)
     sections: ClassVar[tuple[str, ...]] = ("LOAD CASE",)
     summary: ClassVar[str] = "Nodes that are held, or moved, in single degrees of freedom."
-    unpublished: ClassVar[tuple[Code, ...]] = (SYN001, SYN004, SYN005)
     example: ClassVar[str] = "*BOUNDARY\n TYPE=CONSTANT\n 1, 2\n 1, 3, 0.0, FIXATION=RELATIVE\n GEN=11, 20, 1, 6, 0.0\n"
 
     keyword: Literal["BOUNDARY"] = "BOUNDARY"
     types: list[BoundaryType] = []
+
+    def other_form(self, faults: Collection[Code]) -> bool:
+        """Lines of another type have other values; of TYPE=CONSTANT all is known."""
+        return SYN005 in faults and any(cast("str | None", held.type_) is None for held in self.types)
 
 
 BLOCK = Boundary

@@ -6,7 +6,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from mudline.codes import SYN001, SYN004
+from mudline.codes import SYN004
 from mudline.diagnostics import Code
 from mudline.keywords.model import Block, setting
 from mudline.keywords.values import Name
@@ -21,7 +21,7 @@ class Restart(Block):
     names: ClassVar[tuple[str, ...]] = ("RESTART",)
     sections: ClassVar[tuple[str, ...]] = ("LOAD CASE",)
     summary: ClassVar[str] = "The deck that this one continues: its model holds here, too."
-    unpublished: ClassVar[tuple[Code, ...]] = (SYN001, SYN004)
+    unpublished: ClassVar[tuple[Code, ...]] = (SYN004,)
     example: ClassVar[str] = "*RESTART\n LAST=static\n"
 
     keyword: Literal["RESTART"] = "RESTART"

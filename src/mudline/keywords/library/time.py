@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from collections.abc import Collection
+from typing import Annotated, ClassVar, Literal, cast
 
-from mudline.codes import SYN001, SYN002, SYN003, SYN004, SYN005, SYN006, SYN014
+from mudline.codes import SYN001, SYN004, SYN005
 from mudline.diagnostics import Code
 from mudline.keywords.model import Block, about, setting
 from mudline.keywords.values import Real
@@ -21,7 +22,6 @@ class TimeSpan(Block):
     summary: ClassVar[str] = (
         "Start and end of a load case in time, and its step; only the form with a fixed step is read."
     )
-    unpublished: ClassVar[tuple[Code, ...]] = (SYN001, SYN002, SYN003, SYN004, SYN005, SYN006, SYN014)
     example: ClassVar[str] = "*TIME\n STEP=FIXED\n 0.0, 120.0, 0.05, 24.0\n"
 
     keyword: Literal["TIME"] = "TIME"
@@ -30,6 +30,14 @@ class TimeSpan(Block):
     end: Annotated[Real, about("its end", unit="T", inferred=_SEEN)]
     increment: Annotated[Real | None, about("time step", unit="T", inferred="the third value is the step")] = None
     ramp: Annotated[Real | None, about("time over which loads grow", unit="T", inferred=_SEEN)] = None
+
+    def other_form(self, faults: Collection[Code]) -> bool:
+        """Another STEP=, other settings, or a row without STEP=: of the fixed step all is known."""
+        if cast("str | None", self.step) is not None:
+            return False
+        return (
+            SYN004 in faults or SYN005 in faults or (SYN001 in faults and cast("float | None", self.start) is not None)
+        )
 
 
 BLOCK = TimeSpan

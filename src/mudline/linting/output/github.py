@@ -13,7 +13,11 @@ _COMMANDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO
 def github(diagnostics: Iterable[Diagnostic]) -> Iterator[str]:
     """A command a line; columns are told where a finding begins and ends in one line, the last one included."""
     for found in diagnostics:
-        values = {"file": found.file, "line": found.line, "endLine": found.end_line}
+        values: dict[str, str | int] = {
+            "file": found.file.removeprefix("./"),
+            "line": found.line,
+            "endLine": found.end_line,
+        }
         if found.line == found.end_line:
             values |= {"col": found.column, "endColumn": max(found.column, found.end_column - 1)}
         values["title"] = f"{found.code} {found.slug}"

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 from mudline.diagnostics import Diagnostic, Severity
@@ -17,7 +19,8 @@ def gitlab(diagnostics: Iterable[Diagnostic]) -> Iterator[str]:
     """One array, an object a line; `[]` when there is nothing."""
     fingerprints = Fingerprints()
     mark = "["
-    for found in diagnostics:
+    for given in diagnostics:
+        found = replace(given, file=_path(given.file))
         yield f"{mark}\n {json.dumps(_issue(found, fingerprints.of(found)), ensure_ascii=False)}"
         mark = ","
     yield "[]\n" if mark == "[" else "\n]\n"
@@ -29,5 +32,11 @@ def _issue(found: Diagnostic, fingerprint: str) -> dict[str, Any]:
         "check_name": found.slug,
         "fingerprint": fingerprint,
         "severity": _SEVERITIES[found.severity],
-        "location": {"path": found.file.removeprefix("./"), "lines": {"begin": found.line, "end": found.end_line}},
+        "location": {"path": found.file, "lines": {"begin": found.line, "end": found.end_line}},
     }
+
+
+def _path(file: str) -> str:
+    """GitLab knows paths from the top of the repository only, which is where its jobs run."""
+    path, top = Path(file), Path.cwd()
+    return path.relative_to(top).as_posix() if path.is_relative_to(top) else file.removeprefix("./")

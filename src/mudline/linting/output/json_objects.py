@@ -7,8 +7,7 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from mudline.diagnostics import Diagnostic, Fix
-
-RULES_PAGE = "docs/rules/{code}.md"
+from mudline.linting.output.pages import page
 
 
 def as_object(found: Diagnostic) -> dict[str, Any]:
@@ -24,7 +23,7 @@ def as_object(found: Diagnostic) -> dict[str, Any]:
         "end_line": found.end_line,
         "end_column": found.end_column,
         "fix": None if found.fix is None else _fix(found.fix),
-        "url": RULES_PAGE.format(code=found.code),
+        "url": page(found.code),
     }
 
 

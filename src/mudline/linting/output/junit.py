@@ -1,9 +1,12 @@
-"""Findings as the XML of test reports: a suite a file, a failed case a finding, one passed case for a clean file."""
+"""Findings as the XML of test reports: a suite a file, a failed case a finding, one passed case for a clean file.
+
+The text of a failure is there twice: some readers show the attribute, others the element.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from xml.sax.saxutils import quoteattr
+from xml.sax.saxutils import escape, quoteattr
 
 from mudline.diagnostics import Diagnostic
 from mudline.linting.output.visible import visible
@@ -32,7 +35,8 @@ def _suite(name: str, listed: list[Diagnostic]) -> Iterator[str]:
         case = f"{found.code} {found.slug} {found.line}:{found.column}"
         place = f"{found.file}:{found.line}:{found.column}"
         yield f'    <testcase name={_value(case)} classname={_value(name)} time="0">\n'
-        yield f'      <failure type="{found.severity.value}" message={_value(f"{place}: {found.message}")}/>\n'
+        told = visible(f"{place}: {found.message}")
+        yield f'      <failure type="{found.severity.value}" message={quoteattr(told)}>{escape(told)}</failure>\n'
         yield "    </testcase>\n"
     yield "  </testsuite>\n"
 

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import json
+import os
+import re
 from collections.abc import Iterable, Iterator
 from typing import Any
 from urllib.parse import quote
 
 from mudline.diagnostics import Diagnostic, Edit, Severity
 from mudline.linting.output.fingerprints import Fingerprints
-from mudline.linting.output.json_objects import RULES_PAGE
+from mudline.linting.output.pages import address
 from mudline.linting.output.sarif_rules import described
 from mudline.linting.output.visible import visible
 
@@ -21,18 +23,20 @@ _BASE = "ROOT"
 def sarif(diagnostics: Iterable[Diagnostic], version: str) -> Iterator[str]:
     """One log with one run; its rules are those that something was found by; `version` is that of mudline."""
     listed = list(diagnostics)
-    codes = sorted({found.code for found in listed})
+    first = {found.code: found for found in reversed(listed)}
+    codes = sorted(first)
     fingerprints = Fingerprints()
     driver = {
         "name": "mudline",
         "version": version,
         "semanticVersion": version,
-        "rules": [described(code, LEVELS, RULES_PAGE.format(code=code)) for code in codes],
+        "rules": [described(first[code], LEVELS, address(code)) for code in codes],
     }
     head = {"$schema": SCHEMA, "version": "2.1.0"}
     run = {
         "tool": {"driver": driver},
         "columnKind": "unicodeCodePoints",
+        "newlineSequences": ["\r\n", "\r", "\n"],
         "originalUriBaseIds": {_BASE: {"description": {"text": "the folder that the linter was run in"}}},
     }
     yield f'{json.dumps(head)[:-1]}, "runs": [\n{json.dumps(run)[:-1]}, "results": ['
@@ -63,12 +67,20 @@ def _result(found: Diagnostic, index: int, fingerprint: str) -> dict[str, Any]:
 
 def _location(file: str) -> dict[str, str]:
     path = file.removeprefix("./")
-    written = quote(path.encode("utf-8", "backslashreplace"), safe="/")
+    written = quote(_bytes(path), safe="/")
     if path.startswith("/"):
         return {"uri": f"file://{written}"}
-    if path[1:2] == ":":
-        return {"uri": f"file:///{quote(path, safe='/:')}"}
+    if re.match(r"[A-Za-z]:/", path):
+        return {"uri": f"file:///{quote(_bytes(path), safe='/:')}"}
     return {"uri": written, "uriBaseId": _BASE}
+
+
+def _bytes(path: str) -> bytes:
+    """The bytes of a name, those of the file system if it may have such a name."""
+    try:
+        return os.fsencode(path)
+    except UnicodeEncodeError:
+        return path.encode("utf-8", "backslashreplace")
 
 
 def _region(start: tuple[int, int], end: tuple[int, int]) -> dict[str, int]:

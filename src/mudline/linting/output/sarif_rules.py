@@ -5,23 +5,29 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from mudline.diagnostics import Severity
+from mudline.diagnostics import Diagnostic, Severity
 from mudline.linting.registry import Rule, rules
 
+_NO_RULE = "This is no rule and cannot be left out; the message says why the file could not be used or checked."
 
-def described(code: str, levels: Mapping[Severity, str], page: str) -> dict[str, Any]:
-    """The reporting descriptor of a code; one that no rule has (a file that is no deck) is told by its code only."""
-    rule = next((rule for rule in rules() if rule.code.code == code), None)
-    if rule is None:
-        return {"id": code, "helpUri": page}
+
+def described(found: Diagnostic, levels: Mapping[Severity, str], address: str | None) -> dict[str, Any]:
+    """The reporting descriptor of the code of a finding.
+
+    `address` is that of its help on the web: SARIF wants a whole address, not the path of a page.
+    """
+    rule = next((rule for rule in rules() if rule.code.code == found.code), None)
+    title = rule.title if rule else f"{found.slug.replace('-', ' ').capitalize()}."
+    why = rule.why if rule else _NO_RULE
+    severity = rule.code.severity if rule else found.severity
     return {
-        "id": code,
-        "name": "".join(word.capitalize() for word in rule.code.slug.split("-")),
-        "shortDescription": {"text": rule.title},
-        "fullDescription": {"text": rule.why},
-        "defaultConfiguration": {"level": levels[rule.code.severity], "enabled": not rule.off},
-        "help": {"text": f"{rule.title}\n\n{rule.why}", "markdown": _markdown(rule)},
-        "helpUri": page,
+        "id": found.code,
+        "name": "".join(word.capitalize() for word in found.slug.split("-")),
+        "shortDescription": {"text": title},
+        "fullDescription": {"text": why},
+        "defaultConfiguration": {"level": levels[severity], "enabled": not (rule and rule.off)},
+        "help": {"text": f"{title}\n\n{why}"} | ({"markdown": _markdown(rule)} if rule else {}),
+        **({"helpUri": address} if address else {}),
     }
 
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from mudline.diagnostics import Code, Problem, Severity
+from mudline.diagnostics import Code, Problem, Repair, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
+from mudline.syntax.edits import with_line_ends
 
 LEG001 = Code("LEG001", "superseded-keyword", Severity.INFO)
 
@@ -49,6 +50,23 @@ def superseded_keyword(context: LintContext) -> Iterator[Problem]:
 
     Finds: 7:1
     """
-    for keyword, successor in _SUCCESSORS.items():
-        for where, _ in context.deck.blocks(keyword):
-            yield Problem(LEG001, f"*{keyword} is superseded by {successor}", where=where)
+    found = sorted((where, keyword) for keyword in _SUCCESSORS for where, _ in context.deck.blocks(keyword))
+    for number, (where, keyword) in enumerate(found):
+        message = f"*{keyword} is superseded by {_SUCCESSORS[keyword]}: `mudline migrate` rewrites the deck"
+        yield Problem(LEG001, message, where=where, repair=None if number else _migration(context))
+
+
+def _migration(context: LintContext) -> Repair | None:
+    """What `mudline migrate` does, to all blocks at once; None where it refuses, or a second file is needed."""
+    deck, text = context.deck, context.text
+    if text is None or context.scene.errors():
+        return None
+    from mudline.migration.refusals import refusals, surfaces  # noqa: PLC0415 - few decks need it
+    from mudline.migration.rewriting import rewrite  # noqa: PLC0415 - few decks need it
+
+    if any(refusals(deck)):
+        return None
+    if any(surface.profile is not None for _, surface in surfaces(deck)):
+        return None
+    edits = with_line_ends(text.source, rewrite(deck).edits)
+    return Repair("unsafe", "write the newer keywords", tuple((edit.span, edit.text) for edit in edits))

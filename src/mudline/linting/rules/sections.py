@@ -116,8 +116,9 @@ def _given_twice(deck: Deck) -> Iterator[Problem]:
         if entry.mooring is not None:
             continue  # its format has no place for a curve, and EA must be given
         for curve, (key, numbers) in _CURVES.items():
-            given = [name for name in numbers if getattr(entry.section, name, None) is not None]
-            if given and getattr(entry, curve) is not None:
+            if getattr(entry, curve) is None:
+                continue
+            if given := [name for name in numbers if getattr(entry.section, name, None) is not None]:
                 names = " and ".join(_NAMES[name] for name in given)
                 message = f"{names} is given as a number, and {key}= names a curve for it: remove one of them"
                 place = where._replace(path=(*where.path, format_of(entry), _NAMES[given[0]]))
@@ -180,6 +181,8 @@ def drag_diameter_assumed(context: LintContext) -> Iterator[Problem]:
     """
     scene = context.scene
     table = scene.section_table
+    if all(section.source != "Dd" for section in table.sections):
+        return
     on_curve = table.of_element[(scene.law == LawKind.CURVE) & (table.of_element >= 0)]
     for index, count in zip(*(part.tolist() for part in np.unique(on_curve, return_counts=True)), strict=True):
         section = table.sections[index]

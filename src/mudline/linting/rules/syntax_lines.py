@@ -124,8 +124,8 @@ def bad_encoding(context: LintContext) -> Iterator[Problem]:
     Letters beyond the English alphabet, in a set name for instance, are saved as different bytes by different editors.
     A file that is not UTF-8 is read as CP1252, and as Latin-1 if that cannot be: a guess, after which a set's name may
     not match the same name in another file. Control characters, such as the Ctrl-Z that old systems put at the end of a
-    file, are seen by nobody and spoil the line that they stand in. UTF-16 and binary data are not read at all. Save the
-    file as UTF-8, and remove the characters that the message names.
+    file, are seen by nobody and spoil the line that they stand in (in front of a * or a $ they are read over).
+    UTF-16 and binary data are not read at all. Save the file as UTF-8, and remove what the message names.
 
     Bad:
         $MODEL

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import islice
 
 from mudline.codes import SYN004, SYN005, SYN009, SYN010
 from mudline.diagnostics import Problem
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
+from mudline.scene.context import MOST_TOLD
+from mudline.variations.undefined import misspelt_keywords, misspelt_sections
 
 
 @rule(SYN004)
@@ -83,6 +86,7 @@ def unknown_keyword(context: LintContext) -> Iterator[Problem]:
     Finds: 2:1
     """
     yield from context.told(SYN009)
+    yield from islice(misspelt_keywords(context.deck), MOST_TOLD)
 
 
 @rule(SYN010)
@@ -112,3 +116,4 @@ def unknown_section(context: LintContext) -> Iterator[Problem]:
     Finds: 4:1
     """
     yield from context.told(SYN010)
+    yield from islice(misspelt_sections(context.deck), MOST_TOLD)

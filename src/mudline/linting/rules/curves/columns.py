@@ -63,7 +63,7 @@ def swapped_columns(context: LintContext) -> Iterator[Problem]:
 
     Finds: 3:2
     """
-    for curve in context.scene.laws.curves:
+    for _, curve in context.odd_curves:
         if swapped(curve):
             message = (
                 f"force and ratio of curve {shown(curve.name)} seem to be exchanged, as every ratio is above "
@@ -122,7 +122,7 @@ def ratio_range(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:2
     """
-    for curve in context.scene.laws.curves:
+    for _, curve in context.odd_curves:
         if not len(curve.points) or swapped(curve):
             continue
         last = int(np.argmax(curve.points[:, 0]))

@@ -61,7 +61,7 @@ def steep_extrapolation(context: LintContext) -> Iterator[Problem]:
 
     Finds: 7:2
     """
-    for entry in context.scene.laws.curves:
+    for _, entry in context.odd_curves:
         if entry.curve is None or not entry.whole or entry.curve.slopes[-1] == 0.0:
             continue
         slopes = np.abs(entry.curve.slopes[entry.curve.slopes != 0.0])
@@ -107,7 +107,7 @@ def flat_last_segment(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:2
     """
-    for entry in context.scene.laws.curves:
+    for _, entry in context.odd_curves:
         if entry.curve is not None and entry.whole and entry.curve.slopes[-1] == 0.0:
             force = float(entry.curve.forces[-1])
             message = (
@@ -174,11 +174,14 @@ def beyond_curve(context: LintContext) -> Iterator[Problem]:
     scene = context.scene
     if "floor" in left_out(scene.deck):
         return
+    if not any(curve.usable for curve in scene.laws.curves):
+        return
     heights = np.append(scene.coordinates[:, 0], np.nan)[scene.element_nodes]  # -1, an unknown node, is the last one
     with np.errstate(over="ignore"):
         ratios = -(0.5 * heights[:, 0] + 0.5 * heights[:, 1]) / scene.diameter
+    deepest_of_all = np.fmax.reduce(ratios, initial=-np.inf)
     for number, entry in enumerate(scene.laws.curves):
-        if entry.curve is None or not entry.whole:
+        if entry.curve is None or not entry.whole or deepest_of_all <= entry.curve.ratios[-1]:
             continue
         elements = scene.laws.followers(number)
         last = float(entry.curve.ratios[-1])

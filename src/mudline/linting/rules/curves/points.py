@@ -8,6 +8,7 @@ from mudline.codes import CRV001, CRV003, CRV011
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
+from mudline.linting.rules.curves.repairs import plain_rows, removal
 from mudline.scene.context import MOST_TOLD
 from mudline.scene.force_curves import clashes_and_repeats
 
@@ -119,11 +120,14 @@ def repeated_point(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:2
     """
-    for curve in context.scene.laws.curves:
-        for index in clashes_and_repeats(curve.points)[1][:MOST_TOLD].tolist():
+    for _, curve in context.odd_curves:
+        repeats = clashes_and_repeats(curve.points)[1][:MOST_TOLD].tolist()
+        rows = plain_rows(context.text, curve) if context.text and repeats else None
+        for index in repeats:
             ratio, force = curve.points[index].tolist()
             message = f"the point ({ratio!r}, {force!r}) stands here a second time: it counts once; remove it"
-            yield Problem(CRV004, message, where=curve.point(index))
+            repair = removal(rows, int(curve.rows[index])) if rows else None
+            yield Problem(CRV004, message, where=curve.point(index), repair=repair)
 
 
 @rule(CRV011)

@@ -9,10 +9,11 @@ import numpy as np
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
+from mudline.linting.rules.curves.repairs import sorting
 from mudline.scene.context import MOST_TOLD
 from mudline.scene.force_curves import SceneCurve, clashes_and_repeats
 from mudline.scene.model import Scene
-from mudline.scene.numbering import Indices
+from mudline.scene.numbering import Floats, Indices
 
 CRV002 = Code("CRV002", "unsorted-points", Severity.INFO)
 CRV005 = Code("CRV005", "decreasing-force", Severity.WARNING)
@@ -52,12 +53,13 @@ def unsorted_points(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:2
     """
-    for curve in context.scene.laws.curves:
+    for _, curve in context.odd_curves:
         ratios = curve.points[:, 0]
         for index in (np.flatnonzero(ratios[1:] < ratios[:-1])[:1] + 1).tolist():
             before, ratio = ratios[index - 1 : index + 1].tolist()
             message = f"ratio {ratio!r} comes after {before!r}: legal, the points are sorted; put them in order"
-            yield Problem(CRV002, message, where=curve.point(index))
+            repair = sorting(context.text, curve) if context.text else None
+            yield Problem(CRV002, message, where=curve.point(index), repair=repair)
 
 
 @rule(CRV005)
@@ -97,7 +99,7 @@ def decreasing_force(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:2
     """
-    for number, curve in enumerate(context.scene.laws.curves):
+    for number, curve in context.odd_curves:
         order = _distinct(curve)
         ratios, forces = curve.points[order].T
         falling = np.flatnonzero((forces[1:] < forces[:-1]) & (ratios[1:] > 0.0))[:MOST_TOLD]
@@ -140,7 +142,7 @@ def negative_ratio(context: LintContext) -> Iterator[Problem]:
     The embedment ratio is measured at the centreline of the pipe, and contact begins where it is positive: evaluation
     never reaches such a point. A curve drawn for the invert, which touches the bed half a diameter earlier, begins at
     -0.5; its part above 0 is lost, and the force jumps when contact begins. Remove the point, or draw the curve for the
-    centreline.
+    centreline. A curve that has the force 0 up to ratio 0 loses nothing, and is not told.
 
     Bad:
         $MODEL
@@ -168,9 +170,17 @@ def negative_ratio(context: LintContext) -> Iterator[Problem]:
 
     Finds: 4:2
     """
-    for curve in context.scene.laws.curves:
+    for _, curve in context.odd_curves:
+        if _free_above(curve.points):
+            continue
         for index in np.flatnonzero(curve.points[:, 0] < 0.0)[:MOST_TOLD].tolist():
             ratio = float(curve.points[index, 0])
             drawn = " (a curve drawn for the invert starts at -0.5)" if ratio == -0.5 else ""
             message = f"ratio {ratio!r} lies above the mudline, and contact begins at 0: remove or correct it{drawn}"
             yield Problem(CRV006, message, where=curve.point(index))
+
+
+def _free_above(points: Floats) -> bool:
+    """Whether a curve says no more of the part above the mudline than that there is no force, up to a point at 0."""
+    above = points[points[:, 0] <= 0.0]
+    return bool((above[:, 0] == 0.0).any() and (above[:, 1] == 0.0).all())

@@ -63,7 +63,7 @@ def force_at_zero(context: LintContext) -> Iterator[Problem]:
 
     Finds: 3:2
     """
-    for entry in context.scene.laws.curves:
+    for _, entry in context.odd_curves:
         curve = entry.curve
         if curve is None or not entry.whole or not (force := _at_zero(curve)):
             continue
@@ -112,7 +112,7 @@ def curve_pulls(context: LintContext) -> Iterator[Problem]:
 
     Finds: 5:2
     """
-    for entry in context.scene.laws.curves:
+    for _, entry in context.odd_curves:
         negative = np.flatnonzero((entry.points[:, 0] > 0.0) & (entry.points[:, 1] < 0.0))
         if negative.size:
             ratio, force = entry.points[negative[0]].tolist()

@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import islice
 from typing import TYPE_CHECKING, cast
 
+from mudline.deck.parameters import folded
 from mudline.diagnostics import Code, Problem, Severity
+from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
+from mudline.scene.context import MOST_TOLD
 from mudline.scene.extensions import BY_SET
 
 if TYPE_CHECKING:
-    from mudline.keywords.library.seabed_planes import PlaneBounds
+    from mudline.keywords.library.seabed_planes import PlaneBounds, SeabedPlanes
 
 EXT001 = Code("EXT001", "extension-needs-elastic", Severity.ERROR)
 EXT002 = Code("EXT002", "floor-conflict", Severity.ERROR)
@@ -118,7 +122,8 @@ def bad_plane(context: LintContext) -> Iterator[Problem]:
     """A plane of the sea floor is incomplete, vertical or empty.
 
     A plane is a point and a slope, in degrees between -90 and 90; its bounds must hold some ground, the smaller value
-    first. Give what is missing.
+    first. Give what is missing. Two planes of one name are a warning: names are for readers, and case does not count in
+    them.
 
     Bad:
         $MODEL
@@ -146,6 +151,12 @@ def bad_plane(context: LintContext) -> Iterator[Problem]:
 
     Finds: 10:2
     """
+    yield from islice(_bad(context), MOST_TOLD)
+    yield from islice(_repeated(context), MOST_TOLD)
+
+
+def _bad(context: LintContext) -> Iterator[Problem]:
+    """Planes that are no ground."""
     for where, block in context.scene.deck.blocks("SEABED PLANES"):
         for index, plane in enumerate(block.planes):
             place = where._replace(path=("planes", index))
@@ -158,13 +169,26 @@ def bad_plane(context: LintContext) -> Iterator[Problem]:
                 message = f"slope {slope!r}: it must be between -90 and 90 degrees"
                 yield Problem(EXT007, message, where=place._replace(path=(*place.path, "slope")))
             if _is_empty(getattr(plane, "bounds", None)):
-                message = "the bounds hold no ground: the smaller value must come first"
+                message = "the bounds hold no ground: the smaller value must come first, and the two must differ"
                 yield Problem(EXT007, message, where=place._replace(path=(*place.path, "bounds")))
+
+
+def _repeated(context: LintContext) -> Iterator[Problem]:
+    """Planes of the deck itself with the name of an earlier one."""
+    known: set[str] = set()
+    for where, block in context.deck.blocks("SEABED PLANES"):
+        for index, plane in enumerate(cast("SeabedPlanes", block).planes):
+            name = folded(cast("str | None", plane.name) or "")
+            if name and name in known:
+                message = f"there is a plane {shown(plane.name)} already: choose another name, or remove one of the two"
+                place = where._replace(path=("planes", index, "name"))
+                yield Problem(EXT007, message, None, Severity.WARNING, place)
+            known.add(name)
 
 
 def _is_empty(bounds: PlaneBounds | None) -> bool:
     pairs = [(getattr(bounds, f"{axis}_min", None), getattr(bounds, f"{axis}_max", None)) for axis in "yz"]
     return any(
-        isinstance(low, float | int) and isinstance(high, float | int) and cast("float", low) > cast("float", high)
+        isinstance(low, float | int) and isinstance(high, float | int) and cast("float", low) >= cast("float", high)
         for low, high in pairs
     )

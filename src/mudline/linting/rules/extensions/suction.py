@@ -9,6 +9,8 @@ import numpy as np
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
+from mudline.linting.rules.extensions.smoothing import nodal
+from mudline.scene.model import Scene
 from mudline.scene.numbering import Mask
 
 EXT004 = Code("EXT004", "bad-cutoff", Severity.ERROR)
@@ -113,7 +115,8 @@ def suction_conflict(context: LintContext) -> Iterator[Problem]:
     """Elements have two suction laws.
 
     *SEABED SUCTION describes the whole uplift resistance of an element. SUCTION= of *SEABED PROPERTIES, or a curve that
-    is negative below the mudline and so pulls, would hold the pipe a second time. Remove one of them.
+    is negative below the mudline and so pulls, would hold the pipe a second time. Remove one of them. A curve that
+    pulls is a warning: with `--tension cut` its pull is left out, and there is one law only.
 
     Bad:
         $MODEL
@@ -156,18 +159,28 @@ def suction_conflict(context: LintContext) -> Iterator[Problem]:
     extension = scene.extensions.get(_KEYWORD)
     if extension is None:
         return
-    held = (extension.of_element, scene.bed.column("suction") > 0.0, _pulled(context))
+    suction, pulled = scene.bed.column("suction") > 0.0, _pulled(context)
     for index, where in enumerate(extension.places):
-        for other, what in ((held[1], "SUCTION= of the seabed"), (held[2], "a curve that pulls")):
-            both = np.flatnonzero((held[0] == index) & other)
-            if both.size:
-                first = scene.element_ids[both[0]]
-                message = f"{both.size} elements (first: {first}) have {what} too: remove one of the two"
-                yield Problem(EXT006, message, where=where._replace(path=(*where.path, "set")))
+        place = where._replace(path=(*where.path, "set"))
+        held = extension.of_element == index
+        if np.any(both := held & suction):
+            message = f"{_counted(scene, both)} SUCTION= of the seabed too: remove one of the two"
+            yield Problem(EXT006, message, where=place)
+        if np.any(both := held & pulled):
+            message = (
+                f"{_counted(scene, both)} a curve that pulls too: remove one of the two, unless the curve is evaluated "
+                "with --tension cut"
+            )
+            yield Problem(EXT006, message, None, Severity.WARNING, place)
+
+
+def _counted(scene: Scene, elements: Mask) -> str:
+    found = scene.element_ids[elements]
+    return f"element {found[0]} has" if found.size == 1 else f"{found.size} elements (first: {found[0]}) have"
 
 
 def _pulled(context: LintContext) -> Mask:
-    """Elements whose curve is negative somewhere below the mudline."""
+    """Elements whose curve is negative somewhere below the mudline; a stiffness of the nodes replaces the curve."""
     scene = context.scene
     pulls = [False] * (len(scene.laws.curves) + 1)
     for index, entry in enumerate(scene.laws.curves):
@@ -177,4 +190,4 @@ def _pulled(context: LintContext) -> Mask:
             pulls[index] = bool((force < 0.0).any())
     curves = [*(grant.curve for grant in scene.laws.grants), -1]
     found: Mask = np.array([pulls[curve] for curve in curves])[scene.laws.of_element]
-    return found
+    return found & ~nodal(scene)

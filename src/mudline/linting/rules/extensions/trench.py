@@ -57,8 +57,8 @@ def bad_trench(context: LintContext) -> Iterator[Problem]:
         geometry = getattr(entry, "geometry", None)
         values = [getattr(geometry, name, None) for name in ("depth", "bottom_width", "upper_width")]
         numbers = [float(value) if isinstance(value, float | int) else float("nan") for value in values]
-        depth, bottom, upper = numbers
-        if depth <= 0.0 or bottom <= 0.0 or upper <= bottom:
+        _, bottom, upper = numbers
+        if any(number <= 0.0 for number in numbers) or upper <= bottom:
             message = "not a trench: it must have a depth above 0, a bottom width above 0, and a larger upper width"
             yield Problem(EXT003, message, where=where._replace(path=(*where.path, "geometry")))
         bare = np.flatnonzero((extension.of_element == index) & ~_sprung(scene))

@@ -10,8 +10,9 @@ from mudline.contact.inputs import LawKind
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
+from mudline.linting.rules.extensions.smoothing import nodal, number, smoothed
 from mudline.scene.model import Scene
-from mudline.scene.numbering import Floats, Mask
+from mudline.scene.numbering import Floats
 
 EXT008 = Code("EXT008", "soft-unloading", Severity.WARNING)
 EXT009 = Code("EXT009", "unloading-conflict", Severity.ERROR)
@@ -66,9 +67,9 @@ def soft_unloading(context: LintContext) -> Iterator[Problem]:
     extension = scene.extensions.get(_KEYWORD)
     if extension is None:
         return
-    steepest = np.where(_nodal(scene), np.nan, _steepest(scene))
+    steepest = np.where(nodal(scene), np.nan, _steepest(scene))
     for index, (entry, where) in enumerate(zip(extension.entries, extension.places, strict=True)):
-        stiffness = _number(entry, "stiffness")
+        stiffness = number(entry, "stiffness")
         softer = np.flatnonzero((extension.of_element == index) & (steepest > stiffness))
         if stiffness > 0.0 and softer.size:
             message = (
@@ -85,6 +86,7 @@ def unloading_conflict(context: LintContext) -> Iterator[Problem]:
 
     Both change the reaction near the bed, and there is no law for the two together. *SEABED CONTACT smooths a linear
     law unless it says SMOOTHING=NONE. Write that, or remove the unloading; a stiffness divides and must be above 0.
+    SMOOTHING=AUTO smooths nothing where the submerged weight is not known, or is not above 0.
 
     Bad:
         $MODEL
@@ -112,24 +114,19 @@ def unloading_conflict(context: LintContext) -> Iterator[Problem]:
     extension = scene.extensions.get(_KEYWORD)
     if extension is None:
         return
-    smoothed = _smoothed(scene)
+    smooth = smoothed(scene)
     for index, (entry, where) in enumerate(zip(extension.entries, extension.places, strict=True)):
-        stiffness = _number(entry, "stiffness")
+        stiffness = number(entry, "stiffness")
         if stiffness <= 0.0:
             message = f"unloading stiffness {stiffness!r}: it must be above 0"
             yield Problem(EXT009, message, where=where._replace(path=(*where.path, "stiffness")))
-        both = np.flatnonzero((extension.of_element == index) & smoothed)
+        both = np.flatnonzero((extension.of_element == index) & smooth)
         if both.size:
             message = (
                 f"{both.size} elements (first: {scene.element_ids[both[0]]}) have smoothing too: "
                 "write SMOOTHING=NONE in *SEABED CONTACT, or remove the unloading"
             )
             yield Problem(EXT009, message, where=where._replace(path=(*where.path, "set")))
-
-
-def _number(part: object, name: str) -> float:
-    value = getattr(part, name, None)
-    return float(value) if isinstance(value, float | int) else float("nan")
 
 
 def _steepest(scene: Scene) -> Floats:
@@ -148,28 +145,3 @@ def _curve_slope(scene: Scene, index: int) -> float:
         return float("nan")
     ratios = scene.laws.curves[index].points[:, 0]
     return float(curve.evaluate(np.append(ratios[ratios > 0.0], 0.0))[1].max())
-
-
-def _nodal(scene: Scene) -> Mask:
-    """Elements whose law is a stiffness of their nodes."""
-    return _contacts(scene, [_number(entry, "nodal_stiffness") >= 0.0 for entry in _entries(scene)])
-
-
-def _smoothed(scene: Scene) -> Mask:
-    """Elements with a linear or nodal law that is smoothed."""
-    wanted = [getattr(entry, "smoothing", "NONE") != "NONE" for entry in _entries(scene)]
-    smoothed: Mask = _contacts(scene, wanted) & ((scene.law == LawKind.LINEAR) | _nodal(scene))
-    return smoothed
-
-
-def _entries(scene: Scene) -> list[object]:
-    contact = scene.extensions.get("SEABED CONTACT")
-    return list(contact.entries) if contact else []
-
-
-def _contacts(scene: Scene, flags: list[bool]) -> Mask:
-    contact = scene.extensions.get("SEABED CONTACT")
-    if contact is None:
-        return np.zeros(len(scene.element_ids), dtype=np.bool_)
-    found: Mask = np.array([*flags, False])[contact.of_element]
-    return found

@@ -13,11 +13,13 @@ from mudline.keywords.text import shown
 from mudline.keywords.values import Equation
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
+from mudline.linting.rules.references.removal import removals
 from mudline.syntax.rows import read_number
 
 if TYPE_CHECKING:
     from mudline.keywords.library.seabed_properties import SeabedProperties
     from mudline.keywords.library.variation import Variation
+    from mudline.scene.force_curves import SceneCurve
 
 REF003 = Code("REF003", "unused-curve", Severity.WARNING)
 REF004 = Code("REF004", "duplicate-curve", Severity.WARNING)
@@ -99,16 +101,21 @@ def unused_curve(context: LintContext) -> Iterator[Problem]:
     scene = context.scene
     names = {folded(curve.name) for curve in scene.laws.curves if not curve.embedment}
     unknown = scene.laws.referenced - names
-    told: set[str] = set()
+    unused: dict[str, list[SceneCurve]] = {}
     for curve in scene.laws.curves:
         name = folded(curve.name)
-        if curve.embedment or not curve.named or name in scene.laws.referenced or name in told:
+        if curve.embedment or not curve.named or name in scene.laws.referenced:
             continue
-        if not scene.context.near(name, unknown):  # else the name is misspelt where it is used, which has been told
-            told.add(name)
-            number = "; a name that reads as a number is taken for the number" if read_number(name) is not None else ""
-            message = f"curve {shown(curve.name)} is not used: name it in a STIFFNESS=, or remove it{number}"
-            yield Problem(REF003, message, where=curve.title)
+        if name in unused:
+            unused[name].append(curve)
+        elif not scene.context.near(name, unknown):  # else it is misspelt where it is used, which has been told
+            unused[name] = [curve]
+    places = [curve.where for curves in unused.values() for curve in curves]
+    repairs = removals(context.text, places) if context.text else {}
+    for name, (curve, *_) in unused.items():
+        number = "; a name that reads as a number is taken for the number" if read_number(name) is not None else ""
+        message = f"curve {shown(curve.name)} is not used: name it in a STIFFNESS=, or remove it{number}"
+        yield Problem(REF003, message, where=curve.title, repair=repairs.get(curve.where))
 
 
 def _chosen_elsewhere(context: LintContext) -> bool:

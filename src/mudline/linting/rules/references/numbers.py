@@ -54,8 +54,9 @@ def undefined_node(context: LintContext) -> Iterator[Problem]:
     """An element or a GEN= uses a node that is not defined.
 
     The element has no place and no length, and nothing can be said of its contact. Correct the number, or define the
-    node. A node that only *LINES or the deck before a *RESTART can define is a warning, and so is a label that is spelt
-    nearly as one that stands in *LINES or *LINE LOCATIONS.
+    node. The same is told of nodes that *BOUNDARY holds, of which a range may lack some as a warning, and of NODE= in
+    *P-Y and *T-Z. A node that only *LINES or the deck before a *RESTART can define is a warning, and so is a label that
+    is spelt nearly as one that stands in *LINES or *LINE LOCATIONS.
 
     Bad:
         $MODEL

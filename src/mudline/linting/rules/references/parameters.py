@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import islice
 
 from mudline.codes import REF013, REF014
 from mudline.diagnostics import Problem
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
+from mudline.scene.context import MOST_TOLD
+from mudline.variations.undefined import undefined_parameters
 
 
 @rule(REF013)
@@ -15,7 +18,8 @@ def undefined_parameter(context: LintContext) -> Iterator[Problem]:
     """An equation uses a parameter that is not defined.
 
     The field has no value then, and nothing that depends on it can be evaluated. Define the parameter in *PARAMETERS,
-    or correct its name. Items of a list have the name of the list in front, as in Soil_stiffness.
+    or correct its name. Items of a list have the name of the list in front, as in Soil_stiffness. Told too are a PARA=
+    of *VARIATION and a %name% in the names of files of *COMBINATIONS without a parameter: no deck could be made.
 
     Bad:
         $PREPROCESSOR
@@ -36,6 +40,7 @@ def undefined_parameter(context: LintContext) -> Iterator[Problem]:
     Finds: 6:2
     """
     yield from context.told(REF013)
+    yield from islice(undefined_parameters(context.deck), MOST_TOLD)
 
 
 @rule(REF014)

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import islice
 from typing import TYPE_CHECKING, cast
 
 from mudline.codes import REF001, REF008, REF009, REF010
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
+from mudline.scene.context import MOST_TOLD
+from mudline.variations.undefined import undefined_variations
 
 if TYPE_CHECKING:
     from mudline.keywords.library.element_sets import ElementSets
@@ -26,7 +29,8 @@ def undefined_set(context: LintContext) -> Iterator[Problem]:
     differently in two places: case does not count in names, but blanks do. Define the set in *ELEMENT SETS, or correct
     the name. Where *LINES, which makes sets of its own, or the deck that *RESTART continues could define the set, this
     is a warning. Two more names are told here, as warnings too: a REPEAT= of *LINE PATH SECTIONS that names no group of
-    *LINE SECTION GROUPS, and a LINE= there that *LINE PATHS does not name.
+    *LINE SECTION GROUPS, and a LINE= there that *LINE PATHS does not name. And a VARIATIONS= of *COMBINATIONS that
+    names no variation is an error, as no deck could be made.
 
     Bad:
         $MODEL
@@ -65,6 +69,7 @@ def undefined_set(context: LintContext) -> Iterator[Problem]:
     Finds: 14:6
     """
     yield from context.told(REF001)
+    yield from islice(undefined_variations(context.deck), MOST_TOLD)
 
 
 @rule(REF008)

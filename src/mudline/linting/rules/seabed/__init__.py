@@ -2,6 +2,30 @@
 
 from __future__ import annotations
 
-from mudline.linting.rules.seabed import depth, families, friction, position, profile, restraint, slope, types, values
+from mudline.linting.rules.seabed import (
+    constraints,
+    depth,
+    families,
+    friction,
+    overlaps,
+    position,
+    profile,
+    restraint,
+    slope,
+    types,
+    values,
+)
 
-__all__ = ["depth", "families", "friction", "position", "profile", "restraint", "slope", "types", "values"]
+__all__ = [
+    "constraints",
+    "depth",
+    "families",
+    "friction",
+    "overlaps",
+    "position",
+    "profile",
+    "restraint",
+    "slope",
+    "types",
+    "values",
+]

@@ -9,7 +9,7 @@ import numpy as np
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
-from mudline.scene.floor import FloorKind
+from mudline.linting.rules.seabed.elevation import depths
 
 SBD022 = Code("SBD022", "deep-node", Severity.WARNING)
 
@@ -22,8 +22,8 @@ def deep_node(context: LintContext) -> Iterator[Problem]:
     """Nodes lie more than five diameters below the bed.
 
     Pipes on the seabed sink by a fraction of their diameter. So deep a node usually has the wrong datum: elevations
-    count from the mudline at X = 0, upwards, and not from the sea surface. Correct the coordinates. Only flat and
-    sloping beds are looked at, and no models with soil curves.
+    count from the mudline at X = 0, upwards, and not from the sea surface. Correct the coordinates. Of a bed in three
+    dimensions only its lowest point is taken; cubic and compiled profiles, and models with soil curves, are left out.
 
     Bad:
         $MODEL
@@ -60,17 +60,16 @@ def deep_node(context: LintContext) -> Iterator[Problem]:
     Finds: 3:2
     """
     scene = context.scene
-    floor = scene.floor
-    flat = floor.kind in (FloorKind.FLAT, FloorKind.SLOPING)
-    if not flat or not (scene.laws.types or scene.laws.grants) or scene.deck.keywords().intersection(_SOIL):
+    if not (scene.laws.types or scene.laws.grants) or scene.deck.keywords().intersection(_SOIL):
         return
-    slope, direction = np.radians(floor.slope), np.radians(floor.direction)
-    x, y, z = scene.coordinates.T
+    depth = depths(scene)
+    thinnest = np.fmin.reduce(scene.diameter, initial=np.inf)
+    if thinnest > 0.0 and np.fmax.reduce(depth, initial=-np.inf) <= _DEEPEST * thinnest:
+        return
     with np.errstate(over="ignore", invalid="ignore"):
-        depth = (y * np.cos(direction) + z * np.sin(direction)) * np.sin(slope) - x * np.cos(slope)
         ends = scene.element_nodes
         known = (ends >= 0).all(axis=1) & (scene.diameter > 0.0)
-        limit = np.zeros(len(x))
+        limit = np.zeros(len(depth))
         for side in (0, 1):
             np.maximum.at(limit, ends[known, side], _DEEPEST * scene.diameter[known])
         deep = np.flatnonzero((limit > 0.0) & (depth > limit))

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
-from mudline.linting.rules.seabed.given import given, nothing, positive
+from mudline.linting.rules.seabed.given import absent, given, positive
+from mudline.linting.rules.seabed.replaced import friction_replaced
 
 SBD007 = Code("SBD007", "lateral-and-friction", Severity.WARNING)
 SBD013 = Code("SBD013", "legacy-friction-order", Severity.WARNING)
@@ -49,7 +50,8 @@ def lateral_and_friction(context: LintContext) -> Iterator[Problem]:
     """
     for entry in given(context):
         friction = entry.value("transverse")
-        if entry.type_ != "RIGID" and positive(entry.value("lateral")) and positive(friction):
+        both = entry.type_ != "RIGID" and positive(entry.value("lateral")) and positive(friction)
+        if both and not friction_replaced(context, entry):
             message = f"lateral resistance sets the transverse friction coefficient {friction!r} to zero: remove one"
             yield Problem(SBD007, message, where=entry.place("lateral"))
 
@@ -95,8 +97,8 @@ def unused_friction_stiffness(context: LintContext) -> Iterator[Problem]:
     """A friction stiffness is given in a direction whose coefficient is zero.
 
     Modal and frequency-domain runs put the stiffness in place of friction only where the coefficient is not zero; in
-    this direction the pipe is free, and the modes have less restraint than the deck seems to give. Give a coefficient,
-    or remove the stiffness.
+    this direction the pipe is free, and the modes have less restraint than the deck seems to give. The same holds for
+    *FRICTION of a load case or of modes. Give a coefficient, or remove the stiffness.
 
     Bad:
         $MODEL
@@ -119,9 +121,31 @@ def unused_friction_stiffness(context: LintContext) -> Iterator[Problem]:
     for entry in given(context):
         for direction in _DIRECTIONS:
             name = f"{direction}_stiffness"
-            if positive(entry.value(name)) and nothing(entry.value(direction)):
+            idle = positive(entry.value(name)) and absent(context, entry, direction)
+            if idle and not friction_replaced(context, entry):
                 message = f"the {direction} friction stiffness is unused: the coefficient is 0; give one, or remove it"
                 yield Problem(SBD014, message, where=entry.place(name))
+    yield from _of_load_cases(context)
+
+
+def _of_load_cases(context: LintContext) -> Iterator[Problem]:
+    """Stiffnesses of *FRICTION in directions in which no place of the model has a coefficient."""
+    scene = context.scene
+    blocks = [found for section in ("LOAD CASE", "MODES") for found in scene.deck.blocks("FRICTION", section)]
+    if not blocks or scene.context.restart or "SEABED FRICTION" in scene.deck.keywords():
+        return
+    entries = list(given(context))
+    for direction in _DIRECTIONS if entries else ():
+        if not all(absent(context, entry, direction) for entry in entries):
+            continue
+        for where, block in blocks:
+            stiffness = getattr(block, direction, None)
+            if isinstance(stiffness, float | int) and stiffness > 0.0:
+                message = (
+                    f"the {direction} friction stiffness is unused: the seabed has no {direction} coefficient; give "
+                    "one, or remove it"
+                )
+                yield Problem(SBD014, message, where=where._replace(path=(direction,)))
 
 
 @rule(SBD015)
@@ -150,7 +174,7 @@ def extent_without_stiffness(context: LintContext) -> Iterator[Problem]:
     Finds: 6:15
     """
     for entry in given(context):
-        if positive(entry.value("suction_extent")) and nothing(entry.value("suction_stiffness")):
+        if positive(entry.value("suction_extent")) and absent(context, entry, "suction_stiffness"):
             message = "a suction zone without suction stiffness holds nothing: give the stiffness, or remove the extent"
             yield Problem(SBD015, message, where=entry.place("suction_extent"))
 
@@ -180,6 +204,7 @@ def unused_characteristic_length(context: LintContext) -> Iterator[Problem]:
     for entry in given(context):
         for direction in _DIRECTIONS if entry.legacy else ():
             name = f"{direction}_length"
-            if positive(entry.value(name)) and positive(entry.value(f"{direction}_mobilisation")):
+            both = positive(entry.value(name)) and positive(entry.value(f"{direction}_mobilisation"))
+            if both and not friction_replaced(context, entry):
                 message = f"the {direction} mobilisation length overrides this characteristic length: remove one"
                 yield Problem(SBD020, message, where=entry.place(name))

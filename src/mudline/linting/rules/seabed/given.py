@@ -42,8 +42,16 @@ class Given(NamedTuple):
         return (name,) if self.legacy else _OF_SET.get(name, ("friction", name))
 
 
-def given(context: LintContext) -> Iterator[Given]:
+def given(context: LintContext) -> list[Given]:
     """All of them: legacy surfaces first, then the sets of *SEABED PROPERTIES in the order of the file."""
+    return context.once(_found)
+
+
+def _found(context: LintContext) -> list[Given]:
+    return list(_each(context))
+
+
+def _each(context: LintContext) -> Iterator[Given]:
     deck = context.scene.deck
     for keyword in ("RIGID SURFACE", "ELASTIC SURFACE"):
         for where, block in deck.blocks(keyword):
@@ -59,6 +67,10 @@ def positive(value: float | None) -> bool:
     return value is not None and value > 0.0
 
 
-def nothing(value: float | None) -> bool:
-    """Whether a value is absent or zero; one that could not be read is neither."""
-    return value is None or value == 0.0
+def absent(context: LintContext, entry: Given, name: str) -> bool:
+    """Whether the deck gives no value, or zero; of a line that could not be read whole nothing is said."""
+    value = entry.value(name)
+    place = entry.place(name)
+    line = place._replace(path=place.path[:-1])
+    resolving = context.scene.context
+    return value == 0.0 or (value is None and not resolving.disturbed(line) and not resolving.disturbed(entry.where))

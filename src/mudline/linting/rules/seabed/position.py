@@ -64,7 +64,12 @@ def short_mobilisation(context: LintContext) -> Iterator[Problem]:
     """
     scene = context.scene
     bed = scene.bed
+    if not any(length > 0.0 for given in bed.values for length in given.mobilisation):
+        return
     lengths, friction = bed.column("mobilisation"), bed.column("friction")
+    friction[bed.column("lateral") > 0.0, 1] = 0.0  # a lateral spring takes its place
+    if replacing := scene.extensions.get("SEABED FRICTION"):
+        friction[replacing.of_element >= 0] = 0.0
     for side, name in enumerate(("longitudinal_mobilisation", "transverse_mobilisation")):
         length = lengths[:, side]
         short = (length > 0.0) & (friction[:, side] > 0.0) & (length < _SHORTEST * scene.diameter)

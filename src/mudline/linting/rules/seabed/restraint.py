@@ -83,6 +83,8 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
 
 def _blocks(scene: Scene, elements: Indices) -> Iterator[Problem]:
     """Blocks without stiffness that hold for elements, unless a later one whose elements are not known may hold."""
+    if not elements.size:
+        return
     grants = scene.laws.grants
     last_open = max((index for index, grant in enumerate(grants) if grant.set_.open), default=-1)
     legacy_open = any(grant.set_.open for grant in grants if grant.family == "legacy")
@@ -99,6 +101,8 @@ def _blocks(scene: Scene, elements: Indices) -> Iterator[Problem]:
 
 def _lying(scene: Scene, elements: Indices) -> Iterator[Problem]:
     """Elements at or below a flat bed without any law; without any seabed in the deck only those below count."""
+    if not elements.size:
+        return
     uncertain = scene.laws.uncertain or "SEABED PROPERTIES" in scene.context.unread
     if uncertain or "floor" in left_out(scene.deck) or scene.deck.keywords().intersection(_SOIL):
         return

@@ -5,9 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from mudline.codes import SBD009, SBD010
-from mudline.diagnostics import Problem
+from mudline.diagnostics import Problem, Where
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
+
+_OF_EXTENSIONS = {"SEABED TRENCH": "geometry", "SEABED UNLOADING": "stiffness"}
+_IN_SET = 3
+"""Steps of a path to a value of a set: `sets`, its index, the setting."""
 
 
 @rule(SBD009)
@@ -78,7 +82,8 @@ def negative_property(context: LintContext) -> Iterator[Problem]:
     """A stiffness, a friction coefficient, a length or a diameter is negative, or zero where it divides.
 
     Such a value has no physical meaning: a sign was typed by mistake, or the value stands in the wrong field. Correct
-    it. Values of equations are looked at too.
+    it. Values of equations are looked at too. The geometry of a trench and the stiffness of unloading have rules of
+    their own, EXT003 and EXT009.
 
     Bad:
         $MODEL
@@ -98,4 +103,14 @@ def negative_property(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:11
     """
-    yield from context.told(SBD010)
+    for problem in context.told(SBD010):
+        if not _told_by_extension(context, problem.where):
+            yield problem
+
+
+def _told_by_extension(context: LintContext, where: Where | None) -> bool:
+    """Whether EXT003 or EXT009 tells of the value: the geometry of a trench, the stiffness of unloading."""
+    if where is None or len(where.path) < _IN_SET:
+        return False
+    keyword = context.scene.deck.sections[where.section].blocks[where.block].keyword
+    return _OF_EXTENSIONS.get(keyword) == where.path[2]

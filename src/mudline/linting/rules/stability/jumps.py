@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -58,7 +59,7 @@ def stiff_jump(context: LintContext) -> Iterator[Problem]:
 
     Finds: 5:2
     """
-    for entry in context.scene.laws.curves:
+    for _, entry in context.odd_curves:
         if entry.curve is not None and entry.whole:
             yield from _inside(entry, entry.curve.ratios, entry.curve.slopes)
     yield from _beside(context.scene)
@@ -82,8 +83,11 @@ def _beside(scene: Scene) -> Iterator[Problem]:
     """Jumps between an element on a curve and its neighbour on a linear bed, one for each pair of laws."""
     grants = scene.laws.grants
     told: set[tuple[int, int]] = set()
+    slopes = [*map(_extremes, scene.laws.curves), (math.nan, math.nan)]
+    if _near(scene, slopes):
+        return
     linear, curved = _neighbours(scene)
-    extremes = np.array([*map(_extremes, scene.laws.curves), (np.nan, np.nan)])
+    extremes = np.array(slopes)
     curve_of = np.array([*(grant.curve for grant in grants), -1], dtype=np.intp)
     stiffness = np.array([*(grant.stiffness for grant in grants), np.nan])[scene.laws.of_element[linear]]
     with np.errstate(all="ignore"):
@@ -103,11 +107,24 @@ def _beside(scene: Scene) -> Iterator[Problem]:
         yield Problem(STB003, message, where=grants[pair[0]].where)
 
 
+def _near(scene: Scene, extremes: Sequence[tuple[float, float]]) -> bool:
+    """Whether no linear stiffness is far from the slopes of any curve, on whatever diameter it stands."""
+    linear = [grant.stiffness for grant in scene.laws.grants if grant.stiffness > 0.0]
+    slopes = [(softest, steepest) for softest, steepest in extremes if softest > 0.0]
+    thickest = float(np.fmax.reduce(scene.diameter, initial=0.0))
+    if not linear or not slopes or thickest == 0.0:
+        return True
+    thinnest = float(np.fmin.reduce(scene.diameter, initial=math.inf))
+    too_stiff = max(linear) / FARTHEST > min(steepest for _, steepest in slopes) / thickest
+    too_soft = max(softest for softest, _ in slopes) / thinnest / FARTHEST > min(linear)
+    return not too_stiff and not too_soft
+
+
 def _extremes(entry: SceneCurve) -> tuple[float, float]:
     """The smallest and the largest slope of a curve, flat segments left out; NaN without any."""
     slopes = np.abs(entry.curve.slopes) if entry.curve is not None and entry.whole else np.zeros(0)
     slopes = slopes[slopes > 0.0]
-    return (float(slopes.min()), float(slopes.max())) if slopes.size else (float("nan"), float("nan"))
+    return (float(slopes.min()), float(slopes.max())) if slopes.size else (math.nan, math.nan)
 
 
 def _neighbours(scene: Scene) -> tuple[Indices, Indices]:

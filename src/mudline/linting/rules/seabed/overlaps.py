@@ -1,0 +1,180 @@
+"""Elements that are given seabed properties twice."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import islice
+from typing import NamedTuple, cast
+
+import numpy as np
+
+from mudline.deck.parameters import folded
+from mudline.diagnostics import Code, Problem, Severity
+from mudline.keywords.model import Record
+from mudline.keywords.text import shown
+from mudline.linting.context import LintContext
+from mudline.linting.registry import rule
+from mudline.scene.context import MOST_TOLD
+from mudline.scene.laws import Grant
+from mudline.scene.model import Scene
+from mudline.scene.numbering import Indices
+from mudline.scene.sets import NamedSet
+
+SBD008 = Code("SBD008", "overlapping-sets", Severity.INFO)
+
+
+@rule(SBD008)
+def overlapping_sets(context: LintContext) -> Iterator[Problem]:
+    """Elements are given seabed properties twice.
+
+    The later definition in the file holds, and is taken whole: nothing of the earlier one remains. A set that refines
+    a larger one given before it is the usual way to write a deck and is not told. Told is a definition that takes all
+    elements of an earlier one, which then counts for nothing, as SET=ALL behind the other sets does; and sets of which
+    each has elements that the other one has not. For curves of *EMBEDMENT no order is documented: there any overlap of
+    two different curves is a warning. Put the larger set first, or give each element one definition.
+
+    Bad:
+        $MODEL
+        *NODE
+         1, -0.05, 0.0
+         5, -0.05, 40.0
+         GEN=1, 5
+        *ELEMENT
+         1, 1, 2
+         GEN=1, 4
+        *ELEMENT SETS
+         SET=Crossing
+         2, 3
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=Crossing
+         STIFFNESS=500000.0
+         SET=ALL
+         STIFFNESS=50000.0
+
+    Good:
+        $MODEL
+        *NODE
+         1, -0.05, 0.0
+         5, -0.05, 40.0
+         GEN=1, 5
+        *ELEMENT
+         1, 1, 2
+         GEN=1, 4
+        *ELEMENT SETS
+         SET=Crossing
+         2, 3
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=50000.0
+         SET=Crossing
+         STIFFNESS=500000.0
+
+    Finds: 16:6
+    """
+    scene = context.scene
+    own = len(scene.deck.own_sections)
+    grants = [grant for grant in scene.laws.grants if grant.where.section < own]
+    new = [grant for grant in grants if grant.family == "new"]
+    if len(new) > 1:
+        yield from islice(_properties(scene, new), MOST_TOLD)
+    embedment = [grant for grant in grants if grant.family == "legacy" and grant.curve >= 0]
+    if len(embedment) > 1:
+        yield from islice(_embedment(scene, embedment), MOST_TOLD)
+
+
+class _Overlap(NamedTuple):
+    """Places of two sets in their list, and the elements (indices) of the earlier one that the later one takes."""
+
+    earlier: int
+    later: int
+    elements: Indices
+
+
+def _overlaps(sets: Sequence[NamedSet], count: int) -> Iterator[_Overlap]:
+    """Each set against those that held its elements until then; sets that are not known against their namesakes."""
+    holder = np.full(count, -1, dtype=np.intp)
+    names: dict[str, int] = {}
+    for index, later in enumerate(sets):
+        before = holder[later.elements]
+        order = np.argsort(before, kind="stable")
+        parts, starts = np.unique(before[order], return_index=True)
+        for earlier, elements in zip(parts.tolist(), np.split(later.elements[order], starts[1:]), strict=False):
+            if earlier >= 0:
+                yield _Overlap(earlier, index, elements)
+        name = folded(later.name)
+        if not later.elements.size and name in names:
+            yield _Overlap(names[name], index, later.elements)
+        names[name] = index
+        holder[later.elements] = index
+
+
+def _properties(scene: Scene, grants: list[Grant]) -> Iterator[Problem]:
+    for earlier, later, elements in _overlaps([grant.set_ for grant in grants], len(scene.element_ids)):
+        one, other = grants[earlier].set_, grants[later].set_
+        where = grants[later].where
+        place = where._replace(path=(*where.path[:2], "set"))
+        if _within(one, other, len(scene.element_ids)):
+            message = (
+                f"{_called(one, other)} counts for nothing: this later definition takes all its elements; "
+                "put the larger set first, or remove one"
+            )
+            yield Problem(SBD008, message, where=place)
+        elif not _within(other, one, len(scene.element_ids)) and not _alike(scene, grants[earlier], grants[later]):
+            message = (
+                f"this definition holds for {_counted(scene, elements)} of SET={shown(one.name)} too, whose earlier "
+                "one counts for nothing there; give each element one definition"
+            )
+            yield Problem(SBD008, message, where=place)
+
+
+def _within(part: NamedSet, whole: NamedSet, count: int) -> bool:
+    """Whether the elements of one set are all in another one, as far as they are known."""
+    if folded(part.name) == folded(whole.name):
+        return True
+    if part.open or whole.open:
+        return False
+    if len(whole.elements) == count:
+        return True
+    return len(part.elements) <= len(whole.elements) and bool(
+        np.isin(part.elements, whole.elements, assume_unique=True).all()
+    )
+
+
+def _called(earlier: NamedSet, later: NamedSet) -> str:
+    same = folded(earlier.name) == folded(later.name)
+    return "the earlier definition of this set" if same else f"the earlier definition of SET={shown(earlier.name)}"
+
+
+def _counted(scene: Scene, elements: Indices) -> str:
+    first = scene.element_ids[elements.min()]
+    return f"element {first}" if elements.size == 1 else f"{elements.size} elements (first: {first})"
+
+
+def _alike(scene: Scene, one: Grant, other: Grant) -> bool:
+    """Whether two sets of *SEABED PROPERTIES give the same."""
+    first, second = (_entry(scene, grant) for grant in (one, other))
+    given = [name for name in type(first).model_fields if name != "set_name"]
+    return all(getattr(first, name) == getattr(second, name) for name in given)
+
+
+def _entry(scene: Scene, grant: Grant) -> Record:
+    block = scene.deck.sections[grant.where.section].blocks[grant.where.block]
+    return cast("Record", getattr(block, "sets")[grant.where.path[1]])  # noqa: B009 - blocks have no common type
+
+
+def _embedment(scene: Scene, grants: list[Grant]) -> Iterator[Problem]:
+    """Overlaps that matter: of curves with other points, on elements that no newer keyword holds."""
+    curves = scene.laws.curves
+    for earlier, later, elements in _overlaps([grant.set_ for grant in grants], len(scene.element_ids)):
+        one, other = curves[grants[earlier].curve], curves[grants[later].curve]
+        held = elements[scene.laws.of_element[elements] != scene.laws.covered[elements]]
+        if np.array_equal(one.points, other.points) or (elements.size and not held.size):
+            continue
+        which = _counted(scene, held) if held.size else "elements"
+        message = (
+            f"*EMBEDMENT gives another curve for {which}, of SET={shown(grants[earlier].set_.name)}: the later one is "
+            "taken, which is not documented (inferred); give each element one curve"
+        )
+        yield Problem(SBD008, message, None, Severity.WARNING, other.title)

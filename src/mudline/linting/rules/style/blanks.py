@@ -1,0 +1,221 @@
+"""Blanks and tabs."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import SupportsIndex
+
+from mudline.deck.reading import TextOrigin
+from mudline.diagnostics import Code, Problem, Repair, Severity, Span
+from mudline.keywords.reader import ReadBlock
+from mudline.linting.context import LintContext
+from mudline.linting.registry import Check, rule
+from mudline.linting.rules.style.lines import data_leaves, first_of_lines, first_told, line_around, placed_leaves
+from mudline.syntax.fields import Group, read_line, trimmed
+from mudline.syntax.rows import blank_separated
+from mudline.syntax.tree import Kind, Leaf
+
+STY001 = Code("STY001", "tab-character", Severity.WARNING)
+STY004 = Code("STY004", "blank-separated", Severity.WARNING)
+STY007 = Code("STY007", "trailing-blank", Severity.INFO)
+
+_TAB_WIDTH = 8
+_TABS = re.compile(r"\t+")
+_NUMERALS = r"[-+.0-9][-+.0-9eEdD]*+"
+_ROW = rf"{_NUMERALS}[ \t]++{_NUMERALS}[-+.0-9eEdD \t\r]*+(?![^\n])"
+_BLANK_SEPARATED = re.compile(rf"^[ \t]*+{_ROW}", re.MULTILINE)
+_GATE = re.compile(rf"\n[ \t]*+{_ROW}")
+_BEHIND_KEY = re.compile(rf"=[ \t]*+(?={_ROW})")
+_GAP = re.compile(r"(?<=[^ \t])(?=[ \t]+[^ \t])")
+_TRAILING = re.compile(r"[ \t]++(?=\r?(?:\n|(?![^\n])))")
+_ENDINGS = (" \n", "\t\n", " \r", "\t\r")
+
+
+class _Tabbed(str):
+    """A docstring whose tabs stay when its indentation is taken away."""
+
+    __slots__ = ()
+
+    def expandtabs(self, tabsize: SupportsIndex = 8) -> str:  # noqa: ARG002 - the form that str gives
+        """The text as it is."""
+        return self
+
+
+def _with_tabs(check: Check) -> Check:
+    check.__doc__ = _Tabbed(check.__doc__)
+    return check
+
+
+@rule(STY001)
+@_with_tabs
+def tab_character(context: LintContext) -> Iterator[Problem]:
+    """A line with data holds a TAB.
+
+    Programs differ in what they make of it: some take it for one blank, some for as many as an editor shows, some for
+    a character of a name or stop. Write blanks. The fix puts as many as reach the next column that 8 divides, and none
+    at the end of a line; where a TAB stands inside a name or an equation, it is left to you.
+
+    Bad:
+        $MODEL
+        *SEABED STIFFNESS
+         CURVE=Clay
+         0.0,\t0.0
+         0.5, 4200.0
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=Clay
+
+    Good:
+        $MODEL
+        *SEABED STIFFNESS
+         CURVE=Clay
+         0.0, 0.0
+         0.5, 4200.0
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=Clay
+
+    Finds: 4:6
+    """  # noqa: D301 - a TAB that an editor cannot take away
+    if context.text and "\t" in context.text.source.unified:
+        yield from first_told(_tabs(context.text))
+
+
+def _tabs(text: TextOrigin) -> Iterator[Problem]:
+    source = text.source.unified
+    for leaf, read in data_leaves(text):
+        for match in first_of_lines(_TABS, source, leaf.span):
+            line = line_around(source, match.start())
+            yield Problem(
+                STY001, "a TAB in a data line: write blanks", Span(*match.span()), repair=_spread(source, line, read)
+            )
+
+
+def _spread(source: str, line: Span, read: ReadBlock) -> Repair | None:
+    """Blanks for the tabs of a line, nothing for those at its end; None where one stands inside a value."""
+    groups = read_line(source, line, slashes=type(read.model).slashes).groups
+    if any(_holds_tab(source, group) for group in groups):
+        return None
+    body = source[slice(*line)].rstrip("\r")
+    inked = len(body.rstrip(" \t"))
+    first, last = body.index("\t"), body.rindex("\t") + 1
+    start, end = min(first, inked), last if last <= inked else len(body)
+    new = body[: min(last, inked)].expandtabs(_TAB_WIDTH)[start:]
+    message = "put blanks in its place" if new else "remove it"
+    return Repair("safe", message, ((Span(line.start + start, line.start + end), new),))
+
+
+def _holds_tab(source: str, group: Group) -> bool:
+    """Whether a tab is part of a value of a group, or of its key."""
+    within = any("\t" in given.text for given in group.fields)
+    if group.key:
+        return within or "\t" in source[group.span.start : source.index("=", group.span.start)].strip()
+    return within and not (len(group.fields) == 1 and blank_separated(group.fields[0].text))
+
+
+@rule(STY004)
+def blank_separated_row(context: LintContext) -> Iterator[Problem]:
+    """The numbers of a row are parted by blanks alone.
+
+    They are read as if commas stood between them, but the language parts fields by commas, and a field that is left
+    empty cannot be seen among blanks. Put the commas.
+
+    Bad:
+        $MODEL
+        *SEABED STIFFNESS
+         CURVE=Clay
+         0.0   0.0
+         0.5, 4200.0
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=Clay
+
+    Good:
+        $MODEL
+        *SEABED STIFFNESS
+         CURVE=Clay
+         0.0, 0.0
+         0.5, 4200.0
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=Clay
+
+    Finds: 4:2
+    """
+    if context.text:
+        source = context.text.source.unified
+        if _GATE.search(source) or _BEHIND_KEY.search(source):
+            yield from first_told(_without_commas(context.text))
+
+
+def _without_commas(text: TextOrigin) -> Iterator[Problem]:
+    source = text.source.unified
+    last: ReadBlock | None = None
+    values: set[Span] = set()
+    for leaf, read in data_leaves(text):
+        if read is not last:
+            last, values = read, set(read.places.spans.values())
+        for row in _rows(source, leaf, values):
+            written = source[slice(*row)]
+            if blank_separated(written):
+                repair = Repair("safe", "put commas between the numbers", ((row, _GAP.sub(",", written)),))
+                message = "the numbers are parted by blanks alone: put commas between them"
+                yield Problem(STY004, message, row, repair=repair)
+
+
+def _rows(source: str, leaf: Leaf, values: set[Span]) -> Iterator[Span]:
+    """The lines of a run, or what stands behind a KEY=, of numbers and blanks only; what is one value is a name."""
+    if leaf.kind is Kind.RUN:
+        yield from (trimmed(source, *match.span()) for match in first_of_lines(_BLANK_SEPARATED, source, leaf.span))
+    elif match := _BEHIND_KEY.search(source, *leaf.span):
+        row = trimmed(source, match.end(), leaf.span.end)
+        if row not in values:
+            yield row
+
+
+@rule(STY007, off=True)
+def trailing_blank(context: LintContext) -> Iterator[Problem]:
+    """A line ends with blanks.
+
+    Nobody sees them, and each one that an editor takes away is a changed line in the history of the deck. Remove them.
+    Lines of blocks that are kept as they are do not count. This rule is off unless it is selected.
+
+    Bad:
+        $MODEL
+        *OCEAN \x20
+         500.0, 1025.0, 9.81
+
+    Good:
+        $MODEL
+        *OCEAN
+         500.0, 1025.0, 9.81
+
+    Finds: 2:7
+    """  # noqa: D301 - a blank that an editor cannot take away
+    if context.text:
+        source = context.text.source.unified
+        if any(ending in source for ending in _ENDINGS) or source.endswith((" ", "\t")):
+            yield from first_told(_trailing(context.text))
+
+
+def _trailing(text: TextOrigin) -> Iterator[Problem]:
+    source = text.source.unified
+    for span in sorted(_own_lines(text)):
+        for match in first_of_lines(_TRAILING, source, span):
+            blanks = Span(*match.span())
+            repair = Repair("safe", "remove the blanks", ((blanks, ""),))
+            yield Problem(STY007, "blanks at the end of the line: remove them", blanks, repair=repair)
+
+
+def _own_lines(text: TextOrigin) -> Iterator[Span]:
+    """All lines but the data of blocks without a model, and of no block."""
+    for section in (text.tree.preamble, *text.tree.sections):
+        yield from (head.span for head in (section.head, *(block.head for block in section.blocks)) if head)
+    for leaf, read, kept in placed_leaves(text):
+        if not kept and (read is not None or leaf.kind in (Kind.COMMENT, Kind.BLANK)):
+            yield leaf.span

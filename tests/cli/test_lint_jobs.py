@@ -1,0 +1,101 @@
+"""`mudline lint --jobs`: the same output from any number of processes."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+
+from mudline.cli import lint_jobs, lint_pool
+from mudline.cli.inputs import Input
+from mudline.linting.lint_file import FileReport
+from mudline.linting.registry import rules
+from mudline.linting.settings import LintSettings
+from tests.cli.conftest import Place
+from tests.cli.decks import BAD_NUMBER, CLEAN, UNSORTED
+from tests.cli.runner import run
+
+
+@pytest.fixture
+def eager(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Processes are used behind the first file, whatever there is to do."""
+    monkeypatch.setattr(lint_jobs, "PAYS", 0.0)
+    monkeypatch.setattr(lint_jobs, "TRIED", 0.0)
+
+
+@pytest.fixture
+def decks(place: Place) -> str:
+    for i in range(60):
+        place((CLEAN, BAD_NUMBER, UNSORTED)[i % 3], f"decks/{i:02}.keyxm")
+    return "decks"
+
+
+@pytest.mark.usefixtures("eager")
+def test_output_is_the_same_whatever_the_number_of_processes(decks: str, folder: Path) -> None:
+    alone = run("lint", decks, "--jobs", "1", "--no-cache")
+    assert run("lint", decks, "--jobs", "2", "--no-cache") == alone
+    assert multiprocessing.active_children() == []
+    assert alone.out.startswith("decks/01.keyxm:6:11")
+    cache = {"MUDLINE_CACHE_DIR": str(folder / "cache")}
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv(*next(iter(cache.items())))
+        assert [run("lint", decks, "--jobs", "2") for _ in range(2)] == [alone] * 2
+    assert len(list((folder / "cache").iterdir())) == 1
+
+
+def end(orders: Sequence[object]) -> list[FileReport]:
+    """A worker that dies."""
+    os._exit(len(orders))
+
+
+@pytest.mark.usefixtures("eager")
+def test_process_that_dies_is_told(decks: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(lint_pool, "lint_orders", end)
+    outcome = run("lint", decks, "--jobs", "2", "--no-cache", "-q")
+    assert outcome.code == 2
+    assert "a process that linted decks has ended early" in outcome.err
+    assert "Traceback" not in outcome.err
+    assert multiprocessing.active_children() == []
+
+
+@pytest.mark.usefixtures("eager")
+def test_run_that_ends_early_ends_its_processes(decks: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupt(*_: object) -> None:
+        if multiprocessing.active_children():
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr("mudline.cli.lint_run.Run._take", interrupt)
+    assert run("lint", decks, "--jobs", "2", "--no-cache").code == 130
+    assert multiprocessing.active_children() == []
+
+
+@pytest.mark.usefixtures("eager")
+def test_fixing_stays_in_one_process(decks: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(lint_pool, "Pool", None)
+    assert "20 fixed" in run("lint", decks, "--fix", "--jobs", "2").out
+
+
+def test_small_runs_stay_in_one_process(decks: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(lint_pool, "Pool", None)
+    monkeypatch.setattr(lint_jobs, "PAYS", 60.0)
+    assert run("lint", decks, "--jobs", "2", "--no-cache").code == 1
+
+
+def test_workers_do_what_is_done_here(place: Place) -> None:
+    name = place(BAD_NUMBER)
+    one = lint_jobs.Task(Input(name, name), BAD_NUMBER.encode(), LintSettings(rules()))
+    order = lint_pool._order(one)
+    assert order.settings.rules == ()
+    assert lint_pool.lint_orders([order]) == [one.lint()]
+
+
+def test_number_of_processes() -> None:
+    assert lint_jobs.Effort(3).processes == 3
+    assert 1 <= lint_jobs.Effort().processes <= (os.cpu_count() or 1)
+
+
+def test_number_that_is_none(place: Place) -> None:
+    assert run("lint", place(), "--jobs", "-1").code == 2

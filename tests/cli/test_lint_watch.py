@@ -1,0 +1,116 @@
+"""`mudline lint --watch`."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from mudline.cli import lint_watch
+from mudline.cli.lint_watch import Watched
+from tests.cli.conftest import Place
+from tests.cli.decks import BAD_NUMBER, CLEAN
+from tests.cli.runner import Outcome, run
+
+Steps = list[tuple[str, str | None]]
+
+
+@pytest.fixture(autouse=True)
+def quick(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(lint_watch, "WAIT", 0.01)
+
+
+def watch(folder: Path, steps: Steps, *words: str, terminal: bool = False) -> Outcome:
+    """Run with one change of a file at each wait (None: it is removed), and Ctrl-C at the end."""
+    left: Iterator[tuple[str, str | None]] = iter(steps)
+
+    def wait(files: Watched, before: lint_watch.State) -> None:
+        assert files.state() == before
+        name, text = next(left, ("", ""))
+        if not name:
+            raise KeyboardInterrupt
+        path = folder / name
+        if text is None:
+            path.unlink()
+        else:
+            path.write_text(text, encoding="utf-8")
+        real(files, before)
+
+    real = lint_watch.wait_for_change
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(lint_watch, "wait_for_change", wait)
+        return run("lint", *words, "--watch", terminal=terminal)
+
+
+def test_changed_new_and_removed_decks(folder: Path, place: Place) -> None:
+    place(name="decks/a.keyxm")
+    outcome = watch(
+        folder,
+        [("decks/a.keyxm", BAD_NUMBER), ("decks/b.keyxm", CLEAN), ("decks/a.keyxm", None)],
+        "decks",
+        "--output-format",
+        "text",
+    )
+    assert outcome.code == 130
+    ends = [line for line in outcome.out.splitlines() if line.startswith(("No", "Found"))]
+    assert ends == [
+        "No findings in 1 file.",
+        "Found 1 error in 1 file.",
+        "Found 1 error in 2 files.",
+        "No findings in 1 file.",
+    ]
+    assert outcome.err.count("waiting for changes") == 4
+    assert "\x1b" not in outcome.out
+
+
+def test_wrong_configuration_is_told_and_waited_out(folder: Path, place: Place) -> None:
+    place()
+    steps: Steps = [("mudline.toml", "select = 3\n"), ("mudline.toml", "select = ['SYN']\n")]
+    outcome = watch(folder, steps, "deck.keyxm", "-q")
+    assert outcome.code == 130
+    assert outcome.err.count("mudline.toml") == 1
+    assert "waiting" not in outcome.err
+
+
+def test_deck_beside_the_one_watched(folder: Path, place: Place) -> None:
+    outcome = watch(folder, [("base.keyxm", CLEAN)], place())
+    assert outcome.out.count("No findings in 1 file.") == 2
+
+
+def test_terminal_is_cleared(folder: Path, place: Place) -> None:
+    assert watch(folder, [], place(), terminal=True).out.startswith("\x1b[2J")
+
+
+def test_change_is_seen_while_waiting(folder: Path, place: Place) -> None:
+    files = Watched((place(), "nowhere/deck.keyxm", "\0"))
+    before = files.state()
+    threading.Timer(0.1, lambda: place(BAD_NUMBER)).start()
+    lint_watch.wait_for_change(files, before)
+    assert files.state() != before
+    assert (folder / "deck.keyxm").exists()
+
+
+@pytest.mark.parametrize(
+    "words",
+    [["--fix"], ["--diff"], ["--baseline", "b.json", "--write-baseline"], ["--output-format", "json"], ["-"]],
+)
+def test_what_cannot_be_watched(place: Place, words: list[str]) -> None:
+    outcome = run("lint", place(), "--watch", *words)
+    assert (outcome.code, outcome.out) == (2, "")
+    assert "--watch" in outcome.err
+
+
+@pytest.mark.timeout(60)
+def test_ctrl_c_is_quiet(place: Place) -> None:
+    words = [sys.executable, "-m", "mudline", "lint", place(), "--watch"]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as running:
+        assert running.stderr is not None
+        assert b"waiting" in running.stderr.readline()
+        running.send_signal(signal.SIGINT)
+        assert running.stderr.read() == b""
+        assert running.wait(30) == 130
