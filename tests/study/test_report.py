@@ -1,0 +1,90 @@
+"""Reports: files, JSON, CSV, machine, run times, pictures."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+
+import pytest
+from matplotlib.figure import Figure
+
+from mudline.study.machine import _processor, machine
+from mudline.study.picture import Picture, label, legend_below, style
+from mudline.study.report import Column, Omission, StudyReport, StudyTable
+from mudline.study.timing import timed
+
+TABLE = StudyTable(
+    "errors",
+    "Errors",
+    (Column("method"), Column("error", "N/m"), Column("right")),
+    [("a", 0.1, True), ("b", float("nan"), None)],
+)
+
+
+def draw(figure: Figure) -> None:
+    axes = figure.add_subplot()
+    for index in range(3):
+        axes.plot([0, 1], [index, 1], label=f"line {index}", **style(index))
+    label(axes, "Lines", "x [-]", "y [m]")
+    legend_below(figure, axes)
+
+
+REPORT = StudyReport(
+    "precision",
+    "A title",
+    (TABLE,),
+    (Picture("lines", "Some lines.", draw, (4.0, 3.0)),),
+    ("a note",),
+    (Omission("c", "too slow"),),
+)
+
+
+def test_files(tmp_path: Path) -> None:
+    folder = tmp_path / "new" / "folder"
+    files = REPORT.write(folder)
+    assert sorted(path.name for path in files) == ["precision-errors.csv", "precision-lines.png", "precision.json"]
+    assert (folder / "precision-lines.png").read_bytes().startswith(b"\x89PNG")
+    with (folder / "precision-errors.csv").open(newline="", encoding="utf-8") as stream:
+        assert list(csv.reader(stream)) == [["method", "error [N/m]", "right"], ["a", "0.1", "true"], ["b", "", ""]]
+
+
+def test_json() -> None:
+    whole = json.loads(REPORT.json())
+    assert whole["study"] == "precision"
+    assert whole["tables"][0]["columns"][1] == {"name": "error", "unit": "N/m"}
+    assert whole["tables"][0]["rows"] == [["a", 0.1, True], ["b", None, None]]
+    assert whole["omissions"] == [{"what": "c", "reason": "too slow"}]
+    assert whole["pictures"] == [{"name": "lines", "caption": "Some lines."}]
+    assert whole["machine"]["cores"]
+
+
+def test_machine_names_versions_and_no_place() -> None:
+    found = machine()
+    assert {"processor", "cores", "system", "Python", "mudline", "numpy"} <= set(found)
+    assert not any("/" in value for name, value in found.items() if name != "processor")
+
+
+def test_processor(tmp_path: Path) -> None:
+    listing = tmp_path / "cpuinfo"
+    listing.write_text("processor : 0\nmodel name\t: Some Chip 3000\nmodel name : other\n", encoding="utf-8")
+    assert _processor(listing) == "Some Chip 3000"
+    assert _processor(tmp_path / "missing")
+
+
+def test_package_that_is_not_there_is_not_listed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("mudline.study.machine._PACKAGES", ("numpy", "no-such-package"))
+    assert "no-such-package" not in machine()
+
+
+def test_timing() -> None:
+    calls: list[int] = []
+    timing = timed(lambda: calls.append(1), runs=5)
+    assert (timing.runs, len(calls)) == (5, 6)
+    assert 0.0 <= timing.best <= timing.median
+    assert timed(lambda: calls.append(1), runs=1, at_least=0.001, warm=False).runs > 1
+
+
+def test_styles_differ() -> None:
+    styles = [tuple(style(index).items()) for index in range(20)]
+    assert len(set(styles)) == 20
