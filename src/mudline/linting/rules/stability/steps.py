@@ -8,6 +8,13 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
+from mudline.contact.critical_step import (
+    ADVISED_OMEGA_DT,
+    CRITICAL_OMEGA_DT,
+    critical_step,
+    omega,
+    steepest_slope,
+)
 from mudline.contact.inputs import LawKind
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
@@ -21,11 +28,9 @@ if TYPE_CHECKING:
 
 STB002 = Code("STB002", "coarse-time-step", Severity.INFO)
 
-LARGEST = 0.5
-
 _CONSEQUENCES = (
     (1.0, "Newmark, HHT and generalised-alpha may throw it back up to 11 % too fast"),
-    (2.0, "Newmark, HHT and generalised-alpha may throw it back far too fast"),
+    (CRITICAL_OMEGA_DT["central-difference"], "Newmark, HHT and generalised-alpha may throw it back far too fast"),
     (
         inf,
         "Newmark, HHT and generalised-alpha may throw it back up to three times too fast, central difference fails",
@@ -94,21 +99,28 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
     blocks = list(scene.deck.blocks("TIME", "LOAD CASE"))
     if not blocks or not len(scene.element_ids):
         return
-    with np.errstate(all="ignore"):
-        omega = np.sqrt(_stiffness(scene) / _mass(scene))
-    omega[~np.isfinite(omega)] = 0.0
-    stiffest = int(np.argmax(omega))
-    frequency = float(omega[stiffest])
+    frequencies = omega(_stiffness(scene), _mass(scene))
+    if np.isnan(frequencies).all():
+        return
+    stiffest = int(np.nanargmax(frequencies))
+    frequency = float(frequencies[stiffest])
+    advised = float(critical_step(frequencies[stiffest], ADVISED_OMEGA_DT))
     for where, block in blocks:
         step = getattr(cast("TimeSpan", block), "increment", None)
-        if isinstance(step, int | float) and frequency * step > LARGEST:
+        if isinstance(step, int | float) and frequency * step > ADVISED_OMEGA_DT:
             effect = next(words for limit, words in _CONSEQUENCES if frequency * step <= limit)
             message = (
                 f"omega dt = {frequency * step:.3g} on the stiffest contact (element {scene.element_ids[stiffest]}, "
-                f"omega = {frequency:.4g} rad/s): {effect}; give a step of {LARGEST / frequency:.3g} or less (inferred:"
-                " the third value is the step)"
+                f"omega = {frequency:.4g} rad/s): {effect}; give a step of {_rounded_down(advised)} or less "
+                "(inferred: the third value is the step)"
             )
             yield Problem(STB002, message, where=where._replace(path=("increment",)))
+
+
+def _rounded_down(step: float) -> str:
+    """Three digits that are not above the step: who gives them hears no more."""
+    text = f"{step:.3g}"
+    return text if float(text) <= step else f"{step * 0.995:.3g}"
 
 
 def _stiffness(scene: Scene) -> Floats:
@@ -118,8 +130,7 @@ def _stiffness(scene: Scene) -> Floats:
     steepest = np.full(len(linear), np.nan)
     for number, entry in enumerate(scene.laws.curves):
         if entry.curve is not None and entry.whole:
-            reached = entry.curve.slopes[entry.curve.ratios[1:] > 0.0]
-            steepest[scene.laws.followers(number)] = np.append(reached, entry.curve.slopes[-1]).max()
+            steepest[scene.laws.followers(number)] = steepest_slope(entry.curve.ratios, entry.curve.slopes)
     return np.where(scene.law == LawKind.CURVE, steepest / scene.diameter, linear)
 
 

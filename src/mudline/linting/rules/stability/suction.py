@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
+from mudline.contact.critical_step import release_stiffness
+from mudline.contact.suction.law import SuctionLaw, from_cohesion
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
@@ -21,7 +23,7 @@ _METRES = {"metric": 1.0, "imperial": 0.3048}
 """Length of a unit in metres; laws made from a cohesion hold in SI units only."""
 _SLOWEST = 1.0e-3
 """m/s: the velocity below which the force is capped, unless the deck says otherwise."""
-_FORCE_POWER, _DEPTH_POWER = 0.18, 0.26
+_CORNERS = (("first", 0.2), ("second", 0.8))
 _SMALLEST_PART, _LARGEST_PART = 0.01, 0.99
 
 
@@ -97,23 +99,28 @@ def suction_snap(context: LintContext) -> Iterator[Problem]:
 
 def _release(given: SuctionSet, diameter: Floats, units: str) -> Floats:
     """|slope| of the release branch, per unit length, for pipes of some diameters; NaN where it is not known."""
-    unknown: Floats = np.full(len(diameter), np.nan)
     metre = _METRES.get(units, np.nan)
     slowest = _number(given, "regularisation", _SLOWEST / metre)
-    corner = _number(getattr(given, "cutoff", None), "second", 0.8)
-    if not (_SMALLEST_PART <= corner <= _LARGEST_PART and slowest > 0.0):
-        return unknown
+    corners = [_number(getattr(given, "cutoff", None), name, corner) for name, corner in _CORNERS]
+    if not (_SMALLEST_PART <= corners[1] <= _LARGEST_PART and slowest > 0.0):
+        return np.full(len(diameter), np.nan)
     cohesion = _number(given, "cohesion")
-    with np.errstate(all="ignore"):
-        size, speed = diameter * metre, slowest * metre
-        force = 1.12 * cohesion * diameter * (speed / size) ** _FORCE_POWER
-        depth = unknown if np.isnan(cohesion) else 0.98 * diameter * speed**_DEPTH_POWER
-        if (own := getattr(given, "force", None)) is not None:
-            force = np.full(len(diameter), _number(own, "factor") * slowest ** _number(own, "exponent"))
-        if (own := getattr(given, "depth", None)) is not None:
-            depth = np.full(len(diameter), _number(own, "factor") * slowest ** _number(own, "exponent"))
-        slope: Floats = _number(given, "cyclic", 1.0) * force / ((1.0 - corner) * depth)
-    return slope
+    factors = from_cohesion(np.full(len(diameter), cohesion), np.where(np.isnan(cohesion), np.nan, diameter), metre)
+    if (own := getattr(given, "force", None)) is not None:
+        factors = factors._replace(
+            force_factor=_same(own, "factor", diameter), force_exponent=_same(own, "exponent", diameter)
+        )
+    if (own := getattr(given, "depth", None)) is not None:
+        factors = factors._replace(
+            depth_factor=_same(own, "factor", diameter), depth_exponent=_same(own, "exponent", diameter)
+        )
+    rest = (*corners, _number(given, "cyclic", 1.0), slowest)
+    law = SuctionLaw(*factors, *(np.full(len(diameter), value) for value in rest))
+    return release_stiffness(law, law.regularisation)
+
+
+def _same(part: object, name: str, diameter: Floats) -> Floats:
+    return np.full(len(diameter), _number(part, name))
 
 
 def _number(part: object, name: str, default: float = np.nan) -> float:
