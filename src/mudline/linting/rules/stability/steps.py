@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from decimal import ROUND_DOWN, Context
 from math import inf, pi
 from typing import TYPE_CHECKING, cast
 
@@ -25,6 +26,8 @@ from mudline.scene.numbering import Floats
 if TYPE_CHECKING:
     from mudline.keywords.library.geometric_sets import GeometricSet, GeometricSets
     from mudline.keywords.library.time import TimeSpan
+
+_THREE_DIGITS = Context(prec=3, rounding=ROUND_DOWN)
 
 STB002 = Code("STB002", "coarse-time-step", Severity.INFO)
 
@@ -119,8 +122,7 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
 
 def _rounded_down(step: float) -> str:
     """Three digits that are not above the step: who gives them hears no more."""
-    text = f"{step:.3g}"
-    return text if float(text) <= step else f"{step * 0.995:.3g}"
+    return f"{float(_THREE_DIGITS.create_decimal_from_float(step)):.3g}"
 
 
 def _stiffness(scene: Scene) -> Floats:
