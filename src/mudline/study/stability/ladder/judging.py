@@ -1,0 +1,147 @@
+"""A cell goes the whole way, from text to forces, and is judged."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from fractions import Fraction
+from math import isfinite
+from sys import float_info
+
+import numpy as np
+
+from mudline.codes import RUN001
+from mudline.contact.errors import ElementError
+from mudline.contact.result import ContactResult
+from mudline.deck.loading import load_bytes
+from mudline.diagnostics import DeckError, Problem, Severity
+from mudline.results.evaluation import evaluate_scene
+from mudline.scene.build import resolve
+from mudline.scene.model import Scene
+from mudline.scene.positions import Positions
+from mudline.study.stability.ladder.cells import Cell
+from mudline.study.stability.ladder.comparing import BOUND, Compared, Tally, compare
+from mudline.study.stability.ladder.exact import ExactCurve, ExactLaw
+from mudline.study.stability.ladder.verdict import Judgement, Verdict
+
+FILE = "cell.keyxm"
+_ABOVE = (0.0, 5e-324, 0.05, 1e6)
+_LARGEST = Fraction(float_info.max) * (1 - Fraction(1, 2**50))
+
+
+def judge(cell: Cell) -> Judgement:
+    """Read, resolve, evaluate and compare one cell."""
+    return guarded(cell.family, cell.value, lambda: _judged(cell))
+
+
+def guarded(family: str, value: str, judged: Callable[[], Judgement]) -> Judgement:
+    """What is judged, with every numpy warning an error, refusals of decks and all other errors told."""
+    with np.errstate(all="raise"), warnings.catch_warnings():
+        warnings.simplefilter("error")
+        try:
+            return judged()
+        except DeckError as error:
+            told = refusal(error)
+            return Judgement(family, value, Verdict.REFUSED if told else Verdict.UNTOLD, told=told or str(error))
+        except (ArithmeticError, Warning, ValueError, LookupError, TypeError) as error:
+            return Judgement(family, value, Verdict.NOISY, told=f"{type(error).__name__}: {error}")
+
+
+def scene_of(text: str) -> Scene:
+    """The scene of a deck; raises DeckError."""
+    return resolve(load_bytes(text.encode(), FILE)).require()
+
+
+@contextmanager
+def located(scene: Scene) -> Iterator[None]:
+    """What the evaluator refuses, as an error of the deck at the line of the element."""
+    try:
+        yield
+    except ElementError as error:
+        index = int(np.flatnonzero(scene.element_ids == error.element)[0])
+        where = scene.table.numbered.where(index)
+        raise DeckError(scene.deck.diagnose([Problem(RUN001, str(error), where=where)])) from error
+
+
+def refusal(error: DeckError) -> str:
+    """The first error with its line; empty where it names none."""
+    errors = [found for found in error.diagnostics if found.severity is Severity.ERROR]
+    first = min(errors, key=lambda found: found.line, default=None)
+    if first is None or first.line <= 1:
+        return ""
+    return f"line {first.line}: {first.code} {first.message}"
+
+
+def _judged(cell: Cell) -> Judgement:
+    scene = scene_of(cell.text)
+    if cell.law is None:
+        return Judgement(cell.family, cell.value, Verdict.WRONG, told="a deck that holds no law was taken")
+    tally, heights = Tally(), _heights(cell.law)
+    if isinstance(cell.law, ExactCurve):
+        _compare_curve(tally, scene, cell.law)
+    told = _compare_heights(tally, scene, cell.law, heights)
+    if not tally.fault and told is None:
+        return Judgement(cell.family, cell.value, Verdict.UNTOLD, told="a value was refused that a float64 can hold")
+    verdict = Verdict.WRONG if tally.fault else Verdict.UP_TO if told else Verdict.RIGHT
+    return Judgement(cell.family, cell.value, verdict, tally.results, tally.error, BOUND, tally.fault or told or "")
+
+
+def _heights(law: ExactLaw) -> list[float]:
+    """Of the nodes: above the bed, on it, and where the ratio is one that matters."""
+    depths = [ratio * law.diameter for ratio in law.ratios() if isfinite(ratio) and ratio > 0.0]
+    return [*_ABOVE, *(-depth for depth in depths if isfinite(depth))]
+
+
+def _compare_heights(tally: Tally, scene: Scene, law: ExactLaw, heights: list[float]) -> str | None:
+    """Compare the results at heights, as one series, or one by one where that is refused.
+
+    Returns the first refusal, "" without any, None where a result was refused for no reason.
+    """
+    try:
+        result = _evaluated(scene, heights)
+    except DeckError:
+        return _one_by_one(tally, scene, law, heights)
+    for step, height in enumerate(heights):
+        compare(tally, law, height, result.step(step))
+    return ""
+
+
+def _one_by_one(tally: Tally, scene: Scene, law: ExactLaw, heights: list[float]) -> str | None:
+    told = ""
+    for height in heights:
+        try:
+            result = _evaluated(scene, [height])
+        except DeckError as error:
+            told = told or refusal(error)
+            if not told or not _overflows(law, height):
+                return None
+        else:
+            compare(tally, law, height, result.step(0))
+    return told
+
+
+def _overflows(law: ExactLaw, height: float) -> bool:
+    """Whether some number of the result is too large for a float64."""
+    ratio = -Fraction(height) / Fraction(law.diameter)
+    spring = law.spring(-Fraction(height), ratio)
+    return any(abs(number) > _LARGEST for number in (ratio, *spring))
+
+
+def _evaluated(scene: Scene, heights: list[float]) -> ContactResult:
+    points = np.zeros((len(heights), 2, 3))
+    points[:, :, 0] = np.array(heights)[:, None]
+    points[:, 1, 1] = 2.0
+    return evaluate_scene(scene, Positions(points, np.ones(2, np.bool_), None)).result
+
+
+def _compare_curve(tally: Tally, scene: Scene, law: ExactCurve) -> None:
+    """The curve itself, also above the bed where no element asks for it."""
+    curve = next(iter(scene.curves.values()))
+    for ratio in law.ratios():
+        spring = law.spring(Fraction(0), Fraction(ratio))
+        if abs(spring.force) > _LARGEST or spring.term > _LARGEST:
+            continue
+        force, slope = curve.evaluate(ratio)
+        tally.add(f"the curve at {ratio!r}", Compared(float(force), spring.force, spring.term))
+        tally.add(f"the slope of the curve at {ratio!r}", Compared(float(slope), spring.slope, abs(spring.slope)))
