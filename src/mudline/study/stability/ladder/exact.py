@@ -6,6 +6,7 @@ from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import pairwise
 from math import inf, isfinite, nextafter
 from typing import NamedTuple, Protocol
 
@@ -27,7 +28,10 @@ class Spring(NamedTuple):
 class ExactLaw(Protocol):
     """An exact law of one element."""
 
-    diameter: float
+    @property
+    def diameter(self) -> float:
+        """External diameter of the element."""
+        ...
 
     def spring(self, depth: Fraction, ratio: Fraction) -> Spring:
         """The spring of an element in contact."""
@@ -78,7 +82,7 @@ class ExactCurve:
     def ratios(self) -> list[float]:
         """See `ExactLaw`."""
         knots = [float(ratio) for ratio, _ in self.points]
-        middles = [0.5 * low + 0.5 * high for low, high in zip(knots, knots[1:], strict=False)]
+        middles = [0.5 * low + 0.5 * high for low, high in pairwise(knots)]
         beside = [nextafter(knot, end) for knot in knots for end in (-inf, inf)]
         every = {*knots, *middles, *beside, 1.5 * knots[-1], 1e-300, 1e-9}
         return sorted(ratio for ratio in every if isfinite(ratio))

@@ -1,0 +1,95 @@
+"""The contacts of a scene: elements that share a law and a section, their stiffness, mass and frequency."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from mudline.contact.arrays import FloatArray, IndexArray
+from mudline.contact.critical_step import omega, steepest_slope
+from mudline.contact.inputs import LawKind
+from mudline.curves import ForceCurve
+from mudline.scene.model import Scene
+from mudline.study.mass import mass_per_length
+from mudline.study.report import Omission
+
+
+class Contact(NamedTuple):
+    """One kind of contact.
+
+    name: its law, and the set through which its elements have it.
+    element: index of the first of its elements.
+    count: how many elements share it.
+    stiffness: the largest tangent stiffness below the mudline, per unit length.
+    mass: per unit length.
+    omega: root of stiffness over mass, radians per unit of time.
+    depth: a penetration in the middle of where the law has this stiffness.
+    reach: how far to both sides it has it.
+    """
+
+    name: str
+    element: int
+    count: int
+    stiffness: float
+    mass: float
+    omega: float
+    depth: float
+    reach: float
+
+
+class _Steepest(NamedTuple):
+    stiffness: float
+    depth: float
+    reach: float
+
+
+def find_contacts(scene: Scene) -> tuple[list[Contact], list[Omission]]:
+    """The contacts that swing, the stiffest first, and those of which no frequency is known."""
+    springs = np.flatnonzero(np.isin(scene.law, (LawKind.CURVE, LawKind.LINEAR)))
+    kinds = np.column_stack([scene.laws.of_element[springs], scene.section_table.of_element[springs]])
+    masses = mass_per_length(scene)
+    found: list[Contact] = []
+    left_out: list[Omission] = []
+    for first, count in _groups(kinds):
+        element = int(springs[first])
+        name = f"{scene.law_names[element]} on {scene.law_sets[element]}"
+        steepest = _steepest(scene, element)
+        frequency = float(omega(np.float64(steepest.stiffness), masses[element]))
+        if np.isnan(frequency):
+            what = "the mass per unit length is not known" if np.isnan(masses[element]) else "its law never stiffens"
+            left_out.append(Omission(name, f"no frequency: {what}"))
+            continue
+        found.append(
+            Contact(name, element, count, steepest.stiffness, float(masses[element]), frequency, *steepest[1:])
+        )
+    return sorted(found, key=lambda contact: -contact.omega), left_out
+
+
+def _groups(kinds: IndexArray) -> list[tuple[int, int]]:
+    """The first row of each kind and how many there are."""
+    if not len(kinds):
+        return []
+    _, first, counts = np.unique(kinds, axis=0, return_index=True, return_counts=True)
+    return list(zip(first.tolist(), counts.tolist(), strict=True))
+
+
+def _steepest(scene: Scene, element: int) -> _Steepest:
+    arrays = scene.law_arrays()
+    diameter = float(scene.diameter[element])
+    if scene.law[element] == LawKind.CURVE:
+        return _of_curve(arrays.curves[int(arrays.curve_index[element])], diameter)
+    depth = 0.01 * diameter if np.isfinite(diameter) else 0.01
+    return _Steepest(float(arrays.linear_stiffness[element]), depth, depth)
+
+
+def _of_curve(curve: ForceCurve, diameter: float) -> _Steepest:
+    """The segment of the largest slope; the continued end counts as one as wide as the last segment."""
+    slope = steepest_slope(curve.ratios, curve.slopes)
+    ratios: FloatArray = np.append(curve.ratios, 2.0 * curve.ratios[-1] - curve.ratios[-2])
+    ratios[-1] = max(ratios[-1], 0.1 + max(ratios[-2], 0.0))
+    slopes = np.append(curve.slopes, curve.slopes[-1])
+    at = int(np.argmax(np.where(ratios[1:] > 0.0, slopes, -np.inf)))
+    low, high = max(ratios[at], 0.0), ratios[at + 1]
+    middle, half = 0.5 * float(low + high), 0.5 * float(high - low)
+    return _Steepest(slope / diameter, middle * diameter, half * diameter)

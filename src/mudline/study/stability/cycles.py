@@ -1,0 +1,102 @@
+"""Newton's method on friction that holds up to a limit: iterates that go round for ever, and the cure.
+
+A structure of stiffness kb, held by a friction spring kt up to mu N, is pulled with a force F:
+
+    r(u) = kb u + clip(kt u, -mu N, mu N) - F.
+
+From where it slips, the iterates jump between (F - mu N) / kb and (F + mu N) / kb while both slip and |F| < mu N. A line
+search that halves corrections until the residual falls ends it. The friction is that of the evaluator.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from mudline.contact.arrays import FloatArray
+from mudline.contact.friction.law import FrictionHistory, FrictionLaw
+from mudline.contact.friction.return_mapping import slide
+from mudline.study.schemes.newton import Newton
+
+STARTS = np.linspace(-20.0, 20.0, 401)
+MOST = 50
+
+
+class Pulled(NamedTuple):
+    """kb, kt, mu N and F, in any one system of units."""
+
+    structure: float
+    spring: float
+    limit: float
+    force: float
+
+
+EXAMPLE = Pulled(1.0, 99.0, 10.0, 5.0)
+
+
+class Path(NamedTuple):
+    """Iterates of one solution, and whether it converged."""
+
+    iterates: list[float]
+    iterations: int
+    converged: bool
+
+
+class Ensemble(NamedTuple):
+    """Solutions from many starts.
+
+    starts: how many.
+    converged: how many converged.
+    mean: iterations of these; NaN without any.
+    most: iterations of the slowest of these.
+    """
+
+    starts: int
+    converged: int
+    mean: float
+    most: int
+
+
+def path(pulled: Pulled, start: float, newton: Newton) -> Path:
+    """Follow Newton's method from one start: the points that it took, the start first."""
+    points = [start]
+    for most in range(1, newton.most + 1):
+        solution = Newton(newton.tolerance, most, newton.halving).solve(
+            lambda u: residual(pulled, u), np.array([start])
+        )
+        if int(solution.iterations[0]) < most:
+            break
+        points.append(float(solution.root[0]))
+        if solution.residual[0] == 0.0:
+            break
+    return Path(points, len(points) - 1, bool(solution.residual[0] == 0.0))
+
+
+def ensemble(pulled: Pulled, newton: Newton) -> Ensemble:
+    """Solve from all of `STARTS`."""
+    solution = newton.solve(lambda u: residual(pulled, u), STARTS)
+    good = solution.residual == 0.0
+    done = solution.iterations[good]
+    mean = float(done.mean()) if done.size else float("nan")
+    return Ensemble(len(STARTS), int(good.sum()), mean, int(done.max(initial=0)))
+
+
+def residual(pulled: Pulled, u: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Residuals at displacements (k,), their derivatives, and their largest terms."""
+    count = len(u)
+    law = FrictionLaw(
+        np.ones((count, 2)),
+        np.full((count, 2), pulled.spring),
+        np.full((count, 2), np.nan),
+        np.zeros(count, np.bool_),
+        np.ones(count, np.bool_),
+    )
+    anchored = FrictionHistory(np.zeros((count, 3)), np.ones((count, 2), np.int8))
+    points = np.zeros((count, 3))
+    points[:, 1] = u
+    along, across = np.tile([0.0, 1.0, 0.0], (count, 1)), np.tile([0.0, 0.0, 1.0], (count, 1))
+    held = slide(law, anchored, points, (along, across), np.full(count, pulled.limit))
+    friction, own = held.force[:, 0], pulled.structure * u
+    size = np.maximum(np.maximum(np.abs(own), np.abs(friction)), abs(pulled.force))
+    return own - friction - pulled.force, pulled.structure - held.by_position[:, 0, 0], size

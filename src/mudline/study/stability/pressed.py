@@ -1,0 +1,53 @@
+"""A mass on a contact of the scene, pressed to where the law is steepest: a system for the schemes to step."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mudline.contact import ContactInput, ContactModel
+from mudline.contact.arrays import FloatArray
+from mudline.scene.model import Scene
+from mudline.study.schemes.system import Forces, History
+from mudline.study.stability.contacts import Contact
+
+
+class Pressed:
+    """`runs` copies of an element of the scene, under a load that holds them at the depth of the contact.
+
+    Positions are heights above there, forces are per unit length: those of the evaluator, less the load.
+
+    Attributes:
+        mass: (k,) per unit length.
+        load: per unit length.
+    """
+
+    def __init__(self, scene: Scene, contact: Contact, runs: int) -> None:
+        self._model = ContactModel(_copies(scene, contact.element, runs))
+        self._depth = contact.depth
+        self._points = np.zeros((runs, 2, 3))
+        self._points[:, 1, 1] = 1.0
+        self.mass: FloatArray = np.full(runs, contact.mass)
+        self.load = 0.0
+        self.load = float(self.forces(np.zeros(runs), np.zeros(runs), None).force[0])
+
+    def forces(self, position: FloatArray, velocity: FloatArray, history: History) -> Forces:
+        """See `System`."""
+        self._points[:, :, 0] = (position - self._depth)[:, None]
+        result = self._model.evaluate(self._points.reshape(-1, 3))
+        return Forces(result.force - self.load, -result.stiffness, np.zeros(velocity.shape), history)
+
+
+def _copies(scene: Scene, element: int, runs: int) -> ContactInput:
+    arrays = scene.law_arrays()
+    return ContactInput(
+        node_ids=np.arange(1, 2 * runs + 1),
+        coordinates=np.zeros((2 * runs, 3)),
+        element_ids=np.arange(1, runs + 1),
+        element_nodes=np.arange(2 * runs).reshape(runs, 2),
+        length=np.ones(runs),
+        diameter=np.full(runs, scene.diameter[element]),
+        law=np.full(runs, arrays.law[element]),
+        curve_index=np.full(runs, arrays.curve_index[element]),
+        curves=arrays.curves,
+        linear_stiffness=np.full(runs, arrays.linear_stiffness[element]),
+    )

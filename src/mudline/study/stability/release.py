@@ -1,0 +1,88 @@
+"""Suction that lets go: where a static solution is unique, and where the pipe snaps off.
+
+On the release the suction falls with slope F_max / ((1 - xc2) Delta_B). A pipe that hangs on a structure of stiffness ks
+(per unit length), whose far end is raised slowly, has one equilibrium at each height of that end only for a greater ks.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from mudline.contact.arrays import FloatArray
+from mudline.contact.critical_step import release_stiffness
+from mudline.contact.extras import ElementSuction
+from mudline.contact.suction.law import SuctionLaw, maximum_force, suction_depth
+from mudline.contact.suction.states import SuctionHistory, SuctionState
+from mudline.contact.suction.stepping import step
+from mudline.scene.model import Scene
+
+VELOCITIES = (1e-3, 1e-2, 1e-1, 1.0)
+SHARES = (0.5, 0.99, 1.01, 2.0)
+"""Structural stiffness over the one that is needed."""
+_POINTS = 4001
+
+
+class Release(NamedTuple):
+    """Suction of an element at a pull-out velocity (length unit per second), per unit length.
+
+    element: number of the element.
+    force: largest suction.
+    depth: uplift at breakout.
+    needed: stiffness that a structure must have for one equilibrium.
+    equilibria: the most equilibria at any one height, for each of `SHARES` of the needed stiffness.
+    """
+
+    element: int
+    velocity: float
+    force: float
+    depth: float
+    needed: float
+    equilibria: tuple[int, ...]
+
+
+def releases(scene: Scene, suction: ElementSuction) -> list[Release]:
+    """The release of each law of a scene, at the velocity of its regularisation and at `VELOCITIES` above it."""
+    table = np.column_stack(suction.law)
+    _, first = np.unique(table, axis=0, return_index=True)
+    found = []
+    for row in np.sort(first).tolist():
+        law = suction.law.rows(slice(row, row + 1))
+        if law.force_factor[0] * law.cyclic[0] == 0.0:
+            continue
+        slowest = float(law.regularisation[0])
+        for velocity in sorted({slowest, *(v for v in VELOCITIES if v > slowest)} - {0.0}):
+            found.append(_release(int(scene.element_ids[suction.elements[row]]), law, velocity))
+    return found
+
+
+def _release(element: int, law: SuctionLaw, velocity: float) -> Release:
+    v = np.array([velocity])
+    needed = float(release_stiffness(law, v)[0])
+    counts = tuple(equilibria(law, velocity, share * needed) for share in SHARES)
+    return Release(
+        element, velocity, float(maximum_force(law, v)[0][0]), float(suction_depth(law, v)[0]), needed, counts
+    )
+
+
+def equilibria(law: SuctionLaw, velocity: float, structure: float) -> int:
+    """The most equilibria at any one height of the structure's end, in the uplift up to breakout and somewhat beyond.
+
+    At uplift x the end stands at x + suction / ks: where that falls as x grows, a height belongs to several uplifts.
+    """
+    uplift = np.linspace(0.0, 1.5 * float(suction_depth(law, np.array([velocity]))[0]), _POINTS)[1:]
+    height = uplift + pull(law, velocity, uplift) / structure
+    levels = 0.5 * (np.sort(height)[1:] + np.sort(height)[:-1])
+    low, high = np.minimum(height[1:], height[:-1]), np.maximum(height[1:], height[:-1])
+    starts, ends = np.searchsorted(np.sort(low), levels, "left"), np.searchsorted(np.sort(high), levels, "right")
+    return int((starts - ends).max())
+
+
+def pull(law: SuctionLaw, velocity: float, uplift: FloatArray) -> FloatArray:
+    """Amount of the suction at uplifts (k,) of an armed element that rises with a steady velocity."""
+    count = len(uplift)
+    rows = SuctionLaw(*(np.repeat(values, count) for values in law))
+    armed = SuctionHistory(np.ones(count, np.bool_), np.zeros(count), np.full(count, SuctionState.COMPRESSION, np.int8))
+    suction, _ = step(rows, armed, uplift, np.full(count, velocity), np.zeros(count, np.bool_))
+    return -suction.force
