@@ -51,27 +51,40 @@ class OneStep:
 
     def step(self, system: System, motion: Motion, dt: float | FloatArray) -> Step:
         """See `Scheme`. Newton's method starts from the acceleration of the step before."""
-        mass, old = system.mass, motion.acceleration
-        position0 = motion.position + dt * motion.velocity + self.position[0] * dt * dt * old
-        velocity0 = motion.velocity + self.velocity[0] * dt * old
-        by_position, by_velocity = self.position[1] * dt * dt, self.velocity[1] * dt
-        known = self.inertia[0] * mass * old
-        more = 0
-        if self.load[0]:
-            known = known - self.load[0] * system.forces(motion.position, motion.velocity, motion.history).force
-            more = 1
+        balance = _Balance(self, system, motion, dt)
+        solution = self.newton.solve(balance, motion.acceleration)
+        end = Motion(*balance.at(solution.root), solution.root, balance.forces.history)
+        return Step(end, solution.evaluations + balance.evaluations, solution.iterations, solution.residual)
 
-        def forces_at(new: FloatArray) -> Forces:
-            return system.forces(position0 + by_position * new, velocity0 + by_velocity * new, motion.history)
 
-        def residual(new: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-            found = forces_at(new)
-            inertia, load = self.inertia[1] * mass * new, self.load[1] * found.force
-            tangent = found.by_position * by_position + found.by_velocity * by_velocity
-            size = np.maximum(np.abs(inertia), np.maximum(np.abs(load), np.abs(known)))
-            return inertia + known - load, self.inertia[1] * mass - self.load[1] * tangent, size
+class _Balance:
+    """The balance of forces at the end of a step, over the acceleration there; keeps the forces it saw last."""
 
-        solution = self.newton.solve(residual, old)
-        new = solution.root
-        end = Motion(position0 + by_position * new, velocity0 + by_velocity * new, new, forces_at(new).history)
-        return Step(end, solution.evaluations + more + 1, solution.iterations, solution.residual)
+    forces: Forces
+
+    def __init__(self, scheme: OneStep, system: System, motion: Motion, dt: float | FloatArray) -> None:
+        self._scheme, self._system, self._history = scheme, system, motion.history
+        old, mass = motion.acceleration, system.mass
+        self._position = motion.position + dt * motion.velocity + scheme.position[0] * dt * dt * old
+        self._velocity = motion.velocity + scheme.velocity[0] * dt * old
+        self._by_position, self._by_velocity = scheme.position[1] * dt * dt, scheme.velocity[1] * dt
+        self._inertia = scheme.inertia[1] * mass
+        self._known = scheme.inertia[0] * mass * old
+        self.evaluations = 0
+        if scheme.load[0]:
+            before = system.forces(motion.position, motion.velocity, motion.history)
+            self._known = self._known - scheme.load[0] * before.force
+            self.evaluations = 1
+
+    def at(self, new: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Position and velocity that go with an acceleration at the end."""
+        return self._position + self._by_position * new, self._velocity + self._by_velocity * new
+
+    def __call__(self, new: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """See `Residual`."""
+        self.forces = found = self._system.forces(*self.at(new), self._history)
+        share = self._scheme.load[1]
+        inertia, load = self._inertia * new, share * found.force
+        tangent = found.by_position * self._by_position + found.by_velocity * self._by_velocity
+        size = np.maximum(np.abs(inertia), np.maximum(np.abs(load), np.abs(self._known)))
+        return inertia + self._known - load, self._inertia - share * tangent, size

@@ -1,0 +1,116 @@
+"""Elastic normal laws of a mass on the bed, with the work they store: what the reference of a drop needs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from mudline.contact.arrays import FloatArray
+from mudline.contact.laws.smoothing import force_and_slope
+from mudline.curves import ForceCurve
+
+
+class Law(Protocol):
+    """Force per unit length over penetration z > 0; nothing above the bed."""
+
+    @property
+    def name(self) -> str:
+        """What the deck calls it."""
+        ...
+
+    def spring(self, z: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Force and d force / d z at penetrations (k,)."""
+        ...
+
+    def work(self, z: FloatArray) -> FloatArray:
+        """Work from the mudline to z, exactly; 0 above the bed."""
+        ...
+
+    @property
+    def top(self) -> float:
+        """Height above the mudline at which the bed begins: the half width of the quadratic zone."""
+        ...
+
+    def breaks(self) -> FloatArray:
+        """Penetrations > 0 at which the slope jumps, ascending."""
+        ...
+
+    def steepest(self, z: float) -> float:
+        """The largest slope between the mudline and z."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class LinearLaw:
+    """k z, with the quadratic zone of half width `top` around the mudline where that is > 0."""
+
+    name: str
+    stiffness: float
+    top: float = 0.0
+
+    def spring(self, z: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """See `Law`."""
+        same = np.full(z.shape, self.stiffness)
+        if self.top == 0.0:
+            below = z > 0.0
+            return np.where(below, self.stiffness * z, 0.0), np.where(below, same, 0.0)
+        return force_and_slope(z, same, np.full(z.shape, self.top), np.zeros(z.shape, np.bool_))
+
+    def work(self, z: FloatArray) -> FloatArray:
+        """See `Law`; of a smoothed law from the begin of its zone."""
+        k, h = self.stiffness, self.top
+        zone = np.zeros(z.shape) if h == 0.0 else k * np.clip(z + h, 0.0, 2.0 * h) ** 3 / (12.0 * h)
+        below = np.maximum(z, h)
+        return zone + 0.5 * k * (below - h) * (below + h)
+
+    def breaks(self) -> FloatArray:
+        """See `Law`."""
+        return np.array([self.top] if self.top else [])
+
+    def steepest(self, z: float) -> float:
+        """See `Law`."""
+        del z
+        return self.stiffness
+
+
+@dataclass(frozen=True, slots=True)
+class CurveLaw:
+    """A force-embedment curve on a pipe of a diameter."""
+
+    name: str
+    curve: ForceCurve
+    diameter: float
+    top: float = 0.0
+
+    def spring(self, z: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """See `Law`."""
+        below = z > 0.0
+        if not below.any():
+            return np.zeros(z.shape), np.zeros(z.shape)
+        force, slope = self.curve.evaluate(np.where(below, z, 0.0) / self.diameter)
+        return np.where(below, force, 0.0), np.where(below, slope / self.diameter, 0.0)
+
+    def work(self, z: FloatArray) -> FloatArray:
+        """See `Law`: sums of trapezoids, which are exact between points."""
+        at = np.maximum(z, 0.0) / self.diameter
+        knots = np.concatenate([[0.0], self.breaks() / self.diameter])
+        forces = self.curve.evaluate(knots)[0]
+        sums = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(knots) * (forces[1:] + forces[:-1]))])
+        left = np.searchsorted(knots[1:], at, side="right")
+        rest = 0.5 * (at - knots[left]) * (forces[left] + self.curve.evaluate(at)[0])
+        work: FloatArray = (sums[left] + rest) * self.diameter
+        return work
+
+    def breaks(self) -> FloatArray:
+        """See `Law`."""
+        return self.curve.ratios[self.curve.ratios > 0.0] * self.diameter
+
+    def steepest(self, z: float) -> float:
+        """See `Law`."""
+        knots = self.curve.ratios
+        reached = (knots[:-1] <= z / self.diameter) & (knots[1:] > 0.0)
+        end = slice(-1, None) if knots[-1] <= 0.0 else slice(0, 1)
+        slopes = self.curve.slopes[reached] if reached.any() else self.curve.slopes[end]
+        return float(np.abs(slopes).max() / self.diameter)

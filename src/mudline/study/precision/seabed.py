@@ -1,0 +1,130 @@
+"""What of a scene the motions of the study take place on: its stiffest laws, a mass, suction and friction."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from mudline.contact import ContactInput, LawKind
+from mudline.contact.suction.law import from_cohesion
+from mudline.scene.model import Scene
+from mudline.study.mass import mass_per_length, submerged_weight, surroundings
+from mudline.study.precision.drag import Drag
+from mudline.study.precision.laws import CurveLaw, Law, LinearLaw
+from mudline.study.precision.pull import SuctionNumbers
+
+_DIAMETER = 0.3
+_MASS = 150.0
+_COHESION = 5000.0
+_UNITS = {"imperial": (0.3048, 4.4482216)}
+"""Metres and newtons of a deck's units."""
+
+
+class Bed(NamedTuple):
+    """An elastic law of the scene, and what lies on it, per unit length and in the deck's units."""
+
+    law: Law
+    diameter: float
+    mass: float
+    weight: float
+    element: int
+
+    @property
+    def stiffness(self) -> float:
+        """The law's slope at the mudline."""
+        return self.law.steepest(0.0)
+
+
+class Seabed(NamedTuple):
+    """What is studied, and what was taken for granted."""
+
+    beds: list[Bed]
+    inputs: ContactInput
+    notes: list[str]
+
+
+def seabed_of(scene: Scene) -> Seabed:
+    """The stiffest curve and the stiffest linear law of a scene; raises DeckError where it cannot be evaluated."""
+    inputs = scene.contact_input()
+    notes: list[str] = []
+    mass, weight = mass_per_length(scene), submerged_weight(scene)
+    beds = []
+    for kind in (LawKind.CURVE, LawKind.LINEAR):
+        found = [_bed(scene, inputs, (float(mass[i]), float(weight[i])), i, notes) for i in _distinct(inputs, kind)]
+        beds += sorted((bed for bed in found if bed.stiffness > 0.0), key=lambda bed: -bed.stiffness)[:1]
+    if not beds:
+        notes.append("The deck has no curve and no linear law to fall on: only the reference case was run.")
+    return Seabed(beds, inputs, list(dict.fromkeys(notes)))
+
+
+def _distinct(inputs: ContactInput, kind: LawKind) -> Iterator[int]:
+    """One element of each law and diameter."""
+    elements = inputs.with_law(kind)
+    what = inputs.curve_index if kind is LawKind.CURVE else inputs.linear_stiffness
+    keys = np.column_stack([what[elements], np.nan_to_num(inputs.diameter[elements])])
+    yield from elements[np.unique(keys, axis=0, return_index=True)[1]].tolist() if len(elements) else []
+
+
+def _bed(scene: Scene, inputs: ContactInput, given: tuple[float, float], element: int, notes: list[str]) -> Bed:
+    mass, weight = given
+    diameter = float(inputs.diameter[element])
+    if math.isnan(diameter):
+        diameter = _DIAMETER
+    if math.isnan(mass):
+        mass = _MASS
+        notes.append(f"The mass of the pipe is not known: {_MASS:g} per unit length is taken.")
+    if not weight > 0.0:
+        weight = 0.5 * mass * surroundings(scene).gravity
+        notes.append("The pipe has no known weight in water that presses on the bed: half of its own weight is taken.")
+    name = scene.law_names[element].removeprefix("curve:")
+    law: Law
+    if inputs.law[element] == LawKind.CURVE:
+        law = CurveLaw(name, inputs.curves[int(inputs.curve_index[element])], diameter)
+    else:
+        law = LinearLaw(name, float(inputs.linear_stiffness[element]))
+    return Bed(law, diameter, mass, weight, element)
+
+
+def static_depth(bed: Bed) -> float:
+    """Penetration under the weight; a twentieth of the diameter where there is none."""
+    if isinstance(bed.law, CurveLaw):
+        depths = [ratio * bed.diameter for ratio in bed.law.curve.ratios_at_force(bed.weight) if ratio > 0.0]
+        return min(depths, default=0.05 * bed.diameter)
+    return bed.weight / bed.stiffness
+
+
+def suction_of(scene: Scene, inputs: ContactInput, bed: Bed, notes: list[str]) -> SuctionNumbers:
+    """The suction law of the bed's element, else of another, else of Bridge et al. with 5 kPa."""
+    given = inputs.extras.suction
+    if given is not None:
+        at = np.flatnonzero(given.elements == bed.element)
+        index = int(at[0]) if at.size else 0
+        return SuctionNumbers(**{name: float(values[index]) for name, values in given.law._asdict().items()})
+    length, force = _UNITS.get(scene.units, (1.0, 1.0))
+    notes.append("The deck has no suction with a history: that of Bridge et al. (2004) with 5 kPa is taken.")
+    cohesion = np.array([_COHESION / force * length**2])
+    factors = from_cohesion(cohesion, np.array([bed.diameter]), length, force)
+    powers = {name: float(values[0]) for name, values in factors._asdict().items()}
+    return SuctionNumbers(**powers, first_corner=0.2, second_corner=0.8, cyclic=1.0, regularisation=1e-3 / length)
+
+
+def usual_velocity(scene: Scene) -> float:
+    """A tenth of a metre per second, in the deck's units."""
+    return 0.1 / _UNITS.get(scene.units, (1.0, 1.0))[0]
+
+
+def friction_of(scene: Scene, bed: Bed, notes: list[str]) -> Drag:
+    """Coefficient and mobilisation length of the bed's element along the line, else 0.5 and a hundredth of D."""
+    coefficient = float(scene.bed.column("friction")[bed.element, 0])
+    length = float(scene.bed.column("mobilisation")[bed.element, 0])
+    if not coefficient > 0.0:
+        coefficient = 0.5
+        notes.append("The bed has no friction along the line: a coefficient of 0.5 is taken.")
+    if not length > 0.0:
+        length = 0.01 * bed.diameter
+        notes.append("No mobilisation length is given: a hundredth of the diameter is taken.")
+    limit = coefficient * bed.weight
+    return Drag(bed.law.name, bed.mass, limit, limit / length)
