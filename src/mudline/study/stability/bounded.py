@@ -40,6 +40,7 @@ class Measured(NamedTuple):
         only one try.
     below: what the motion did at 0.99 of the predicted step; at omega dt = FAR where there is none.
     above: what it did at 1.01 of it; at omega dt = ALWAYS where it is 0.
+    tried: what it did at each of `SHARES`; empty without a critical step above 0.
     """
 
     contact: Contact
@@ -48,6 +49,7 @@ class Measured(NamedTuple):
     measured: float
     below: str
     above: str
+    tried: tuple[str, ...] = ()
 
     @property
     def as_predicted(self) -> bool:
@@ -69,7 +71,7 @@ def measure(scene: Scene, contact: Contact, scheme: Scheme) -> Measured:
     words = _outcomes(scene, contact, scheme, limit * SHARES)
     step = limit / contact.omega
     below, above = (words[int(np.argmin(np.abs(SHARES - share)))] for share in (0.99, 1.01))
-    return Measured(contact, scheme, step, step * _change(words), below, above)
+    return Measured(contact, scheme, step, step * _change(words), below, above, tuple(words))
 
 
 def _change(words: list[str]) -> float:

@@ -20,7 +20,7 @@ class Contact(NamedTuple):
 
     name: its law, and the set through which its elements have it.
     element: index of the first of its elements.
-    count: how many elements share it.
+    elements: how many elements share it.
     stiffness: the largest tangent stiffness below the mudline, per unit length.
     mass: per unit length.
     omega: root of stiffness over mass, radians per unit of time.
@@ -30,7 +30,7 @@ class Contact(NamedTuple):
 
     name: str
     element: int
-    count: int
+    elements: int
     stiffness: float
     mass: float
     omega: float
@@ -55,7 +55,7 @@ def find_contacts(scene: Scene) -> tuple[list[Contact], list[Omission]]:
         element = int(springs[first])
         name = f"{scene.law_names[element]} on {scene.law_sets[element]}"
         steepest = _steepest(scene, element)
-        frequency = float(omega(np.float64(steepest.stiffness), masses[element]))
+        frequency = float(omega(np.array(steepest.stiffness), masses[element : element + 1])[0])
         if np.isnan(frequency):
             what = "the mass per unit length is not known" if np.isnan(masses[element]) else "its law never stiffens"
             left_out.append(Omission(name, f"no frequency: {what}"))

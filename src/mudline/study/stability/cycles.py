@@ -4,8 +4,10 @@ A structure of stiffness kb, held by a friction spring kt up to mu N, is pulled 
 
     r(u) = kb u + clip(kt u, -mu N, mu N) - F.
 
-From where it slips, the iterates jump between (F - mu N) / kb and (F + mu N) / kb while both slip and |F| < mu N. A line
-search that halves corrections until the residual falls ends it. The friction is that of the evaluator.
+From where it slips, the iterates jump between (F - mu N) / kb and (F + mu N) / kb while both slip and |F| < mu N. Two
+cures: corrections that are halved, up to ten times, until the residual falls; and a bracket, which keeps the two nearest
+points between which the residual changes its sign, and is halved where Newton's method would leave it. The friction is
+that of the evaluator.
 """
 
 from __future__ import annotations
@@ -14,13 +16,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mudline.contact.arrays import FloatArray
+from mudline.contact.arrays import FloatArray, IndexArray
 from mudline.contact.friction.law import FrictionHistory, FrictionLaw
 from mudline.contact.friction.return_mapping import slide
-from mudline.study.schemes.newton import Newton
+from mudline.study.schemes.newton import ROUND_OFF, TOLERANCE, Newton
 
 STARTS = np.linspace(-20.0, 20.0, 401)
 MOST = 50
+RATIOS = (1.0, 9.0, 99.0, 1e4, 1e6)
+FORCES = (0.1, 0.5, 0.9, 1.5)
 
 
 class Pulled(NamedTuple):
@@ -100,3 +104,54 @@ def residual(pulled: Pulled, u: FloatArray) -> tuple[FloatArray, FloatArray, Flo
     friction, own = held.force[:, 0], pulled.structure * u
     size = np.maximum(np.maximum(np.abs(own), np.abs(friction)), abs(pulled.force))
     return own - friction - pulled.force, pulled.structure - held.by_position[:, 0, 0], size
+
+
+class Cycling(NamedTuple):
+    """Ensembles of one case.
+
+    ratio: spring over structure, kt / kb.
+    share: force over limit, F / mu N.
+    starts: how many.
+    plain, halved, bracketed: from how many of them the three methods do not converge.
+    most: iterations of the slowest with the bracket.
+    """
+
+    ratio: float
+    share: float
+    starts: int
+    plain: int
+    halved: int
+    bracketed: int
+    most: int
+
+
+def cyclings() -> list[Cycling]:
+    """Springs from as stiff as the structure to 10^6 times as stiff, forces below and above the limit."""
+    return [_cycling(ratio, share) for ratio in RATIOS for share in FORCES]
+
+
+def _cycling(ratio: float, share: float) -> Cycling:
+    pulled = Pulled(1.0, ratio, 10.0, 10.0 * share)
+    lost = [len(STARTS) - ensemble(pulled, Newton(most=MOST, halving=halving)).converged for halving in (False, True)]
+    safe = bracketed(pulled, STARTS)
+    return Cycling(ratio, share, len(STARTS), *lost, int((safe < 0).sum()), int(safe.max()))
+
+
+def bracketed(pulled: Pulled, starts: FloatArray) -> IndexArray:
+    """Iterations (k,) of Newton's method with a bracket from `starts` (k,); -1 where it does not converge."""
+    u = np.array(starts)
+    low, high = np.full(u.shape, -np.inf), np.full(u.shape, np.inf)
+    taken = np.full(u.shape, -1, np.intp)
+    for iteration in range(MOST + 1):
+        value, slope, size = residual(pulled, u)
+        done = np.abs(value) <= np.maximum(TOLERANCE, ROUND_OFF * size)
+        taken = np.where(done & (taken < 0), iteration, taken)
+        if done.all():
+            break
+        low, high = np.where(value < 0.0, u, low), np.where(value > 0.0, u, high)
+        trial = u - value / slope
+        known = np.isfinite(low) & np.isfinite(high)
+        middle = 0.5 * np.where(known, low + high, 0.0)
+        trial = np.where(known & ((trial <= low) | (trial >= high)), middle, trial)
+        u = np.where(done, u, trial)
+    return taken

@@ -1,7 +1,8 @@
 """Suction that lets go: where a static solution is unique, and where the pipe snaps off.
 
-On the release the suction falls with slope F_max / ((1 - xc2) Delta_B). A pipe that hangs on a structure of stiffness ks
-(per unit length), whose far end is raised slowly, has one equilibrium at each height of that end only for a greater ks.
+On the release the suction falls with slope F_max / ((1 - xc2) Delta_B). A pipe that hangs on a structure of
+stiffness ks (per unit length), whose far end is raised slowly, has one equilibrium at each height of that end only for
+a greater ks.
 """
 
 from __future__ import annotations
@@ -52,8 +53,9 @@ def releases(scene: Scene, suction: ElementSuction) -> list[Release]:
         if law.force_factor[0] * law.cyclic[0] == 0.0:
             continue
         slowest = float(law.regularisation[0])
-        for velocity in sorted({slowest, *(v for v in VELOCITIES if v > slowest)} - {0.0}):
-            found.append(_release(int(scene.element_ids[suction.elements[row]]), law, velocity))
+        element = int(scene.element_ids[suction.elements[row]])
+        velocities = sorted({slowest, *(v for v in VELOCITIES if v > slowest)} - {0.0})
+        found += [_release(element, law, velocity) for velocity in velocities]
     return found
 
 

@@ -1,0 +1,95 @@
+"""Energy at touchdown: a mass lands on an elastic bed at every phase of a step, and should leave as fast as it came.
+
+The figures to compare with were reckoned once, apart from this program, with the same 400 phases, and rounded to the
+digits that stand here. HHT and generalised-alpha average the forces of both ends of a step.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from mudline.contact.arrays import FloatArray
+from mudline.study.schemes.catalogue import SCHEMES
+from mudline.study.schemes.impact import restitution
+from mudline.study.schemes.system import Scheme
+
+PHASES: FloatArray = (np.arange(400) + 0.5) / 400
+OMEGA_DTS = (0.1, 0.5, 1.0, 4.4721, 10.0, 100.0)
+LANDERS = (
+    "velocity-verlet",
+    "rk4",
+    "newmark",
+    "hht-0.3",
+    "generalised-alpha-1",
+    "generalised-alpha-0.5",
+    "generalised-alpha-0",
+    "backward-euler",
+)
+_COMPARED = {
+    "newmark": "0.9988/1.0000/1.0012 0.9711/1.0004/1.0297 0.8995/1.0056/1.1116 0.429/1.381/2.329 0.352/1.599/2.841 "
+    "0.335/1.666/2.993",
+    "hht-0.3": "0.9987/0.9999/1.0012 0.9658/0.9951/1.0244 0.8774/0.9790/1.0804 0.450/1.170/1.889 0.370/1.319/2.267 "
+    "0.353/1.365/2.376",
+    "generalised-alpha-0.5": "0.9987/0.9999/1.0012 0.9657/0.9950/1.0243 0.8769/0.9788/1.0802 0.448/1.168/1.884 "
+    "0.370/1.317/2.261 0.354/1.362/2.370",
+    "generalised-alpha-0": "0.9974/0.9986/0.9998 0.9084/0.9288/0.9492 0.7502/0.8009/0.8517 0.430/0.623/0.818 "
+    "0.352/0.656/0.960 0.334/0.667/0.998",
+    "backward-euler": "0.8538/0.8549/0.8559 0.4604/0.4698/0.4792 0.25/0.25/0.25 0.017/0.030/0.043 0.003/0.007/0.010 "
+    "0/0.0001/0.0001",
+    "velocity-verlet": "0.9988/1.0000/1.0012 0.9783/1.0002/1.0221 1/1/1",
+}
+"""Least/mean/largest for each of `OMEGA_DTS`."""
+
+
+class Landing(NamedTuple):
+    """Speed after over speed before contact, over all phases.
+
+    least, mean, largest: NaN where the scheme is unstable in contact.
+    compared: the figures to compare with, as texts; None where there are none.
+    """
+
+    scheme: Scheme
+    omega_dt: float
+    least: float
+    mean: float
+    largest: float
+    compared: tuple[str, str, str] | None
+
+    @property
+    def agrees(self) -> bool | None:
+        """Whether all three differ by no more than one in the last digit; None without figures to compare with."""
+        if self.compared is None:
+            return None
+        found = (self.least, self.mean, self.largest)
+        return all(
+            abs(value - float(text)) <= _last_digit(text) for value, text in zip(found, self.compared, strict=True)
+        )
+
+
+def landings() -> list[Landing]:
+    """All schemes at all steps."""
+    return [landing(SCHEMES[name], omega_dt) for name in LANDERS for omega_dt in OMEGA_DTS]
+
+
+def landing(scheme: Scheme, omega_dt: float) -> Landing:
+    """One scheme at one step, over all phases."""
+    speeds = speeds_over_phases(scheme, omega_dt)
+    texts = _COMPARED.get(scheme.name, "").split()
+    index = OMEGA_DTS.index(omega_dt)
+    least, mean, largest = (texts[index].split("/")) if index < len(texts) else ("", "", "")
+    compared = (least, mean, largest) if least else None
+    return Landing(scheme, omega_dt, float(speeds.min()), float(speeds.mean()), float(speeds.max()), compared)
+
+
+def speeds_over_phases(scheme: Scheme, omega_dt: float) -> FloatArray:
+    """Restitution over `PHASES`; NaN at all of them where the scheme is unstable in contact."""
+    if omega_dt > scheme.limit:
+        return np.full(len(PHASES), np.nan)
+    return restitution(scheme, omega_dt, PHASES)
+
+
+def _last_digit(text: str) -> float:
+    """One in the last digit of a figure, in the fourth or third for the whole ones."""
+    return 10.0 ** -max(len(text.partition(".")[2]), 3) * 1.001
