@@ -5,9 +5,9 @@ A structure of stiffness kb, held by a friction spring kt up to mu N, is pulled 
     r(u) = kb u + clip(kt u, -mu N, mu N) - F.
 
 From where it slips, the iterates jump between (F - mu N) / kb and (F + mu N) / kb while both slip and |F| < mu N. Two
-cures: corrections that are halved, up to ten times, until the residual falls; and a bracket, which keeps the two nearest
-points between which the residual changes its sign, and is halved where Newton's method would leave it. The friction is
-that of the evaluator.
+cures: corrections that are halved, up to ten times, until the residual falls; and a bracket, which keeps the two
+nearest points between which the residual changes its sign, and is halved where Newton's method would leave it. The
+friction is that of the evaluator.
 """
 
 from __future__ import annotations
@@ -60,6 +60,11 @@ class Ensemble(NamedTuple):
     converged: int
     mean: float
     most: int
+
+    @property
+    def lost(self) -> int:
+        """How many did not."""
+        return self.starts - self.converged
 
 
 def path(pulled: Pulled, start: float, newton: Newton) -> Path:
@@ -132,9 +137,10 @@ def cyclings() -> list[Cycling]:
 
 def _cycling(ratio: float, share: float) -> Cycling:
     pulled = Pulled(1.0, ratio, 10.0, 10.0 * share)
-    lost = [len(STARTS) - ensemble(pulled, Newton(most=MOST, halving=halving)).converged for halving in (False, True)]
+    plain, halved = (ensemble(pulled, Newton(most=MOST, halving=halving)) for halving in (False, True))
     safe = bracketed(pulled, STARTS)
-    return Cycling(ratio, share, len(STARTS), *lost, int((safe < 0).sum()), int(safe.max()))
+    lost = int((safe < 0).sum())
+    return Cycling(ratio, share, len(STARTS), plain.lost, halved.lost, lost, int(safe.max()))
 
 
 def bracketed(pulled: Pulled, starts: FloatArray) -> IndexArray:
@@ -151,7 +157,7 @@ def bracketed(pulled: Pulled, starts: FloatArray) -> IndexArray:
         low, high = np.where(value < 0.0, u, low), np.where(value > 0.0, u, high)
         trial = u - value / slope
         known = np.isfinite(low) & np.isfinite(high)
-        middle = 0.5 * np.where(known, low + high, 0.0)
+        middle = 0.5 * (np.where(known, low, 0.0) + np.where(known, high, 0.0))
         trial = np.where(known & ((trial <= low) | (trial >= high)), middle, trial)
         u = np.where(done, u, trial)
     return taken

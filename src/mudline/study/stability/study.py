@@ -118,8 +118,8 @@ def _of_landings(landed: Sequence[Landing]) -> list[str]:
     compared = [one for one in landed if one.agrees is not None]
     never = [name for name, most in _largest(landed).items() if most <= 1.0]
     agree = (
-        f"{sum(bool(one.agrees) for one in compared)} of {len(compared)} landings agree with figures reckoned apart, to "
-        "the last digit given."
+        f"{sum(bool(one.agrees) for one in compared)} of {len(compared)} landings agree with figures reckoned apart, "
+        "to the last digit given."
     )
     return [
         agree,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from mudline.contact.critical_step import ADVISED_OMEGA_DT, CRITICAL_OMEGA_DT
-from mudline.study.report import Column, StudyTable
+from mudline.study.report import Cell, Column, StudyTable
 from mudline.study.stability.bounded import ALWAYS, FAR, Measured
 from mudline.study.stability.contacts import Contact
 from mudline.study.stability.cycles import Cycling
@@ -29,7 +29,7 @@ def contacts_table(contacts: Sequence[Contact], units: str) -> StudyTable:
         Column("advised step, implicit", "s"),
         *(Column(f"critical step, {name}", "s") for name in explicit),
     )
-    rows = [
+    rows: list[tuple[Cell, ...]] = [
         (
             *(one.name, one.elements, one.stiffness, one.mass, one.omega, ADVISED_OMEGA_DT / one.omega),
             *(CRITICAL_OMEGA_DT[name] / one.omega for name in explicit),
@@ -50,7 +50,7 @@ def critical_table(measured: Sequence[Measured]) -> StudyTable:
         Column("at 1.01"),
         Column("as predicted"),
     )
-    rows = [
+    rows: list[tuple[Cell, ...]] = [
         (
             *(one.contact.name, one.scheme.title, one.predicted, one.measured, one.below, one.above),
             "yes" if one.as_predicted else "NO",
