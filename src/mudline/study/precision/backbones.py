@@ -39,7 +39,7 @@ def f114(ratio: FloatArray) -> FloatArray:
 
 
 def randolph_quiggin(ratio: FloatArray) -> FloatArray:
-    """Randolph and Quiggin (OMAE2009-79259), initial penetration: H Nc su D, H = zeta / (1 + zeta), zeta = 200 z / D."""
+    """Randolph and Quiggin (OMAE2009-79259), first penetration: H Nc su D, H = zeta / (1 + zeta), zeta = 200 z / D."""
     bearing = 6.0 * np.where(ratio < 0.1, 0.1**0.25 * np.sqrt(10.0 * ratio), ratio**0.25)
     zeta = _STIFFNESS * ratio
     return zeta / (1.0 + zeta) * bearing * (_STRENGTH + _GRADIENT * ratio * DIAMETER) * DIAMETER

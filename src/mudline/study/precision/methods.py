@@ -77,7 +77,7 @@ def _float32(curve: ForceCurve) -> Evaluation:
 def _table(curve: ForceCurve, entries: int) -> Evaluation:
     """The curve resampled at even distances, and straight lines between: what a lookup table does."""
     first, last = float(curve.ratios[0]), float(curve.ratios[-1])
-    forces = curve.evaluate(np.linspace(first, last, entries))[0]
+    forces = curve.evaluate(np.linspace(first, last, entries), backend="numpy")[0]
     slopes = np.diff(forces)
     scale = (entries - 1) / (last - first)
 

@@ -43,6 +43,11 @@ def run(scene: Scene, options: StudyOptions) -> StudyReport:
 
     Raises DeckError where the scene cannot be evaluated, and ImportError without scipy.
     """
+    with np.errstate(all="ignore"):  # what overflows is not finite, and that is a failure with its reason
+        return _studied(scene, options)
+
+
+def _studied(scene: Scene, options: StudyOptions) -> StudyReport:
     omissions: list[Omission] = []
     seabed = seabed_of(scene)
     notes = [*(" ".join(note.split()) for note in _NOTES), *seabed.notes]

@@ -42,4 +42,5 @@ class KickDrift:
         acceleration = forces.force / system.mass
         velocity = kicked + self.after * dt * acceleration
         none = np.zeros(position.shape, np.intp)
-        return Step(Motion(position, velocity, acceleration, forces.history), 1, none, np.zeros(position.shape))
+        after = Motion(position, velocity, acceleration, forces.force, forces.history)
+        return Step(after, 1, none, np.zeros(position.shape))

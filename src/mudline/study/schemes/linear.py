@@ -31,7 +31,7 @@ def amplification(scheme: Scheme, omega_dt: float) -> FloatArray:
     """The matrix (3, 3) that takes (x, dt v, dt^2 a) over one step of omega dt."""
     system = Oscillators(np.ones(3), np.full(3, omega_dt * omega_dt))
     unit = np.eye(3)
-    after = scheme.step(system, Motion(unit[0], unit[1], unit[2], None), 1.0).motion
+    after = scheme.step(system, Motion(unit[0], unit[1], unit[2], -system.stiffness * unit[0], None), 1.0).motion
     return np.array([after.position, after.velocity, after.acceleration])
 
 

@@ -77,6 +77,7 @@ def _held(motion: Motion, before: FloatArray, sound: BoolArray) -> Motion:
         np.where(sound, motion.position, before),
         np.where(sound, motion.velocity, 0.0),
         np.where(sound, motion.acceleration, 0.0),
+        motion.force,
         motion.history,
     )
 

@@ -53,8 +53,8 @@ class OneStep:
         """See `Scheme`. Newton's method starts from the acceleration of the step before."""
         balance = _Balance(self, system, motion, dt)
         solution = self.newton.solve(balance, motion.acceleration)
-        end = Motion(*balance.at(solution.root), solution.root, balance.forces.history)
-        return Step(end, solution.evaluations + balance.evaluations, solution.iterations, solution.residual)
+        end = Motion(*balance.at(solution.root), solution.root, balance.forces.force, balance.forces.history)
+        return Step(end, solution.evaluations, solution.iterations, solution.residual)
 
 
 class _Balance:
@@ -69,12 +69,7 @@ class _Balance:
         self._velocity = motion.velocity + scheme.velocity[0] * dt * old
         self._by_position, self._by_velocity = scheme.position[1] * dt * dt, scheme.velocity[1] * dt
         self._inertia = scheme.inertia[1] * mass
-        self._known = scheme.inertia[0] * mass * old
-        self.evaluations = 0
-        if scheme.load[0]:
-            before = system.forces(motion.position, motion.velocity, motion.history)
-            self._known = self._known - scheme.load[0] * before.force
-            self.evaluations = 1
+        self._known = scheme.inertia[0] * mass * old - scheme.load[0] * motion.force
 
     def at(self, new: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Position and velocity that go with an acceleration at the end."""

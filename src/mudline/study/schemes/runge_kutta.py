@@ -41,7 +41,7 @@ class RungeKutta:
         position = motion.position + dt * _mixed(self.weights, speeds)
         velocity = motion.velocity + dt * _mixed(self.weights, accelerations)
         end = system.forces(position, velocity, motion.history)
-        after = Motion(position, velocity, end.force / system.mass, end.history)
+        after = Motion(position, velocity, end.force / system.mass, end.force, end.history)
         none = np.zeros(position.shape, np.intp)
         return Step(after, len(self.stages) + 1, none, np.zeros(position.shape))
 

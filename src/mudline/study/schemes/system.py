@@ -39,18 +39,23 @@ class System(Protocol):
 
 
 class Motion(NamedTuple):
-    """Where k systems are: arrays (k,), and what they remember."""
+    """Where k systems are: arrays (k,), and what they remember.
+
+    acceleration: as the scheme carries it along; only for some schemes it is force over mass.
+    force: at this moment.
+    """
 
     position: FloatArray
     velocity: FloatArray
     acceleration: FloatArray
+    force: FloatArray
     history: History
 
     @classmethod
     def start(cls, system: System, position: FloatArray, velocity: FloatArray, history: History = None) -> Motion:
         """At rest or not: the acceleration is that of the forces at this moment."""
         forces = system.forces(position, velocity, history)
-        return cls(position, velocity, forces.force / system.mass, forces.history)
+        return cls(position, velocity, forces.force / system.mass, forces.force, forces.history)
 
 
 class Step(NamedTuple):
