@@ -6,11 +6,11 @@ from mudline.scene.model import Scene
 from mudline.study.options import StudyOptions
 from mudline.study.report import StudyReport
 from mudline.study.sample import sample_scene
-from mudline.study.stability.study import study
+from mudline.study.stability.whole import study_scene
 
 __all__ = ["run"]
 
 
 def run(scene: Scene | None, options: StudyOptions) -> StudyReport:
     """Study the contacts of a scene, of the built-in sample where there is none; raises DeckError."""
-    return study(sample_scene() if scene is None else scene, options)
+    return study_scene(sample_scene() if scene is None else scene, options)

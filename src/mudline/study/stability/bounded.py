@@ -22,8 +22,8 @@ GROWTH = 100.0
 """A motion that leaves so many times its first amplitude behind grows."""
 AMPLITUDE = 1e-6
 """Of the reach of the segment: implicit schemes guess (omega dt)^2 times as far, and still the law is linear."""
-SHARES = np.unique(np.concatenate([np.linspace(0.9, 1.1, 41), [0.99, 1.01]]).round(6))
-"""Of the predicted critical step."""
+SHARES = np.array([*np.arange(180, 200), *np.arange(201, 221)]) / 200.0
+"""Of the predicted critical step, from 0.9 to 1.1 and without 1: at the critical step itself growth has no rate."""
 FAR = 100.0
 """omega dt at which schemes without a critical step are tried."""
 ALWAYS = 1.0

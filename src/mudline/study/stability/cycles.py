@@ -21,7 +21,7 @@ from mudline.contact.friction.law import FrictionHistory, FrictionLaw
 from mudline.contact.friction.return_mapping import slide
 from mudline.study.schemes.newton import ROUND_OFF, TOLERANCE, Newton
 
-STARTS = np.linspace(-20.0, 20.0, 401)
+STARTS = np.linspace(-20.0, 20.0, 101)
 MOST = 50
 RATIOS = (1.0, 9.0, 99.0, 1e4, 1e6)
 FORCES = (0.1, 0.5, 0.9, 1.5)

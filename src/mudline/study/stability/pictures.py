@@ -16,7 +16,10 @@ from mudline.study.stability.landings import LANDERS, PHASES, speeds_over_phases
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_SHOWN = (0.1, 0.5, 1.0, 10.0)
+_SHOWN = ((0.1, 0.9965, 1.0025), (0.5, 0.89, 1.04), (1.0, 0.2, 1.15), (10.0, -0.1, 3.0))
+"""omega dt of each panel, and what it shows of the axis."""
+_DRAWN = tuple(name for name in LANDERS if name != "generalised-alpha-1")
+"""With a spectral radius of 1 generalised-alpha does what Newmark's scheme does."""
 _COLORS = {
     Verdict.RIGHT: "#9ecae1",
     Verdict.UP_TO: "#c7e9c0",
@@ -65,20 +68,29 @@ def landings_picture() -> Picture:
 
     def draw(figure: Figure) -> None:
         panels = figure.subplots(2, 2, sharex=True)
-        for axes, omega_dt in zip(panels.flat, _SHOWN, strict=True):
-            for index, name in enumerate(LANDERS):
+        for axes, (omega_dt, low, high) in zip(panels.flat, _SHOWN, strict=True):
+            for index, name in enumerate(_DRAWN):
                 speeds = speeds_over_phases(SCHEMES[name], omega_dt)
                 look = {**style(index), "markevery": (6 * index, 50)}
                 axes.plot(PHASES, speeds, label=SCHEMES[name].title, **look)
             axes.axhline(1.0, color="0.4", linewidth=0.8, zorder=0)
-            label(axes, f"ω dt = {omega_dt:g}", "", "")
-        figure.supxlabel("landing phase: share of a step left when the bed is reached [-]", fontsize="medium")
-        figure.supylabel("speed after landing / speed before [-]", fontsize="medium")
+            axes.set_ylim(low, high)
+            label(axes, f"ω dt = {omega_dt:g}{_off(omega_dt, low)}", "", "speed after / before landing [-]")
+        for axes in panels[1]:
+            axes.set_xlabel("landing phase, share of the step left at the bed [-]")
         legend_below(figure, panels.flat[0])
 
     return Picture(
         "landings", "Rebound of a mass from an elastic bed; 1 is right, more is energy from nowhere.", draw, (10.0, 8.0)
     )
+
+
+def _off(omega_dt: float, low: float) -> str:
+    """Tells of backward Euler where it lies below the panel."""
+    speeds = speeds_over_phases(SCHEMES["backward-euler"], omega_dt)
+    if speeds.min() >= low:
+        return ""
+    return f"  (backward Euler below: {speeds.min():.2f} to {speeds.max():.2f})"
 
 
 def critical_picture(measured: Sequence[Measured]) -> Picture:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from math import inf, isfinite
+from math import copysign, inf, isfinite
 from sys import float_info
 from typing import NamedTuple
 
@@ -41,6 +41,8 @@ class Tally:
         if not isfinite(compared.found):
             self.error, self.fault = inf, f"{what} is {compared.found}"
             return
+        if compared.found == 0.0 and copysign(1.0, compared.found) < 0.0:
+            self.fault = f"{what} is -0.0"
         off = max(abs(Fraction(compared.found) - compared.exact) - floor, Fraction(0))
         error = _roundings(off, compared.term)
         self.error = max(self.error, error)

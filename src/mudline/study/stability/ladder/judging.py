@@ -81,10 +81,10 @@ def _judged(cell: Cell) -> Judgement:
     if isinstance(cell.law, ExactCurve):
         _compare_curve(tally, scene, cell.law)
     told = _compare_heights(tally, scene, cell.law, heights)
-    if not tally.fault and told is None:
+    if told is None:
         return Judgement(cell.family, cell.value, Verdict.UNTOLD, told="a value was refused that a float64 can hold")
     verdict = Verdict.WRONG if tally.fault else Verdict.UP_TO if told else Verdict.RIGHT
-    return Judgement(cell.family, cell.value, verdict, tally.results, tally.error, BOUND, tally.fault or told or "")
+    return Judgement(cell.family, cell.value, verdict, tally.results, tally.error, BOUND, tally.fault or told)
 
 
 def _heights(law: ExactLaw) -> list[float]:
@@ -113,9 +113,10 @@ def _one_by_one(tally: Tally, scene: Scene, law: ExactLaw, heights: list[float])
         try:
             result = _evaluated(scene, [height])
         except DeckError as error:
-            told = told or refusal(error)
-            if not told or not _overflows(law, height):
+            line = refusal(error)
+            if not line or not _overflows(law, height):
                 return None
+            told = told or line
         else:
             compare(tally, law, height, result.step(0))
     return told

@@ -38,7 +38,7 @@ BY_CHANCE = 4000
 """Decks by chance in a full run."""
 
 
-def study(scene: Scene, options: StudyOptions) -> StudyReport:
+def study_scene(scene: Scene, options: StudyOptions) -> StudyReport:
     """The whole study of a scene."""
     found, omissions = find_contacts(scene)
     stepped = found if options.full else found[:MOST_CONTACTS]

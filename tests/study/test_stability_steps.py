@@ -1,0 +1,217 @@
+"""Frequencies of a scene's contacts, critical steps that are really stepped, landings, Newton cycles, release."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mudline.contact.critical_step import CRITICAL_OMEGA_DT
+from mudline.contact.extras import ElementSuction
+from mudline.contact.suction import SuctionLaw
+from mudline.deck.loading import load_bytes
+from mudline.diagnostics import DeckError
+from mudline.linting.engine import lint_bytes
+from mudline.linting.selection import select
+from mudline.scene.build import resolve
+from mudline.scene.model import Scene
+from mudline.study.sample import TEXT, sample_scene
+from mudline.study.schemes.catalogue import SCHEMES
+from mudline.study.schemes.newton import Newton
+from mudline.study.stability import bounded
+from mudline.study.stability.bounded import BOUNDED, GROWS, SHARES, measure
+from mudline.study.stability.contacts import find_contacts
+from mudline.study.stability.cycles import EXAMPLE, STARTS, Pulled, bracketed, cyclings, ensemble, path, residual
+from mudline.study.stability.landings import LANDERS, OMEGA_DTS, landing, landings
+from mudline.study.stability.release import equilibria, releases
+from mudline.study.stability.suction_law import input_with_suction, suction_of
+
+MASS = 7850.0 * 0.25 * np.pi * (0.3**2 - 0.25**2)
+
+
+def scene_of(text: str, name: str = "deck.keyxm") -> Scene:
+    return resolve(load_bytes(text.encode(), name))
+
+
+def curved(rows: str) -> Scene:
+    head, tail = TEXT.split(" CURVE=Soft Clay\n")
+    return scene_of(f"{head} CURVE=Soft Clay\n{rows}*SEABED CONTACT{tail.partition('*SEABED CONTACT')[2]}")
+
+
+# ---------------------------------------------------------------------------------------------------------- contacts
+
+
+def test_the_contacts_of_the_sample() -> None:
+    found, left_out = find_contacts(sample_scene())
+    assert left_out == []
+    assert [(one.name, one.elements) for one in found] == [("curve:Soft Clay on Clay", 7), ("linear on Sand", 3)]
+    assert found[0].stiffness == pytest.approx(45000.0 / 0.3, rel=1e-12)
+    assert found[0].omega == pytest.approx((45000.0 / 0.3 / MASS) ** 0.5, rel=1e-12)
+    assert (found[0].depth, found[0].reach) == pytest.approx((0.0015, 0.0015))
+    assert found[1].omega == pytest.approx((50000.0 / MASS) ** 0.5, rel=1e-12)
+
+
+def test_contacts_without_a_frequency_say_why() -> None:
+    found, left_out = find_contacts(scene_of(TEXT.replace("7850.0", "0.0")))
+    assert found == []
+    assert {one.reason for one in left_out} == {"no frequency: the mass per unit length is not known"}
+    found, left_out = find_contacts(curved(" 0, 1000\n 1, 0\n"))
+    assert [one.name for one in found] == ["linear on Sand"]
+    assert [one.reason for one in left_out] == ["no frequency: its law never stiffens"]
+
+
+def test_a_scene_without_springs_has_no_contacts() -> None:
+    assert find_contacts(scene_of("$MODEL\n")) == ([], [])
+
+
+def test_the_continued_end_may_be_the_steepest() -> None:
+    found, _ = find_contacts(curved(" -2, -30\n -1, -10\n"))
+    assert found[-1].stiffness == pytest.approx(20.0 / 0.3)
+    assert 0.0 < found[-1].reach <= found[-1].depth
+
+
+# ------------------------------------------------------------------------------------------------------------- steps
+
+
+@pytest.mark.parametrize("name", ["central-difference", "rk4", "newmark", "backward-euler", "rk2", "forward-euler"])
+def test_schemes_do_on_contacts_what_is_predicted(name: str) -> None:
+    scene = sample_scene()
+    for contact in find_contacts(scene)[0]:
+        found = measure(scene, contact, SCHEMES[name])
+        assert found.as_predicted
+        if 0.0 < found.predicted < np.inf:
+            assert found.predicted == pytest.approx(CRITICAL_OMEGA_DT[name] / contact.omega)
+            assert found.measured == pytest.approx(found.predicted, rel=0.0051)
+            assert (found.below, found.above, len(found.tried)) == (BOUNDED, GROWS, len(SHARES))
+
+
+def test_the_schemes_and_the_rules_have_the_same_limits() -> None:
+    limits = {name: CRITICAL_OMEGA_DT.get(name, np.inf) for name in SCHEMES}
+    assert limits == {name: scheme.limit for name, scheme in SCHEMES.items()}
+
+
+def test_a_step_that_is_not_as_predicted_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(bounded, "CRITICAL_OMEGA_DT", {"central-difference": 2.2, "rk4": 1.0})
+    scene = sample_scene()
+    contact = find_contacts(scene)[0][0]
+    early = measure(scene, contact, SCHEMES["central-difference"])
+    assert (early.as_predicted, early.below, early.above) == (False, GROWS, GROWS)
+    assert early.measured == pytest.approx(2.0 / contact.omega, rel=0.0051)
+    never = measure(scene, contact, SCHEMES["rk4"])
+    assert not never.as_predicted
+    assert np.isnan(never.measured)
+
+
+# ---------------------------------------------------------------------------------------------------------- landings
+
+
+def test_landings_agree_with_the_figures_reckoned_apart() -> None:
+    found = landings()
+    assert len(found) == len(LANDERS) * len(OMEGA_DTS)
+    compared = [one for one in found if one.compared]
+    assert len(compared) == 33
+    assert all(one.agrees for one in compared)
+    assert np.isnan(landing(SCHEMES["velocity-verlet"], 10.0).mean)
+
+
+def test_only_two_implicit_schemes_never_gain_energy() -> None:
+    gains = {one.scheme.name for one in landings() if one.largest > 1.0 and not one.scheme.explicit}
+    implicit = {name for name in LANDERS if not SCHEMES[name].explicit}
+    assert implicit - gains == {"generalised-alpha-0", "backward-euler"}
+
+
+# ------------------------------------------------------------------------------------------------------------ Newton
+
+
+def test_the_cycle_of_the_example_and_its_cure() -> None:
+    plain = path(EXAMPLE, 1.0, Newton(most=5))
+    assert plain.iterates == pytest.approx([1.0, -5.0, 15.0, -5.0, 15.0, -5.0])
+    assert not plain.converged
+    cured = path(EXAMPLE, 1.0, Newton(halving=True))
+    assert (cured.iterations, cured.converged) == (3, True)
+    assert cured.iterates[-1] == pytest.approx(0.05, abs=1e-12)
+
+
+def test_the_friction_of_the_evaluator_is_the_one_of_the_formula() -> None:
+    u = np.linspace(-1.0, 1.0, 101)
+    value, slope, _ = residual(EXAMPLE, u)
+    assert value == pytest.approx(u + np.clip(99.0 * u, -10.0, 10.0) - 5.0)
+    assert slope == pytest.approx(np.where(np.abs(99.0 * u) > 10.0, 1.0, 100.0))
+
+
+def test_a_bracket_cures_every_cycle() -> None:
+    for one in cyclings():
+        assert one.bracketed == 0
+        assert one.plain == 0 or (one.ratio > 1.0 and one.share < 1.0)
+        assert one.halved == 0 or one.ratio >= 1e4
+    assert ensemble(EXAMPLE, Newton()).lost > 95
+    assert (bracketed(Pulled(1.0, 99.0, 10.0, float("nan")), STARTS[:1]) == -1).all()
+
+
+# ----------------------------------------------------------------------------------------------------------- release
+
+
+def test_one_equilibrium_needs_the_stiffness_that_is_told() -> None:
+    scene = sample_scene()
+    suction = suction_of(scene)
+    assert suction is not None
+    found = releases(scene, suction)
+    assert [one.velocity for one in found] == [1e-3, 1e-2, 0.1, 1.0]
+    assert found[2].needed == pytest.approx(42662.876092, rel=1e-10)
+    assert {one.equilibria for one in found} == {(3, 3, 1, 1)}
+    assert equilibria(suction.law.rows(slice(0, 1)), 0.1, 1e9) == 1
+
+
+def test_suction_of_no_force_asks_for_nothing() -> None:
+    scene = scene_of(TEXT.replace("COHESION=5.0E3", "COHESION=0"))
+    suction = suction_of(scene)
+    assert suction is not None
+    assert releases(scene, suction) == []
+
+
+def test_the_laws_of_a_deck_in_every_form() -> None:
+    own = " FORCE=1000, 0.5\n DEPTH=0.1, 0.25\n CUTOFF=0.1, 0.5\n CYCLIC=0.5\n REGULARISATION=0.01"
+    suction = suction_of(scene_of(TEXT.replace(" COHESION=5.0E3", own)))
+    assert suction is not None
+    assert np.column_stack(suction.law)[0].tolist() == [1000.0, 0.5, 0.1, 0.25, 0.1, 0.5, 0.5, 0.01]
+    assert suction.elements.tolist() == list(range(7))
+    metric, feet = suction_of(sample_scene()), suction_of(scene_of(TEXT, "deck.keyxi"))
+    assert metric is not None
+    assert feet is not None
+    assert feet.law.depth_factor[0] == pytest.approx(metric.law.depth_factor[0] * 0.3048**0.26)
+    assert suction_of(scene_of(TEXT.partition("*SEABED SUCTION")[0])) is None
+    none = TEXT.replace(" SET=Clay\n COHESION", " SET=Nothing\n COHESION")
+    assert suction_of(scene_of(none)) is None
+
+
+def test_a_cohesion_without_units_is_refused_at_its_line() -> None:
+    with pytest.raises(DeckError) as refused:
+        suction_of(resolve(load_bytes(TEXT.encode(), "deck.keyx", units="user")))
+    assert refused.value.diagnostics[0].line > 1
+
+
+def test_the_suction_that_the_scene_brings_is_left_as_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    scene = sample_scene()
+    given = input_with_suction(scene)
+    assert isinstance(given.extras.suction, ElementSuction)
+    assert isinstance(given.extras.suction.law, SuctionLaw)
+    monkeypatch.setattr(Scene, "contact_input", lambda _: given)
+    assert input_with_suction(scene) is given
+
+
+# -------------------------------------------------------------------------------------------------------------- rule
+
+
+@pytest.mark.parametrize("step", ["0.1", "0.0168", "0.0169"])
+def test_a_restart_is_told_of_the_step_that_does_on_the_bed_of_its_static_deck(tmp_path: Path, step: str) -> None:
+    (tmp_path / "static.keyxm").write_text(TEXT, encoding="utf-8")
+    dynamic = f"$LOAD CASE\n*RESTART\n LAST=static\n*TIME\n STEP=FIXED\n 0.0, 120.0, {step}, 24.0\n"
+    path_ = tmp_path / "dynamic.keyxm"
+    findings = lint_bytes(dynamic.encode(), path_.as_posix(), select(["STB002"]), folder=tmp_path)
+    if step == "0.0168":
+        assert findings == []
+        return
+    assert [(found.code, found.line, found.column) for found in findings] == [("STB002", 6, 14)]
+    assert "omega = 29.74 rad/s" in findings[0].message
+    assert "give a step of 0.0168 or less" in findings[0].message
