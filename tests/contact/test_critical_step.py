@@ -12,6 +12,7 @@ from mudline.contact.critical_step import (
     critical_step,
     omega,
     release_stiffness,
+    rounded_down,
     steepest_slope,
 )
 from mudline.contact.suction import SuctionLaw, from_cohesion
@@ -43,6 +44,16 @@ def test_what_does_not_swing_has_no_frequency_and_any_step() -> None:
 def test_frequencies_of_huge_and_tiny_numbers() -> None:
     found = omega(np.array([1e300, 1e-300, 4e-300]), np.array([1e-300, 1e300, 1e-300]))
     assert found == pytest.approx([1e300, 1e-300, 2.0], rel=1e-14)
+
+
+def test_steps_are_told_with_three_digits_that_are_not_above_them() -> None:
+    assert [rounded_down(step) for step in (0.0042481, 0.021356, 1.0, 9.999, 1e-300)] == [
+        0.00424,
+        0.0213,
+        1.0,
+        9.99,
+        1e-300,
+    ]
 
 
 def test_the_steepest_slope_below_the_mudline() -> None:

@@ -85,6 +85,17 @@ def test_only_the_fastest_contacts_are_stepped_by_default(monkeypatch: pytest.Mo
     assert [(one.what, one.reason[:18]) for one in found.omissions] == [("linear on Sand", "not stepped: slowe")]
 
 
+def test_a_segment_too_narrow_to_swing_in_is_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(whole, "cells", lambda: cells()[:3])
+    monkeypatch.setattr(whole, "suction_cells", list)
+    monkeypatch.setattr(whole, "SCHEMES", {})
+    text = TEXT.replace(" 0.02,  640.0\n", " 0.0100000000001,  640.0\n")
+    found = run(resolve(load_bytes(text.encode(), "deck.keyxm")), StudyOptions())
+    assert [tuple(one) for one in found.omissions] == [
+        ("curve:Soft Clay on Clay", "not stepped: its steepest segment is too narrow")
+    ]
+
+
 def test_what_is_not_sound_stands_in_the_notes(monkeypatch: pytest.MonkeyPatch) -> None:
     wrong = Judgement("softness", "1E9", Verdict.WRONG, 3, 99.0, 8.0, "the force is off")
     monkeypatch.setattr(whole, "cells", lambda: cells()[:3])

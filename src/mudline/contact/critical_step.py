@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
+from decimal import ROUND_DOWN, Context
 
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
 from mudline.contact.suction.law import SuctionLaw, maximum_force, suction_depth
+
+_THREE_DIGITS = Context(prec=3, rounding=ROUND_DOWN)
 
 CRITICAL_OMEGA_DT = {
     "central-difference": 2.0,
@@ -44,6 +47,11 @@ def critical_step(frequency: FloatArray, omega_dt: float) -> FloatArray:
     with np.errstate(all="ignore"):
         step: FloatArray = omega_dt / frequency
     return np.where(np.isnan(frequency), np.inf, step)
+
+
+def rounded_down(step: float) -> float:
+    """Return a step > 0 with three digits that are not above it: who gives them keeps to the step."""
+    return float(_THREE_DIGITS.create_decimal_from_float(step))
 
 
 def steepest_slope(ratios: FloatArray, slopes: FloatArray) -> float:

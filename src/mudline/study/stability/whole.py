@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from mudline.contact.critical_step import ADVISED_OMEGA_DT
+from mudline.contact.critical_step import ADVISED_OMEGA_DT, rounded_down
 from mudline.scene.model import Scene
 from mudline.study.options import StudyOptions
 from mudline.study.report import Omission, StudyReport
@@ -34,6 +34,8 @@ from mudline.study.stability.tables import (
 
 MOST_CONTACTS = 6
 """Stepped by default, the fastest; all of them in a full run."""
+NARROWEST = 1e-7
+"""Half width of a segment over its depth: in a narrower one a small swing is lost in the rounding of the depth."""
 BY_CHANCE = 4000
 """Decks by chance in a full run."""
 
@@ -41,9 +43,13 @@ BY_CHANCE = 4000
 def study_scene(scene: Scene, options: StudyOptions) -> StudyReport:
     """The whole study of a scene."""
     found, omissions = find_contacts(scene)
-    stepped = found if options.full else found[:MOST_CONTACTS]
+    wide = [one for one in found if one.reach > NARROWEST * one.depth]
     omissions += [
-        Omission(one.name, "not stepped: slower than those that were (--full)") for one in found[len(stepped) :]
+        Omission(one.name, "not stepped: its steepest segment is too narrow") for one in found if one not in wide
+    ]
+    stepped = wide if options.full else wide[:MOST_CONTACTS]
+    omissions += [
+        Omission(one.name, "not stepped: slower than those that were (--full)") for one in wide[len(stepped) :]
     ]
     measured = _measured(scene, stepped, options)
     options.progress("landings")
@@ -105,7 +111,7 @@ def _of_contacts(found: Sequence[Contact], measured: Sequence[Measured]) -> list
     odd = [one for one in measured if not one.as_predicted]
     step = (
         f"The fastest contact, {fastest.name}, swings with {fastest.omega:.4g} rad/s: give implicit schemes a step of "
-        f"{ADVISED_OMEGA_DT / fastest.omega:.3g} s or less (omega dt = {ADVISED_OMEGA_DT:g})."
+        f"{rounded_down(ADVISED_OMEGA_DT / fastest.omega):.3g} s or less (omega dt = {ADVISED_OMEGA_DT:g})."
     )
     runs = (
         f"{len(measured) - len(odd)} of {len(measured)} runs of a scheme on a contact did as predicted: bounded below "

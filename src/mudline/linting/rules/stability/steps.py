@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from decimal import ROUND_DOWN, Context
 from math import inf, pi
 from typing import TYPE_CHECKING, cast
 
@@ -14,6 +13,7 @@ from mudline.contact.critical_step import (
     CRITICAL_OMEGA_DT,
     critical_step,
     omega,
+    rounded_down,
     steepest_slope,
 )
 from mudline.contact.inputs import LawKind
@@ -26,8 +26,6 @@ from mudline.scene.numbering import Floats
 if TYPE_CHECKING:
     from mudline.keywords.library.geometric_sets import GeometricSet, GeometricSets
     from mudline.keywords.library.time import TimeSpan
-
-_THREE_DIGITS = Context(prec=3, rounding=ROUND_DOWN)
 
 STB002 = Code("STB002", "coarse-time-step", Severity.INFO)
 
@@ -107,22 +105,17 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
         return
     stiffest = int(np.nanargmax(frequencies))
     frequency = float(frequencies[stiffest])
-    advised = float(critical_step(frequencies[stiffest], ADVISED_OMEGA_DT))
+    advised = rounded_down(float(critical_step(frequencies[stiffest], ADVISED_OMEGA_DT)))
     for where, block in blocks:
         step = getattr(cast("TimeSpan", block), "increment", None)
         if isinstance(step, int | float) and frequency * step > ADVISED_OMEGA_DT:
             effect = next(words for limit, words in _CONSEQUENCES if frequency * step <= limit)
             message = (
                 f"omega dt = {frequency * step:.3g} on the stiffest contact (element {scene.element_ids[stiffest]}, "
-                f"omega = {frequency:.4g} rad/s): {effect}; give a step of {_rounded_down(advised)} or less "
+                f"omega = {frequency:.4g} rad/s): {effect}; give a step of {advised:.3g} or less "
                 "(inferred: the third value is the step)"
             )
             yield Problem(STB002, message, where=where._replace(path=("increment",)))
-
-
-def _rounded_down(step: float) -> str:
-    """Three digits that are not above the step: who gives them hears no more."""
-    return f"{float(_THREE_DIGITS.create_decimal_from_float(step)):.3g}"
 
 
 def _stiffness(scene: Scene) -> Floats:
