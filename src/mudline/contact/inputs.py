@@ -89,6 +89,10 @@ class ContactInput:
         if self.tension not in {"keep", "cut"}:
             raise ValueError(f"tension must be 'keep' or 'cut', not {self.tension!r}")
         self._check_elements(nodes)
+        for name, array, shape in self.extras.arrays(nodes, elements):
+            _expect(array, name, array.dtype.kind, shape)
+        if self.extras.suction is not None:
+            self._check_suction(self.extras.suction.elements)
 
     def with_law(self, kind: LawKind) -> IndexArray:
         """Return the indices of the elements with this law."""
@@ -107,6 +111,12 @@ class ContactInput:
         self._require(usable | ~on_curve, "has a curve and no diameter")
         linear = self.law == LawKind.LINEAR
         self._require(np.isfinite(self.linear_stiffness) | ~linear, "has a linear law and no finite stiffness")
+
+    def _check_suction(self, held: IndexArray) -> None:
+        if held.dtype.kind not in "iu" or not ((held >= 0) & (held < len(self.element_ids))).all():
+            raise ValueError("suction.elements must be indices of elements")
+        times = np.bincount(held, minlength=len(self.element_ids))
+        self._require(times < 2, "has two suction laws")
 
     def _require(self, holds: BoolArray, otherwise: str) -> None:
         broken = np.flatnonzero(~holds)

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.contact.arrays import FloatArray, IndexArray
-from mudline.contact.friction.directions import axial, in_plane
+from mudline.contact.friction.directions import axial, in_plane, senses
 from mudline.contact.inputs import ContactInput
 from mudline.contact.result import ContactResult
 
@@ -37,6 +37,7 @@ class LateralStage:
         self._ends = inputs.element_nodes[self._elements]
         self._stiffness = stiffness[self._elements] * inputs.length[self._elements]
         self._all = inputs.element_nodes
+        self._sense = senses(inputs.element_nodes, len(inputs.node_ids))
 
     def initial(self) -> FloatArray:
         """No element has touched down."""
@@ -65,7 +66,7 @@ class LateralStage:
             np.add.at(forces, end, share)
         part.reaction[0] += forces
         if part.friction is not None:
-            _, lateral = axial(points, self._all, part.normal[0])
+            _, lateral = axial(points, self._all, part.normal[0], self._sense)
             part.friction[0, :, 1] += np.einsum("ij,ij->i", forces, lateral)
         after = self.initial()
         after[elements] = held

@@ -8,7 +8,7 @@ import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray
 from mudline.contact.extras import NodeFriction, NodeTrench
-from mudline.contact.friction.directions import at_angle, axial
+from mudline.contact.friction.directions import at_angle, axial, senses
 from mudline.contact.friction.law import FrictionHistory
 from mudline.contact.friction.return_mapping import ExtraLimit, FrictionForce, slide
 from mudline.contact.friction.trench import LaidCentreline, StraightCentreline
@@ -40,6 +40,7 @@ class FrictionStage:
         self._angle = friction.angle
         self._turned = np.flatnonzero(~np.isnan(friction.angle))
         self._elements = inputs.element_nodes
+        self._sense = senses(inputs.element_nodes, len(inputs.node_ids))
         self._trench = trench
 
     def initial(self) -> FrictionHistory:
@@ -48,7 +49,7 @@ class FrictionStage:
 
     def directions(self, points: FloatArray, normals: FloatArray) -> tuple[FloatArray, FloatArray]:
         """u1 and u2 of all nodes, each (n, 3)."""
-        first, second = axial(points, self._elements, normals)
+        first, second = axial(points, self._elements, normals, self._sense)
         if self._turned.size:
             at = self._turned
             first[at], second[at] = at_angle(self._angle[at], normals[at])
@@ -63,7 +64,7 @@ class FrictionStage:
         """
         known = ~np.isnan(part.gap[0])
         places = np.where(known[:, None], points, 0.0)
-        directions = self.directions(places, part.normal[0])
+        directions = self.directions(points, part.normal[0])  # of whole elements, also of those that leave the bed
         compression = np.where(known, part.normal_force[0], 0.0)
         away, gradient, extra = self._in_trench(places, directions[1], laid)
         moved = slide(self._law, history, places, directions, compression, extra)

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from mudline.contact.arrays import FloatArray, IndexArray
+from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
+from mudline.contact.errors import refuse_elements, refuse_nodes
 from mudline.contact.floors.flat import FlatFloor
 from mudline.contact.inputs import ContactInput, LawKind
 from mudline.contact.result import ContactResult
@@ -59,6 +60,9 @@ class Stages:
         self.assembly = _assembly(inputs, [self.normal, self.springs, self.suction])
         self.friction = _friction(inputs)
         self.lateral = _lateral(inputs)
+        self._inputs = inputs
+        self._bends = any(stage is not None for stage in (self.unloading, self.springs, self.suction))
+        self._at_nodes = any(stage is not None for stage in (self.nodal, self.friction, self.lateral))
 
     def initial_state(self) -> ContactState:
         """The state before the first step."""
@@ -77,9 +81,9 @@ class Stages:
             self.springs.apply(part)
 
     def look_back(
-        self, part: ContactResult, points: FloatArray, moving: FloatArray, state: ContactState
+        self, part: ContactResult, points: FloatArray, moving: FloatArray, state: ContactState, number: int
     ) -> tuple[StepDetail, ContactState]:
-        """Unloading and suction of one step, and the state behind it as far as they are concerned."""
+        """Unloading and suction of the step `number`, and the state behind it as far as they are concerned."""
         state = replace(state, positions=points, laid=points if state.laid is None else state.laid)
         unloads: tuple[IndexArray, UnloadingReaction] | None = None
         detail = StepDetail()
@@ -87,8 +91,8 @@ class Stages:
             reaction, after = self.unloading.apply(part, state.unloading)
             state, unloads = replace(state, unloading=after), (self.unloading.elements, reaction)
         if self.suction is not None and state.suction is not None:
-            along = np.einsum("ij,ij->i", moving, part.normal[0])
-            suction, history = self.suction.apply(part, self.suction.of_elements(along), state.suction, unloads)
+            velocity = self.suction.pull_out(part, moving, number)
+            suction, history = self.suction.apply(part, velocity, state.suction, unloads)
             state, detail = replace(state, suction=history), StepDetail(suction=(self.suction.elements, suction))
         return detail, state
 
@@ -115,6 +119,20 @@ class Stages:
             springs, touchdown = self.lateral.apply(part, points, state.touchdown)
             detail, state = detail._replace(lateral=springs), replace(state, touchdown=touchdown)
         return detail, state
+
+    def check(self, part: ContactResult, first_step: int) -> None:
+        """Refuse what overflowed, of the stages that do not see to it themselves.
+
+        Raises:
+            ElementError: a slope or a stiffness is infinite.
+            PositionError: the reaction at a node is not finite.
+        """
+        if self._bends:
+            for what, values in (("slope", part.slope), ("stiffness", part.stiffness)):
+                refuse_elements(np.isinf(values), self._inputs.element_ids, first_step, f"its {what} overflows")
+        if self._at_nodes:
+            wrong: BoolArray = np.logical_or.reduce(~np.isfinite(part.reaction), axis=2)
+            refuse_nodes(wrong, self._inputs.node_ids, first_step, "the reaction there overflows")
 
 
 def _normal_law(inputs: ContactInput) -> NormalLaw | None:

@@ -12,20 +12,40 @@ _STEEPEST = 1.0e-9
 """Sine of the angle to the bed normal below which a direction has no projection on the bed."""
 
 
-def axial(points: FloatArray, element_nodes: IndexArray, normals: FloatArray) -> tuple[FloatArray, FloatArray]:
+def senses(element_nodes: IndexArray, nodes: int) -> FloatArray:
+    """How the tangent of each element (m, 2) counts at its first and at its second node: 1 or -1, (m, 2).
+
+    -1 where the two elements of a node both begin or both end there, and this is the later one: so the line goes
+    through the node, whichever way its elements are written.
+    """
+    sense = np.ones(element_nodes.shape)
+    counts = [np.bincount(end, minlength=nodes) for end in element_nodes.T]
+    for side, end in enumerate(element_nodes.T):
+        twice = (counts[side] == 2) & (counts[1 - side] == 0)
+        later = np.zeros(nodes, np.intp)
+        later[end] = np.arange(len(end))  # of several the last one stays
+        sense[later[twice], side] = -1.0
+    return sense
+
+
+def axial(
+    points: FloatArray, element_nodes: IndexArray, normals: FloatArray, sense: FloatArray | None = None
+) -> tuple[FloatArray, FloatArray]:
     """Directions u1 along the line and u2 = n x u1, each (n, 3), of nodes at `points` (n, 3).
 
     u1 is the mean of the unit tangents of the node's elements (m, 2), projected on the plane with the unit normal
-    (n, 3); where that leaves nothing, +Y is projected instead.
+    (n, 3); where that leaves nothing, +Y is projected instead. An element with a node at NaN has no tangent. `sense`
+    is that of `senses`; None where all elements run the same way.
     """
     first, second = element_nodes.T
     span = points[second] - points[first]
     length = np.sqrt(np.einsum("ij,ij->i", span, span))
     unit = np.divide(span, length[:, None], out=np.zeros_like(span), where=length[:, None] > 0.0)
     total = np.zeros_like(points)
-    for axis in range(3):
-        for end in (first, second):
-            total[:, axis] += np.bincount(end, unit[:, axis], len(points))
+    for side, end in enumerate((first, second)):
+        tangent = unit if sense is None else unit * sense[:, side, None]
+        for axis in range(3):
+            total[:, axis] += np.bincount(end, tangent[:, axis], len(points))
     return in_plane(total, normals)
 
 

@@ -85,11 +85,12 @@ class LaidCentreline:
     """
 
     def __init__(self, laid: FloatArray, element_nodes: IndexArray) -> None:
-        self._start = laid[element_nodes[:, 0]]
-        self._span = laid[element_nodes[:, 1]] - self._start
+        known = ~np.isnan(laid[:, 0])  # NaN stands for nodes without a position
+        self._ends = element_nodes[known[element_nodes].all(axis=1)]
+        self._start = laid[self._ends[:, 0]]
+        self._span = laid[self._ends[:, 1]] - self._start
         self._square = np.einsum("ij,ij->i", self._span, self._span)
-        self._ends = element_nodes
-        self._elements_at = _two_of_each(element_nodes, len(laid))
+        self._elements_at = _two_of_each(self._ends, len(laid))
 
     def nearest(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
         """The nearest points of the laid line; see `Centreline`."""
