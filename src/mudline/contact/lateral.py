@@ -35,7 +35,8 @@ class LateralStage:
     def __init__(self, inputs: ContactInput, stiffness: FloatArray) -> None:
         self._elements: IndexArray = np.flatnonzero(stiffness > 0.0)
         self._ends = inputs.element_nodes[self._elements]
-        self._stiffness = stiffness[self._elements] * inputs.length[self._elements]
+        with np.errstate(over="ignore"):  # a step refuses the reaction
+            self._stiffness = stiffness[self._elements] * inputs.length[self._elements]
         self._all = inputs.element_nodes
         self._sense = senses(inputs.element_nodes, len(inputs.node_ids))
 
