@@ -12,7 +12,7 @@ import pytest
 from mudline.contact import ContactModel, LawKind
 from tests.contact.chains import CLAY, CURVE, LINEAR, NONE, RIGID, SAND, at_depths, chain
 
-STAGES = ["floor", "normal law", "suction", "friction", "trench", "assembly"]
+STAGES = ["floor", "normal law", "smoothing", "unloading", "suction", "friction", "lateral", "trench", "assembly"]
 
 
 def test_the_stages_stand_in_order() -> None:
@@ -43,7 +43,7 @@ def test_a_rigid_bed_is_a_constraint_without_a_reaction_here() -> None:
     contact = ContactModel(chain([RIGID, RIGID]))
     assert not contact.plan["normal law"].active
     assert not contact.plan["assembly"].active
-    assert "2 elements on a rigid bed, a constraint whose reaction this version leaves out" in str(contact.plan)
+    assert "2 elements on a rigid bed: a constraint, told as restrained nodes" in str(contact.plan)
     result = contact.evaluate(at_depths([0.1, 0.1, 0.1]))
     assert result.contact.all()
     assert not result.force.any()
@@ -70,7 +70,7 @@ def test_the_scene_may_say_why_something_is_left_out() -> None:
 def test_the_plan_as_text() -> None:
     lines = str(ContactModel(chain([LINEAR])).plan).splitlines()
     assert lines[0] == "floor      yes one flat bed at X = 0"
-    assert lines[2] == "suction    no  no element has a suction law"
+    assert lines[4] == "suction    no  no element has a suction law"
     assert lines[-1] == "history    no  all steps at once"
 
 

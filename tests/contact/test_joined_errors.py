@@ -142,6 +142,12 @@ WRONG: dict[str, Callable[[], Extras]] = {
     r"trench.law.bottom must be": lambda: Extras(friction=friction(3), trench=trench(2, 1.0, 2.0, 3.0)),
     r"unloading must be floats of shape \(2,\)": lambda: Extras(unloading=np.ones(3)),
     r"lateral must be floats of shape \(2,\)": lambda: Extras(lateral=np.ones(3)),
+    "unloading must be floats": lambda: Extras(unloading=np.array(["soft", "stiff"], dtype=object)),
+    "smoothing.half_width must be finite and not negative": lambda: Extras(smoothing=smoothing(2, -0.1)),
+    "nodal.stiffness must be finite and not negative": lambda: Extras(nodal=nodal([1.0, -1.0, np.nan])),
+    "unloading must be finite and not negative": lambda: Extras(unloading=np.array([np.nan, np.inf])),
+    "friction.law.coefficients must be finite": lambda: Extras(friction=friction(3, (-0.5, 0.5))),
+    "friction.angle must be finite$": lambda: Extras(friction=friction(3, angle=np.inf)),
 }
 
 

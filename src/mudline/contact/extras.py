@@ -16,6 +16,9 @@ if TYPE_CHECKING:  # a scene without them does not load them
     from mudline.contact.friction.trench import TrenchLaw
     from mudline.contact.suction.law import SuctionLaw
 
+SIGNED = frozenset({"friction.angle", "trench.straight"})
+"""Arrays of `Extras.arrays` that may be negative."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Smoothing:

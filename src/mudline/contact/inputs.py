@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from mudline.contact.arrays import BoolArray, FloatArray, IdArray, IndexArray
 from mudline.contact.errors import ElementError
-from mudline.contact.extras import Extras
+from mudline.contact.extras import SIGNED, Extras
 
 if TYPE_CHECKING:  # a scene without curves does not load them, nor does a flat bed load the others
     from mudline.contact.floors.base import Floor
@@ -90,7 +90,11 @@ class ContactInput:
             raise ValueError(f"tension must be 'keep' or 'cut', not {self.tension!r}")
         self._check_elements(nodes)
         for name, array, shape in self.extras.arrays(nodes, elements):
-            _expect(array, name, array.dtype.kind, shape)
+            kind = array.dtype.kind if array.dtype.kind in "bi" else "f"
+            _expect(array, name, kind, shape)
+            least = -np.inf if name in SIGNED else 0.0
+            if kind == "f" and (np.isinf(array) | np.less(array, least)).any():
+                raise ValueError(f"{name} must be finite{'' if name in SIGNED else ' and not negative'}")
         if self.extras.suction is not None:
             self._check_suction(self.extras.suction.elements)
 
@@ -127,5 +131,5 @@ class ContactInput:
 
 def _expect(array: NDArray[np.generic], name: str, kinds: str, shape: tuple[int, ...]) -> None:
     if array.shape != shape or array.dtype.kind not in kinds:
-        what = "floats" if kinds == "f" else "integers"
+        what = {"f": "floats", "b": "booleans"}.get(kinds, "integers")
         raise ValueError(f"{name} must be {what} of shape {shape}, not {array.dtype} of shape {array.shape}")

@@ -20,7 +20,7 @@ class ContactResult:
     Attributes:
         depth: mean distance of the element's two nodes below the bed; negative above it.
         ratio: embedment ratio, depth / diameter.
-        contact: depth > 0.
+        contact: depth > 0, or > -h in a centred zone.
         force: normal force per unit length, positive pushing out of the bed.
         slope: d force / d ratio, per unit length.
         stiffness: d force / d penetration, per unit length and length of penetration.
