@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from mudline.contact.normal import NormalLaw
     from mudline.contact.sliding import FrictionStage, Sliding
     from mudline.contact.suction import Suction
+    from mudline.contact.trenches import TrenchStage
     from mudline.contact.unloading import Unloading
     from mudline.contact.uplift import SuctionStage, UpliftSprings
 
@@ -199,7 +200,15 @@ def _friction(inputs: ContactInput) -> FrictionStage | None:
         return None
     from mudline.contact.sliding import FrictionStage  # noqa: PLC0415 - only now is it needed
 
-    return FrictionStage(inputs, inputs.extras.friction, inputs.extras.trench)
+    return FrictionStage(inputs, inputs.extras.friction, _trench(inputs))
+
+
+def _trench(inputs: ContactInput) -> TrenchStage | None:
+    if inputs.extras.trench is None:
+        return None
+    from mudline.contact.trenches import TrenchStage  # noqa: PLC0415 - only now is it needed
+
+    return TrenchStage(inputs, inputs.extras.trench)
 
 
 def _lateral(inputs: ContactInput) -> LateralStage | None:

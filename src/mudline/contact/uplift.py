@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -10,9 +11,11 @@ from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.contact.errors import refuse_nodes
 from mudline.contact.extras import ElementSuction, SuctionSprings
 from mudline.contact.inputs import ContactInput
-from mudline.contact.laws.unloading import UnloadingReaction
 from mudline.contact.result import ContactResult
 from mudline.contact.suction import Suction, SuctionHistory, SuctionState, step, suction_spring
+
+if TYPE_CHECKING:  # suction does without unloading
+    from mudline.contact.laws.unloading import UnloadingReaction
 
 
 class UpliftSprings:
