@@ -10,7 +10,7 @@ from mudline.contact.inputs import LawKind
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
-from mudline.scene.left_out import left_out
+from mudline.scene.floor import FloorKind
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices
 
@@ -104,7 +104,7 @@ def _lying(scene: Scene, elements: Indices) -> Iterator[Problem]:
     if not elements.size:
         return
     uncertain = scene.laws.uncertain or "SEABED PROPERTIES" in scene.context.unread
-    if uncertain or "floor" in left_out(scene.deck) or scene.deck.keywords().intersection(_SOIL):
+    if uncertain or scene.floor.kind is not FloorKind.FLAT or scene.deck.keywords().intersection(_SOIL):
         return
     depth = _depths(scene, elements)
     seabed = bool(scene.laws.types or scene.laws.grants)
