@@ -10,7 +10,10 @@ from dataclasses import replace
 import pytest
 
 from mudline.contact import ContactModel, LawKind
+from mudline.contact.extras import Extras
 from tests.contact.chains import CLAY, CURVE, LINEAR, NONE, RIGID, SAND, at_depths, chain
+from tests.contact.joined import drawn, model, trench
+from tests.contact.scenes import everything
 
 STAGES = ["floor", "normal law", "smoothing", "unloading", "suction", "friction", "lateral", "trench", "assembly"]
 
@@ -112,3 +115,24 @@ def test_only_the_modules_that_are_needed_are_imported(law: LawKind, needed: set
     run = [sys.executable, "-W", "error", "-c", PROGRAM.format(law=int(law))]
     imported = set(subprocess.run(run, capture_output=True, text=True, check=True).stdout.split())
     assert imported & LAW_MODULES == needed
+
+
+def test_the_plan_of_a_scene_with_everything() -> None:
+    plan = ContactModel(everything(9, seed=4)).plan
+    assert plan.history
+    assert [stage.stage for stage in plan if not stage.active] == []
+    why = {stage.stage: stage.why for stage in plan}
+    assert "nodes with a stiffness of their own" in why["normal law"]
+    assert why["unloading"].endswith("on unloading lines, from the deepest point so far")
+    assert "after Bridge et al., with a state each; " in why["suction"]
+    assert why["suction"].endswith("with a spring up to an extent, without history (inferred)")
+    assert "nodes with a constant spring, " in why["friction"]
+    assert why["lateral"].endswith("with a spring to where it touched down (inferred), in place of friction")
+    assert why["trench"].endswith("the bed is not lowered")
+
+
+def test_a_trench_without_friction_does_nothing_and_the_plan_says_so() -> None:
+    contact = model(chain([LINEAR]), Extras(trench=trench(2, 0.1, 0.5, 600.0)))
+    assert not contact.plan["trench"].active
+    assert contact.plan["trench"].why == "a trench adds to the limits of friction, and no node has a friction law"
+    assert not contact.evaluate(drawn([(0.0, 0.0), (0.0, 0.2)])).reaction[..., 1:].any()
