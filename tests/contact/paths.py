@@ -125,4 +125,7 @@ def stepped(contact: ContactModel, positions: FloatArray, velocities: FloatArray
 def same_bits(one: ContactResult, other: ContactResult) -> bool:
     """Whether two results are the same to the last bit."""
     pairs = [(getattr(one, field.name), getattr(other, field.name)) for field in fields(ContactResult)]
-    return all(np.array_equal(left, right, equal_nan=left.dtype.kind == "f") for left, right in pairs)
+    return all(
+        left is right if left is None else np.array_equal(left, right, equal_nan=left.dtype.kind == "f")
+        for left, right in pairs
+    )
