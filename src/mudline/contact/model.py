@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from mudline.contact.arrays import BoolArray, FloatArray
 from mudline.contact.errors import refuse_elements, refuse_nodes
-from mudline.contact.inputs import ContactInput
+from mudline.contact.inputs import ContactInput, LawKind
 from mudline.contact.plan import Plan, make_plan
 from mudline.contact.positions import RealArray, as_mask, as_series, as_times, as_velocities, read_steps
 from mudline.contact.result import ContactResult, blank_result
@@ -49,6 +49,7 @@ class ContactModel:
         self._stages = Stages(inputs)
         self._first, self._second = inputs.element_nodes.T
         self._no_diameter = np.isnan(inputs.diameter)
+        self._rigid = _rigid_nodes(inputs)
 
     def evaluate(
         self,
@@ -170,7 +171,7 @@ class ContactModel:
             return assemble(self.input, points, result, detail)
 
     def _blank(self, steps: int, evaluated: BoolArray, mask: BoolArray) -> ContactResult:
-        return blank_result(steps, evaluated, mask, self.input.extras, self._stages.floor.same_normal)
+        return blank_result(steps, evaluated, mask, self.input.extras, self._stages.floor.same_normal, self._rigid)
 
     def _evaluate_steps(
         self,
@@ -243,6 +244,15 @@ class ContactModel:
         part.reaction[:, ~part.present] = np.nan
         if part.friction is not None:
             part.friction[:, ~part.present] = np.nan
+
+
+def _rigid_nodes(inputs: ContactInput) -> BoolArray | None:
+    elements = inputs.with_law(LawKind.RIGID)
+    if not elements.size:
+        return None
+    found = np.zeros(len(inputs.node_ids), np.bool_)
+    found[inputs.element_nodes[elements]] = True
+    return found
 
 
 def _velocity(
