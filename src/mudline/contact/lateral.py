@@ -14,6 +14,7 @@ from mudline.contact.arrays import FloatArray, IndexArray
 from mudline.contact.friction.directions import axial, in_plane, senses
 from mudline.contact.inputs import ContactInput
 from mudline.contact.result import ContactResult
+from mudline.contact.vectors import added_at, dot, scaled
 
 
 class LateralSprings(NamedTuple):
@@ -56,19 +57,17 @@ class LateralStage:
         new = np.isnan(held[:, 0])
         held = np.where(new[:, None], middle, held)
         mean = part.normal[0, ends[:, 0]] + part.normal[0, ends[:, 1]]
-        mean = mean / np.sqrt(np.einsum("ij,ij->i", mean, mean))[:, None]
+        mean = mean / np.sqrt(dot(mean, mean))[:, None]
         across = in_plane(second - first, mean)[1]
         arm = middle - held
         stiffness = np.where(new, 0.0, self._stiffness[touches])  # where it touches down there is no force yet
-        springs = LateralSprings(elements, stiffness, across, np.einsum("ij,ij->i", across, arm), arm)
-        share = (-0.5 * springs.stiffness * springs.elongation)[:, None] * across
-        forces = np.zeros_like(part.reaction[0])
-        for end in ends.T:
-            np.add.at(forces, end, share)
+        springs = LateralSprings(elements, stiffness, across, dot(across, arm), arm)
+        share = scaled(across, -0.5 * springs.stiffness * springs.elongation)
+        forces = added_at(list(ends.T), share, len(points))
         part.reaction[0] += forces
         if part.friction is not None:
             _, lateral = axial(points, self._all, part.normal[0], self._sense)
-            part.friction[0, :, 1] += np.einsum("ij,ij->i", forces, lateral)
+            part.friction[0, :, 1] += dot(forces, lateral)
         after = self.initial()
         after[elements] = held
         return springs, after

@@ -14,6 +14,7 @@ from mudline.contact.friction.law import FrictionHistory
 from mudline.contact.friction.return_mapping import FrictionForce, slide
 from mudline.contact.inputs import ContactInput
 from mudline.contact.result import ContactResult
+from mudline.contact.vectors import scaled
 
 if TYPE_CHECKING:  # most friction has no trench
     from mudline.contact.trenches import TrenchStage
@@ -72,7 +73,7 @@ class FrictionStage:
         ditch = None if self._trench is None else self._trench.locate(places, directions[1], laid)
         moved = slide(self._law, history, places, directions, compression, None if ditch is None else ditch.extra)
         for side, axis in enumerate(directions):
-            part.reaction[0] += moved.force[:, side, None] * axis
+            part.reaction[0] += scaled(axis, moved.force[:, side])
         if part.friction is not None and part.friction_state is not None:
             part.friction[0] += moved.force
             part.friction_state[0] = moved.history.states

@@ -11,6 +11,7 @@ from mudline.contact.extras import NodeTrench
 from mudline.contact.friction.return_mapping import ExtraLimit
 from mudline.contact.friction.trench import LaidCentreline, StraightCentreline
 from mudline.contact.inputs import ContactInput
+from mudline.contact.vectors import dot
 
 
 class InTrench(NamedTuple):
@@ -32,6 +33,7 @@ class TrenchStage:
     def __init__(self, inputs: ContactInput, trench: NodeTrench) -> None:
         self._elements = inputs.element_nodes
         self._law = trench.law
+        self._laid: tuple[FloatArray, LaidCentreline] | None = None
         straight = trench.straight
         self._straight = [
             (StraightCentreline((y0, z0), (y1, z1)), np.flatnonzero((straight == (y0, z0, y1, z1)).all(axis=1)))
@@ -40,9 +42,16 @@ class TrenchStage:
 
     def locate(self, points: FloatArray, lateral: FloatArray, laid: FloatArray) -> InTrench:
         """Where nodes at `points` (n, 3) are, whose u2 is `lateral` (n, 3); the line was `laid` (n, 3) first."""
-        nearest, across = LaidCentreline(laid, self._elements).nearest(points)
+        nearest, gradient = self._laid_line(laid).nearest_along(points, lateral)
         for centreline, nodes in self._straight:
-            nearest[nodes], across[nodes] = centreline.nearest(points[nodes])
+            nearest[nodes], gradient[nodes] = centreline.nearest_along(points[nodes], lateral[nodes])
         away = points - nearest
-        gradient = np.einsum("ni,nij->nj", lateral, across)
-        return InTrench(away, gradient, self._law.limit(np.einsum("ij,ij->i", lateral, away)))
+        return InTrench(away, gradient, self._law.limit(dot(lateral, away)))
+
+    def _laid_line(self, laid: FloatArray) -> LaidCentreline:
+        """The line as it was `laid`, prepared once: the states of a run share that array."""
+        kept = self._laid
+        if kept is None or kept[0] is not laid:
+            # in one assignment, so that threads which share the stage see pairs that belong together
+            self._laid = kept = (laid, LaidCentreline(laid, self._elements))
+        return kept[1]
