@@ -222,9 +222,10 @@ def test_plan_in_json_and_csv(place: Place) -> None:
     found = run("evaluate", place(FRICTION), "--plan", "--output-format", "json").json()
     assert_fits(found, "evaluate")
     assert set(found) == {"units", "plan"}
+    assert [stage["stage"] for stage in found["plan"]] == STAGES
     friction = next(stage for stage in found["plan"] if stage["stage"] == "friction")
-    assert not friction["active"]
-    assert "FRICTION=" in friction["why"]
+    assert friction["active"]
+    assert "mobilisation length" in friction["why"]
     rows = list(csv.DictReader(run("evaluate", place(), "--plan", "--output-format", "csv").out.splitlines()))
     assert [row["stage"] for row in rows if row["active"] == "true"] == ["floor", "normal law", "assembly"]
     assert {row["active"] for row in rows} == {"true", "false"}
@@ -235,13 +236,6 @@ def test_plan_needs_no_coordinates() -> None:
     outcome = run("evaluate", SAMPLES / "lines-deck.keyxm", *options, "--plan")
     assert (outcome.code, outcome.err) == (0, "")
     assert "80 elements" in outcome.out
-
-
-def test_what_is_left_out_is_told_unless_quiet(place: Place) -> None:
-    outcome = run("evaluate", place(FRICTION), "--output-format", "json")
-    assert outcome.code == 0
-    assert outcome.err.startswith("mudline: friction: not evaluated in this version")
-    assert run("evaluate", place(FRICTION), "-q").err == ""
 
 
 def test_rigid_bed_is_told(place: Place) -> None:

@@ -58,7 +58,7 @@ def test_text_of_steps(place: Place, steps: str) -> None:
         " 2.5        2        1        2     0.05     20008\n"
         "\n"
         "Over all steps\n"
-        "                                time\n"
+        "                                  time\n"
         "largest              value  unit   [s]  element\n"
         "───────────────────────────────────────────────\n"
         "total reaction       20008  N      2.5\n"

@@ -100,6 +100,8 @@ def _print_states(printer: Console, evaluation: Evaluation, part: Part) -> None:
         for axis, direction in enumerate(("axial", "lateral")):
             found = counts(result.friction_state[evaluation.nodes, axis], SLIDING)
             rows += [(f"{direction} friction of nodes", name, str(count)) for name, count in found]
+    if result.restrained is not None:
+        rows.append(("rigid bed", "restrained nodes", str(int(result.restrained.sum()))))
     if rows:
         print_table(printer, "States", ("law", "state", "count"), rows, left=("law", "state"))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import mmap
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
@@ -99,6 +100,16 @@ class Evaluation:
                 self.positions, present=self.present, velocities=self.velocities, times=clock
             ):
                 yield Part(start, result)
+                _forget(self.positions)
+
+
+def _forget(values: NDArray[np.floating]) -> None:
+    """Let go the pages of a file that were read: they are in memory as long as the file is mapped, and wanted once."""
+    held: object = values
+    while isinstance(held, np.ndarray):
+        held = held.base
+    if isinstance(held, mmap.mmap) and hasattr(held, "madvise"):
+        held.madvise(mmap.MADV_DONTNEED)
 
 
 def evaluate_scene(scene: Scene, positions: Positions | None = None, tension: Tension = "keep") -> Evaluation:

@@ -64,6 +64,7 @@ class JsonForm:
             for index, name in enumerate(self._tables):
                 yield (",\n" if index else "") + f'{indent}"{name}": '
                 yield from _list(_objects(columns[name], next(rows[name])), indent + " ")
+            yield from self._restrained(part, step - part.start, indent)
             if self._times is not None:
                 yield "}"
 
@@ -73,6 +74,13 @@ class JsonForm:
         for name, value in more.items():
             yield f',\n "{name}": {json.dumps(value, ensure_ascii=False, allow_nan=False)}'
         yield "}\n"
+
+    def _restrained(self, part: Part, step: int, indent: str) -> Iterator[str]:
+        """The nodes that a rigid bed restrains; nothing where there is none."""
+        held = part.result.restrained
+        if held is not None:
+            numbers = self._evaluation.scene.node_ids[held[step]].tolist()
+            yield f',\n{indent}"restrained": {json.dumps(numbers)}'
 
     def _head(self) -> Iterator[str]:
         plan = (json.dumps(row, ensure_ascii=False) for row in plan_rows(self._evaluation.model.plan))

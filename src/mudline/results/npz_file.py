@@ -15,7 +15,7 @@ import numpy as np
 from mudline.results.columns import Column, Table, Values
 from mudline.results.evaluation import Evaluation, Part
 
-_BLOCK = 1 << 20
+_BLOCK = 1 << 18
 """Values that are packed at a time."""
 
 Told = Callable[[], None]

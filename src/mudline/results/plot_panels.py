@@ -38,7 +38,11 @@ def profile(axes: Axes, data: PlotData, chosen: Chosen) -> None:
     ends = data.evaluation.scene.element_nodes
     free = free[_some(free)]
     pale = LineCollection(
-        list(places[ends[free]]), colors="0.55", linewidths=1.5, label="pipe, no force", rasterized=len(free) > _MOST
+        list(places[ends[free]]),
+        colors="0.55",
+        linewidths=1.5,
+        label="pipe, no force" if free.size else None,
+        rasterized=len(free) > _MOST,
     )
     axes.add_collection(pale)
     if held.size:
@@ -49,6 +53,7 @@ def profile(axes: Axes, data: PlotData, chosen: Chosen) -> None:
         bar = axes.figure.colorbar(lines, ax=axes, pad=0.01)
         bar.set_label(_label("force of the bed\nper unit length", names.line_force))
     axes.autoscale_view()
+    axes.locator_params(axis="x", nbins=6)
     axes.set_xlabel(_label(_distance(direction), names.length))
     axes.set_ylabel(_label("height X", names.length))
     axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, fontsize="small", frameon=False)
@@ -86,6 +91,7 @@ def _along_contact(axes: Axes, data: PlotData, chosen: Chosen, values: Floats, c
     axes.plot(
         middle[drawn], values[elements[drawn]], color=color, linewidth=1.2, marker="o" if few else None, markersize=3.5
     )
+    axes.locator_params(axis="x", nbins=6)
     axes.set_xlabel(_label(_distance(direction), unit_names(data.evaluation.scene.units).length))
     axes.grid(visible=True, alpha=0.3)
 
