@@ -141,3 +141,16 @@ def test_differences_that_overflow(place: Place) -> None:
     found = run("evaluate", place(deck), "--against", other, "--output-format", "json").json()["against"]
     assert found["columns"][0]["largest_difference"]["difference"] > 1e308
     assert found["columns"][0]["largest_relative"]["element"] == 1
+
+
+@pytest.mark.parametrize("steps", [False, True])
+def test_nothing_to_compare(place: Place, steps: bool) -> None:
+    options = ("--positions", place(STEPS, "steps.csv")) if steps else ()
+    other = place("time,element,force\n0,1,\n", "o.csv")
+    outcome = run("evaluate", place(), *options, "--against", other, "-q")
+    assert (outcome.code, outcome.out.splitlines()[-2].split()) == (0, ["force", "0"])
+    found = run("evaluate", place(), *options, "--against", other, "-q", "--output-format", "json").json()
+    assert_fits(found, "evaluate")
+    assert found["against"]["columns"] == [
+        {"column": "force", "compared": 0, "largest_difference": None, "largest_relative": None, "rms": None}
+    ]

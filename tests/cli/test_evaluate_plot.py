@@ -59,8 +59,9 @@ def test_panels_without_data_are_left_out(place: Place, folder: Path) -> None:
         CLEAN.replace(" 0.0\n 2,", " 10.0\n 2,").replace("20.0\n*E", "10.0\n*E"),
         CLEAN.partition("*SEABED PROPERTIES")[0],
         CLEAN.replace("Clay", "C$l$ay <&"),
+        CLEAN.replace("20.0\n*E", "1.0E150\n*E"),
     ],
-    ids=["above the bed", "one element", "vertical", "no law", "odd name"],
+    ids=["above the bed", "one element", "vertical", "no law", "odd name", "huge"],
 )
 def test_odd_scenes(place: Place, folder: Path, deck: str) -> None:
     outcome = run("evaluate", place(deck), "--plot", "p.png")

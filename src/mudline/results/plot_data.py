@@ -110,8 +110,8 @@ def along(positions: Floats) -> tuple[Floats, NDArray[np.float64]]:
     """
     known = ~np.isnan(positions).any(axis=1)
     plan = positions[:, 1:]
-    middle = plan[known].mean(axis=0)
-    _, axes = np.linalg.eigh(np.cov((plan[known] - middle).T, bias=True))
+    scaled = plan[known] / (float(np.abs(plan[known]).max()) or 1.0)  # the squares of large numbers would overflow
+    _, axes = np.linalg.eigh(np.cov(scaled.T, bias=True))
     direction = axes[:, -1]
     ends = plan[known][[0, -1]]
     if float((ends[1] - ends[0]) @ direction) < 0.0:

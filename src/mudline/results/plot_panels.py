@@ -116,7 +116,7 @@ def on_curves(axes: Axes, data: PlotData, spelled: Callable[[str], str]) -> None
         mine = every[0] == index
         ratio, force = every[1][mine], every[2][mine]
         curve = curves[index]
-        reach = np.array([min(0.0, float(np.nanmin(ratio))), max(float(np.nanmax(ratio)), float(curve.ratios[-1]))])
+        reach = np.array([0.0, max(float(ratio.max()), float(curve.ratios[-1]))])
         knots = np.unique(np.concatenate([curve.ratios[(curve.ratios > reach[0]) & (curve.ratios < reach[1])], reach]))
         label = _short(spelled(str(curve.name))) if place < _MOST_CURVES else None
         axes.plot(knots, curve.evaluate(knots)[0], color=color, linewidth=1.2, zorder=2)
@@ -141,7 +141,7 @@ def _points(data: PlotData) -> tuple[Indices, Floats, Floats]:
         chosen = data.on_curve[_some(data.on_curve)]
         found.append(data.points_at(data.chosen.result, (), chosen))
     curve, ratio, force = (np.concatenate(columns) for columns in zip(*found, strict=True))
-    known = ~np.isnan(ratio) & (ratio > 0.0)
+    known = ~np.isnan(ratio) & ((ratio > 0.0) | (force != 0.0))
     if not known.any():
         known = ~np.isnan(ratio)
     return curve[known], ratio[known], force[known]
