@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from mudline.codes import SBD004
 from mudline.contact.inputs import LawKind
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
@@ -76,6 +77,8 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
         return
     if reading.unread.intersection(_LEGACY) or "SEABED CONTACT" in scene.deck.keywords():
         return  # a law that was not read may hold
+    if any(problem.code is SBD004 for problem in scene.problems):
+        return  # that there is no stiffness has been told
     free = scene.law == LawKind.NONE
     yield from _blocks(scene, np.flatnonzero(free & (scene.laws.covered >= 0)))
     yield from _lying(scene, np.flatnonzero(free & (scene.laws.covered < 0)))
