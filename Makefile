@@ -53,7 +53,7 @@ demo: $(VENV)/.user ## a look at what mudline does, on samples/
 # ----------------------------------------------------------------------------------------------------------- the work
 
 test: $(VENV)/.developer ## the whole test suite, with coverage
-	$(BIN)/python -m pytest --cov --cov-report=term-missing:skip-covered $(ARGS)
+	$(BIN)/python -m pytest --numprocesses auto --dist loadfile --cov --cov-report=term-missing:skip-covered $(ARGS)
 
 lint: $(VENV)/.developer ## style, layout of the code, and the order of the layers
 	$(BIN)/ruff check .

@@ -57,6 +57,15 @@ def test_text_of_steps(place: Place, steps: str) -> None:
         "   0        1        1        1      0.1     15000\n"
         " 2.5        2        1        2     0.05     20008\n"
         "\n"
+        "Over all steps\n"
+        "                                  time\n"
+        "largest              value  unit   [s]  element\n"
+        "───────────────────────────────────────────────\n"
+        "total reaction       20008  N      2.5\n"
+        "force of an element   1500  N/m      0        1\n"
+        "elements in contact      2         2.5\n"
+        "depth                  0.1  m        0        1\n"
+        "\n"
     )
 
 
@@ -66,7 +75,7 @@ def test_text_of_many_steps(place: Place, folder: Path) -> None:
     lines = run("evaluate", place(), "--positions", "steps.npy").out.splitlines()
     assert "10 more steps: -v shows all, -o writes all" in lines
     assert lines[5].split() == ["0", "0", "-9", "0"]
-    assert len(run("evaluate", place(), "--positions", "steps.npy", "-v").out.splitlines()) == 56
+    assert len(run("evaluate", place(), "--positions", "steps.npy", "-v").out.splitlines()) == 64
 
 
 def test_csv_of_steps(place: Place, steps: str) -> None:
@@ -217,11 +226,11 @@ def test_velocities_are_accepted(place: Place, folder: Path) -> None:
     assert run("evaluate", place(), "--positions", "p.csv").code == 0
 
 
-@pytest.mark.parametrize("name", ["out.txt", "out", "out.parquet", "-"])
+@pytest.mark.parametrize("name", ["out.txt", "out", "out.npy", "-"])
 def test_other_forms_are_wrong_usage(place: Place, name: str) -> None:
     outcome = run("evaluate", place(), "-o", name)
     assert (outcome.code, outcome.out) == (2, "")
-    assert f"{name}: results are written as .csv, .json or .npz" in outcome.err
+    assert f"{name}: results are written as .csv, .json, .npz or .parquet" in outcome.err
 
 
 @pytest.mark.parametrize("name", ["nowhere/out.json", "nowhere/out.csv", "nowhere/out.npz"])

@@ -38,6 +38,12 @@ law         set   elements
 ──────────────────────────
 curve:Clay  Pipe         2
 
+Static embedment
+                   weight             penetration
+set   law           [N/m]      ratio          [m]  stiffness  extrapolated
+──────────────────────────────────────────────────────────────────────────
+Pipe  curve:Clay  348.178  0.0348178    0.0174089      20000
+
 """
 
 

@@ -10,9 +10,12 @@ from dataclasses import replace
 import pytest
 
 from mudline.contact import ContactModel, LawKind
+from mudline.contact.extras import Extras
 from tests.contact.chains import CLAY, CURVE, LINEAR, NONE, RIGID, SAND, at_depths, chain
+from tests.contact.joined import drawn, model, trench
+from tests.contact.scenes import everything
 
-STAGES = ["floor", "normal law", "suction", "friction", "trench", "assembly"]
+STAGES = ["floor", "normal law", "smoothing", "unloading", "suction", "friction", "lateral", "trench", "assembly"]
 
 
 def test_the_stages_stand_in_order() -> None:
@@ -43,7 +46,7 @@ def test_a_rigid_bed_is_a_constraint_without_a_reaction_here() -> None:
     contact = ContactModel(chain([RIGID, RIGID]))
     assert not contact.plan["normal law"].active
     assert not contact.plan["assembly"].active
-    assert "2 elements on a rigid bed, a constraint whose reaction this version leaves out" in str(contact.plan)
+    assert "2 elements on a rigid bed: a constraint, told as restrained nodes" in str(contact.plan)
     result = contact.evaluate(at_depths([0.1, 0.1, 0.1]))
     assert result.contact.all()
     assert not result.force.any()
@@ -70,7 +73,7 @@ def test_the_scene_may_say_why_something_is_left_out() -> None:
 def test_the_plan_as_text() -> None:
     lines = str(ContactModel(chain([LINEAR])).plan).splitlines()
     assert lines[0] == "floor      yes one flat bed at X = 0"
-    assert lines[2] == "suction    no  no element has a suction law"
+    assert lines[4] == "suction    no  no element has a suction law"
     assert lines[-1] == "history    no  all steps at once"
 
 
@@ -112,3 +115,24 @@ def test_only_the_modules_that_are_needed_are_imported(law: LawKind, needed: set
     run = [sys.executable, "-W", "error", "-c", PROGRAM.format(law=int(law))]
     imported = set(subprocess.run(run, capture_output=True, text=True, check=True).stdout.split())
     assert imported & LAW_MODULES == needed
+
+
+def test_the_plan_of_a_scene_with_everything() -> None:
+    plan = ContactModel(everything(9, seed=4)).plan
+    assert plan.history
+    assert [stage.stage for stage in plan if not stage.active] == []
+    why = {stage.stage: stage.why for stage in plan}
+    assert "nodes with a stiffness of their own" in why["normal law"]
+    assert why["unloading"].endswith("on unloading lines, from the deepest point so far")
+    assert "after Bridge et al., with a state each; " in why["suction"]
+    assert why["suction"].endswith("with a spring up to an extent, without history (inferred)")
+    assert "nodes with a constant spring, " in why["friction"]
+    assert why["lateral"].endswith("with a spring to where it touched down (inferred), in place of friction")
+    assert why["trench"].endswith("the bed is not lowered")
+
+
+def test_a_trench_without_friction_does_nothing_and_the_plan_says_so() -> None:
+    contact = model(chain([LINEAR]), Extras(trench=trench(2, 0.1, 0.5, 600.0)))
+    assert not contact.plan["trench"].active
+    assert contact.plan["trench"].why == "a trench adds to the limits of friction, and no node has a friction law"
+    assert not contact.evaluate(drawn([(0.0, 0.0), (0.0, 0.2)])).reaction[..., 1:].any()

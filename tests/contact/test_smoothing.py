@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from numpy.typing import ArrayLike
 
@@ -128,6 +128,7 @@ def test_rows_of_different_laws_and_several_steps_into_given_arrays() -> None:
 sizes = st.one_of(st.sampled_from([TINY, 1e-320, 1e-308, 1.0, 1e300, HUGE]), st.floats(1e-300, HUGE))
 
 
+@example(stiffness=1e300, h=1e300, share=2.225073858507203e-309, one_sided=True)
 @given(stiffness=sizes, h=sizes, share=st.floats(-1.5, 3.0), one_sided=st.booleans())
 def test_extreme_laws_are_right_wherever_the_force_is_finite(
     stiffness: float, h: float, share: float, one_sided: bool

@@ -281,3 +281,10 @@ def test_a_byte_that_is_not_utf8_is_told_where_it_stands(data: bytes, place: tup
         (found,) = caught.value.diagnostics
         assert (found.code, found.line, found.column, found.end_column) == ("DOC001", *place, place[1] + 1)
         assert found.message == f"byte 0xFC is not UTF-8, which {form} has to be: save the file as UTF-8"
+
+
+def test_a_whole_number_beyond_doubles_is_told_as_that() -> None:
+    entry = {"set": "ALL", "stiffness": 10**309}
+    (found,) = refused(made(section({"keyword": "SEABED PROPERTIES", "type": "ELASTIC", "sets": [entry]})))
+    assert found.message.startswith("sections[0].blocks[0].sets[0].stiffness: expected a number or a text, found 1000")
+    assert found.message.endswith("..., too large for double precision")

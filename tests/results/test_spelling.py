@@ -11,6 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from mudline.results.columns import coded
 from mudline.results.csv_lines import csv_lines
 from mudline.results.numbers import finite, shown
 from mudline.results.tables import Spelling
@@ -43,7 +44,8 @@ def test_truth_values() -> None:
 
 @given(st.lists(st.none() | st.text()))
 def test_names(values: list[str | None]) -> None:
-    assert json.loads(f"[{','.join(JSON.column(values))}]") == values
+    codes, different = coded(values)
+    assert json.loads(f"[{','.join(JSON.column(codes, different))}]") == values
 
 
 @given(st.lists(st.lists(st.text(st.characters(exclude_characters="\r", codec="utf-8")), min_size=2, max_size=4)))

@@ -154,8 +154,8 @@ def test_one_element_without_a_law_is_named() -> None:
 
 
 def left_out(lines: str) -> dict[str, str]:
-    plan = resolve(load_bytes((FULL + lines).encode(), "deck.keyxm")).contact().plan
-    return {stage.stage: stage.why for stage in plan if "not evaluated in this version" in stage.why}
+    contact = resolve(load_bytes((FULL + lines).encode(), "deck.keyxm")).contact()
+    return {stage.stage: stage.why for stage in contact.plan if stage.stage in contact.input.left_out}
 
 
 def test_a_plain_deck_leaves_nothing_out() -> None:
@@ -165,22 +165,27 @@ def test_a_plain_deck_leaves_nothing_out() -> None:
 
 def test_what_is_not_evaluated_is_said_by_stage() -> None:
     found = left_out(
-        " FRICTION=0.3, 0.4\n LATERAL=5\n SUCTION=5\n SET=ALL\n STIFFNESS=Clay\n FRICTION=0.3\n"
-        "*SEABED PROFILE\n TYPE=SLOPING\n SLOPE=3\n*SEABED TRENCH\n SET=ALL\n GEOMETRY=1, 2, 3\n PEAK=5\n"
+        " FRICTION=0.3, 0.4, 0.1, 0.1, 5, 2\n LATERAL=5\n SUCTION=5\n SET=ALL\n STIFFNESS=Clay\n"
+        " FRICTION=0.3, 0.4, 0.1, 0.1, 5, 2\n LATERAL=5\n SUCTION=5\n"
     )
     assert found == {
-        "floor": "one flat bed at X = 0; not evaluated in this version: *SEABED PROFILE",
-        "suction": "not evaluated in this version: SUCTION=",
-        "friction": "not evaluated in this version: FRICTION= (2 times), LATERAL=",
-        "trench": "not evaluated in this version: *SEABED TRENCH",
+        "suction": "SUCTION= without an extent of its zone holds nothing: 10 elements",
+        "friction": (
+            "11 nodes with a mobilisation length, Kt = mu N / length (inferred); "
+            "LATERAL= replaces the transverse coefficient; "
+            "the constant friction force coefficient is not evaluated: the manual does not say what it means; "
+            "friction stiffnesses of FRICTION= are for modal and frequency runs (inferred)"
+        ),
     }
 
 
-def test_legacy_surfaces_leave_the_same_out() -> None:
+def test_legacy_surfaces_are_evaluated_the_same_way() -> None:
     text = PIPE + STEEL + "*ELASTIC SURFACE\n 500, 0.3, 0.4, 0, 7, 1\n 3.0\n"
     plan = scene_of(text).contact().plan
-    assert plan["floor"].why.endswith("the slope or profile of *ELASTIC SURFACE")
-    assert plan["friction"].why.endswith("the friction of *ELASTIC SURFACE")
-    assert plan["suction"].why.endswith("the suction of *ELASTIC SURFACE")
+    assert plan["floor"].why == "plane through the origin, slope 3 deg, direction 0 deg, without end"
+    assert plan["friction"].why.startswith("11 nodes with a mobilisation length")
+    assert plan["suction"].why == "10 elements with a spring up to an extent, without history (inferred)"
     profile = PIPE + "*RIGID SURFACE\n 0.3\n 0, 0\n 10, 1\n"
-    assert scene_of(profile).contact().plan["floor"].why.endswith("the slope or profile of *RIGID SURFACE")
+    plan = scene_of(profile).contact().plan
+    assert plan["floor"].why.startswith("straight lines through 2 points")
+    assert plan["friction"].why == "none on a rigid bed, whose reaction is that of a constraint: 10 elements"

@@ -110,7 +110,22 @@ FAULTS = {
 def test_fault_names_its_line(file: Path, text: str, line: int, message: str) -> None:
     file.write_bytes(text.encode("utf-8", "surrogateescape"))
     found = refusal(file)
-    assert (found.message, found.line, found.column) == (message, line, 1)
+    assert (found.message, found.line) == (message, line)
+
+
+@pytest.mark.parametrize(
+    ("text", "column"),
+    [
+        ("node,x,y,z\n10,1,two,3\n", 6),
+        ("node,x,y,z\n10, 1,  two,3\n", 9),
+        ("node,x,y,z\n10,1,2,\n", 8),
+        ('node,x,y,z\n10,"1",two,3\n', 8),
+        ('node,x,y,z\n10,"1,5",2,3\n', 1),
+    ],
+)
+def test_fault_in_a_field_names_its_column(file: Path, text: str, column: int) -> None:
+    found = refusal(write(file, text))
+    assert (found.line, found.column) == (2, column)
 
 
 def test_unknown_nodes_are_named_up_to_ten(file: Path) -> None:

@@ -3,33 +3,51 @@
 from __future__ import annotations
 
 import json
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import cast
 
 import click
 
 from mudline.cli import options
-from mudline.cli.exits import DONE
+from mudline.cli.evaluate_files import read_against, read_elements, read_positions_of
+from mudline.cli.evaluate_notes import tell_before, tell_behind
+from mudline.cli.evaluate_outputs import (
+    PICTURES,
+    RESULTS,
+    Several,
+    Sink,
+    Taker,
+    draw,
+    files,
+    form_of,
+    has_library,
+    printed,
+    run,
+)
+from mudline.cli.exits import DONE, FOUND
 from mudline.cli.guard import refuses_bad_decks
 from mudline.cli.inputs import load
 from mudline.cli.lazy import printing
 from mudline.cli.options import View
 from mudline.cli.streams import emit
-from mudline.cli.terminal import reason, tell
-from mudline.cli.writing import write_text, writing
-from mudline.contact import LawKind
+from mudline.results.against import Comparison
+from mudline.results.columns import ElementTable, NodeTable
 from mudline.results.csv_lines import csv_lines
+from mudline.results.digest import Digest
 from mudline.results.evaluation import Evaluation, Prepared, Tension, evaluate_scene, prepare
-from mudline.results.formats import csv_text, json_text, plan_rows, write_npz
+from mudline.results.formats import CsvForm, JsonForm, plan_rows
+from mudline.results.plot_data import PlotData
 from mudline.scene.build import resolve
-from mudline.scene.external import ExternalElements, read_external
-from mudline.scene.model import Scene
-from mudline.scene.positions import Positions, read_positions
+
+MOST_ROWS = 40
+"""Lines of a table on the terminal, unless more is asked for."""
 
 
 @click.command("evaluate")
 @options.deck
 @click.option("--positions", metavar="FILE", help="Positions of the nodes: CSV, NPZ or NPY, one state or time steps.")
+@click.option("--time-step", type=float, metavar="DT", help="Time between the steps of positions that have no times.")
 @click.option("--elements", metavar="FILE", help="Elements as CSV, for decks whose elements come from *LINES.")
 @click.option(
     "--tension",
@@ -38,9 +56,14 @@ from mudline.scene.positions import Positions, read_positions
     show_default=True,
     help="Where a curve is negative in contact: keep the pull, or cut force and stiffness to 0.",
 )
+@click.option("--against", metavar="FILE", help="Compare with another program's element results, a CSV.")
 @click.option(
-    "-o", "--output", metavar="OUT.csv|json|npz", help="Write the results; CSV writes OUT-nodes.csv beside it."
+    "-o",
+    "--output",
+    metavar="OUT.csv|json|npz|parquet",
+    help="Write the results; CSV and Parquet write the nodes to OUT-nodes beside it.",
 )
+@click.option("--plot", "picture", metavar="FILE.png|svg", help="Draw the results (needs the extra mudline[plot]).")
 @click.option("--plan", "plan_only", is_flag=True, help="Tell what the scene needs and what was left out, and why.")
 @click.option(
     "--table",
@@ -58,9 +81,12 @@ def command(
     *,
     deck: str,
     positions: str | None,
+    time_step: float | None,
     elements: str | None,
     tension: str,
+    against: str | None,
     output: str | None,
+    picture: str | None,
     plan_only: bool,
     table: str,
     output_format: str,
@@ -72,66 +98,50 @@ def command(
 
     Forces are per unit length, in the deck's units; reactions are the total force of the bed on a node.
     """
-    suffix = _output_suffix(output)
+    for needed in (form_of(output, RESULTS), form_of(picture, PICTURES)):
+        if needed and not has_library(needed):
+            return FOUND
     loaded = load(deck, units=units, stdin_name=stdin_name)
-    scene = resolve(loaded, _read_elements(elements) if elements else None).require()
-    given = _read_positions(positions, scene) if positions else None
+    scene = resolve(loaded, read_elements(elements) if elements else None).require()
+    given = read_positions_of(positions, scene, time_step) if positions else None
     pull = cast("Tension", tension)
     if plan_only:
         _plan(prepare(scene, given, pull), output_format, view)
         return DONE
     evaluation = evaluate_scene(scene, given, pull)
+    comparison = Comparison(evaluation, read_against(against, evaluation)) if against else None
     if not view.quiet:
-        _notes(evaluation, given)
-    if output:
-        _write(evaluation, Path(output), suffix, quiet=view.quiet)
-    elif output_format == "json":
-        emit(json_text(evaluation))
-    elif output_format == "csv":
-        emit(csv_text(evaluation, table))
-    else:
-        printing("evaluate").print_evaluation(evaluation, table, view)
+        tell_before(evaluation, comparison)
+    drawing = PlotData(evaluation) if picture else None
+    shown = "" if output else output_format
+    digest = Digest(evaluation, None if view.verbose else MOST_ROWS) if shown == "text" else None
+    takers: list[Taker] = [taker for taker in (comparison, drawing, digest) if taker is not None]
+    with _sink(evaluation, comparison, output, shown, table, view) as sink:
+        run(evaluation, [*takers, sink], view, bar=shown in {"", "text"})
+        sink.finish({} if comparison is None else {"against": comparison.summary()})
+    if picture and drawing is not None:
+        draw(drawing, Path(picture), view)
+    if not view.quiet:
+        tell_behind(evaluation, Path(output) if output else None)
+    if digest is not None:
+        printing("evaluate").print_evaluation(digest, table, view)
+    if comparison is not None and output_format == "text":
+        printing("against").print_comparison(comparison, view)
     return DONE
 
 
-def _output_suffix(output: str | None) -> str:
-    if output is None:
-        return ""
-    suffix = Path(output).suffix.lower()
-    if suffix not in {".csv", ".json", ".npz"}:
-        raise click.UsageError(f"{output}: results are written as .csv, .json or .npz")
-    return suffix
-
-
-def _read_elements(path: str) -> ExternalElements:
-    try:
-        return read_external(Path(path))
-    except OSError as error:
-        raise click.ClickException(f"{path}: {reason(error)}") from error
-
-
-def _read_positions(path: str, scene: Scene) -> Positions:
-    try:
-        return read_positions(Path(path), scene.nodes)
-    except OSError as error:
-        raise click.ClickException(f"{path}: {reason(error)}") from error
-
-
-def _notes(evaluation: Evaluation, given: Positions | None) -> None:
-    """What a reader of the results should know."""
-    if given is not None and given.missing:
-        nodes, left_out = _count(given.missing, "node"), _count(evaluation.skipped, "element")
-        tell(f"no positions for {nodes}: {left_out} left out")
-    if evaluation.lengths_from_positions:
-        tell(f"the length of {_count(evaluation.lengths_from_positions, 'element')} comes from the first positions")
-    if rigid := int((evaluation.scene.law == LawKind.RIGID).sum()):
-        tell(f"{_count(rigid, 'element')} on a rigid bed: a constraint, whose reaction is not evaluated")
-    for stage, why in evaluation.model.input.left_out.items():
-        tell(f"{stage}: {why}")
-
-
-def _count(number: int, thing: str) -> str:
-    return f"{number} {thing}{'s' * (number != 1)}"
+def _sink(
+    evaluation: Evaluation, comparison: Comparison | None, output: str | None, shown: str, table: str, view: View
+) -> AbstractContextManager[Sink]:
+    """Where the rows go: files, standard output, or nowhere."""
+    elements = ElementTable(evaluation, None if comparison is None else comparison.others)
+    if output:
+        return files(evaluation, elements, Path(output), view)
+    if shown == "json":
+        return nullcontext(printed(JsonForm(evaluation, elements)))
+    if shown == "csv":
+        return nullcontext(printed(CsvForm(evaluation, elements if table == "elements" else NodeTable(evaluation))))
+    return nullcontext(Several())
 
 
 def _plan(prepared: Prepared, form: str, view: View) -> None:
@@ -142,19 +152,3 @@ def _plan(prepared: Prepared, form: str, view: View) -> None:
         emit(csv_lines([("stage", "active", "why"), *(row.values() for row in rows)]))
     else:
         printing("evaluate").print_plan(prepared.model.plan, view)
-
-
-def _write(evaluation: Evaluation, path: Path, suffix: str, *, quiet: bool) -> None:
-    if suffix == ".npz":
-        with writing(path) as stream:
-            write_npz(evaluation, stream)
-    elif suffix == ".json":
-        write_text(path, json_text(evaluation))
-    else:
-        write_text(path, csv_text(evaluation, "elements"))
-        nodes = path.with_name(f"{path.stem}-nodes{path.suffix}")
-        write_text(nodes, csv_text(evaluation, "nodes"))
-        if not quiet:
-            tell(f"nodes -> {nodes.as_posix()}")
-    if not quiet:
-        tell(f"{evaluation.scene.deck.file} -> {path.as_posix()}")

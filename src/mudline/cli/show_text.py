@@ -44,6 +44,29 @@ def print_summary(summary: dict[str, Any], view: View) -> None:
     if summary["extensions"]:
         blocks = [(f"*{row['keyword']}", row["set"] or "", str(row["elements"])) for row in summary["extensions"]]
         print_table(printer, "Extensions", ("keyword", "set", "elements"), blocks, left=("keyword", "set"))
+    if summary["static_embedment"]:
+        _print_static(printer, summary["static_embedment"], names)
+
+
+def _print_static(printer: Console, rows: list[dict[str, Any]], names: UnitNames) -> None:
+    columns = (
+        "set",
+        "law",
+        headed("weight", names.line_force),
+        "ratio",
+        headed("penetration", names.length),
+        "stiffness",
+    )
+    cells = [
+        (
+            row["set"] or "",
+            row["law"],
+            *(shown(row[name]) for name in ("weight", "ratio", "penetration", "stiffness")),
+            row["extrapolated"] or "",
+        )
+        for row in rows
+    ]
+    print_table(printer, "Static embedment", (*columns, "extrapolated"), cells, left=("set", "law", "extrapolated"))
 
 
 def _print_head(printer: Console, summary: dict[str, Any], names: UnitNames) -> None:

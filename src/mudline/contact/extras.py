@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
 
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
 
@@ -11,6 +15,9 @@ if TYPE_CHECKING:  # a scene without them does not load them
     from mudline.contact.friction.law import FrictionLaw
     from mudline.contact.friction.trench import TrenchLaw
     from mudline.contact.suction.law import SuctionLaw
+
+SIGNED = frozenset({"friction.angle", "trench.straight"})
+"""Arrays of `Extras.arrays` that may be negative."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -100,3 +107,34 @@ class Extras:
     def history(self) -> bool:
         """Whether a step's result depends on the steps before it."""
         return any(part is not None for part in (self.unloading, self.suction, self.friction, self.lateral))
+
+    def arrays(self, nodes: int, elements: int) -> Iterator[tuple[str, NDArray[np.generic], tuple[int, ...]]]:
+        """Name, array and the shape that it needs, of all arrays that are there."""
+        if self.smoothing is not None:
+            yield from _fields("smoothing", self.smoothing, ("half_width", "one_sided"), (elements,))
+        if self.nodal is not None:
+            yield from _fields("nodal", self.nodal, ("stiffness", "half_width", "one_sided"), (nodes,))
+        if self.suction_springs is not None:
+            yield from _fields("suction_springs", self.suction_springs, ("stiffness", "extent"), (elements,))
+        if self.suction is not None:
+            held = (len(self.suction.elements),)
+            yield "suction.elements", self.suction.elements, held
+            yield from _fields("suction.law", self.suction.law, self.suction.law._fields, held)
+        if self.friction is not None:
+            law = self.friction.law
+            yield from _fields("friction.law", law, ("coefficients", "stiffness", "mobilisation"), (nodes, 2))
+            yield from _fields("friction.law", law, ("ellipse", "active"), (nodes,))
+            yield "friction.angle", self.friction.angle, (nodes,)
+        if self.trench is not None:
+            yield from _fields("trench.law", self.trench.law, ("bottom", "upper", "peak"), (nodes,))
+            yield "trench.straight", self.trench.straight, (nodes, 4)
+        for name, array in (("unloading", self.unloading), ("lateral", self.lateral)):
+            if array is not None:
+                yield name, array, (elements,)
+
+
+def _fields(
+    owner: str, part: object, names: tuple[str, ...], shape: tuple[int, ...]
+) -> Iterator[tuple[str, NDArray[np.generic], tuple[int, ...]]]:
+    for name in names:
+        yield f"{owner}.{name}", getattr(part, name), shape

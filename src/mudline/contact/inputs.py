@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from mudline.contact.arrays import BoolArray, FloatArray, IdArray, IndexArray
 from mudline.contact.errors import ElementError
-from mudline.contact.extras import Extras
+from mudline.contact.extras import SIGNED, Extras
 
 if TYPE_CHECKING:  # a scene without curves does not load them, nor does a flat bed load the others
     from mudline.contact.floors.base import Floor
@@ -33,7 +33,7 @@ class LawKind(IntEnum):
     RIGID = 3
     """A constraint, not a spring."""
     NODAL = 4
-    """A stiffness per node."""
+    """Springs of its nodes, which `extras.nodal` has; no force per unit length of its own."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -89,6 +89,15 @@ class ContactInput:
         if self.tension not in {"keep", "cut"}:
             raise ValueError(f"tension must be 'keep' or 'cut', not {self.tension!r}")
         self._check_elements(nodes)
+        for name, array, shape in self.extras.arrays(nodes, elements):
+            kind = array.dtype.kind if array.dtype.kind in "bi" else "f"
+            _expect(array, name, kind, shape)
+            least = -np.inf if name in SIGNED else 0.0
+            if kind == "f" and (np.isinf(array) | np.less(array, least)).any():
+                raise ValueError(f"{name} must be finite{'' if name in SIGNED else ' and not negative'}")
+        self._check_nodal()
+        if self.extras.suction is not None:
+            self._check_suction(self.extras.suction.elements)
 
     def with_law(self, kind: LawKind) -> IndexArray:
         """Return the indices of the elements with this law."""
@@ -100,13 +109,27 @@ class ContactInput:
         self._require(np.isfinite(self.length) & (self.length >= 0.0), "has no usable length")
         usable = np.isfinite(self.diameter) & (self.diameter > 0.0)
         self._require(usable | np.isnan(self.diameter), "has a diameter that is not positive and finite")
-        self._require((self.law >= LawKind.NONE) & (self.law <= LawKind.RIGID), "has a law that is not evaluated here")
+        self._require((self.law >= LawKind.NONE) & (self.law <= LawKind.NODAL), "has a law that is not evaluated here")
         on_curve = self.law == LawKind.CURVE
         known = (self.curve_index >= 0) & (self.curve_index < len(self.curves))
         self._require(known | ~on_curve, "has a curve that is not there")
         self._require(usable | ~on_curve, "has a curve and no diameter")
         linear = self.law == LawKind.LINEAR
         self._require(np.isfinite(self.linear_stiffness) | ~linear, "has a linear law and no finite stiffness")
+
+    def _check_nodal(self) -> None:
+        nodal = self.law == LawKind.NODAL
+        if nodal.any():
+            springs = self.extras.nodal
+            sprung = np.zeros(len(self.node_ids), np.bool_) if springs is None else ~np.isnan(springs.stiffness)
+            held = sprung[self.element_nodes].all(axis=1)
+            self._require(held | ~nodal, "has a nodal law and a node without a stiffness")
+
+    def _check_suction(self, held: IndexArray) -> None:
+        if held.dtype.kind not in "iu" or not ((held >= 0) & (held < len(self.element_ids))).all():
+            raise ValueError("suction.elements must be indices of elements")
+        times = np.bincount(held, minlength=len(self.element_ids))
+        self._require(times < 2, "has two suction laws")
 
     def _require(self, holds: BoolArray, otherwise: str) -> None:
         broken = np.flatnonzero(~holds)
@@ -117,5 +140,5 @@ class ContactInput:
 
 def _expect(array: NDArray[np.generic], name: str, kinds: str, shape: tuple[int, ...]) -> None:
     if array.shape != shape or array.dtype.kind not in kinds:
-        what = "floats" if kinds == "f" else "integers"
+        what = {"f": "floats", "b": "booleans"}.get(kinds, "integers")
         raise ValueError(f"{name} must be {what} of shape {shape}, not {array.dtype} of shape {array.shape}")

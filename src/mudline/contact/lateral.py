@@ -11,9 +11,10 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.contact.arrays import FloatArray, IndexArray
-from mudline.contact.friction.directions import axial, in_plane
+from mudline.contact.friction.directions import axial, in_plane, senses
 from mudline.contact.inputs import ContactInput
 from mudline.contact.result import ContactResult
+from mudline.contact.vectors import added_at, dot, scaled
 
 
 class LateralSprings(NamedTuple):
@@ -35,8 +36,10 @@ class LateralStage:
     def __init__(self, inputs: ContactInput, stiffness: FloatArray) -> None:
         self._elements: IndexArray = np.flatnonzero(stiffness > 0.0)
         self._ends = inputs.element_nodes[self._elements]
-        self._stiffness = stiffness[self._elements] * inputs.length[self._elements]
+        with np.errstate(over="ignore"):  # a step refuses the reaction
+            self._stiffness = stiffness[self._elements] * inputs.length[self._elements]
         self._all = inputs.element_nodes
+        self._sense = senses(inputs.element_nodes, len(inputs.node_ids))
 
     def initial(self) -> FloatArray:
         """No element has touched down."""
@@ -54,19 +57,17 @@ class LateralStage:
         new = np.isnan(held[:, 0])
         held = np.where(new[:, None], middle, held)
         mean = part.normal[0, ends[:, 0]] + part.normal[0, ends[:, 1]]
-        mean = mean / np.sqrt(np.einsum("ij,ij->i", mean, mean))[:, None]
+        mean = mean / np.sqrt(dot(mean, mean))[:, None]
         across = in_plane(second - first, mean)[1]
         arm = middle - held
         stiffness = np.where(new, 0.0, self._stiffness[touches])  # where it touches down there is no force yet
-        springs = LateralSprings(elements, stiffness, across, np.einsum("ij,ij->i", across, arm), arm)
-        share = (-0.5 * springs.stiffness * springs.elongation)[:, None] * across
-        forces = np.zeros_like(part.reaction[0])
-        for end in ends.T:
-            np.add.at(forces, end, share)
+        springs = LateralSprings(elements, stiffness, across, dot(across, arm), arm)
+        share = scaled(across, -0.5 * springs.stiffness * springs.elongation)
+        forces = added_at(list(ends.T), share, len(points))
         part.reaction[0] += forces
         if part.friction is not None:
-            _, lateral = axial(points, self._all, part.normal[0])
-            part.friction[0, :, 1] += np.einsum("ij,ij->i", forces, lateral)
+            _, lateral = axial(points, self._all, part.normal[0], self._sense)
+            part.friction[0, :, 1] += dot(forces, lateral)
         after = self.initial()
         after[elements] = held
         return springs, after

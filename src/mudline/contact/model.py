@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mudline.contact.arrays import BoolArray, FloatArray
-from mudline.contact.errors import ElementError
-from mudline.contact.inputs import ContactInput
+from mudline.contact.errors import refuse_elements, refuse_nodes
+from mudline.contact.inputs import ContactInput, LawKind
 from mudline.contact.plan import Plan, make_plan
 from mudline.contact.positions import RealArray, as_mask, as_series, as_times, as_velocities, read_steps
 from mudline.contact.result import ContactResult, blank_result
@@ -49,6 +49,7 @@ class ContactModel:
         self._stages = Stages(inputs)
         self._first, self._second = inputs.element_nodes.T
         self._no_diameter = np.isnan(inputs.diameter)
+        self._rigid = _rigid_nodes(inputs)
 
     def evaluate(
         self,
@@ -144,7 +145,8 @@ class ContactModel:
         mask = as_mask(None, nodes)
         part = self._blank(1, mask[self._first], mask)
         with np.errstate(all="ignore"):
-            points = read_steps(series, range(1), self.input.node_ids, mask)
+            # a copy: the state keeps it, and whoever steps may write the next positions into the same array
+            points = read_steps(series, range(1), self.input.node_ids, mask).copy()
             motion = as_velocities(velocities, series.shape)
             moving = points[0] * 0.0 if motion is None else np.asarray(motion[0], np.float64)
             if motion is None and state.positions is not None and self._stages.suction is not None:
@@ -165,10 +167,11 @@ class ContactModel:
 
         result, _, detail = self.step_in_detail(positions, velocities, state, dt)
         with np.errstate(all="ignore"):
-            return assemble(self.input, np.asarray(positions, np.float64), result, detail)
+            points = np.asarray(positions, np.float64).reshape(-1, 3)
+            return assemble(self.input, points, result, detail)
 
     def _blank(self, steps: int, evaluated: BoolArray, mask: BoolArray) -> ContactResult:
-        return blank_result(steps, evaluated, mask, self.input.extras, self._stages.floor.same_normal)
+        return blank_result(steps, evaluated, mask, self.input.extras, self._stages.floor.same_normal, self._rigid)
 
     def _evaluate_steps(
         self,
@@ -187,6 +190,7 @@ class ContactModel:
                 self._embed(part, steps.start)
                 self._stages.press(part, steps.start)
                 self._stages.gather(part, steps.start)
+                self._stages.check(part, steps.start)
                 self._blank_absent(part)
                 return state
             for index, number in enumerate(steps):
@@ -202,9 +206,10 @@ class ContactModel:
         self._locate(points, part)
         self._embed(part, number)
         self._stages.press(part, number)
-        detail, after = self._stages.look_back(part, points[0], moving, state)
+        detail, after = self._stages.look_back(part, points[0], moving, state, number)
         stiffness = self._stages.gather(part, number)
         detail, after = self._stages.slide(part, points[0], detail._replace(nodal=stiffness), after)
+        self._stages.check(part, number)
         self._blank_absent(part)
         return detail, after
 
@@ -224,11 +229,9 @@ class ContactModel:
         np.divide(part.depth, self.input.diameter, out=part.ratio)
         np.greater(part.depth, self._stages.onset, out=part.contact)
         part.slope[:, self._no_diameter] = np.nan
-        infinite = np.argwhere(np.isinf(part.ratio) | np.isinf(part.depth))
-        if infinite.size:
-            row, column = infinite[0].tolist()
-            element, step = int(self.input.element_ids[column]), first_step + row
-            raise ElementError(f"element {element} at step {step}: its embedment ratio overflows", element, step)
+        refuse_nodes(np.isinf(part.gap), self.input.node_ids, first_step, "its distance to the bed overflows")
+        infinite = np.isinf(part.ratio) | np.isinf(part.depth)
+        refuse_elements(infinite, self.input.element_ids, first_step, "its embedment ratio overflows")
 
     @staticmethod
     def _blank_absent(part: ContactResult) -> None:
@@ -241,6 +244,15 @@ class ContactModel:
         part.reaction[:, ~part.present] = np.nan
         if part.friction is not None:
             part.friction[:, ~part.present] = np.nan
+
+
+def _rigid_nodes(inputs: ContactInput) -> BoolArray | None:
+    elements = inputs.with_law(LawKind.RIGID)
+    if not elements.size:
+        return None
+    found = np.zeros(len(inputs.node_ids), np.bool_)
+    found[inputs.element_nodes[elements]] = True
+    return found
 
 
 def _velocity(

@@ -162,6 +162,8 @@ def _lateral(extras: Extras) -> tuple[bool, str]:
 def _trench(extras: Extras) -> tuple[bool, str]:
     if extras.trench is None:
         return False, "no node lies in a trench"
+    if extras.friction is None:
+        return False, "a trench adds to the limits of friction, and no node has a friction law"
     count = int((~np.isnan(extras.trench.law.peak)).sum())
     return True, f"{_count(count, 'node')} with a peak resistance of the walls (inferred); the bed is not lowered"
 

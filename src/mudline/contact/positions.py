@@ -67,7 +67,8 @@ def as_velocities(velocities: ArrayLike | None, shape: tuple[int, ...]) -> RealA
     if velocities is None:
         return None
     given: RealArray = np.asarray(velocities)
-    if given.dtype.kind not in "iuf" or given.shape not in (shape, shape[1:]):
+    same = given.shape == shape or (shape[0] == 1 and given.shape == shape[1:])
+    if given.dtype.kind not in "iuf" or not same:
         raise ValueError(f"velocities must be real numbers of the shape of the positions, {shape}, not {given.shape}")
     return given.reshape(shape)
 

@@ -20,7 +20,7 @@ class ContactResult:
     Attributes:
         depth: mean distance of the element's two nodes below the bed; negative above it.
         ratio: embedment ratio, depth / diameter.
-        contact: depth > 0.
+        contact: depth > 0, or > -h in a centred zone.
         force: normal force per unit length, positive pushing out of the bed.
         slope: d force / d ratio, per unit length.
         stiffness: d force / d penetration, per unit length and length of penetration.
@@ -34,6 +34,7 @@ class ContactResult:
         friction_state: (..., n, 2) `FrictionState` of the nodes; None without friction.
         evaluated: (m,) elements whose two nodes have positions.
         present: (n,) nodes that have a position.
+        rigid: (n,) nodes of elements on a rigid bed, a constraint and no force; None where there are none.
     """
 
     depth: FloatArray
@@ -52,6 +53,12 @@ class ContactResult:
     state: StateArray | None = None
     friction: FloatArray | None = None
     friction_state: StateArray | None = None
+    rigid: BoolArray | None = None
+
+    @property
+    def restrained(self) -> BoolArray | None:
+        """Nodes (..., n) that a rigid bed restrains along their `normal`: its own, at the bed or below it."""
+        return None if self.rigid is None else self.rigid & (self.gap <= 0.0)
 
     def step(self, index: int) -> ContactResult:
         """Return one step of a series, as views."""
@@ -79,11 +86,17 @@ class ContactResult:
             state=None if self.state is None else self.state[key],
             friction=None if self.friction is None else self.friction[key],
             friction_state=None if self.friction_state is None else self.friction_state[key],
+            rigid=self.rigid,
         )
 
 
 def blank_result(
-    steps: int, evaluated: BoolArray, present: BoolArray, extras: Extras, same_normal: FloatArray | None
+    steps: int,
+    evaluated: BoolArray,
+    present: BoolArray,
+    extras: Extras,
+    same_normal: FloatArray | None,
+    rigid: BoolArray | None = None,
 ) -> ContactResult:
     """Return a series of results to be filled in: no force anywhere, depths, ratios and gaps not yet set.
 
@@ -108,4 +121,5 @@ def blank_result(
         state=None if extras.suction is None else np.full(on_elements, -1, np.int8),
         friction=np.zeros((*on_nodes, 2)) if slides or extras.lateral is not None else None,
         friction_state=np.full((*on_nodes, 2), -1, np.int8) if slides else None,
+        rigid=rigid,
     )

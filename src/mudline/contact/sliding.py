@@ -1,19 +1,23 @@
-"""Stages `friction` and `trench`: the forces of the bed along u1 and u2 of the nodes."""
+"""Stage `friction`: the forces of the bed along u1 and u2 of the nodes."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray
-from mudline.contact.extras import NodeFriction, NodeTrench
-from mudline.contact.friction.directions import at_angle, axial
+from mudline.contact.extras import NodeFriction
+from mudline.contact.friction.directions import at_angle, axial, senses
 from mudline.contact.friction.law import FrictionHistory
-from mudline.contact.friction.return_mapping import ExtraLimit, FrictionForce, slide
-from mudline.contact.friction.trench import LaidCentreline, StraightCentreline
+from mudline.contact.friction.return_mapping import FrictionForce, slide
 from mudline.contact.inputs import ContactInput
 from mudline.contact.result import ContactResult
+from mudline.contact.vectors import scaled
+
+if TYPE_CHECKING:  # most friction has no trench
+    from mudline.contact.trenches import TrenchStage
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -35,11 +39,12 @@ class Sliding:
 class FrictionStage:
     """Friction of the nodes that have it, with the trenches they lie in."""
 
-    def __init__(self, inputs: ContactInput, friction: NodeFriction, trench: NodeTrench | None) -> None:
+    def __init__(self, inputs: ContactInput, friction: NodeFriction, trench: TrenchStage | None) -> None:
         self._law = friction.law
         self._angle = friction.angle
         self._turned = np.flatnonzero(~np.isnan(friction.angle))
         self._elements = inputs.element_nodes
+        self._sense = senses(inputs.element_nodes, len(inputs.node_ids))
         self._trench = trench
 
     def initial(self) -> FrictionHistory:
@@ -48,7 +53,7 @@ class FrictionStage:
 
     def directions(self, points: FloatArray, normals: FloatArray) -> tuple[FloatArray, FloatArray]:
         """u1 and u2 of all nodes, each (n, 3)."""
-        first, second = axial(points, self._elements, normals)
+        first, second = axial(points, self._elements, normals, self._sense)
         if self._turned.size:
             at = self._turned
             first[at], second[at] = at_angle(self._angle[at], normals[at])
@@ -63,29 +68,16 @@ class FrictionStage:
         """
         known = ~np.isnan(part.gap[0])
         places = np.where(known[:, None], points, 0.0)
-        directions = self.directions(places, part.normal[0])
+        directions = self.directions(points, part.normal[0])  # of whole elements, also of those that leave the bed
         compression = np.where(known, part.normal_force[0], 0.0)
-        away, gradient, extra = self._in_trench(places, directions[1], laid)
-        moved = slide(self._law, history, places, directions, compression, extra)
+        ditch = None if self._trench is None else self._trench.locate(places, directions[1], laid)
+        moved = slide(self._law, history, places, directions, compression, None if ditch is None else ditch.extra)
         for side, axis in enumerate(directions):
-            part.reaction[0] += moved.force[:, side, None] * axis
+            part.reaction[0] += scaled(axis, moved.force[:, side])
         if part.friction is not None and part.friction_state is not None:
             part.friction[0] += moved.force
             part.friction_state[0] = moved.history.states
-        return Sliding(moved, directions, np.isnan(self._angle), away, gradient), moved.history
-
-    def _in_trench(
-        self, points: FloatArray, lateral: FloatArray, laid: FloatArray
-    ) -> tuple[FloatArray | None, FloatArray | None, ExtraLimit | None]:
-        """The way from the centreline, the gradient of the offset, and what the trenches add to the lateral limit."""
-        if self._trench is None:
-            return None, None, None
-        nearest, across = LaidCentreline(laid, self._elements).nearest(points)
-        straight = self._trench.straight
-        for line in np.unique(straight[~np.isnan(straight[:, 0])], axis=0):
-            nodes = np.flatnonzero((straight == line).all(axis=1))
-            y0, z0, y1, z1 = line.tolist()
-            nearest[nodes], across[nodes] = StraightCentreline((y0, z0), (y1, z1)).nearest(points[nodes])
-        away = points - nearest
-        gradient = np.einsum("ni,nij->nj", lateral, across)
-        return away, gradient, self._trench.law.limit(np.einsum("ij,ij->i", lateral, away))
+        follows = np.isnan(self._angle)
+        if ditch is None:
+            return Sliding(moved, directions, follows), moved.history
+        return Sliding(moved, directions, follows, ditch.away, ditch.gradient), moved.history

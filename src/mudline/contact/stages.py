@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from mudline.contact.arrays import FloatArray, IndexArray
+from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
+from mudline.contact.errors import refuse_elements, refuse_nodes
 from mudline.contact.floors.flat import FlatFloor
 from mudline.contact.inputs import ContactInput, LawKind
 from mudline.contact.result import ContactResult
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from mudline.contact.normal import NormalLaw
     from mudline.contact.sliding import FrictionStage, Sliding
     from mudline.contact.suction import Suction
+    from mudline.contact.trenches import TrenchStage
     from mudline.contact.unloading import Unloading
     from mudline.contact.uplift import SuctionStage, UpliftSprings
 
@@ -59,6 +61,9 @@ class Stages:
         self.assembly = _assembly(inputs, [self.normal, self.springs, self.suction])
         self.friction = _friction(inputs)
         self.lateral = _lateral(inputs)
+        self._inputs = inputs
+        self._bends = any(stage is not None for stage in (self.unloading, self.springs, self.suction))
+        self._at_nodes = any(stage is not None for stage in (self.nodal, self.friction, self.lateral))
 
     def initial_state(self) -> ContactState:
         """The state before the first step."""
@@ -77,9 +82,9 @@ class Stages:
             self.springs.apply(part)
 
     def look_back(
-        self, part: ContactResult, points: FloatArray, moving: FloatArray, state: ContactState
+        self, part: ContactResult, points: FloatArray, moving: FloatArray, state: ContactState, number: int
     ) -> tuple[StepDetail, ContactState]:
-        """Unloading and suction of one step, and the state behind it as far as they are concerned."""
+        """Unloading and suction of the step `number`, and the state behind it as far as they are concerned."""
         state = replace(state, positions=points, laid=points if state.laid is None else state.laid)
         unloads: tuple[IndexArray, UnloadingReaction] | None = None
         detail = StepDetail()
@@ -87,8 +92,8 @@ class Stages:
             reaction, after = self.unloading.apply(part, state.unloading)
             state, unloads = replace(state, unloading=after), (self.unloading.elements, reaction)
         if self.suction is not None and state.suction is not None:
-            along = np.einsum("ij,ij->i", moving, part.normal[0])
-            suction, history = self.suction.apply(part, self.suction.of_elements(along), state.suction, unloads)
+            velocity = self.suction.pull_out(part, moving, number)
+            suction, history = self.suction.apply(part, velocity, state.suction, unloads)
             state, detail = replace(state, suction=history), StepDetail(suction=(self.suction.elements, suction))
         return detail, state
 
@@ -115,6 +120,20 @@ class Stages:
             springs, touchdown = self.lateral.apply(part, points, state.touchdown)
             detail, state = detail._replace(lateral=springs), replace(state, touchdown=touchdown)
         return detail, state
+
+    def check(self, part: ContactResult, first_step: int) -> None:
+        """Refuse what overflowed, of the stages that do not see to it themselves.
+
+        Raises:
+            ElementError: a slope or a stiffness is infinite.
+            PositionError: the reaction at a node is not finite.
+        """
+        if self._bends:
+            for what, values in (("slope", part.slope), ("stiffness", part.stiffness)):
+                refuse_elements(np.isinf(values), self._inputs.element_ids, first_step, f"its {what} overflows")
+        if self._at_nodes:
+            wrong: BoolArray = np.logical_or.reduce(~np.isfinite(part.reaction), axis=2)
+            refuse_nodes(wrong, self._inputs.node_ids, first_step, "the reaction there overflows")
 
 
 def _normal_law(inputs: ContactInput) -> NormalLaw | None:
@@ -181,7 +200,15 @@ def _friction(inputs: ContactInput) -> FrictionStage | None:
         return None
     from mudline.contact.sliding import FrictionStage  # noqa: PLC0415 - only now is it needed
 
-    return FrictionStage(inputs, inputs.extras.friction, inputs.extras.trench)
+    return FrictionStage(inputs, inputs.extras.friction, _trench(inputs))
+
+
+def _trench(inputs: ContactInput) -> TrenchStage | None:
+    if inputs.extras.trench is None:
+        return None
+    from mudline.contact.trenches import TrenchStage  # noqa: PLC0415 - only now is it needed
+
+    return TrenchStage(inputs, inputs.extras.trench)
 
 
 def _lateral(inputs: ContactInput) -> LateralStage | None:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from mudline.contact.arrays import FloatArray, IndexArray
+from mudline.contact.friction.directions import senses
 from mudline.contact.inputs import ContactInput
 from mudline.contact.result import ContactResult
 from mudline.contact.stages import StepDetail
@@ -139,10 +140,11 @@ def _turning(span: FloatArray, normal: FloatArray) -> FloatArray:
     """Derivative (k, 3, 3) by the end of `span` (k, 3) of the unit vector n x t, t the projection of the span."""
     flat = span - np.einsum("ki,ki->k", span, normal)[:, None] * normal
     size = _size(flat)
-    along = flat / size[:, None]
+    able = size > 0.0  # an element without direction takes one that does not turn
+    along = np.divide(flat, size[:, None], out=np.zeros_like(flat), where=able[:, None])
     # d t = (I - t t - n n) d span / |flat|, and n x (that) = -t (n x t . d span) ... only n x t is left of the plane
     across = np.cross(normal, along)
-    return 0.0 - _outer(along, across) / size[:, None, None]
+    return 0.0 - _outer(along, across) / np.where(able, size, 1.0)[:, None, None]
 
 
 def _by_spring(axes: FloatArray, sliding: Sliding, closed: IndexArray, blocks: _Blocks) -> None:
@@ -189,15 +191,16 @@ def _by_turning(line: _Line, points: FloatArray, sliding: Sliding, closed: Index
     length = _size(span)
     unit = np.divide(span, length[:, None], out=np.zeros_like(span), where=length[:, None] > 0.0)
     total = np.zeros_like(points)
-    for at in line.ends.T:
-        np.add.at(total, at, unit)
+    sense = senses(line.ends, len(points))
+    for side, at in enumerate(line.ends.T):
+        np.add.at(total, at, unit * sense[:, side, None])
     flat = total - np.einsum("ni,ni->n", total, line.normal)[:, None] * line.normal
     size = _size(flat)
-    for at in (start, end):
+    for side, at in enumerate((start, end)):
         used = np.flatnonzero(held[at] & (length > 0.0) & (size[at] > 0.0))
         node = at[used]
         sideways = second[node] - np.einsum("ni,ni->n", second[node], unit[used])[:, None] * unit[used]
-        angle = sideways / (length[used] * size[node])[:, None]
+        angle = sideways * (sense[used, side] / (length[used] * size[node]))[:, None]
         block = _outer(turned[node], angle)
         blocks.add(node, end[used], block)
         blocks.add(node, start[used], 0.0 - block)

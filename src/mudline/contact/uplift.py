@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
+from mudline.contact.errors import refuse_nodes
 from mudline.contact.extras import ElementSuction, SuctionSprings
 from mudline.contact.inputs import ContactInput
-from mudline.contact.laws.unloading import UnloadingReaction
 from mudline.contact.result import ContactResult
 from mudline.contact.suction import Suction, SuctionHistory, SuctionState, step, suction_spring
+
+if TYPE_CHECKING:  # suction does without unloading
+    from mudline.contact.laws.unloading import UnloadingReaction
 
 
 class UpliftSprings:
@@ -38,6 +42,7 @@ class SuctionStage:
         self.elements = suction.elements
         self._law = suction.law
         self._ends = inputs.element_nodes
+        self._node_ids = inputs.node_ids
         self._onset = onset[self.elements]
         self._diameter = inputs.diameter[self.elements]
 
@@ -45,10 +50,19 @@ class SuctionStage:
         """Nothing has touched the bed."""
         return SuctionHistory.initial(len(self.elements))
 
-    def of_elements(self, at_nodes: FloatArray) -> FloatArray:
-        """Means (m,) of the values (n,) at the two nodes of each element."""
+    def pull_out(self, part: ContactResult, moving: FloatArray, number: int) -> FloatArray:
+        """Pull-out velocities (m,) of all elements in the step `number`, the mean of those of their nodes.
+
+        `moving` (n, 3) are the velocities of the nodes; those off the bed or without position do not count.
+
+        Raises:
+            PositionError: the velocity of a node that counts is not finite.
+        """
+        along = np.einsum("ij,ij->i", moving, part.normal[0])
+        wrong = ~np.isfinite(along) & ~np.isnan(part.gap[0])
+        refuse_nodes(wrong[None], self._node_ids, number, "its velocity is not finite")
         first, second = self._ends.T
-        mean: FloatArray = 0.5 * at_nodes[first] + 0.5 * at_nodes[second]
+        mean: FloatArray = 0.5 * along[first] + 0.5 * along[second]
         return mean
 
     def apply(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
 from typing import Any, NoReturn
 
@@ -80,7 +81,9 @@ def _message(faults: list[ErrorDetails]) -> str:
             case _:
                 others.append(fault["msg"].removeprefix("Value error, "))
     if wanted:
-        others.insert(0, f"expected {' or '.join(dict.fromkeys(wanted))}, found {shown(faults[0]['input'])}")
+        value = faults[0]["input"]
+        large = ", too large for double precision" if isinstance(value, int) and abs(value) > sys.float_info.max else ""
+        others.insert(0, f"expected {' or '.join(dict.fromkeys(wanted))}, found {shown(value)}{large}")
     return "; or ".join(dict.fromkeys(others))
 
 

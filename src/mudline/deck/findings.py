@@ -7,7 +7,8 @@ from collections import Counter
 from mudline.codes import SYN007, SYN008, SYN009, SYN010, SYN011
 from mudline.diagnostics import Code, Problem, Severity, Span, Where
 from mudline.keywords import catalogue
-from mudline.keywords.text import hint, instead, nearest
+from mudline.keywords.likeness import meant_in, meant_keyword, meant_section, words_behind
+from mudline.keywords.text import hint, instead
 
 MOST_TOLD = 1000
 """Findings of one code about lines, blocks or sections told one by one."""
@@ -24,8 +25,8 @@ class Findings:
         """A section that is not in the catalogue; `head` is its line in a text."""
         if not self._tells(SYN010, None, where):
             return
-        near = nearest(name, list(catalogue.SECTIONS))
-        message = f"section ${name} is not known{hint(near)}: it is kept as it is"
+        near = meant_section(name)
+        message = f"section ${name} is not known{_meant(name, near)}: it is kept as it is"
         self._misspelt(SYN010, message, where, f"${near}" if near else "", head)
 
     def no_model(self, keyword: str, section: str, where: Where, head: Span | None = None) -> None:
@@ -36,14 +37,16 @@ class Findings:
         sections = catalogue.sections_of(keyword)
         if sections is None:
             if self._tells(SYN009, None, where):
-                near = nearest(keyword, list(catalogue.keywords()))
-                message = f"keyword *{keyword} is not known{hint(near)}: the block is kept as it is"
+                near = meant_keyword(keyword)
+                message = f"keyword *{keyword} is not known{_meant(keyword, near)}: the block is kept as it is"
                 self._misspelt(SYN009, message, where, f"*{near}" if near else "", head)
         elif (
             sections and section not in sections and section in catalogue.SECTIONS and self._tells(SYN008, None, where)
         ):
-            message = f"*{keyword} does not belong in ${section}: it belongs in {_belongs(keyword)}"
-            self.problems.append(Problem(SYN008, message, None, None, where))
+            near = meant_in(keyword, section)
+            message = f"*{keyword} does not belong in ${section}{hint(near)}: it belongs in {_belongs(keyword)}"
+            repair = instead(f"*{near}", head) if head and near else None
+            self.problems.append(Problem(SYN008, message, None, None, where, repair))
 
     def _misspelt(self, code: Code, message: str, where: Where, meant: str, head: Span | None) -> None:
         """A name that is not known, which is a warning where another one was meant."""
@@ -71,6 +74,11 @@ class Findings:
             message = f"and more of the same: the first {MOST_TOLD} are listed"
             self.problems.append(Problem(code, message, span, None, where))
         return count <= MOST_TOLD
+
+
+def _meant(name: str, near: str) -> str:
+    behind = ", with nothing behind the name" if near and words_behind(name, near) else ""
+    return f" (did you mean {near}{behind}?)" if near else ""
 
 
 def _belongs(keyword: str) -> str:

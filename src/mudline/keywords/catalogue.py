@@ -227,3 +227,9 @@ def begins_keyword(text: str) -> bool:
 def keywords() -> tuple[str, ...]:
     """Every known keyword."""
     return tuple(sorted({name for _, name in (*_MODULES, *_KEPT)} | set(_OPAQUE)))
+
+
+@cache
+def read_keywords() -> tuple[str, ...]:
+    """Every keyword of which more is known than its name."""
+    return tuple(sorted({name for _, name in (*_MODULES, *_KEPT)}))

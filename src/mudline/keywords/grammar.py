@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache, lru_cache
@@ -9,7 +10,6 @@ from typing import NamedTuple, cast
 
 from lark import Lark, Token, Tree, UnexpectedToken
 from lark.lexer import Lexer
-from lark.load_grammar import Grammar, load_grammar
 from lark.parsers.lalr_interactive_parser import InteractiveParser
 
 from mudline.diagnostics import Span
@@ -17,6 +17,10 @@ from mudline.resources import grammar_file
 
 END = "$END"
 ROW = "ROW"
+
+_NAME = re.compile(r"\b[a-z_][a-z_0-9]*+")
+_OPENING = re.compile(rf"({_NAME.pattern})\s*:")
+_TERMINAL = re.compile(r"\b[A-Z][A-Z_0-9]*+")
 
 _SMALL = 64
 """Contents of a block whose tree is remembered: decks of one family hold blocks of the same few forms."""
@@ -58,26 +62,34 @@ class _Given(Lexer):
 
 
 @cache
-def _grammar() -> Grammar:
-    path = grammar_file("blocks.lark")
-    text = path.read_text(encoding="utf-8")
-    terminals = sorted(set(_terminals(text)))
-    grammar, _ = load_grammar(f"{text}\n%declare {' '.join(terminals)}\n", str(path), [], global_keep_all_tokens=True)
-    return cast("Grammar", grammar)
+def _rules() -> dict[str, str]:
+    """The rules of the grammar, as they are written, by their names."""
+    found: dict[str, str] = {}
+    name = ""
+    for line in grammar_file("blocks.lark").read_text(encoding="utf-8").splitlines():
+        written = line.partition("//")[0].rstrip()
+        if opening := _OPENING.match(written):
+            name = opening[1]
+        if written:
+            found[name] = f"{found.get(name, '')}{written}\n"
+    return found
 
 
-def _terminals(text: str) -> Iterator[str]:
-    for line in text.splitlines():
-        rule = line.partition("//")[0]
-        for word in rule.replace("(", " ").replace(")", " ").replace("|", " ").split():
-            name = word.rstrip("*+?")
-            if name.isupper():
-                yield name
+def _part(rule: str) -> str:
+    """The grammar of a rule and of those it leads to: the whole one takes as long to compile for each keyword."""
+    wanted, found = [rule], dict[str, str]()
+    while wanted:
+        name = wanted.pop()
+        if name not in found:
+            found[name] = _rules()[name]
+            wanted += set(_NAME.findall(found[name])) & _rules().keys()
+    text = "".join(found.values())
+    return f"{text}%declare {' '.join(sorted(set(_TERMINAL.findall(text))))}\n"
 
 
 @cache
 def _parser(rule: str) -> Lark:
-    return Lark(_grammar(), start=rule, parser="lalr", lexer=_Given, maybe_placeholders=False)
+    return Lark(_part(rule), start=rule, parser="lalr", lexer=_Given, keep_all_tokens=True, maybe_placeholders=False)
 
 
 def terminal_of(key: str) -> str:

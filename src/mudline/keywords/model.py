@@ -119,7 +119,7 @@ def rows(row: type[Row], meaning: str) -> Rows:
 class Comment(BaseModel):
     """A comment line; `before` is the index of the item that it precedes, `text` what follows the C."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
     before: Count
     text: Text
 
@@ -127,7 +127,7 @@ class Comment(BaseModel):
 class Part(BaseModel):
     """Anything with declared fields."""
 
-    model_config = ConfigDict(extra="forbid", populate_by_name=True, serialize_by_alias=True)
+    model_config = ConfigDict(extra="forbid", populate_by_name=True, serialize_by_alias=True, defer_build=True)
 
     @model_validator(mode="before")
     @classmethod

@@ -19,6 +19,9 @@ _REAL = (Kind.REAL, Kind.REAL_OR_NAME)
 _WHOLE = re.compile(r"[-+]?[0-9]+")
 _FRACTION = re.compile(r"[0-9]+(?:[eEdD][-+]?[0-9]+)?")
 
+_GROUPED = re.compile(r"[-+]?[0-9]{1,3}(?:[ '_\xa0\u202f][0-9]{3})+(?:\.[0-9]*)?")
+"""A number with its digits in groups of three."""
+
 
 class UnreadableError(Exception):
     """A field that gives no value; the problem is the reason."""
@@ -75,7 +78,7 @@ def _maybe_number(text: str) -> bool:
 
 def _looks_numeric(text: str) -> bool:
     """Whether a text that is no finite number was meant as one."""
-    return _not_finite(text) or spells_number(text)
+    return _not_finite(text) or spells_number(text) or bool(_GROUPED.fullmatch(text))
 
 
 def _not_finite(text: str) -> bool:
@@ -101,6 +104,9 @@ def number_fault(text: str, label: str) -> str:
             pass
         else:
             return f"{text} is too large for a double-precision number: {label} must be below 1.8E308"
+    if _GROUPED.fullmatch(text):
+        whole = "".join(char for char in text if char in "+-.0123456789")
+        return f"{text!r} is no number with its digits in groups: write {whole} for {label}"
     return f"{shown(text)} is no number: expected a number or an equation =[...] for {label}"
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import mmap
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
@@ -9,12 +10,13 @@ from functools import cached_property
 from typing import Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mudline.codes import RUN001
 from mudline.contact import ContactModel, ContactResult, ElementError, PositionError
 from mudline.diagnostics import DeckError, Problem, Where
 from mudline.scene.model import Scene
-from mudline.scene.numbering import Floats, Indices
+from mudline.scene.numbering import Floats, Indices, Mask
 from mudline.scene.positions import Positions
 
 Tension = Literal["keep", "cut"]
@@ -29,20 +31,43 @@ class Prepared:
     lengths_from_positions: int
 
 
+@dataclass(frozen=True, slots=True)
+class Part:
+    """Steps `start` and on of an evaluation, with their results (steps, ...)."""
+
+    start: int
+    result: ContactResult
+
+    @property
+    def count(self) -> int:
+        """Number of steps."""
+        return len(self.result.depth)
+
+    @property
+    def steps(self) -> slice:
+        """Where the steps stand among all steps."""
+        return slice(self.start, self.start + self.count)
+
+
 @dataclass(frozen=True)
 class Evaluation:
-    """A scene, its evaluator, the result for all steps (steps, ...), and the times (steps,) when there are any."""
+    """A scene, its evaluator, and the positions (steps, n, 3) to evaluate; `present` (n,) nodes have one.
+
+    Nothing is evaluated before `parts` is asked for. `time` (steps,) is None for a single state without a time.
+    """
 
     scene: Scene
     model: ContactModel
-    result: ContactResult
-    time: Floats | None
+    positions: NDArray[np.floating]
+    present: Mask
+    time: Floats | None = None
+    velocities: NDArray[np.floating] | None = None
     lengths_from_positions: int = 0
 
     @property
     def steps(self) -> int:
         """Number of steps; 1 for a single state."""
-        return len(self.result.depth)
+        return len(self.positions)
 
     @property
     def length(self) -> Floats:
@@ -51,48 +76,66 @@ class Evaluation:
 
     @cached_property
     def elements(self) -> Indices:
-        """Indices of the elements that were evaluated: those with a position of both nodes."""
-        return np.flatnonzero(self.result.evaluated)
+        """Indices of the elements that are evaluated: those with a position of both nodes."""
+        return np.flatnonzero(self.present[self.scene.element_nodes].all(axis=1))
 
     @cached_property
     def nodes(self) -> Indices:
         """Indices of the nodes that have a position."""
-        return np.flatnonzero(self.result.present)
+        return np.flatnonzero(self.present)
 
     @property
     def skipped(self) -> int:
         """Elements without a position of both nodes."""
         return len(self.scene.element_ids) - len(self.elements)
 
-    def law_names(self, step: int) -> list[str]:
-        """The law of every evaluated element at a step; `curve-cut` where a pulling curve was cut."""
-        names = self._law_names
-        cut = self.result.cut[step, self.elements]
-        if not cut.any():
-            return names
-        return ["curve-cut" if is_cut else name for name, is_cut in zip(names, cut.tolist(), strict=True)]
+    def parts(self) -> Iterator[Part]:
+        """Evaluate a few steps at a time; memory does not grow with the number of steps.
 
-    @cached_property
-    def _law_names(self) -> list[str]:
-        names = self.scene.law_names
-        return [names[index] for index in self.elements.tolist()]
+        Raises DeckError: a position that is not finite, a value that overflows.
+        """
+        clock = self.time if self.model.input.extras.suction is not None else None
+        with _told(self.scene):
+            for start, result in self.model.stream(
+                self.positions, present=self.present, velocities=self.velocities, times=clock
+            ):
+                yield Part(start, result)
+                _forget(self.positions)
+
+
+def _forget(values: NDArray[np.floating]) -> None:
+    """Let go the pages of a file that were read: they are in memory as long as the file is mapped, and wanted once."""
+    held: object = values
+    while isinstance(held, np.ndarray):
+        held = held.base
+    if isinstance(held, mmap.mmap) and hasattr(held, "madvise"):
+        held.madvise(mmap.MADV_DONTNEED)
 
 
 def evaluate_scene(scene: Scene, positions: Positions | None = None, tension: Tension = "keep") -> Evaluation:
-    """Evaluate a scene at its own coordinates or at positions from a file.
+    """A scene ready to be evaluated at its own coordinates or at positions from a file.
 
-    Raises DeckError: errors in the deck, elements without known nodes or coordinates, a value that overflows.
+    Raises DeckError: errors in the deck, elements without known nodes or coordinates, times that a law cannot use.
     """
     if positions is None:
         _require_coordinates(scene.require())
     ready = prepare(scene, positions, tension)
-    with _told(ready.scene):
-        if positions is None:
-            result = ready.model.evaluate(ready.scene.coordinates[np.newaxis])
-        else:
-            result = ready.model.evaluate(positions.values, present=positions.present)
-    time = positions.time if positions else None
-    return Evaluation(ready.scene, ready.model, result, time, ready.lengths_from_positions)
+    if positions is None:
+        places, present = ready.scene.coordinates[np.newaxis], np.ones(len(scene.nodes), dtype=bool)
+        return Evaluation(
+            ready.scene, ready.model, places, present, lengths_from_positions=ready.lengths_from_positions
+        )
+    if ready.model.input.extras.suction is not None and positions.velocities is None:
+        _require_clock(ready.scene, positions)
+    return Evaluation(
+        ready.scene,
+        ready.model,
+        positions.values,
+        positions.present,
+        positions.time,
+        positions.velocities,
+        ready.lengths_from_positions,
+    )
 
 
 def prepare(scene: Scene, positions: Positions | None = None, tension: Tension = "keep") -> Prepared:
@@ -150,6 +193,18 @@ def _require_coordinates(scene: Scene) -> None:
         example = int(scene.node_ids[np.argmax(missing)])
         message = f"{int(missing.sum())} nodes have no coordinates, node {example} is one: give them with --positions"
         raise _refusal(scene, message)
+
+
+def _require_clock(scene: Scene, positions: Positions) -> None:
+    """Suction follows from velocities, and these, where they are not given, from times."""
+    if positions.time is None or len(positions.time) < 2:
+        return
+    if not positions.timed:
+        raise _refusal(scene, "suction needs velocities, or the times of the steps: the positions have neither")
+    falls = np.flatnonzero(np.diff(positions.time) <= 0.0)
+    if falls.size:
+        before, after = positions.time[falls[0] : falls[0] + 2].tolist()
+        raise _refusal(scene, f"suction needs velocities, or times that rise: {after!r} follows {before!r}")
 
 
 def _refusal(scene: Scene, message: str, where: Where | None = None) -> DeckError:

@@ -11,6 +11,7 @@ from mudline.contact import LawKind
 from mudline.deck.model import Opaque
 from mudline.results.bed_summary import bed_summary, extension_summary, floor_summary
 from mudline.results.numbers import finite
+from mudline.results.static_embedment import static_embedment
 from mudline.scene.continued import ContinuedDeck
 from mudline.scene.model import Scene
 
@@ -40,6 +41,7 @@ def summarise(scene: Scene) -> dict[str, Any]:
         "floor": floor_summary(scene.floor),
         "bed": bed_summary(scene),
         "extensions": extension_summary(scene),
+        "static_embedment": static_embedment(scene),
     }
 
 

@@ -1,50 +1,20 @@
-"""Rows of elements and nodes with the columns of the contract, spelled for a text format."""
+"""Rows of elements and nodes, spelled for a text format."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from typing import Any
+from itertools import chain, islice
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic_core import to_json
 
-from mudline.results.evaluation import Evaluation
-
-ELEMENT_COLUMNS = (
-    "element",
-    "set",
-    "diameter",
-    "length",
-    "depth",
-    "ratio",
-    "contact",
-    "force",
-    "slope",
-    "stiffness",
-    "law",
-    "state",
-)
-NODE_COLUMNS = (
-    "node",
-    "gap",
-    "normal",
-    "reaction",
-    "normal_force",
-    "axial_force",
-    "lateral_force",
-    "axial_state",
-    "lateral_state",
-)
-VECTORS = frozenset({"normal", "reaction"})
-"""Columns of three components."""
+from mudline.results.columns import Column, Values
 
 _BLOCK = 16384
 """Rows spelled at a time: the texts of a large model are never all in memory."""
 
 Row = tuple[str, ...]
-Column = NDArray[Any] | Sequence[str | None]
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,57 +24,44 @@ class Spelling:
     name: Callable[[str], str]
     nothing: str
 
-    def column(self, values: Column) -> list[str]:
+    def column(self, values: Values, names: tuple[str | None, ...] = ()) -> list[str]:
         """The values of a column; numbers read back to the same double, NaN is no value."""
-        if not isinstance(values, np.ndarray):
-            known = {value: self.nothing if value is None else self.name(value) for value in set(values)}
-            return [known[value] for value in values]
         if not values.size:
             return []
-        spelled = to_json(values.tolist(), inf_nan_mode="null")[1:-1].decode().split(",")
+        if names:
+            spelled = [self.nothing if name is None else self.name(name) for name in names]
+            return [spelled[code] for code in values.tolist()]
+        numbers = to_json(values.tolist(), inf_nan_mode="null")[1:-1].decode().split(",")
         if self.nothing == "null" or values.dtype.kind != "f" or not np.isnan(values).any():
-            return spelled
-        return [self.nothing if text == "null" else text for text in spelled]
+            return numbers
+        return [self.nothing if text == "null" else text for text in numbers]
 
 
-def element_rows(evaluation: Evaluation, step: int, spelling: Spelling) -> Iterator[Row]:
-    """The evaluated elements at a step, spelled."""
-    scene, result = evaluation.scene, evaluation.result.step(step)
-    sets, laws = scene.law_sets, evaluation.law_names(step)
-    for start in range(0, len(evaluation.elements), _BLOCK):
-        chosen = evaluation.elements[start : start + _BLOCK]
-        columns: tuple[Column, ...] = (
-            scene.element_ids[chosen],
-            [sets[index] for index in chosen.tolist()],
-            scene.diameter[chosen],
-            evaluation.length[chosen],
-            result.depth[chosen],
-            result.ratio[chosen],
-            result.contact[chosen],
-            result.force[chosen],
-            result.slope[chosen],
-            result.stiffness[chosen],
-            laws[start : start + _BLOCK],
-            [None] * len(chosen),
-        )
-        yield from zip(*map(spelling.column, columns), strict=True)
+def step_rows(columns: list[Column], steps: int, rows: int, spelling: Spelling) -> Iterator[Iterable[Row]]:
+    """The rows of each step, spelled; take those of a step before the next."""
+    flat = [part for column in columns for part in column.flat()]
+    if rows > _BLOCK:
+        for step in range(steps):
+            yield chain.from_iterable(_long(flat, step, rows, spelling))
+        return
+    together = max(1, _BLOCK // max(rows, 1))
+    constant = {column.name: spelling.column(column.values, column.names) for column in flat if column.steady}
+    for first in range(0, steps, together):
+        last = min(steps, first + together)
+        texts = [
+            constant[column.name] * (last - first)
+            if column.steady
+            else spelling.column(column.cut(first, last).ravel(), column.names)
+            for column in flat
+        ]
+        spelled = zip(*texts, strict=True)
+        for _ in range(first, last):
+            yield islice(spelled, rows)
 
 
-def node_rows(evaluation: Evaluation, step: int, spelling: Spelling) -> Iterator[Row]:
-    """The nodes with a position at a step, spelled; friction forces are 0.0 and states none without friction."""
-    scene, result = evaluation.scene, evaluation.result.step(step)
-    for start in range(0, len(evaluation.nodes), _BLOCK):
-        chosen = evaluation.nodes[start : start + _BLOCK]
-        zero, none = np.zeros(len(chosen)), [None] * len(chosen)
-        columns: tuple[Column, ...] = (
-            scene.node_ids[chosen],
-            result.gap[chosen],
-            *result.normal[chosen].T,
-            *result.reaction[chosen].T,
-            result.normal_force[chosen],
-            zero,
-            zero,
-            none,
-            none,
-        )
-        yield from zip(*map(spelling.column, columns), strict=True)
+def _long(columns: list[Column], step: int, rows: int, spelling: Spelling) -> Iterator[Iterator[Row]]:
+    """The rows of one step of a large model, block by block."""
+    for start in range(0, rows, _BLOCK):
+        block = slice(start, start + _BLOCK)
+        texts = [spelling.column(column.cut(step, step + 1)[0, block], column.names) for column in columns]
+        yield zip(*texts, strict=True)

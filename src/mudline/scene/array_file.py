@@ -38,12 +38,16 @@ _UNREADABLE = (
 
 
 class Series(NamedTuple):
-    """Positions (steps, nodes, 3); `time` (steps,) is None for a single state, `nodes` for all nodes of the deck."""
+    """Positions (steps, nodes, 3); `time` (steps,) is None for a single state, `nodes` for all nodes of the deck.
+
+    `timed` says whether the file has times; where it has none, `time` counts the steps of a series.
+    """
 
     values: Reals
     time: Floats | None
     velocities: Reals | None = None
     nodes: Ids | None = None
+    timed: bool = False
 
 
 def load_npy(path: Path, count: int) -> Series:
@@ -111,7 +115,8 @@ def _series(file: str, arrays: dict[str, Reals], count: int) -> Series:
         time = None if given.ndim == 2 else np.arange(len(values), dtype=np.float64)
     if time is not None and len(time) != len(values):
         raise _wrong_shape(file, "time", arrays["time"], f"({len(values)},)")
-    return Series(values, time, None if velocities is None else velocities.reshape(values.shape), nodes)
+    moving = None if velocities is None else velocities.reshape(values.shape)
+    return Series(values, time, moving, nodes, "time" in arrays)
 
 
 def _wrong_shape(file: str, name: str, found: Reals, expected: str) -> DeckError:

@@ -15,6 +15,7 @@ from mudline.deck.model import Deck, Opaque
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords import catalogue
+from mudline.keywords.likeness import meant_in, meant_keyword
 from mudline.keywords.model import ListRow
 from mudline.scene.continued import ContinuedDeck
 from mudline.scene.harvest import LAID, definers, harvested_labels, harvested_sets, may_define
@@ -201,9 +202,11 @@ class Context:
     def _meant(self, section: str, keyword: str) -> Iterator[tuple[str, str]]:
         sections = catalogue.sections_of(keyword)
         if sections is None and section == "MODEL":
-            yield _nearest(keyword, catalogue.keywords()), f"*{keyword}, which is not known,"
+            near = meant_keyword(keyword) or _nearest(keyword, catalogue.keywords())
+            yield near, f"*{keyword}, which is not known,"
         elif sections and section not in sections:
-            yield keyword, f"the *{keyword} in ${section}, where it does not belong,"
+            for name in (keyword, meant_in(keyword, section)):
+                yield name, f"the *{keyword} in ${section}, where it does not belong,"
 
     @cached_property
     def harvested(self) -> dict[str, str]:

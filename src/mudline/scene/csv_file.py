@@ -19,11 +19,12 @@ from mudline.syntax.rows import read_number, read_rows_fast
 
 
 class CsvTable(NamedTuple):
-    """The columns of a file by name, each a list of texts, and the line of each row."""
+    """The columns of a file by name, each a list of texts, and the line of each row; `text` is the whole file."""
 
     file: str
     columns: dict[str, list[str]]
     lines: list[int]
+    text: str
 
     def numbers(self, name: str, *, optional: bool = False) -> Floats:
         """A column as finite numbers; an empty field of an optional column is NaN. Raises DeckError with the line."""
@@ -31,9 +32,29 @@ class CsvTable(NamedTuple):
         for row, text in enumerate(self.columns[name]):
             value = np.nan if optional and not text else read_number(text)
             if value is None:
-                raise data_error(self.file, f"{name}: {shown(text)} is not a number", self.lines[row])
+                raise self.fault(row, name, f"{name}: {shown(text)} is not a number")
             values[row] = value
         return values
+
+    def whole(self, name: str) -> Ids:
+        """A column as whole numbers; raises DeckError with line and column of one that is none."""
+        values = self.numbers(name)
+        if (row := _first_broken(values)) is not None:
+            raise self.fault(row, name, _not_whole(name, values[row]))
+        return values.astype(np.int64)
+
+    def fault(self, row: int, name: str, message: str) -> DeckError:
+        """A fault in a field: its line, and where in the line the field begins."""
+        line = self.lines[row]
+        return data_error(self.file, message, line, self._column(line, list(self.columns).index(name)))
+
+    def _column(self, line: int, field: int) -> int:
+        """Where a field of a line begins; 1 where quotation marks hide it."""
+        parts = self.text.split("\n")[line - 1].split(",")
+        if len(parts) != len(self.columns):
+            return 1
+        blanks = len(parts[field]) - len(parts[field].lstrip())
+        return sum(len(part) + 1 for part in parts[:field]) + blanks + 1
 
 
 class NumericTable(NamedTuple):
@@ -52,25 +73,35 @@ class NumericTable(NamedTuple):
         return whole_numbers(self.file, name, self.columns[name], self.lines)
 
 
-def data_error(file: str, message: str, line: int = 1) -> DeckError:
+def data_error(file: str, message: str, line: int = 1, column: int = 1) -> DeckError:
     """A fault of a data file."""
-    return DeckError([Diagnostic(file, DAT001.code, DAT001.slug, DAT001.severity, message, line, 1, line, 1)])
+    return DeckError([Diagnostic(file, DAT001.code, DAT001.slug, DAT001.severity, message, line, column, line, column)])
 
 
 def whole_numbers(file: str, name: str, column: Floats, lines: Sequence[int] | None = None) -> Ids:
     """A column as whole numbers; raises DeckError for one that is none or larger than a double counts exactly."""
-    with np.errstate(invalid="ignore"):
-        good = (column == np.floor(column)) & (np.abs(column) <= LARGEST)
-    if not good.all():
-        row = int(np.argmin(good))
-        line = 1 if lines is None else lines[row]
-        raise data_error(file, f"{name}: {float(column[row])!r} is not a whole number up to 2^53", line)
+    if (row := _first_broken(column)) is not None:
+        raise data_error(file, _not_whole(name, column[row]), 1 if lines is None else lines[row])
     return column.astype(np.int64)
 
 
-def read_csv(path: Path, needed: Sequence[str], known: Sequence[str]) -> CsvTable:
-    """A whole file as text columns; rows that are empty are left out. Raises OSError, DeckError."""
-    return _texts(path.as_posix(), _read_text(path), needed, known)
+def _first_broken(column: Floats) -> int | None:
+    """The first row that is no whole number, or one larger than a double counts exactly."""
+    with np.errstate(invalid="ignore"):
+        good = (column == np.floor(column)) & (np.abs(column) <= LARGEST)
+    return None if good.all() else int(np.argmin(good))
+
+
+def _not_whole(name: str, value: float) -> str:
+    return f"{name}: {float(value)!r} is not a whole number up to 2^53"
+
+
+def read_csv(path: Path, needed: Sequence[str], known: Sequence[str], *, others: bool = False) -> CsvTable:
+    """A whole file as text columns; rows that are empty are left out. Raises OSError, DeckError.
+
+    With `others` the file may have columns of other names, which are read past.
+    """
+    return _texts(path.as_posix(), _read_text(path), needed, known if not others else None)
 
 
 def read_numeric_csv(path: Path, needed: Sequence[str], known: Sequence[str]) -> NumericTable:
@@ -93,22 +124,25 @@ def _read_text(path: Path) -> str:
         raise data_error(path.as_posix(), f"not a UTF-8 text file ({error.reason} at byte {error.start})") from error
 
 
-def _header(file: str, text: str, needed: Sequence[str], known: Sequence[str]) -> list[str]:
-    """The names in the first line, in lower case; raises DeckError when one is missing, unknown or there twice."""
+def _header(file: str, text: str, needed: Sequence[str], known: Sequence[str] | None) -> list[str]:
+    """The names in the first line, in lower case; raises DeckError when one is missing, unknown or there twice.
+
+    Where `known` is None all names are.
+    """
     row = next(_rows(file, text), ([], 1))[0]
     names = [name.strip().lower() for name in row]
-    expected = ",".join(known)
+    expected = ",".join(known or needed)
     if missing := [name for name in needed if name not in names]:
         raise data_error(file, f"the header lacks {', '.join(missing)}: expected {expected}")
     for position, name in enumerate(names):
-        if name not in known:
+        if known is not None and name not in known:
             raise data_error(file, f"the header has {shown(name)}: expected {expected}")
         if name in names[:position]:
             raise data_error(file, f"the header has {name} twice")
     return names
 
 
-def _texts(file: str, text: str, needed: Sequence[str], known: Sequence[str]) -> CsvTable:
+def _texts(file: str, text: str, needed: Sequence[str], known: Sequence[str] | None) -> CsvTable:
     names = _header(file, text, needed, known)
     columns: dict[str, list[str]] = {name: [] for name in names}
     lines: list[int] = []
@@ -122,7 +156,7 @@ def _texts(file: str, text: str, needed: Sequence[str], known: Sequence[str]) ->
         lines.append(line)
         for name, field in zip(names, row, strict=True):
             columns[name].append(field.strip())
-    return CsvTable(file, columns, lines)
+    return CsvTable(file, columns, lines, text)
 
 
 def _rows(file: str, text: str) -> Iterator[tuple[list[str], int]]:

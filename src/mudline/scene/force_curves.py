@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from mudline.codes import CRV001, CRV003, CRV011
-from mudline.curves import CurveError, ForceCurve
 from mudline.diagnostics import Where
 from mudline.keywords.table import Table
 from mudline.keywords.text import shown
@@ -16,6 +15,7 @@ from mudline.scene.context import MOST_TOLD, Context
 from mudline.scene.numbering import Floats, Indices, Mask
 
 if TYPE_CHECKING:
+    from mudline.curves import ForceCurve
     from mudline.keywords.library.embedment import Embedment
     from mudline.keywords.library.seabed_stiffness import SeabedStiffness
 
@@ -96,6 +96,8 @@ def _curve(context: Context, name: str | None, table: Table, where: Where, *, em
     keep = np.arange(len(points))
     if clashing.size:
         keep = np.setdiff1d(keep, clashing, assume_unique=True)
+    from mudline.curves import CurveError, ForceCurve  # noqa: PLC0415 - a deck without curves does without it
+
     try:
         curve = ForceCurve(points[keep], found.name)
     except CurveError as error:

@@ -1,71 +1,67 @@
-"""What a deck asks for and this version does not evaluate."""
+"""What a deck asks for and the evaluator does not use, and why."""
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
-from mudline.deck.model import Deck
+import numpy as np
+
+from mudline.contact.extras import Extras
+from mudline.contact.inputs import LawKind
 
 if TYPE_CHECKING:
-    from mudline.keywords.common import Surface
-    from mudline.keywords.library.seabed_properties import SeabedProperties
-
-_KEYWORDS = {
-    "SEABED PROFILE": "floor",
-    "SEABED PLANES": "floor",
-    "SEABED CONTACT": "normal law",
-    "SEABED UNLOADING": "normal law",
-    "SEABED SUCTION": "suction",
-    "SEABED FRICTION": "friction",
-    "SEABED TRENCH": "trench",
-}
-"""Keywords that are kept as they are, and the stage of the plan that they belong to."""
-
-_FRICTION = ("longitudinal", "transverse", "lateral")
+    from mudline.scene.model import Scene
 
 
-def left_out(deck: Deck) -> dict[str, str]:
-    """By stage of the plan, what is asked for and not evaluated; nothing for stages of which all is evaluated.
-
-    `deck` has its equations evaluated.
-    """
-    asked: dict[str, Counter[str]] = {}
-    for stage, what in [*_keywords(deck), *_properties(deck), *_surfaces(deck)]:
-        asked.setdefault(stage, Counter())[what] += 1
-    return {stage: f"not evaluated in this version: {_listed(counts)}" for stage, counts in asked.items()}
-
-
-def _listed(counts: Counter[str]) -> str:
-    return ", ".join(what if count == 1 else f"{what} ({count} times)" for what, count in counts.items())
+def left_out(scene: Scene, extras: Extras) -> dict[str, str]:
+    """By stage of the plan, what is asked for and not evaluated, or not as it is written; nothing for other stages."""
+    told = {
+        "smoothing": _smoothing(scene),
+        "suction": _suction(scene),
+        "friction": "; ".join(_friction(scene, extras)),
+    }
+    return {stage: why for stage, why in told.items() if why}
 
 
-def _keywords(deck: Deck) -> Iterator[tuple[str, str]]:
-    for section in deck.sections:
-        for block in section.blocks:
-            if section.name == "MODEL" and block.keyword in _KEYWORDS:
-                yield _KEYWORDS[block.keyword], f"*{block.keyword}"
+def _smoothing(scene: Scene) -> str:
+    if "SEABED CONTACT" not in scene.extensions:
+        return ""
+    from mudline.scene.contact_parts.smoothing import weightless  # noqa: PLC0415 - only now is it needed
+
+    count = weightless(scene)
+    return f"none for {_elements(count)} of SMOOTHING=AUTO: no submerged weight above 0 is known" if count else ""
 
 
-def _properties(deck: Deck) -> Iterator[tuple[str, str]]:
-    for _, block in deck.blocks("SEABED PROPERTIES"):
-        for entry in cast("SeabedProperties", block).sets:
-            if entry.friction and (entry.friction.longitudinal or entry.friction.transverse):
-                yield "friction", "FRICTION="
-            if entry.lateral:
-                yield "friction", "LATERAL="
-            if entry.suction and entry.suction.stiffness:
-                yield "suction", "SUCTION="
+def _suction(scene: Scene) -> str:
+    suction = _given(scene, "suction")
+    if not suction.any():
+        return ""
+    extent = scene.bed.column("extent") > 0.0
+    count = int((suction & ~extent & (scene.law != LawKind.RIGID)).sum())
+    return f"SUCTION= without an extent of its zone holds nothing: {_elements(count)}" if count else ""
 
 
-def _surfaces(deck: Deck) -> Iterator[tuple[str, str]]:
-    for keyword in ("ELASTIC SURFACE", "RIGID SURFACE"):
-        for _, block in deck.blocks(keyword):
-            surface = cast("Surface", block)
-            if surface.slope or surface.profile is not None:
-                yield "floor", f"the slope or profile of *{keyword}"
-            if any(getattr(surface.properties, name, None) for name in _FRICTION):
-                yield "friction", f"the friction of *{keyword}"
-            if getattr(surface.properties, "suction_stiffness", None):
-                yield "suction", f"the suction of *{keyword}"
+def _friction(scene: Scene, extras: Extras) -> list[str]:
+    told = []
+    coefficients = _given(scene, "friction").any(axis=1)
+    extension = scene.extensions.get("SEABED FRICTION")
+    asked = coefficients if extension is None else coefficients | (extension.of_element >= 0)
+    if count := int((asked & (scene.law == LawKind.RIGID)).sum()):
+        told.append(f"none on a rigid bed, whose reaction is that of a constraint: {_elements(count)}")
+    if extras.lateral is not None and asked.any():
+        told.append("LATERAL= replaces the transverse coefficient")
+    if _given(scene, "constant").any():
+        told.append("the constant friction force coefficient is not evaluated: the manual does not say what it means")
+    if _given(scene, "friction_stiffness").any():
+        told.append("friction stiffnesses of FRICTION= are for modal and frequency runs (inferred)")
+    return told
+
+
+def _given(scene: Scene, name: str) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
+    """Where elements have a value of the bed above 0."""
+    given: np.ndarray[tuple[int, ...], np.dtype[np.bool_]] = scene.bed.column(name) > 0.0
+    return given
+
+
+def _elements(count: int) -> str:
+    return f"{count} element{'' if count == 1 else 's'}"

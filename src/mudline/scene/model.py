@@ -9,13 +9,16 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mudline.codes import REF007
+from mudline.codes import REF007, RUN001
+from mudline.contact.errors import ElementError
 from mudline.contact.inputs import ContactInput, LawKind
 from mudline.contact.model import ContactModel
 from mudline.deck.model import Deck
 from mudline.deck.parameters import folded
-from mudline.diagnostics import DeckError, Problem, Severity
+from mudline.diagnostics import DeckError, Problem, Severity, Where
 from mudline.scene.bed import Bed
+from mudline.scene.contact_parts.build import extras_of, floor_of
+from mudline.scene.contact_parts.refused import RefusedError
 from mudline.scene.context import Context
 from mudline.scene.elements import ElementTable
 from mudline.scene.extensions import Extension
@@ -23,7 +26,7 @@ from mudline.scene.floor import Floor
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.laws import Grant, LawTable
 from mudline.scene.left_out import left_out
-from mudline.scene.numbering import Floats, Ids, Indices, Numbered
+from mudline.scene.numbering import Floats, Ids, Indices, Mask, Numbered
 from mudline.scene.refusals import refusals
 from mudline.scene.sections import SectionTable
 from mudline.scene.sets import Sets
@@ -126,22 +129,44 @@ class Scene:
         return self.laws.grants[index] if index >= 0 else None
 
     @cached_property
-    def law(self) -> NDArray[np.int8]:
-        """`LawKind` of each element (m,)."""
+    def nodal(self) -> Mask:
+        """Elements (m,) whose law is a stiffness of their nodes: `*SEABED CONTACT` replaces what they had."""
+        contact = self.extensions.get("SEABED CONTACT")
+        if contact is None:
+            return np.zeros(len(self.element_ids), dtype=np.bool_)
+        given = (getattr(entry, "nodal_stiffness", None) for entry in contact.entries)
+        flags = [isinstance(value, float | int) and value >= 0.0 for value in given]
+        found: Mask = np.array([*flags, False])[contact.of_element] & (self._granted != LawKind.RIGID)
+        return found
+
+    @cached_property
+    def _granted(self) -> NDArray[np.int8]:
+        """`LawKind` of what each element is granted, whatever replaces it."""
         kinds = np.array([*(grant.kind for grant in self.laws.grants), LawKind.NONE], dtype=np.int8)
         return kinds[self.laws.of_element]
 
     @cached_property
+    def law(self) -> NDArray[np.int8]:
+        """`LawKind` of each element (m,)."""
+        return np.where(self.nodal, np.int8(LawKind.NODAL), self._granted)
+
+    @cached_property
     def law_names(self) -> list[str]:
-        """`curve:NAME`, `linear`, `rigid` or `none` for each element."""
-        names = [self.law_name(grant) for grant in self.laws.grants] + ["none"]
-        return [names[index] for index in self.laws.of_element.tolist()]
+        """`curve:NAME`, `linear`, `nodal`, `rigid` or `none` for each element."""
+        names = [*(self.law_name(grant) for grant in self.laws.grants), "nodal", "none"]
+        index = np.where(self.nodal, len(names) - 2, self.laws.of_element)
+        return [names[position] for position in index.tolist()]
 
     @cached_property
     def law_sets(self) -> list[str | None]:
         """Name of the set through which each element got its law; None without a law."""
         names = [None if grant.kind is LawKind.NONE else grant.set_.name for grant in self.laws.grants]
-        return [[*names, None][index] for index in self.laws.of_element.tolist()]
+        found = [[*names, None][index] for index in self.laws.of_element.tolist()]
+        for element in np.flatnonzero(self.nodal).tolist():
+            contact = self.extensions["SEABED CONTACT"]
+            holder = contact.sets[int(contact.of_element[element])]
+            found[element] = None if holder is None else holder.name
+        return found
 
     def law_name(self, grant: Grant) -> str:
         """Name of the law that a grant gives."""
@@ -163,7 +188,8 @@ class Scene:
     def contact(self, tension: Literal["keep", "cut"] = "keep") -> ContactModel:
         """The evaluator of this scene, with only the stages it needs.
 
-        Raises DeckError for errors on which a result depends, and where a law, a node or a length is not known.
+        Raises DeckError for errors on which a result depends, where a law, a node, a length or the bed is not known,
+        and for a law or a bed that is none.
         """
         return ContactModel(self.contact_input(tension))
 
@@ -172,7 +198,20 @@ class Scene:
         self.require()
         if problems := list(refusals(self)):
             raise DeckError(self.deck.diagnose(problems))
+        try:
+            return self._contact_input(tension)
+        except RefusedError as error:
+            raise self._refused(str(error), error.where) from error
+        except ElementError as error:
+            index = int(np.flatnonzero(self.element_ids == error.element)[0])
+            raise self._refused(f"{error}; this cannot be evaluated", self.table.numbered.where(index)) from error
+
+    def _refused(self, message: str, where: Where) -> DeckError:
+        return DeckError(self.deck.diagnose([Problem(RUN001, message, where=where)]))
+
+    def _contact_input(self, tension: Literal["keep", "cut"]) -> ContactInput:
         arrays = self.law_arrays()
+        extras = extras_of(self, keep=tension == "keep")
         return ContactInput(
             node_ids=self.node_ids,
             coordinates=self.coordinates,
@@ -185,18 +224,20 @@ class Scene:
             curves=arrays.curves,
             linear_stiffness=arrays.linear_stiffness,
             tension=tension,
-            left_out=left_out(self.deck),
+            floor=floor_of(self),
+            extras=extras,
+            left_out=left_out(self, extras),
         )
 
     def law_arrays(self) -> LawArrays:
         """The law of every element as arrays, whatever else is known of it."""
+        linear = np.array([*(grant.stiffness for grant in self.laws.grants), np.nan])[self.laws.of_element]
         usable = [index for index, entry in enumerate(self.laws.curves) if entry.curve is not None]
         number = {index: position for position, index in enumerate(usable)}
         curve_of_grant = np.array([*(number.get(grant.curve, -1) for grant in self.laws.grants), -1], dtype=np.intp)
-        stiffness = np.array([*(grant.stiffness for grant in self.laws.grants), np.nan])
         return LawArrays(
             self.law,
-            curve_of_grant[self.laws.of_element],
+            np.where(self.nodal, -1, curve_of_grant[self.laws.of_element]),
             tuple(entry.curve for entry in self.laws.curves if entry.curve is not None),
-            stiffness[self.laws.of_element],
+            np.where(self.nodal, np.nan, linear),
         )

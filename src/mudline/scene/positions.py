@@ -23,13 +23,15 @@ class Positions:
     """Positions (steps, nodes, 3) in the order of the scene's nodes, NaN for those that the file has not.
 
     `present` (nodes,) says which nodes the file has; `time` (steps,) is None for a single state without a time.
-    `velocities`, where the file has them, are as the positions.
+    `velocities`, where the file has them, are as the positions; `timed` says whether the file has times, else `time`
+    counts the steps.
     """
 
     values: NDArray[np.floating]
     present: Mask
     time: Floats | None
     velocities: NDArray[np.floating] | None = None
+    timed: bool = True
 
     @property
     def missing(self) -> int:
@@ -54,7 +56,8 @@ def read_positions(path: Path, nodes: Numbered) -> Positions:
 def _from_series(path: Path, series: Series, nodes: Numbered) -> Positions:
     """Rows in the order of the deck's nodes, or in that of the file's own list of nodes."""
     if series.nodes is None:
-        return Positions(series.values, np.ones(len(nodes), dtype=bool), series.time, series.velocities)
+        everywhere = np.ones(len(nodes), dtype=bool)
+        return Positions(series.values, everywhere, series.time, series.velocities, series.timed)
     where = nodes.indices(series.nodes)
     if (where < 0).any():
         raise _unknown(path.as_posix(), series.nodes[where < 0])
@@ -63,7 +66,7 @@ def _from_series(path: Path, series: Series, nodes: Numbered) -> Positions:
     if int(present.sum()) != len(where):
         raise data_error(path.as_posix(), "a node stands twice in the array node")
     moving = None if series.velocities is None else _spread(series.velocities, where, len(nodes))
-    return Positions(_spread(series.values, where, len(nodes)), present, series.time, moving)
+    return Positions(_spread(series.values, where, len(nodes)), present, series.time, moving, series.timed)
 
 
 def _spread(values: NDArray[np.floating], where: Indices, count: int) -> NDArray[np.floating]:

@@ -9,7 +9,7 @@ from enum import Enum
 from functools import cache
 from typing import NamedTuple, cast
 
-from lark import Lark, Token, Tree
+from lark import Lark
 
 from mudline.diagnostics import Span
 from mudline.resources import grammar_file
@@ -78,9 +78,9 @@ class SyntaxTree:
 
 
 @cache
-def _parser() -> Lark:
+def _cutter() -> Lark:
     grammar = grammar_file("deck.lark").read_text(encoding="utf-8")
-    return Lark(grammar, parser="lalr", lexer="basic", maybe_placeholders=False)
+    return Lark(grammar, parser=None, lexer="basic")
 
 
 def canonical_name(line: str) -> str:
@@ -100,33 +100,24 @@ def parse(source: Source) -> SyntaxTree:
     if not source.readable:
         leaf = Leaf(Kind.TEXT, Span(0, len(source.text)))
         return SyntaxTree(source, RawSection(None, "", [leaf] if source.text else []), ())
-    tree = _parser().parse(source.unified)
-    sections = [_section(cast("Tree[Token]", child)) for child in tree.children]
-    return SyntaxTree(source, sections[0], tuple(sections[1:]))
-
-
-def _section(tree: Tree[Token]) -> RawSection:
-    section = RawSection(None, "")
-    for child in tree.children:
-        if isinstance(child, Tree):
-            section.blocks.append(_block(child))
-            continue
-        leaf = _leaf(child)
-        if leaf.kind is Kind.SECTION:
-            section.head, section.name = leaf, canonical_name(child)
+    preamble = section = RawSection(None, "")
+    sections: list[RawSection] = []
+    leaves = section.leaves
+    for token in _cutter().lex(source.unified):
+        kind = _KINDS[token.type]
+        start = cast("int", token.start_pos)
+        leaf = Leaf(kind, Span(start, start + len(token)))
+        if kind is Kind.SECTION:
+            section = RawSection(leaf, canonical_name(token))
+            sections.append(section)
+            leaves = section.leaves
+        elif kind is Kind.KEYWORD:
+            block = RawBlock(leaf, canonical_name(token))
+            section.blocks.append(block)
+            leaves = block.leaves
         else:
-            section.leaves.append(leaf)
-    return section
-
-
-def _block(tree: Tree[Token]) -> RawBlock:
-    head, *rest = cast("list[Token]", tree.children)
-    return RawBlock(_leaf(head), canonical_name(head), [_leaf(token) for token in rest])
-
-
-def _leaf(token: Token) -> Leaf:
-    start = cast("int", token.start_pos)
-    return Leaf(_KINDS[token.type], Span(start, start + len(token)))
+            leaves.append(leaf)
+    return SyntaxTree(source, preamble, tuple(sections))
 
 
 _KINDS = {kind.value: kind for kind in Kind}

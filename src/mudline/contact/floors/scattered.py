@@ -17,6 +17,10 @@ _STEP = 1e-5
 """Step of a difference, as a part of the way to a corner of the triangle."""
 _TOLERANCE = 1e-10
 """To which the gradients at the points are iterated, relative."""
+_EDGE = 1e-12
+"""Share of a triangle by which a place may lie beside the hull and still be on its edge: rounding, not distance."""
+_INWARD = 1e-11
+"""Share of the way to the middle of its triangle by which a place on the edge is moved for the cubic surface."""
 _THIN = 1e-10
 """Below this spread of directions a triangle is a line to the differences: its plane's gradient stands in."""
 
@@ -58,7 +62,7 @@ class ScatteredFloor(SurfaceFloor):
         """Return elevation and derivatives, see `SurfaceFloor`."""
         places = (np.column_stack([y, z]) - self._middle) / self._scale
         np.clip(places, -2.0, 2.0, out=places)  # the hull ends at 1: what is outside stays outside, and finite
-        triangle = self._triangles.find_simplex(places).astype(np.intp)
+        triangle = self._triangles.find_simplex(places, tol=_EDGE).astype(np.intp)
         level, gradient = self._linear(places, triangle) if self._cubic is None else self._curved(places, triangle)
         level[triangle < 0] = np.nan
         gradient /= self._scale
@@ -70,12 +74,22 @@ class ScatteredFloor(SurfaceFloor):
 
     def _curved(self, places: FloatArray, triangle: IndexArray) -> tuple[FloatArray, FloatArray]:
         """Elevation and gradient: least squares of the derivatives towards the three corners."""
-        level = self._elevations(places)
-        ways = self._places[self._triangles.simplices[triangle]] - places[:, None, :]
-        near = self._elevations(places[:, None, :] + _STEP * ways)
-        far = self._elevations(places[:, None, :] + 2.0 * _STEP * ways)
-        rises = (4.0 * (near - level[:, None]) - (far - level[:, None])) / (2.0 * _STEP)
-        return level, _least_squares(ways, rises, self._gradients[triangle])
+        corners = self._places[self._triangles.simplices[triangle]]
+        levels = self._around(places, corners)
+        lost = np.isnan(levels).any(axis=1) & (triangle >= 0)
+        if lost.any():
+            places = places.copy()
+            places[lost] += _INWARD * (corners[lost].mean(axis=1) - places[lost])
+            levels = self._around(places, corners)
+        level, near, far = levels[:, :1], levels[:, 1:4], levels[:, 4:]
+        rises = (4.0 * (near - level) - (far - level)) / (2.0 * _STEP)
+        return levels[:, 0], _least_squares(corners - places[:, None, :], rises, self._gradients[triangle])
+
+    def _around(self, places: FloatArray, corners: FloatArray) -> FloatArray:
+        """Elevations (n, 7) at places, and one and two steps from there towards the corners (n, 3, 2)."""
+        ways = _STEP * (corners - places[:, None, :])
+        here = places[:, None, :]
+        return self._elevations(np.concatenate([here, here + ways, here + 2.0 * ways], axis=1))
 
     def _elevations(self, places: FloatArray) -> FloatArray:
         return np.asarray(self._cubic(places) if self._cubic is not None else np.nan, np.float64)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mudline.contact.arrays import FloatArray, IndexArray
+from mudline.contact.vectors import cross, dot, scaled
 
 _ALONG_Y = np.array([0.0, 1.0, 0.0])
 _ALONG_Z = np.array([0.0, 0.0, 1.0])
@@ -12,20 +13,42 @@ _STEEPEST = 1.0e-9
 """Sine of the angle to the bed normal below which a direction has no projection on the bed."""
 
 
-def axial(points: FloatArray, element_nodes: IndexArray, normals: FloatArray) -> tuple[FloatArray, FloatArray]:
+def senses(element_nodes: IndexArray, nodes: int) -> FloatArray:
+    """How the tangent of each element (m, 2) counts at its first and at its second node: 1 or -1, (m, 2).
+
+    -1 where the two elements of a node both begin or both end there, and this is the later one: so the line goes
+    through the node, whichever way its elements are written.
+    """
+    sense = np.ones(element_nodes.shape)
+    counts = [np.bincount(end, minlength=nodes) for end in element_nodes.T]
+    for side, end in enumerate(element_nodes.T):
+        twice = (counts[side] == 2) & (counts[1 - side] == 0)
+        later = np.zeros(nodes, np.intp)
+        later[end] = np.arange(len(end))  # of several the last one stays
+        sense[later[twice], side] = -1.0
+    return sense
+
+
+def axial(
+    points: FloatArray, element_nodes: IndexArray, normals: FloatArray, sense: FloatArray | None = None
+) -> tuple[FloatArray, FloatArray]:
     """Directions u1 along the line and u2 = n x u1, each (n, 3), of nodes at `points` (n, 3).
 
     u1 is the mean of the unit tangents of the node's elements (m, 2), projected on the plane with the unit normal
-    (n, 3); where that leaves nothing, +Y is projected instead.
+    (n, 3); where that leaves nothing, +Y is projected instead. An element with a node at NaN has no tangent. `sense`
+    is that of `senses`; None where all elements run the same way.
     """
-    first, second = element_nodes.T
-    span = points[second] - points[first]
-    length = np.sqrt(np.einsum("ij,ij->i", span, span))
-    unit = np.divide(span, length[:, None], out=np.zeros_like(span), where=length[:, None] > 0.0)
-    total = np.zeros_like(points)
-    for axis in range(3):
-        for end in (first, second):
-            total[:, axis] += np.bincount(end, unit[:, axis], len(points))
+    ends = np.ascontiguousarray(element_nodes.T)
+    span = [np.subtract(column[ends[1]], column[ends[0]]) for column in np.ascontiguousarray(points.T)]
+    length = np.sqrt(span[0] * span[0] + span[1] * span[1] + span[2] * span[2])
+    length[~(length > 0.0)] = np.inf  # no tangent
+    total = np.empty(points.shape)
+    for axis, part in enumerate(span):
+        unit = np.divide(part, length, out=part)
+        unit[np.isnan(unit)] = 0.0
+        given = [unit if sense is None else unit * sense[:, side] for side in range(2)]
+        total[:, axis] = np.bincount(ends[0], given[0], len(points))
+        total[:, axis] += np.bincount(ends[1], given[1], len(points))
     return in_plane(total, normals)
 
 
@@ -34,7 +57,7 @@ def at_angle(angles: FloatArray, normals: FloatArray) -> tuple[FloatArray, Float
     along, across = in_plane(np.broadcast_to(_ALONG_Y, normals.shape), normals)
     turn = np.radians(angles)[:, None]
     first = np.cos(turn) * along + np.sin(turn) * across
-    return first, np.cross(normals, first)
+    return first, cross(normals, first)
 
 
 def in_plane(wanted: FloatArray, normals: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -48,13 +71,15 @@ def in_plane(wanted: FloatArray, normals: FloatArray) -> tuple[FloatArray, Float
         if not lost.any():
             break
         first[lost] = _projected(np.broadcast_to(instead, (int(lost.sum()), 3)), normals[lost])
-    return first, np.cross(normals, first)
+    return first, cross(normals, first)
 
 
 def _projected(wanted: FloatArray, normals: FloatArray) -> FloatArray:
     """Unit vectors in the planes, NaN where there is none."""
-    rest = wanted - np.einsum("ij,ij->i", wanted, normals)[:, None] * normals
-    size, whole = (np.sqrt(np.einsum("ij,ij->i", part, part)) for part in (rest, wanted))
-    seen = size > _STEEPEST * whole
-    unit: FloatArray = np.divide(rest, size[:, None], out=np.full(rest.shape, np.nan), where=seen[:, None])
-    return unit
+    rest = scaled(normals, dot(wanted, normals))
+    np.subtract(wanted, rest, out=rest)
+    size, whole = (np.sqrt(dot(part, part)) for part in (rest, wanted))
+    size[~(size > _STEEPEST * whole)] = np.nan
+    for axis in range(3):
+        rest[:, axis] /= size
+    return rest

@@ -12,8 +12,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mudline.contact.arrays import BoolArray, FloatArray
+from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.contact.friction.law import FrictionHistory, FrictionLaw, FrictionState
+from mudline.contact.vectors import dot, scaled
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -97,15 +98,20 @@ def slide(
     closed = law.active & (compression > 0.0)
     anchored = closed & (history.states[:, 0] > FrictionState.OPEN)
     anchors = np.where(anchored[:, None], history.anchors, points)
-    axes = np.stack(directions, axis=1)
-    springs = _springs(law, np.where(closed, compression, 0.0), np.einsum("nij,nj->ni", axes, points - anchors))
+    way = points - anchors
+    elongation = np.empty((len(points), 2))
+    for side, axis in enumerate(directions):
+        elongation[:, side] = dot(axis, way)
+    springs = _springs(law, np.where(closed, compression, 0.0), elongation)
     limits = _limits(law, springs, np.where(closed, compression, 0.0), extra)
     mapped = _box(springs, limits)
-    if law.ellipse.any():
-        mapped = _chosen(law.ellipse, _ellipse(springs, limits), mapped)
-    stretch = np.divide(mapped.force, springs.stiffness, out=springs.elongation.copy(), where=springs.stiffness > 0.0)
-    moved = np.where(mapped.slips, springs.elongation - stretch, 0.0)
-    anchors = anchors + np.einsum("ni,nij->nj", moved, axes)
+    curved = np.flatnonzero(law.ellipse & closed)
+    if curved.size:
+        _ellipses_in(mapped, curved, springs, limits)
+    stretch = np.where(springs.stiffness > 0.0, mapped.force / springs.stiffness, elongation)
+    moved = np.where(mapped.slips, elongation - stretch, 0.0)
+    for side, axis in enumerate(directions):
+        anchors += scaled(axis, moved[:, side])
     states = np.where(mapped.slips, FrictionState.SLIP, FrictionState.STICK)
     return FrictionForce(
         _on_pipe(mapped.force, closed),
@@ -113,7 +119,7 @@ def slide(
         _on_pipe(mapped.by_offset, closed),
         _on_pipe(mapped.by_compression, closed),
         springs.elongation,
-        np.where(closed, (mapped.force * moved).sum(axis=1), 0.0),
+        np.where(closed, mapped.force[:, 0] * moved[:, 0] + mapped.force[:, 1] * moved[:, 1], 0.0),
         _remembered(law, closed, anchors, states.astype(np.int8)),
     )
 
@@ -173,15 +179,14 @@ def _ellipse(springs: _Springs, limits: _Limits) -> _Mapped:
     return _Mapped(force, by_position, by_offset, by_compression, slips)
 
 
-def _chosen(where: BoolArray, one: _Mapped, other: _Mapped) -> _Mapped:
-    by_node = where[:, None]
-    return _Mapped(
-        np.where(by_node, one.force, other.force),
-        np.where(by_node[..., None], one.by_position, other.by_position),
-        np.where(by_node, one.by_offset, other.by_offset),
-        np.where(by_node, one.by_compression, other.by_compression),
-        np.where(by_node, one.slips, other.slips),
+def _ellipses_in(mapped: _Mapped, nodes: IndexArray, springs: _Springs, limits: _Limits) -> None:
+    """Put the mapping of the ellipses in the place of that of the boxes at `nodes`."""
+    by_ellipse = _ellipse(
+        _Springs(*(values.take(nodes, axis=0) for values in springs)),
+        _Limits(*(values.take(nodes, axis=0) for values in limits)),
     )
+    for whole, values in zip(mapped, by_ellipse, strict=True):
+        whole[nodes] = values
 
 
 def _on_pipe(values: FloatArray, closed: BoolArray) -> FloatArray:

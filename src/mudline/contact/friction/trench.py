@@ -14,6 +14,7 @@ import numpy as np
 
 from mudline.contact.arrays import FloatArray, IndexArray
 from mudline.contact.friction.return_mapping import ExtraLimit
+from mudline.contact.vectors import dot, scaled
 
 
 class Centreline(Protocol):
@@ -76,6 +77,11 @@ class StraightCentreline:
         across[1:, 1:] = np.eye(2) - np.outer(along, along)
         return found, np.broadcast_to(across, (len(points), 3, 3))
 
+    def nearest_along(self, points: FloatArray, lateral: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """The same; of the changes only that along `lateral` (n, 3), as gradients (n, 3)."""
+        found, across = self.nearest(points)
+        return found, lateral @ across[0] if len(points) else lateral.copy()
+
 
 class LaidCentreline:
     """The line through the nodes as they were laid: straight between the two nodes of an element.
@@ -85,14 +91,35 @@ class LaidCentreline:
     """
 
     def __init__(self, laid: FloatArray, element_nodes: IndexArray) -> None:
-        self._start = laid[element_nodes[:, 0]]
-        self._span = laid[element_nodes[:, 1]] - self._start
-        self._square = np.einsum("ij,ij->i", self._span, self._span)
-        self._ends = element_nodes
-        self._elements_at = _two_of_each(element_nodes, len(laid))
+        known = ~np.isnan(laid[:, 0])  # NaN stands for nodes without a position
+        self._ends = element_nodes[known[element_nodes].all(axis=1)]
+        self._start = laid[self._ends[:, 0]]
+        self._span = laid[self._ends[:, 1]] - self._start
+        self._square = dot(self._span, self._span)
+        self._elements_at = _two_of_each(self._ends, len(laid))
 
     def nearest(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
         """The nearest points of the laid line; see `Centreline`."""
+        found, elements, inside = self._settled(points)
+        across = np.broadcast_to(np.eye(3), (len(points), 3, 3)).copy()
+        span, square = self._span[elements[inside]], self._square[elements[inside]]
+        across[inside] -= span[:, :, None] * span[:, None, :] / square[:, None, None]
+        # a node without elements is its own centreline
+        across[elements < 0] = 0.0
+        return found, across
+
+    def nearest_along(self, points: FloatArray, lateral: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """The same; of the changes only that along `lateral` (n, 3), as gradients (n, 3)."""
+        found, elements, inside = self._settled(points)
+        gradient = lateral.copy()
+        span, square = self._span.take(elements[inside], axis=0), self._square[elements[inside]]
+        held = lateral.take(inside, axis=0)
+        gradient[inside] = held - scaled(span, dot(held, span) / square)
+        gradient[elements < 0] = 0.0
+        return found, gradient
+
+    def _settled(self, points: FloatArray) -> tuple[FloatArray, IndexArray, IndexArray]:
+        """Nearest points, their elements (-1 for nodes without one), and which nodes' points are inside of theirs."""
         current, other = self._elements_at.T.copy()
         held = np.flatnonzero(current >= 0)
         found = points.copy()
@@ -103,6 +130,8 @@ class LaidCentreline:
         better = beside[nearer]
         share[better], distance[better], found[held[better]] = second[nearer], away[nearer], foot[nearer]
         current[held[better]] = other[held[better]]
+        shares = np.zeros(len(points))
+        shares[held] = share
         while held.size:
             following = self._beyond(current[held], share)
             ahead = np.flatnonzero(following >= 0)
@@ -110,30 +139,19 @@ class LaidCentreline:
             share, foot, distance = self._foot(points[held], following)
             nearer = distance < before
             held, share, distance = held[nearer], share[nearer], distance[nearer]
-            current[held], found[held] = following[nearer], foot[nearer]
-        return found, self._across(points, current)
-
-    def _across(self, points: FloatArray, elements: IndexArray) -> FloatArray:
-        """I - d d where the foot moves along the element's direction d, I where it stands at an end."""
-        across = np.broadcast_to(np.eye(3), (len(points), 3, 3)).copy()
-        inside = np.flatnonzero(elements >= 0)
-        share, _, _ = self._foot(points[inside], elements[inside])
-        inside = inside[(share > 0.0) & (share < 1.0)]
-        span, square = self._span[elements[inside]], self._square[elements[inside]]
-        across[inside] -= span[:, :, None] * span[:, None, :] / square[:, None, None]
-        # a node without elements is its own centreline
-        across[elements < 0] = 0.0
-        return across
+            current[held], found[held], shares[held] = following[nearer], foot[nearer], share
+        return found, current, np.flatnonzero((shares > 0.0) & (shares < 1.0))
 
     def _foot(self, points: FloatArray, elements: IndexArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Share of the element, nearest point and distance of each point on an element."""
-        from_start = points - self._start[elements]
+        start, span = self._start.take(elements, axis=0), self._span.take(elements, axis=0)
         square = self._square[elements]
-        along = np.einsum("ij,ij->i", from_start, self._span[elements])
-        share = np.clip(np.divide(along, square, out=np.zeros_like(along), where=square > 0.0), 0.0, 1.0)
-        foot = self._start[elements] + share[:, None] * self._span[elements]
+        share = dot(points - start, span) / np.where(square > 0.0, square, np.inf)
+        np.minimum(np.maximum(share, 0.0, out=share), 1.0, out=share)
+        foot = scaled(span, share)
+        foot += start
         away = points - foot
-        return share, foot, np.sqrt(np.einsum("ij,ij->i", away, away))
+        return share, foot, np.sqrt(dot(away, away))
 
     def _beyond(self, elements: IndexArray, share: FloatArray) -> IndexArray:
         """The element behind the end that the foot stands on; -1 inside an element and at the end of the line."""

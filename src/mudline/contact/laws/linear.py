@@ -5,10 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from mudline.contact.arrays import FloatArray, IndexArray
-from mudline.contact.extras import Smoothing
 from mudline.contact.inputs import ContactInput, LawKind
-from mudline.contact.laws.smoothing import force_and_slope
-from mudline.contact.laws.spring import Spring
+from mudline.contact.laws.spring import Spring, Springs
 
 
 def linear_spring(stiffness: FloatArray, depth: FloatArray, diameter: FloatArray) -> Spring:
@@ -27,20 +25,18 @@ class LinearSprings:
     elements: IndexArray
     stiffness: FloatArray
     diameter: FloatArray
-    smoothing: Smoothing | None = None
 
     def spring(self, element: IndexArray, depth: FloatArray, ratio: FloatArray) -> Spring:
         """See `Springs`."""
         del ratio  # the law is one of penetration
-        stiffness, diameter = self.stiffness[element], self.diameter[element]
-        if self.smoothing is None:
-            return linear_spring(stiffness, depth, diameter).checked()
-        width, one_sided = self.smoothing.half_width[element], self.smoothing.one_sided[element]
-        force, slope = force_and_slope(depth, stiffness, width, one_sided)
-        return Spring(force, slope * diameter, slope).checked()
+        return linear_spring(self.stiffness[element], depth, self.diameter[element]).checked()
 
 
-def linear_springs(inputs: ContactInput) -> list[LinearSprings]:
+def linear_springs(inputs: ContactInput) -> list[Springs]:
     """Return the group of all elements with a linear law."""
     on_linear = inputs.with_law(LawKind.LINEAR)
-    return [LinearSprings(on_linear, inputs.linear_stiffness, inputs.diameter, inputs.extras.smoothing)]
+    if inputs.extras.smoothing is None:
+        return [LinearSprings(on_linear, inputs.linear_stiffness, inputs.diameter)]
+    from mudline.contact.laws.smoothed import SmoothedSprings  # noqa: PLC0415 - only now is it needed
+
+    return [SmoothedSprings(on_linear, inputs.linear_stiffness, inputs.diameter, inputs.extras.smoothing)]

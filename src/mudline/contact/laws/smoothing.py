@@ -17,6 +17,7 @@ from mudline.contact.arrays import BoolArray, FloatArray
 
 _WIDEST = 0.25 * np.finfo(np.float64).max
 """Half widths above this are halved in the sums, which would overflow."""
+_SMALL_SHARE = 2.0**-960
 
 
 def force_and_slope(
@@ -54,9 +55,11 @@ def _in_the_zone(
     scale = np.where(h > _WIDEST, 0.5, 1.0)
     width = scale * h
     way = scale * z + np.where(one_sided, 0.0, width)
-    share = way / np.where(h > 0.0, 2.0 * width, 1.0)
+    # a share too small for all of its digits is reckoned larger by a power of two
+    lift = np.where(way < _SMALL_SHARE * width, 2.0**60, 1.0)
+    share = lift * way / np.where(h > 0.0, 2.0 * width, 1.0)
     large, small = np.maximum(stiffness, way), np.minimum(stiffness, way)
-    return (large * (share * (0.5 / scale))) * small, stiffness * share
+    return (large / lift * (share * (0.5 / scale))) * small, stiffness / lift * share
 
 
 def zone_start(h: FloatArray, one_sided: BoolArray) -> FloatArray:

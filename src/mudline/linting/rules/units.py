@@ -38,6 +38,8 @@ SOFTEST = 100.0
 """N/m per metre: a seabed that is softer is one in kN."""
 WEAKEST = 10.0
 """N/m: likewise."""
+WEAKEST_SOIL = 100.0
+"""Pa: a cohesion in kPa."""
 WIDEST = 10.0
 """m: a wider pipe is one in millimetres."""
 ROUGHEST = 2.0
@@ -86,8 +88,9 @@ def suspicious_magnitude(context: LintContext) -> Iterator[Problem]:
     """A value of a metric deck looks as if it were in kilonewtons or millimetres.
 
     Metric decks are in metres and newtons. A seabed of less than 100 N/m for each metre, or a curve that nowhere
-    reaches 10 N/m, does not carry any pipe; and no pipe is wider than 10 m. Such a value is written in other units, as
-    a rule. Write it in metres and newtons. A stiffness of 0 is not told.
+    reaches 10 N/m, does not carry any pipe; a cohesion of less than 100 Pa is that of a fluid; and no pipe is wider
+    than 10 m. Such a value is written in other units, as a rule. Write it in metres and newtons. A stiffness or a
+    cohesion of 0 is not told.
 
     Bad:
         $MODEL
@@ -106,7 +109,7 @@ def suspicious_magnitude(context: LintContext) -> Iterator[Problem]:
     Finds: 5:12
     """
     if context.scene.units == "metric":
-        for kind in (_soft, _weak, _wide):
+        for kind in (_soft, _weak, _wide, _fluid):
             yield from islice(kind(context.scene), MOST_TOLD)
 
 
@@ -130,6 +133,15 @@ def _wide(scene: Scene) -> Iterator[Problem]:
         if section.diameter > WIDEST:
             message = f"an external diameter {section.source} of {section.diameter!r} m: write it in metres (mm?)"
             yield Problem(UNT002, message, where=_diameter(scene.deck, section.where, section.source))
+
+
+def _fluid(scene: Scene) -> Iterator[Problem]:
+    suction = scene.extensions.get("SEABED SUCTION")
+    for entry, where in zip(suction.entries, suction.places, strict=True) if suction else ():
+        cohesion = getattr(entry, "cohesion", None)
+        if isinstance(cohesion, float) and 0.0 < cohesion < WEAKEST_SOIL:
+            message = f"a cohesion of {cohesion!r} Pa: write it in pascals (kPa?)"
+            yield Problem(UNT002, message, where=where._replace(path=(*where.path, "cohesion")))
 
 
 def _diameter(deck: Deck, where: Where, source: str) -> Where:

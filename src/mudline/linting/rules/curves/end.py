@@ -10,8 +10,8 @@ from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
+from mudline.scene.floor import FloorKind
 from mudline.scene.force_curves import SceneCurve
-from mudline.scene.left_out import left_out
 
 CRV008 = Code("CRV008", "steep-extrapolation", Severity.WARNING)
 CRV013 = Code("CRV013", "flat-last-segment", Severity.WARNING)
@@ -172,7 +172,7 @@ def beyond_curve(context: LintContext) -> Iterator[Problem]:
     Finds: 14:2
     """
     scene = context.scene
-    if "floor" in left_out(scene.deck):
+    if scene.floor.kind is not FloorKind.FLAT:
         return
     if not any(curve.usable for curve in scene.laws.curves):
         return

@@ -67,7 +67,7 @@ def unused_curve(context: LintContext) -> Iterator[Problem]:
 
     It was measured or calculated for something, so perhaps the elements that it was meant for follow another law. Name
     it in a STIFFNESS= of *SEABED PROPERTIES, or remove it. Nothing is said of a deck whose STIFFNESS= is an equation:
-    its parameters choose the curve.
+    its parameters choose the curve; nor of a curve whose name reads as a number, which SBD017 tells.
 
     Bad:
         $MODEL
@@ -106,15 +106,16 @@ def unused_curve(context: LintContext) -> Iterator[Problem]:
         name = folded(curve.name)
         if curve.embedment or not curve.named or name in scene.laws.referenced:
             continue
+        if read_number(name) is not None:  # a STIFFNESS= may mean it, which SBD017 tells
+            continue
         if name in unused:
             unused[name].append(curve)
         elif not scene.context.near(name, unknown):  # else it is misspelt where it is used, which has been told
             unused[name] = [curve]
     places = [curve.where for curves in unused.values() for curve in curves]
     repairs = removals(context.text, places) if context.text else {}
-    for name, (curve, *_) in unused.items():
-        number = "; a name that reads as a number is taken for the number" if read_number(name) is not None else ""
-        message = f"curve {shown(curve.name)} is not used: name it in a STIFFNESS=, or remove it{number}"
+    for curve, *_ in unused.values():
+        message = f"curve {shown(curve.name)} is not used: name it in a STIFFNESS=, or remove it"
         yield Problem(REF003, message, where=curve.title, repair=repairs.get(curve.where))
 
 

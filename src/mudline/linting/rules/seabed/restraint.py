@@ -6,11 +6,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from mudline.codes import SBD004
 from mudline.contact.inputs import LawKind
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
-from mudline.scene.left_out import left_out
+from mudline.scene.floor import FloorKind
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices
 
@@ -76,6 +77,8 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
         return
     if reading.unread.intersection(_LEGACY) or "SEABED CONTACT" in scene.deck.keywords():
         return  # a law that was not read may hold
+    if any(problem.code is SBD004 for problem in scene.problems):
+        return  # that there is no stiffness has been told
     free = scene.law == LawKind.NONE
     yield from _blocks(scene, np.flatnonzero(free & (scene.laws.covered >= 0)))
     yield from _lying(scene, np.flatnonzero(free & (scene.laws.covered < 0)))
@@ -104,7 +107,7 @@ def _lying(scene: Scene, elements: Indices) -> Iterator[Problem]:
     if not elements.size:
         return
     uncertain = scene.laws.uncertain or "SEABED PROPERTIES" in scene.context.unread
-    if uncertain or "floor" in left_out(scene.deck) or scene.deck.keywords().intersection(_SOIL):
+    if uncertain or scene.floor.kind is not FloorKind.FLAT or scene.deck.keywords().intersection(_SOIL):
         return
     depth = _depths(scene, elements)
     seabed = bool(scene.laws.types or scene.laws.grants)

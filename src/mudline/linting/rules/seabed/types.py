@@ -108,7 +108,7 @@ def missing_type(context: LintContext) -> Iterator[Problem]:
     resolving = context.scene.context
     told = False
     for where, properties, type_ in typed_blocks(resolving):
-        if type_ is None and not told and not resolving.lacks_value(where, "type"):
+        if type_ is None and not told and not resolving.disturbed(where):
             told = True
             yield Problem(
                 SBD003, "the type is missing: write TYPE=RIGID or TYPE=ELASTIC as the first line", where=where

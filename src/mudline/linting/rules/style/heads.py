@@ -7,10 +7,12 @@ from collections.abc import Iterator
 
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Code, Problem, Repair, Severity, Span
+from mudline.keywords import catalogue
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
 from mudline.linting.rules.style.lines import first_told
 from mudline.syntax.fields import trimmed
+from mudline.syntax.tree import canonical_name
 
 STY005 = Code("STY005", "indented-keyword", Severity.WARNING)
 STY006 = Code("STY006", "keyword-case", Severity.INFO)
@@ -88,10 +90,15 @@ def _small(text: TextOrigin) -> Iterator[Problem]:
     source = text.source.unified
     for _, head in _heads(text):
         written = source[slice(*head)]
-        if _SMALL.search(written):
+        if _SMALL.search(written) and _known(written):
             what = "section" if written[0] == "$" else "keyword"
             repair = Repair("safe", "write it in upper case", ((head, written.translate(_UPPER)),))
             yield Problem(STY006, f"the {what} is not in upper case: write it so", head, repair=repair)
+
+
+def _known(head: str) -> bool:
+    """Whether a head names a known section or keyword: what stands behind a name may be a remark."""
+    return canonical_name(head) in (catalogue.SECTIONS if head[0] == "$" else catalogue.keywords())
 
 
 def _heads(text: TextOrigin) -> Iterator[tuple[int, Span]]:

@@ -1,0 +1,186 @@
+"""The columns of elements and nodes: one description for all formats."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mudline.contact import ContactResult
+from mudline.results.evaluation import Evaluation, Part
+from mudline.scene.numbering import Floats
+
+Values = NDArray[Any]
+Names = tuple[str | None, ...]
+
+STATES: Names = ("free", "compression", "suction", "hold", "broken", None)
+"""Of an element with suction, by number; the last one stands for -1."""
+SLIDING: Names = ("open", "stick", "slip", None)
+"""Of a direction of a node with friction."""
+CUT = "curve-cut"
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """A column for rows that are the same ones at all steps.
+
+    Attributes:
+        name: as in the contract.
+        values: (rows,), or with steps (steps, rows); a vector has one more axis of 3.
+        names: the texts of a column of texts, whose values are indices; -1 is the last one, None. Empty for numbers.
+        vector: whether a value has three components.
+        over_steps: whether the column is one that a step may change, even if nothing does in this scene.
+    """
+
+    name: str
+    values: Values
+    names: Names = ()
+    vector: bool = False
+    over_steps: bool = True
+
+    @property
+    def steady(self) -> bool:
+        """Whether the values have no axis for steps."""
+        return self.values.ndim == 1 + self.vector
+
+    def flat(self) -> list[Column]:
+        """The column itself, or the three of a vector."""
+        if not self.vector:
+            return [self]
+        axes = enumerate(("_x", "_y", "_z"))
+        return [Column(self.name + axis, self.values[..., i], over_steps=self.over_steps) for i, axis in axes]
+
+    def cut(self, first: int, last: int) -> Values:
+        """The values of some steps, also of a steady column, as (steps, rows) or (steps, rows, 3)."""
+        if self.steady:
+            return np.broadcast_to(self.values, (last - first, *self.values.shape))
+        return self.values[first:last]
+
+
+class Table(Protocol):
+    """Makes the columns of elements or nodes for some steps."""
+
+    @property
+    def rows(self) -> int:
+        """Number of rows of a step."""
+
+    def columns(self, part: Part) -> list[Column]:
+        """The columns, those that hold for all steps in front."""
+
+
+class ElementTable:
+    """The evaluated elements.
+
+    `others` are columns besides those of the contract, by name: values (m,) of all elements for each step asked for.
+    """
+
+    def __init__(self, evaluation: Evaluation, others: Others | None = None) -> None:
+        scene, self._chosen = evaluation.scene, evaluation.elements
+        self._others = others
+        set_codes, sets = coded(scene.law_sets)
+        laws, names = coded(scene.law_names)
+        self._laws = laws[self._chosen]
+        self._may_cut = evaluation.model.input.tension == "cut"
+        self._names: Names = (*names[:-1], CUT, None)
+        self._fixed = [
+            Column("element", scene.element_ids[self._chosen], over_steps=False),
+            Column("set", set_codes[self._chosen], sets, over_steps=False),
+            Column("diameter", scene.diameter[self._chosen], over_steps=False),
+            Column("length", evaluation.length[self._chosen], over_steps=False),
+        ]
+
+    @property
+    def rows(self) -> int:
+        """Number of rows of a step."""
+        return len(self._chosen)
+
+    def columns(self, part: Part) -> list[Column]:
+        """The columns of the contract, then the others."""
+        result = part.result
+        numbers = ("depth", "ratio", "contact", "force", "slope", "stiffness")
+        found = [
+            *self._fixed,
+            *(Column(name, kept(getattr(result, name), self._chosen)) for name in numbers),
+            Column("law", self._law(result), self._names),
+            Column("state", codes_of(result.state, self._chosen), STATES),
+        ]
+        if self._others is not None:
+            found += [Column(name, kept(values, self._chosen)) for name, values in self._others(part)]
+        return found
+
+    def _law(self, result: ContactResult) -> Values:
+        if not self._may_cut:
+            return self._laws
+        return np.where(kept(result.cut, self._chosen), np.int32(len(self._names) - 2), self._laws)
+
+
+class Others(Protocol):
+    """Gives further columns of elements."""
+
+    def __call__(self, part: Part) -> Sequence[tuple[str, Floats]]:
+        """Names, and values (steps, m)."""
+
+
+class NodeTable:
+    """The nodes that have a position. Without friction its forces are 0 and its states none."""
+
+    def __init__(self, evaluation: Evaluation) -> None:
+        self._chosen = evaluation.nodes
+        self._fixed = [Column("node", evaluation.scene.node_ids[self._chosen], over_steps=False)]
+
+    @property
+    def rows(self) -> int:
+        """Number of rows of a step."""
+        return len(self._chosen)
+
+    def columns(self, part: Part) -> list[Column]:
+        """The columns of the contract."""
+        result, chosen = part.result, self._chosen
+        axial, lateral = _by_direction(result.friction)
+        axial_state, lateral_state = _by_direction(result.friction_state)
+        return [
+            *self._fixed,
+            Column("gap", kept(result.gap, chosen)),
+            Column("normal", self._normal(result.normal), vector=True),
+            Column("reaction", kept(result.reaction, chosen), vector=True),
+            Column("normal_force", kept(result.normal_force, chosen)),
+            Column("axial_force", self._force(axial)),
+            Column("lateral_force", self._force(lateral)),
+            Column("axial_state", codes_of(axial_state, chosen), SLIDING),
+            Column("lateral_state", codes_of(lateral_state, chosen), SLIDING),
+        ]
+
+    def _normal(self, normal: Values) -> Values:
+        """One row of nodes where all points of the bed share a normal."""
+        return kept(normal, self._chosen) if any(normal.strides[:2]) else np.array(normal[0, self._chosen])
+
+    def _force(self, force: Values | None) -> Values:
+        return np.zeros(self.rows) if force is None else kept(force, self._chosen)
+
+
+def coded(texts: Sequence[str | None]) -> tuple[NDArray[np.int32], Names]:
+    """Texts as indices of the different ones; -1 is None, which stands at the end of the names."""
+    number: dict[str | None, int] = {}
+    for text in texts:
+        if text is not None:
+            number.setdefault(text, len(number))
+    names = (*number, None)
+    number[None] = -1
+    return np.array([number[text] for text in texts], dtype=np.int32).reshape(len(texts)), names
+
+
+def codes_of(states: Values | None, chosen: NDArray[np.intp]) -> Values:
+    """The states of those elements or nodes; none where no law has states."""
+    return np.full(len(chosen), -1, np.int8) if states is None else kept(states, chosen)
+
+
+def kept(array: Values, chosen: NDArray[np.intp]) -> Values:
+    """The columns (steps, k, ...) of those elements or nodes that have a position; no copy when all have one."""
+    return array if array.shape[1] == len(chosen) else array[:, chosen]
+
+
+def _by_direction(values: Values | None) -> tuple[Values | None, Values | None]:
+    return (None, None) if values is None else (values[..., 0], values[..., 1])

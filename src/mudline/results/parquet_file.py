@@ -1,0 +1,67 @@
+"""Results as Parquet, a group of rows at a time. It needs the extra `parquet`."""
+
+from __future__ import annotations
+
+from types import TracebackType
+from typing import BinaryIO, Self
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from mudline.results.columns import Column, Table
+from mudline.results.evaluation import Evaluation, Part
+from mudline.scene.numbering import Floats
+
+GROUP = 1 << 18
+"""Rows of a group, as soon as there are so many."""
+
+
+class ParquetFile:
+    """The columns of CSV: vectors as three, no value as null; texts are kept once in each group of rows."""
+
+    def __init__(self, evaluation: Evaluation, table: Table, stream: BinaryIO) -> None:
+        self._table, self._times, self._stream = table, evaluation.time, stream
+        self._writer: pq.ParquetWriter | None = None
+        self._waiting: list[pa.Table] = []
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if kind is None:
+            self._flush()
+        if self._writer is not None:
+            self._writer.close()
+
+    def take(self, part: Part) -> None:
+        """Write some steps. Raises OSError."""
+        flat = [column for vector in self._table.columns(part) for column in vector.flat()]
+        fields = {column.name: _array(column, part.count) for column in flat}
+        if self._times is not None:
+            fields = {"time": _time(self._times[part.steps], self._table.rows), **fields}
+        self._waiting.append(pa.table(fields))
+        if sum(len(table) for table in self._waiting) >= GROUP:
+            self._flush()
+
+    def _flush(self) -> None:
+        """Write what waits as one group of rows."""
+        if self._waiting:
+            group = pa.concat_tables(self._waiting)
+            self._writer = self._writer or pq.ParquetWriter(self._stream, group.schema, compression="zstd")
+            self._writer.write_table(group, row_group_size=max(len(group), 1))
+            self._waiting = []
+
+
+def _array(column: Column, steps: int) -> pa.Array:
+    values = column.cut(0, steps).ravel()
+    if not column.names:
+        return pa.array(values, from_pandas=True)  # NaN is no value
+    codes = pa.array(values.astype(np.int32), mask=values < 0)
+    return pa.DictionaryArray.from_arrays(codes, pa.array(column.names[:-1], pa.string()))
+
+
+def _time(times: Floats, rows: int) -> pa.Array:
+    return pa.array(np.repeat(times, rows))

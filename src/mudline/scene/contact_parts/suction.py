@@ -1,0 +1,105 @@
+"""`*SEABED SUCTION`: the laws of the elements, in the deck's units."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from mudline.contact.extras import ElementSuction
+from mudline.contact.inputs import LawKind
+from mudline.contact.laws.spring import LawError
+from mudline.contact.suction.law import SuctionFactors, SuctionLaw, from_cohesion
+from mudline.scene.contact_parts.picking import number, picked, refuse, refuse_entry
+from mudline.scene.contact_parts.refused import RefusedError
+from mudline.scene.contact_parts.units import FORCE_UNIT, LENGTH_UNIT
+from mudline.scene.numbering import Floats, Indices, Mask
+
+if TYPE_CHECKING:
+    from mudline.scene.extensions import Extension
+    from mudline.scene.model import Scene
+
+KEYWORD = "SEABED SUCTION"
+_CORNERS = (0.2, 0.8)
+_SLOWEST = 1e-3
+"""Default of REGULARISATION=, m/s."""
+
+
+def element_suction(scene: Scene, *, keep: bool) -> ElementSuction | None:
+    """The laws of the elements on an elastic bed; None where no element has one.
+
+    `keep` says that curves which pull are kept. Raises RefusedError: a law that is incomplete, or needs metric or
+    imperial units, or has a value out of range, and an element that something else holds down too.
+    """
+    extension = scene.extensions[KEYWORD]
+    held = (extension.of_element >= 0) & (scene.law != LawKind.RIGID)
+    if not held.any():
+        return None
+    _check_alone(scene, extension, held, keep=keep)
+    elements = np.flatnonzero(held)
+    block = extension.of_element[elements]
+    _check_complete(scene, extension, block)
+    length_unit = LENGTH_UNIT.get(scene.units, math.nan)
+    corners = [[number(getattr(e, "cutoff", None), n) for e in extension.entries] for n in ("first", "second")]
+    first, second = (picked(column, block) for column in corners)
+    factors = _factors(scene, extension, elements, block)
+    law = SuctionLaw(
+        *factors,
+        first_corner=np.where(np.isnan(first), _CORNERS[0], first),
+        second_corner=np.where(np.isnan(second), _CORNERS[1], second),
+        cyclic=picked((number(e, "cyclic", 1.0) for e in extension.entries), block),
+        regularisation=picked((number(e, "regularisation", _SLOWEST / length_unit) for e in extension.entries), block),
+    )
+    try:
+        return ElementSuction(elements, law.checked())
+    except LawError as error:
+        message = f"element {scene.element_ids[elements[error.index]]}: {error}; this cannot be evaluated"
+        raise RefusedError(message, extension.places[int(block[error.index])]) from error
+
+
+def _check_alone(scene: Scene, extension: Extension, held: Mask, *, keep: bool) -> None:
+    ids = scene.element_ids
+    springs = held & (scene.bed.column("suction") > 0.0)
+    refuse(extension, springs, ids, "SUCTION= of *SEABED PROPERTIES holds the element too")
+    if keep:
+        arrays = scene.law_arrays()
+        pulls = [
+            bool((curve.evaluate(np.append(curve.ratios[curve.ratios > 0.0], 0.0))[0] < 0).any())
+            for curve in arrays.curves
+        ]
+        on_curve = np.array([*pulls, False])[arrays.curve_index]
+        pulled = held & on_curve & (arrays.law == LawKind.CURVE)
+        refuse(extension, pulled, ids, "the curve pulls too, unless it is cut with tension cut")
+
+
+def _check_complete(scene: Scene, extension: Extension, block: Indices) -> None:
+    for index in np.unique(block).tolist():
+        entry, where = extension.entries[index], extension.places[index]
+        given = {name: getattr(entry, name, None) is not None for name in ("cohesion", "force", "depth")}
+        both = given["force"] and given["depth"]
+        if not (given["cohesion"] or both):
+            refuse_entry(where, "set", "the suction law is incomplete: give COHESION=, or FORCE= and DEPTH=")
+        if scene.units not in LENGTH_UNIT:
+            if given["cohesion"] and not both:
+                refuse_entry(where, "cohesion", "COHESION= needs metric or imperial units: give FORCE= and DEPTH=")
+            if math.isnan(number(entry, "regularisation")):
+                refuse_entry(where, "set", "REGULARISATION= has no default with user units: give it")
+
+
+def _factors(scene: Scene, extension: Extension, elements: Indices, block: Indices) -> SuctionFactors:
+    """The power laws: explicit ones, else those that follow from cohesion and diameter."""
+    diameter = scene.diameter[elements]
+    cohesion = picked((number(entry, "cohesion") for entry in extension.entries), block)
+    units = LENGTH_UNIT.get(scene.units, 1.0), FORCE_UNIT.get(scene.units, 1.0)
+    reckoned = from_cohesion(cohesion, diameter, *units)
+    given = [
+        picked((number(getattr(entry, law, None), name) for entry in extension.entries), block)
+        for law, name in (("force", "factor"), ("force", "exponent"), ("depth", "factor"), ("depth", "exponent"))
+    ]
+    chosen: list[Floats] = [np.where(np.isnan(own), other, own) for own, other in zip(given, reckoned, strict=True)]
+    unsized = np.zeros(len(scene.element_ids), dtype=np.bool_)
+    unsized[elements] = np.isnan(chosen[0]) | np.isnan(chosen[2])
+    what = "COHESION= needs the external diameter, which is not known"
+    refuse(extension, unsized, scene.element_ids, what)
+    return SuctionFactors(*chosen)

@@ -1,0 +1,124 @@
+"""`mudline evaluate` writes long series as they come: Parquet, no half-written file, a bar for who looks on."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterator
+from pathlib import Path
+from unittest.mock import patch
+
+import numpy as np
+import pytest
+
+from mudline.contact import ContactModel
+from mudline.contact.model import Stepped
+from mudline.results import parquet_file
+from tests.cli.conftest import Place
+from tests.cli.decks import CLEAN
+from tests.cli.runner import run
+from tests.cli.test_evaluate_files import STEPS
+from tests.cli.test_evaluate_states import BOTH, PULL
+
+pq = pytest.importorskip("pyarrow.parquet")
+OUTPUTS = ("out.csv", "out.json", "out.npz", "out.parquet")
+
+
+@pytest.fixture
+def long(folder: Path) -> str:
+    steps = np.zeros((12_000, 3, 3))
+    steps[:, :, 0] = -0.1 + 0.2 * np.sin(np.arange(12_000))[:, np.newaxis]
+    steps[:, :, 1] = [0.0, 10.0, 20.0]
+    np.save(folder / "long.npy", steps)
+    return "long.npy"
+
+
+@pytest.mark.parametrize(("deck", "text"), [(CLEAN, ""), (CLEAN, STEPS), (BOTH, PULL)])
+def test_parquet_holds_what_csv_does(place: Place, folder: Path, deck: str, text: str) -> None:
+    options = (place(deck), *(("--positions", place(text, "p.csv")) if text else ()))
+    assert run("evaluate", *options, "-o", "out.csv", "-q").code == 0
+    outcome = run("evaluate", *options, "-o", "out.parquet")
+    assert outcome.err == "mudline: nodes -> out-nodes.parquet\nmudline: deck.keyxm -> out.parquet\n"
+    for name in ("out", "out-nodes"):
+        table = pq.read_table(folder / f"{name}.parquet")
+        rows = list(csv.reader((folder / f"{name}.csv").read_text(encoding="utf-8").splitlines()))
+        assert table.column_names == rows[0]
+        for column, *texts in zip(*rows, strict=True):
+            values = table[column].to_pylist()
+            spelled = [_spelled(value) for value in values]
+            assert spelled == texts, column
+
+
+def _spelled(value: object) -> str:
+    if value is None:
+        return ""
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def test_parquet_has_groups_of_rows(place: Place, long: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(parquet_file, "GROUP", 10_000)
+    assert run("evaluate", place(), "--positions", long, "-o", "out.parquet", "-q").code == 0
+    file = pq.ParquetFile(folder / "out.parquet")
+    assert file.metadata.num_rows == 24_000
+    assert file.num_row_groups > 1
+    times = file.read()["time"].to_numpy()
+    assert (np.diff(times) >= 0.0).all()
+
+
+def test_without_pyarrow(place: Place, folder: Path) -> None:
+    with patch.dict("sys.modules", {"mudline.results.parquet_file": None}):
+        outcome = run("evaluate", place(), "-o", "out.parquet")
+    assert (outcome.code, outcome.out) == (1, "")
+    assert outcome.err == "mudline: .parquet needs pyarrow: pip install 'mudline[parquet]'\n"
+    assert [path.name for path in folder.iterdir()] == ["deck.keyxm"]
+
+
+@pytest.mark.parametrize("name", OUTPUTS)
+def test_interruption_leaves_no_file(
+    place: Place, long: str, folder: Path, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    stream = ContactModel.stream
+
+    def interrupted(model: ContactModel, positions: np.ndarray, **options: object) -> Iterator[Stepped]:
+        for part in stream(model, positions, **options):  # type: ignore[arg-type] # handed on as they are
+            yield part
+            raise KeyboardInterrupt
+
+    deck = place()
+    before = sorted(folder.iterdir())
+    monkeypatch.setattr(ContactModel, "stream", interrupted)
+    assert run("evaluate", deck, "--positions", long, "-o", name).code == 130
+    assert sorted(folder.iterdir()) == before
+
+
+@pytest.mark.parametrize("name", OUTPUTS)
+def test_fault_in_a_late_step_leaves_no_file(place: Place, long: str, folder: Path, name: str) -> None:
+    steps = np.load(folder / long)
+    steps[-1, 1, 0] = np.inf
+    np.save(folder / long, steps)
+    deck = place()
+    before = sorted(folder.iterdir())
+    outcome = run("evaluate", deck, "--positions", long, "-o", name)
+    assert (outcome.code, outcome.out) == (1, "")
+    assert "node 2 at step 11999" in outcome.err
+    assert sorted(folder.iterdir()) == before
+
+
+def test_bar_on_a_terminal(place: Place, long: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("mudline.cli.progress.DELAY", 0.0)
+    monkeypatch.delenv("CI", raising=False)
+    options = ("evaluate", place(), "--positions", long, "-o", "out.npz")
+    assert "/12000" in run(*options, terminal=True).err
+    assert "/12000" not in run(*options, "-q", terminal=True).err
+    assert "/12000" not in run(*options).err
+
+
+def test_npz_of_many_chunks(place: Place, long: str, folder: Path) -> None:
+    assert run("evaluate", place(), "--positions", long, "-o", "out.npz", "-q").code == 0
+    steps = np.load(folder / long)
+    with np.load(folder / "out.npz", allow_pickle=False) as archive:
+        assert archive["gap"].shape == (12_000, 3)
+        assert np.array_equal(archive["gap"], steps[:, :, 0])
+        assert archive["normal"].shape == (12_000, 3, 3)
+        assert (archive["law"] == "curve:Clay").all()
+        assert np.array_equal(archive["contact"], archive["depth"] > 0.0)
+        assert archive["time"].tolist() == list(range(12_000))

@@ -1,0 +1,124 @@
+"""`mudline evaluate --plot`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from unittest.mock import patch
+
+import numpy as np
+import pytest
+
+from mudline.results.plot_data import along, thinned
+from tests.cli.conftest import Place
+from tests.cli.decks import CLEAN, LINEAR
+from tests.cli.runner import SAMPLES, run
+from tests.cli.test_evaluate_files import STEPS
+
+pytest.importorskip("matplotlib")
+
+
+def words(folder: Path) -> str:
+    """The texts of an SVG picture stand in its comments."""
+    return (folder / "p.svg").read_text(encoding="utf-8")
+
+
+def test_one_state(place: Place, folder: Path) -> None:
+    outcome = run("evaluate", place(), "--plot", "p.svg")
+    assert (outcome.code, outcome.err) == (0, "mudline: plot -> p.svg\n")
+    assert "Elements in contact" in outcome.out
+    text = words(folder)
+    for label in ("height X [m]", "embedment [m]", "distance along Y [m]", "per unit length [N/m2]", "Clay"):
+        assert f"<!-- {label}" in text or label in text, label
+    assert "time [s]" not in text
+
+
+def test_steps_have_traces(place: Place, folder: Path) -> None:
+    options = ("--positions", place(STEPS, "steps.csv"), "--plot", "p.svg", "-o", "out.json")
+    assert run("evaluate", place(), *options).code == 0
+    text = words(folder)
+    for label in ("time [s]", "total reaction", "deepest", "when the total reaction is largest"):
+        assert label in text, label
+    assert (folder / "out.json").exists()
+    first = words(folder)
+    assert run("evaluate", place(), *options).code == 0
+    assert words(folder) == first
+
+
+def test_panels_without_data_are_left_out(place: Place, folder: Path) -> None:
+    assert run("evaluate", place(LINEAR), "--plot", "p.svg", "--units", "user").code == 0
+    text = words(folder)
+    assert "evaluated points" not in text
+    assert "[m]" not in text
+
+
+@pytest.mark.parametrize(
+    "deck",
+    [
+        CLEAN.replace("-0.1,", "9.0,"),
+        CLEAN.replace(" 2, 2, 3\n", "").replace(" 1, 2\n*GEO", " 1\n*GEO"),
+        CLEAN.replace(" 0.0\n 2,", " 10.0\n 2,").replace("20.0\n*E", "10.0\n*E"),
+        CLEAN.partition("*SEABED PROPERTIES")[0],
+        CLEAN.replace("Clay", "C$l$ay <&"),
+        CLEAN.replace("20.0\n*E", "1.0E150\n*E"),
+    ],
+    ids=["above the bed", "one element", "vertical", "no law", "odd name", "huge"],
+)
+def test_odd_scenes(place: Place, folder: Path, deck: str) -> None:
+    outcome = run("evaluate", place(deck), "--plot", "p.png")
+    assert outcome.code == 0
+    assert (folder / "p.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_large_model(place: Place, folder: Path) -> None:
+    numbers = "*NODE\n 1, -0.1, 0.0\n 20001, 0.1, 9000.0\n GEN=1, 20001\n*ELEMENT\n 1, 1, 2\n GEN=1, 20000\n"
+    rest = CLEAN.partition("*ELEMENT SETS\n SET=Pipe\n 1, 2\n")[2].replace("Pipe", "ALL")
+    assert run("evaluate", place(f"$MODEL\n{numbers}{rest}"), "--plot", "p.svg", "-q").code == 0
+    assert (folder / "p.svg").stat().st_size < 2_000_000
+
+
+def test_many_curves_and_many_steps(place: Place, folder: Path) -> None:
+    sample = SAMPLES / "legacy-flowline.keyxm"
+    assert run("evaluate", sample, "--plot", "p.png", "-q").code == 0
+    places = np.zeros((5000, 3, 3))
+    places[:, :, 0] = -0.05 + 0.1 * np.sin(np.arange(5000) * 0.7)[:, None]
+    places[:, :, 1] = [0.0, 10.0, 20.0]
+    np.save(folder / "p.npy", places)
+    assert run("evaluate", place(), "--positions", "p.npy", "--plot", "p.svg").code == 0
+    assert (folder / "p.svg").stat().st_size < 2_000_000
+
+
+def test_no_positions_leave_the_curve(place: Place) -> None:
+    (positions := Path("p.csv")).write_text("time,node,x,y,z\n0,2,-0.1,0,0\n1,2,-0.1,0,0\n", encoding="utf-8")
+    assert run("evaluate", place(), "--positions", positions, "--plot", "p.png").code == 0
+
+
+@pytest.mark.parametrize("name", ["p.jpg", "p", "p.pdf"])
+def test_other_forms_are_wrong_usage(place: Place, name: str) -> None:
+    outcome = run("evaluate", place(), "--plot", name)
+    assert (outcome.code, f"{name}: a plot is a .png or .svg" in outcome.err) == (2, True)
+
+
+def test_without_matplotlib(place: Place, folder: Path) -> None:
+    with patch.dict("sys.modules", {"mudline.results.evaluation_plot": None}):
+        outcome = run("evaluate", place(), "--plot", "p.png")
+    assert (outcome.code, outcome.out) == (1, "")
+    assert outcome.err == "mudline: .png needs matplotlib: pip install 'mudline[plot]'\n"
+    assert not (folder / "p.png").exists()
+
+
+def test_thinning_keeps_ends_and_extremes() -> None:
+    values = np.sin(np.arange(100_000) * 0.01)
+    values[777] = 5.0
+    kept = thinned(values, 200)
+    assert len(kept) <= 402
+    assert {0, 777, 99_999} <= set(kept.tolist())
+    assert thinned(values[:50], 200).tolist() == list(range(50))
+
+
+def test_distance_runs_from_the_first_node_to_the_last() -> None:
+    line = np.zeros((5, 3))
+    line[:, 1] = [8.0, 6.0, 4.0, 2.0, 0.0]
+    line[:, 2] = [6.0, 4.5, 3.0, 1.5, 0.0]
+    distance, direction = along(line)
+    assert distance == pytest.approx([0.0, 2.5, 5.0, 7.5, 10.0])
+    assert direction == pytest.approx([-0.8, -0.6])

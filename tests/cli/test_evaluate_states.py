@@ -1,0 +1,180 @@
+"""`mudline evaluate` with suction, friction, rigid beds and places without a bed: states and forces in every form."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.cli.conftest import Place
+from tests.cli.decks import CLEAN
+from tests.cli.runner import assert_fits, run
+
+UPLIFT = CLEAN + "*SEABED SUCTION\n SET=Pipe\n COHESION=4000.0\n"
+SLIDING = CLEAN + "*SEABED FRICTION\n SET=Pipe\n COEFFICIENTS=0.5, 0.5\n STIFFNESS=1.0E5\n"
+BOTH = SLIDING + UPLIFT.removeprefix(CLEAN)
+RIGID = CLEAN.partition("*SEABED PROPERTIES")[0] + "*SEABED PROPERTIES\n TYPE=RIGID\n SET=ALL\n"
+BOUNDED = CLEAN + "*SEABED PLANES\n PLANE=Shelf\n POINT=0.0, 0.0, 0.0\n SLOPE=0.0\n BOUNDS=-5.0, 15.0, -5.0, 5.0\n"
+
+PULL = """\
+time,node,x,y,z
+0,1,-0.1,0.0,0.0
+0,2,-0.1,10.0,0.0
+0,3,0.3,20.0,0.0
+1,1,-0.1,0.0,0.1
+1,2,-0.1,10.0,0.1
+1,3,0.3,20.0,0.1
+2,1,0.02,0.0,0.1
+2,2,0.02,10.0,0.1
+2,3,0.3,20.0,0.1
+3,1,0.02,0.0,0.1
+3,2,0.02,10.0,0.1
+3,3,0.3,20.0,0.1
+4,1,0.9,0.0,0.1
+4,2,0.9,10.0,0.1
+4,3,0.9,20.0,0.1
+"""
+
+
+@pytest.fixture
+def pulled(place: Place) -> tuple[str, str, str]:
+    return place(BOTH), "--positions", place(PULL, "pull.csv")
+
+
+def test_json_names_the_states(pulled: tuple[str, ...]) -> None:
+    outcome = run("evaluate", *pulled, "--output-format", "json")
+    assert outcome.code == 0
+    found = outcome.json()
+    assert_fits(found, "evaluate")
+    first = [step["elements"][0] for step in found["steps"]]
+    assert [row["state"] for row in first] == ["compression", "compression", "suction", "hold", "broken"]
+    assert first[2]["force"] < 0.0
+    assert first[3]["force"] == 0.0
+    nodes = [step["nodes"][0] for step in found["steps"]]
+    assert [(row["axial_state"], row["lateral_state"]) for row in nodes] == [
+        ("stick", "stick"),
+        ("stick", "slip"),
+        ("open", "open"),
+        ("open", "open"),
+        ("open", "open"),
+    ]
+    assert abs(nodes[1]["lateral_force"]) == pytest.approx(0.5 * nodes[1]["normal_force"])
+    assert nodes[1]["axial_force"] == pytest.approx(0.0, abs=1e-9)
+    assert found["steps"][2]["nodes"][0]["normal_force"] < 0.0
+
+
+def test_forms_agree(pulled: tuple[str, ...], folder: Path) -> None:
+    found = run("evaluate", *pulled, "--output-format", "json").json()
+    assert run("evaluate", *pulled, "-o", "out.npz", "-q").code == 0
+    with np.load(folder / "out.npz", allow_pickle=False) as archive:
+        arrays = dict(archive)
+    assert run("evaluate", *pulled, "-o", "out.csv", "-q").code == 0
+    for table, keys, name in (
+        ("elements", ("state", "force"), "out.csv"),
+        ("nodes", ("axial_state", "lateral_state", "axial_force", "lateral_force"), "out-nodes.csv"),
+    ):
+        rows = list(csv.DictReader((folder / name).read_text(encoding="utf-8").splitlines()))
+        for key in keys:
+            of_json = [row[key] for step in found["steps"] for row in step[table]]
+            assert arrays[key].ravel().tolist() == of_json
+            assert [row[key] for row in rows] == [str(value) for value in of_json]
+
+
+def test_velocities_of_the_file_are_used(place: Place) -> None:
+    lines = PULL.splitlines()
+    still = [lines[0] + ",vx,vy,vz", *(f"{line},0,0,0" for line in lines[1:])]
+    moving = [lines[0] + ",vx,vy,vz", *(f"{line},0.5,0,0" for line in lines[1:])]
+    states = []
+    for name, text in (("still.csv", still), ("moving.csv", moving)):
+        options = ("--positions", place("\n".join(text) + "\n", name), "--output-format", "json")
+        found = run("evaluate", place(UPLIFT), *options).json()
+        states.append([step["elements"][0]["state"] for step in found["steps"]])
+    assert states[0] == ["compression", "compression", "hold", "hold", "hold"]
+    assert states[1][2:4] == ["suction", "suction"]
+
+
+def test_velocities_of_an_archive(place: Place, folder: Path) -> None:
+    places = np.array([[-0.1, 0, 0], [-0.1, 10, 0], [0.3, 20, 0]])[np.newaxis] + np.zeros((3, 1, 1))
+    places[1:, :2, 0] = 0.02
+    rising = np.zeros_like(places)
+    rising[1, :, 0] = 0.5
+    np.savez(folder / "p.npz", positions=places, velocities=rising)
+    found = run("evaluate", place(UPLIFT), "--positions", "p.npz", "--output-format", "json").json()
+    assert [step["elements"][0]["state"] for step in found["steps"]] == ["compression", "suction", "hold"]
+
+
+def test_suction_needs_a_clock(place: Place, folder: Path) -> None:
+    places = np.zeros((3, 3, 3))
+    np.save(folder / "p.npy", places)
+    name = place(UPLIFT)
+    outcome = run("evaluate", name, "--positions", "p.npy")
+    assert (outcome.code, outcome.out) == (1, "")
+    assert "suction needs velocities, or the times of the steps: the positions have neither" in outcome.err
+    assert run("evaluate", name, "--positions", "p.npy", "--time-step", "0.5").code == 0
+    np.savez(folder / "p.npz", positions=places, time=[0.0, 2.0, 1.0])
+    outcome = run("evaluate", name, "--positions", "p.npz")
+    assert (outcome.code, outcome.out) == (1, "")
+    assert "times that rise: 1.0 follows 2.0" in outcome.err
+
+
+def test_time_step(place: Place, folder: Path) -> None:
+    np.save(folder / "p.npy", np.zeros((3, 3, 3)))
+    np.save(folder / "one.npy", np.zeros((3, 3)))
+    options = (place(), "--positions", "p.npy", "--time-step")
+    found = run("evaluate", *options, "0.25", "--output-format", "json").json()
+    assert [step["time"] for step in found["steps"]] == [0.0, 0.25, 0.5]
+    for given in ("0", "-1", "nan", "inf"):
+        outcome = run("evaluate", *options, given)
+        assert (outcome.code, outcome.out) == (2, "")
+        assert "it must be greater than 0" in outcome.err
+    assert "one.npy is one state" in run("evaluate", place(), "--positions", "one.npy", "--time-step", "1").err
+    timed = run("evaluate", place(), "--positions", place(PULL, "p.csv"), "--time-step", "1")
+    assert (timed.code, "p.csv has times of its own" in timed.err) == (2, True)
+
+
+def test_text_tells_states(place: Place, pulled: tuple[str, ...]) -> None:
+    text = run("evaluate", *pulled).out
+    assert "suction     nodes" in text
+    assert [line.split()[-2:] for line in text.splitlines()[5:10]] == [
+        ["0", "0"],
+        ["0", "2"],
+        ["1", "0"],
+        ["1", "0"],
+        ["0", "0"],
+    ]
+    single = run("evaluate", place(BOTH), "--table", "nodes").out
+    assert "axial friction of nodes    stick" in single
+    assert "suction of elements        compression" in single
+    assert single.splitlines()[-2].split()[-2:] == ["stick", "stick"]
+    elements = run("evaluate", place(BOTH)).out.splitlines()
+    assert elements[-2].split()[-1] == "compression"
+
+
+def test_rigid_bed_restrains_nodes(place: Place) -> None:
+    found = run("evaluate", place(RIGID), "--output-format", "json").json()
+    assert_fits(found, "evaluate")
+    assert found["restrained"] == [1, 2]
+    assert {row["law"] for row in found["elements"]} == {"rigid"}
+    series = run("evaluate", place(RIGID), "--positions", place(PULL, "p.csv"), "--output-format", "json").json()
+    assert_fits(series, "evaluate")
+    assert [step["restrained"] for step in series["steps"]] == [[1, 2], [1, 2], [], [], []]
+    assert "rigid bed  restrained nodes      2" in run("evaluate", place(RIGID)).out
+
+
+def test_no_seabed_is_no_value(place: Place, folder: Path) -> None:
+    name = place(BOUNDED)
+    outcome = run("evaluate", name, "--output-format", "json")
+    assert outcome.code == 0
+    found = outcome.json()
+    assert_fits(found, "evaluate")
+    assert found["nodes"][2]["gap"] is None
+    assert found["elements"][1]["depth"] is None
+    assert found["elements"][0]["depth"] == 0.1
+    rows = list(csv.DictReader(run("evaluate", name, "--output-format", "csv", "--table", "nodes").out.splitlines()))
+    assert [row["gap"] for row in rows] == ["-0.1", "-0.1", ""]
+    assert run("evaluate", name, "-o", "out.npz", "-q").code == 0
+    with np.load(folder / "out.npz") as archive:
+        assert np.isnan(archive["gap"][2])
+    assert "none" not in run("evaluate", name).out

@@ -1,0 +1,181 @@
+"""Lines that meet, stop, turn back or leave the bed, and nodes without elements."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from mudline.contact import ContactInput, ContactModel
+from mudline.contact.arrays import FloatArray
+from mudline.contact.extras import Extras
+from mudline.contact.floors import PlanesFloor
+from tests.contact.chains import LINEAR, at_depths, chain
+from tests.contact.joined import drawn, friction, model, nodal, trench, walk
+
+
+def along_z(nodes: int, depth: float = 0.02) -> FloatArray:
+    """A line along Z, far from the origin in Y."""
+    points = at_depths(np.full(nodes, depth))
+    points[:, 1] = 50.0
+    points[:, 2] = 2.0 * np.arange(nodes)
+    return points
+
+
+def drifted(points: FloatArray, y: float, z: float) -> FloatArray:
+    """The line moved along the bed."""
+    moved: FloatArray = points + np.array([0.0, y, z])
+    return moved
+
+
+def axes(contact: ContactModel, points: FloatArray) -> FloatArray:
+    """Directions u1 of the nodes."""
+    sliding = contact.step_in_detail(points, None, contact.initial_state())[2].sliding
+    assert sliding is not None
+    return sliding.directions[0]
+
+
+@pytest.mark.parametrize("elements", [[[0, 1], [2, 1]], [[1, 0], [1, 2]], [[1, 0], [2, 1]], [[2, 1], [0, 1]]])
+def test_a_line_goes_through_its_nodes_whichever_way_its_elements_are_written(elements: list[list[int]]) -> None:
+    inputs = replace(chain([LINEAR] * 2), element_nodes=np.array(elements, np.intp))
+    contact = model(inputs, Extras(friction=friction(3), lateral=np.full(2, 100.0)))
+    first = axes(contact, along_z(3))
+    assert np.abs(first) == pytest.approx(np.array([[0.0, 0.0, 1.0]] * 3), abs=1e-15)
+    straight = model(chain([LINEAR] * 2), Extras(friction=friction(3), lateral=np.full(2, 100.0)))
+    path = [along_z(3), drifted(along_z(3), 0.004, 0.002), drifted(along_z(3), 0.03, -0.01)]
+    for one, other in zip(walk(contact, path), walk(straight, path), strict=True):
+        assert one.reaction == pytest.approx(other.reaction, rel=1e-12, abs=1e-9)
+
+
+@pytest.mark.parametrize("elements", [[[0, 1], [2, 1]], [[1, 0], [1, 2]]])
+def test_the_tangent_of_such_a_line(elements: list[list[int]]) -> None:
+    inputs = replace(chain([LINEAR] * 2), element_nodes=np.array(elements, np.intp))
+    contact = model(inputs, Extras(friction=friction(3, stiffness=(1e5, 2e4))))
+    start = along_z(3)
+    start[:, 1] += [0.0, 0.1, 0.3]
+    _, state = contact.step(start, None, contact.initial_state())
+    points = drifted(start, 0.002, 0.001)
+    tangent = contact.tangent(points, None, state).by_position.dense()
+    size, columns = 1e-6, []
+    for place in np.ndindex(points.shape):
+        sides = [points.copy(), points.copy()]
+        sides[0][place] += size
+        sides[1][place] -= size
+        up, down = (contact.step(side, None, state)[0].reaction for side in sides)
+        columns.append((up - down).reshape(-1) / (2.0 * size))
+    assert tangent == pytest.approx(np.column_stack(columns), rel=1e-6, abs=1.0)
+
+
+def bounded(elements: int) -> ContactInput:
+    """A chain whose bed ends at Z = 4.5."""
+    floor = PlanesFloor([[0.0, 0.0, 0.0]], [0.0], [0.0], [[-100.0, 100.0, -100.0, 4.5]])
+    return replace(chain([LINEAR] * elements), floor=floor)
+
+
+def test_the_direction_at_the_edge_of_the_bed_is_that_of_the_line() -> None:
+    contact = model(bounded(3), Extras(friction=friction(4)))
+    points = along_z(4)
+    assert axes(contact, points).tolist() == [[0.0, 0.0, 1.0]] * 4
+    results = walk(contact, [points, drifted(points, 0.0, 0.002)])
+    assert np.isnan(results[1].gap).tolist() == [False, False, False, True]
+    assert results[1].contact.tolist() == [True, True, False]
+    assert results[1].friction == pytest.approx(np.array([[-200.0, 0.0]] * 3 + [[0.0, 0.0]]), rel=1e-9, abs=1e-9)
+
+
+def test_a_line_that_slides_off_the_bed_forgets_and_comes_back_without_a_force() -> None:
+    contact = model(bounded(1), Extras(friction=friction(2)))
+    points = along_z(2)
+    path = [drifted(points, 0.0, shift) for shift in (0.0, 0.003, 3.0, 1.0, 1.002)]
+    axial = [result.friction[:, 0].tolist() for result in walk(contact, path) if result.friction is not None]
+    assert axial[1] == pytest.approx([-300.0, -300.0])
+    assert axial[2] == axial[3] == [0.0, 0.0]
+    assert axial[4] == pytest.approx([-200.0, -200.0])
+
+
+def test_elements_with_an_absent_node_do_not_turn_the_friction_of_their_neighbours() -> None:
+    present = np.array([True, True, True, False])
+    path = np.array([along_z(4), drifted(along_z(4), 0.0, 0.002)])
+    path[:, 3] = np.nan
+    extras = Extras(friction=friction(4), trench=replace(trench(4, 0.02, 0.4, 50.0), straight=np.full((4, 4), np.nan)))
+    result = model(chain([LINEAR] * 3), extras).evaluate(path, present=present)
+    assert result.friction is not None
+    assert result.friction[1, :3] == pytest.approx(np.array([[-200.0, 0.0]] * 3), rel=1e-9, abs=1e-9)
+    assert np.isnan(result.friction[1, 3]).all()
+
+
+def test_a_trench_holds_a_node_beside_an_absent_one() -> None:
+    """The lost element is written first, so that the node would look there for its trench."""
+    inputs = replace(chain([LINEAR] * 2), element_nodes=np.array([[1, 2], [0, 1]], np.intp))
+    extras = Extras(
+        friction=friction(3), trench=replace(trench(3, 0.02, 0.42, 500.0), straight=np.full((3, 4), np.nan))
+    )
+    path = drawn([(0.0, 0.0), (0.0, 0.11)], nodes=3)
+    result = model(inputs, extras).evaluate(path, present=np.array([True, True, False]))
+    assert result.friction is not None
+    # mu N + PEAK at the middle of the wall; N is half of one element of 2 m at 1000 N/m
+    assert result.friction[1, :2, 1] == pytest.approx([-1300.0, -1300.0])
+
+
+def test_elements_of_no_extent_have_a_force_and_finite_tangents() -> None:
+    everywhere = Extras(friction=friction(3), lateral=np.full(2, 300.0), trench=trench(3, 0.02, 0.4, 50.0))
+    contact = model(chain([LINEAR] * 2), everywhere)
+    points = at_depths([0.02] * 3)
+    _, state = contact.step(points, None, contact.initial_state())
+    result, _ = contact.step(drifted(points, 0.0, 0.01), None, state)
+    tangent = contact.tangent(drifted(points, 0.0, 0.01), None, state)
+    assert result.normal_force == pytest.approx([1000.0, 2000.0, 1000.0])
+    assert np.isfinite(tangent.by_position.values).all()
+    assert np.isfinite(result.reaction).all()
+
+
+def test_a_vertical_line_takes_its_directions_from_y() -> None:
+    contact = model(chain([LINEAR] * 2), Extras(friction=friction(3), lateral=np.full(2, 300.0)))
+    points = np.zeros((3, 3))
+    points[:, 0] = [-2.0, -1.0, 1.0]
+    assert axes(contact, points).tolist() == [[0.0, 1.0, 0.0]] * 3
+    results = walk(contact, [points, drifted(points, 0.0, 0.001)])
+    # each element gives half of L k elongation to its nodes, as friction gives Kt times it where it sticks
+    lateral = 0.5 * 2.0 * 300.0 * 0.001
+    assert results[1].contact.tolist() == [True, False]
+    assert results[1].reaction[:, 2] == pytest.approx([-100.0 - lateral, -100.0 - lateral, 0.0])
+    _, state = contact.step(points, None, contact.initial_state())
+    assert np.isfinite(contact.tangent(points, None, state).by_position.values).all()
+
+
+def test_a_node_of_three_elements_rubs_once_under_all_their_weight() -> None:
+    star = replace(chain([LINEAR] * 3), element_nodes=np.array([[0, 1], [0, 2], [0, 3]], np.intp))
+    points = at_depths([0.02] * 4)
+    points[1:, 1:] = [[2.0, 0.0], [-1.0, np.sqrt(3.0)], [-1.0, -np.sqrt(3.0)]]
+    contact = model(star, Extras(friction=friction(4, (0.5, 0.5), 1e5, ellipse=True)))
+    results = walk(contact, [points, drifted(points, 1.0, 0.0)])
+    assert results[1].normal_force == pytest.approx([3000.0, 1000.0, 1000.0, 1000.0])
+    sideways = results[1].reaction[:, 1:]
+    assert sideways == pytest.approx(np.array([[-1500.0, 0.0]] + [[-500.0, 0.0]] * 3), abs=1e-6)
+
+
+def test_an_element_written_twice_counts_twice() -> None:
+    twice = replace(chain([LINEAR] * 2), element_nodes=np.array([[0, 1], [0, 1]], np.intp))
+    contact = model(twice, Extras(friction=friction(3), trench=trench(3, 0.02, 0.4, 50.0)))
+    results = walk(contact, drawn([(0.0, 0.0), (0.01, 0.0)], nodes=3))
+    assert results[1].normal_force == pytest.approx([2000.0, 2000.0, 0.0])
+    assert results[1].friction == pytest.approx(np.array([[-1000.0, 0.0]] * 2 + [[0.0, 0.0]]))
+
+
+def test_an_element_between_a_node_and_itself() -> None:
+    loop = replace(chain([LINEAR] * 2), element_nodes=np.array([[0, 0], [1, 2]], np.intp))
+    extras = Extras(friction=friction(3), trench=replace(trench(3, 0.02, 0.4, 0.0), straight=np.full((3, 4), np.nan)))
+    results = walk(model(loop, extras), drawn([(0.0, 0.0), (0.01, 0.0)], nodes=3))
+    assert results[1].normal_force == pytest.approx([2000.0, 1000.0, 1000.0])
+    assert results[1].friction is not None
+    assert results[1].friction[:, 0] == pytest.approx([-1000.0, -500.0, -500.0])
+
+
+def test_a_node_without_elements_has_only_its_own_spring() -> None:
+    contact = model(chain([]), Extras(nodal=nodal([1e4]), friction=friction(1, (0.5, 0.5), 1e3)))
+    results = walk(contact, [[[-0.1, 0.0, 0.0]], [[-0.1, 0.3, 0.0]], [[0.1, 0.3, 0.0]]])
+    assert [result.reaction[0].tolist() for result in results] == [
+        pytest.approx([1000.0, 0.0, 0.0]),
+        pytest.approx([1000.0, -300.0, 0.0]),
+        [0.0, 0.0, 0.0],
+    ]

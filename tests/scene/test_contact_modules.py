@@ -1,0 +1,59 @@
+"""What a scene does not need is not imported."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+
+from tests.scene.contact_decks import METRIC, deck
+
+CURVE = (
+    "*SEABED STIFFNESS\n CURVE=Clay\n 0, 0\n 0.5, 4000\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=Clay\n"
+)
+LINEAR = "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=5000\n"
+
+PROGRAM = """
+import sys
+from mudline.deck.loading import load_bytes
+from mudline.scene.build import resolve
+scene = resolve(load_bytes(sys.argv[1].encode(), "deck.keyxm"))
+scene.contact().evaluate()
+print(*(name for name in sys.modules if name.startswith(("mudline.", "scipy"))))
+"""
+
+PARTS = ("planes", "profile", "scattered", "sloping")
+
+
+def imported(seabed: str) -> set[str]:
+    run = [sys.executable, "-W", "error", "-c", PROGRAM, deck(METRIC, seabed)]
+    return set(subprocess.run(run, capture_output=True, text=True, check=True).stdout.split())
+
+
+def test_a_deck_of_curves_on_a_flat_bed_imports_no_other_feature() -> None:
+    found = imported(CURVE)
+    assert "mudline.curves" in found
+    assert not found & {f"mudline.contact.floors.{part}" for part in PARTS}
+    assert not found & {"scipy", "mudline.contact.unloading", "mudline.contact.nodal", "mudline.contact.uplift"}
+    assert not [name for name in found if name.startswith(("mudline.contact.suction", "mudline.contact.friction"))]
+    parts = {name.rpartition(".")[2] for name in found if name.startswith("mudline.scene.contact_parts.")}
+    assert parts == {"build", "refused"}
+
+
+@pytest.mark.parametrize(
+    ("seabed", "needed", "idle"),
+    [
+        (LINEAR + " FRICTION=0.3, 0.4\n", "mudline.contact.friction.law", "mudline.contact.suction"),
+        (LINEAR + "*SEABED SUCTION\n SET=ALL\n COHESION=5000\n", "mudline.contact.suction", "mudline.contact.friction"),
+        (
+            LINEAR + "*SEABED PLANES\n PLANE=a\n POINT=0,0,0\n SLOPE=1\n",
+            "mudline.contact.floors.planes",
+            "mudline.curves",
+        ),
+    ],
+)
+def test_one_feature_imports_its_own_modules_only(seabed: str, needed: str, idle: str) -> None:
+    found = imported(seabed)
+    assert needed in found
+    assert idle not in found
