@@ -12,6 +12,7 @@ from mudline.study.precision.curves import BackboneRow, CurveRow
 from mudline.study.precision.integration import StepRow, tried
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 _FLOOR = 1e-17
@@ -85,10 +86,17 @@ def _draw_steps(rows: Sequence[StepRow], cases: Sequence[Case], figure: Figure) 
                 points = [row for row in rows if (row.case, row.scheme) == (case.name, scheme.name)]
                 pairs = [(row.omega_dt, error) for row in points if (error := row.errors[line]) is not None]
                 axes.loglog(*_columns(pairs), label=scheme.title, **style(index))
+            _guides(axes)
             label(axes, _short(case.title) if line == 0 else "", "", f"error of {quantity} [-]")
             axes.set_ylim(1e-9, 30.0)
         panels[2][column].set_xlabel("step, omega dt [-]")
-    legend_below(figure, panels[0][0], 3 if len(cases) < 3 else 5)
+    legend_below(figure, panels[0][0], 3 if len(cases) < 3 else 6)
+
+
+def _guides(axes: Axes) -> None:
+    """How an error of first and of second order falls."""
+    for order, dots, end in ((1, ":", 3e-2), (2, "--", 1e-2)):
+        axes.loglog([1e-3, 1.0], [end * 1e-3**order, end], color="0.6", linestyle=dots, label=f"slope of order {order}")
 
 
 def _draw_times(rows: Sequence[StepRow], cases: Sequence[Case], figure: Figure) -> None:

@@ -34,8 +34,8 @@ def _draw(rest: Sequence[RestRow], impacts: Sequence[ImpactRow], figure: Figure)
         iterations.semilogx(shares, below, label=f"{name}, from below", **style(2 * index + 1))
         wrong = [(share, row.error) for share, row in zip(shares, rows, strict=True) if row.error > 1e-15]
         error.loglog(*_columns(wrong), label=name, **style(index))
-    label(iterations, "at rest", "h / static penetration [-]", "Newton iterations [-]")
-    label(error, "at rest", "h / static penetration [-]", "error of the penetration [-]")
+    label(iterations, "at rest", "h / static penetration [-]; h = 0 far left", "Newton iterations [-]")
+    label(error, "at rest", "h / static penetration [-]; h = 0 far left", "error of the penetration [-]")
     for index, (name, omega_dt) in enumerate(dict.fromkeys((row.scheme, row.omega_dt) for row in impacts)):
         chosen = [row for row in impacts if (row.scheme, row.omega_dt) == (name, omega_dt)]
         words = f"{SCHEMES[name].title}, omega dt = {omega_dt:g}"
@@ -43,8 +43,8 @@ def _draw(rest: Sequence[RestRow], impacts: Sequence[ImpactRow], figure: Figure)
         rebound.loglog(*_columns(speeds), label=words, **style(index))
         tries = [(max(row.share, _NONE), row.iterations) for row in chosen]
         effort.semilogx(*_columns(tries), label=words, **style(index))
-    label(rebound, "impact", "h / deepest penetration [-]", "error of the rebound speed [-]")
-    label(effort, "impact", "h / deepest penetration [-]", "Newton iterations per step [-]")
+    label(rebound, "impact", "h / deepest penetration [-]; h = 0 far left", "error of the rebound speed [-]")
+    label(effort, "impact", "h / deepest penetration [-]; h = 0 far left", "Newton iterations per step [-]")
     for axes in (iterations, error, rebound):
         _legend(axes)
 

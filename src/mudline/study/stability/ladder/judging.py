@@ -16,10 +16,8 @@ from mudline.contact.errors import ElementError
 from mudline.contact.result import ContactResult
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Problem, Severity
-from mudline.results.evaluation import evaluate_scene
 from mudline.scene.build import resolve
 from mudline.scene.model import Scene
-from mudline.scene.positions import Positions
 from mudline.study.stability.ladder.cells import Cell
 from mudline.study.stability.ladder.comparing import BOUND, Compared, Tally, compare
 from mudline.study.stability.ladder.exact import ExactCurve, ExactLaw
@@ -133,7 +131,8 @@ def _evaluated(scene: Scene, heights: list[float]) -> ContactResult:
     points = np.zeros((len(heights), 2, 3))
     points[:, :, 0] = np.array(heights)[:, None]
     points[:, 1, 1] = 2.0
-    return evaluate_scene(scene, Positions(points, np.ones(2, np.bool_), None)).result
+    with located(scene):
+        return scene.contact().evaluate(points)
 
 
 def _compare_curve(tally: Tally, scene: Scene, law: ExactCurve) -> None:
