@@ -8,10 +8,7 @@ import numpy as np
 import pytest
 
 from mudline.contact.critical_step import CRITICAL_OMEGA_DT
-from mudline.contact.extras import ElementSuction
-from mudline.contact.suction import SuctionLaw
 from mudline.deck.loading import load_bytes
-from mudline.diagnostics import DeckError
 from mudline.linting.engine import lint_bytes
 from mudline.linting.selection import select
 from mudline.scene.build import resolve
@@ -25,7 +22,6 @@ from mudline.study.stability.contacts import find_contacts
 from mudline.study.stability.cycles import EXAMPLE, STARTS, Pulled, bracketed, cyclings, ensemble, path, residual
 from mudline.study.stability.landings import LANDERS, OMEGA_DTS, landing, landings
 from mudline.study.stability.release import equilibria, releases
-from mudline.study.stability.suction_law import input_with_suction, suction_of
 
 MASS = 7850.0 * 0.25 * np.pi * (0.3**2 - 0.25**2)
 
@@ -63,6 +59,20 @@ def test_contacts_without_a_frequency_say_why() -> None:
 
 def test_a_scene_without_springs_has_no_contacts() -> None:
     assert find_contacts(scene_of("$MODEL\n")) == ([], [])
+
+
+def test_nodes_with_a_stiffness_of_their_own() -> None:
+    """A node carries the mass of half of each of its elements, 2 m inside the line, 1 m at its end."""
+    nodal = TEXT.replace(" SMOOTHING=AUTO", " NODAL STIFFNESS=1.0E5")
+    scene = scene_of(nodal)
+    found, _ = find_contacts(scene)
+    one = next(contact for contact in found if contact.name.startswith("nodal"))
+    assert (one.name, one.elements) == ("nodal 100000 at node 11", 4)
+    assert one.omega == pytest.approx((1e5 / MASS) ** 0.5)
+    assert one.stiffness == pytest.approx(1e5)
+    assert measure(scene, one, SCHEMES["central-difference"]).as_predicted
+    left_out = find_contacts(scene_of(nodal.replace("7850.0", "0.0")))[1]
+    assert "nodal stiffness 100000" in {omission.what for omission in left_out}
 
 
 def test_the_continued_end_may_be_the_steepest() -> None:
@@ -154,7 +164,7 @@ def test_a_bracket_cures_every_cycle() -> None:
 
 def test_one_equilibrium_needs_the_stiffness_that_is_told() -> None:
     scene = sample_scene()
-    suction = suction_of(scene)
+    suction = scene.contact_input().extras.suction
     assert suction is not None
     found = releases(scene, suction)
     assert [one.velocity for one in found] == [1e-3, 1e-2, 0.1, 1.0]
@@ -165,39 +175,9 @@ def test_one_equilibrium_needs_the_stiffness_that_is_told() -> None:
 
 def test_suction_of_no_force_asks_for_nothing() -> None:
     scene = scene_of(TEXT.replace("COHESION=5.0E3", "COHESION=0"))
-    suction = suction_of(scene)
+    suction = scene.contact_input().extras.suction
     assert suction is not None
     assert releases(scene, suction) == []
-
-
-def test_the_laws_of_a_deck_in_every_form() -> None:
-    own = " FORCE=1000, 0.5\n DEPTH=0.1, 0.25\n CUTOFF=0.1, 0.5\n CYCLIC=0.5\n REGULARISATION=0.01"
-    suction = suction_of(scene_of(TEXT.replace(" COHESION=5.0E3", own)))
-    assert suction is not None
-    assert np.column_stack(suction.law)[0].tolist() == [1000.0, 0.5, 0.1, 0.25, 0.1, 0.5, 0.5, 0.01]
-    assert suction.elements.tolist() == list(range(7))
-    metric, feet = suction_of(sample_scene()), suction_of(scene_of(TEXT, "deck.keyxi"))
-    assert metric is not None
-    assert feet is not None
-    assert feet.law.depth_factor[0] == pytest.approx(metric.law.depth_factor[0] * 0.3048**0.26)
-    assert suction_of(scene_of(TEXT.partition("*SEABED SUCTION")[0])) is None
-    none = TEXT.replace(" SET=Clay\n COHESION", " SET=Nothing\n COHESION")
-    assert suction_of(scene_of(none)) is None
-
-
-def test_a_cohesion_without_units_is_refused_at_its_line() -> None:
-    with pytest.raises(DeckError) as refused:
-        suction_of(resolve(load_bytes(TEXT.encode(), "deck.keyx", units="user")))
-    assert refused.value.diagnostics[0].line > 1
-
-
-def test_the_suction_that_the_scene_brings_is_left_as_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
-    scene = sample_scene()
-    given = input_with_suction(scene)
-    assert isinstance(given.extras.suction, ElementSuction)
-    assert isinstance(given.extras.suction.law, SuctionLaw)
-    monkeypatch.setattr(Scene, "contact_input", lambda _: given)
-    assert input_with_suction(scene) is given
 
 
 # -------------------------------------------------------------------------------------------------------------- rule

@@ -1,4 +1,4 @@
-"""The contacts of a scene: elements that share a law and a section, their stiffness, mass and frequency."""
+"""The contacts of a scene: elements that share a law and a section, or nodes; their stiffness, mass and frequency."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class Contact(NamedTuple):
 
     name: its law, and the set through which its elements have it.
     element: index of the first of its elements.
-    elements: how many elements share it.
+    elements: how many elements share it; of a nodal stiffness how many nodes.
     stiffness: the largest tangent stiffness below the mudline, per unit length.
     mass: per unit length.
     omega: root of stiffness over mass, radians per unit of time.
@@ -49,8 +49,7 @@ def find_contacts(scene: Scene) -> tuple[list[Contact], list[Omission]]:
     springs = np.flatnonzero(np.isin(scene.law, (LawKind.CURVE, LawKind.LINEAR)))
     kinds = np.column_stack([scene.laws.of_element[springs], scene.section_table.of_element[springs]])
     masses = mass_per_length(scene)
-    found: list[Contact] = []
-    left_out: list[Omission] = []
+    found, left_out = _nodal(scene, masses)
     for first, count in _groups(kinds):
         element = int(springs[first])
         name = f"{scene.law_names[element]} on {scene.law_sets[element]}"
@@ -66,6 +65,40 @@ def find_contacts(scene: Scene) -> tuple[list[Contact], list[Omission]]:
     return sorted(found, key=lambda contact: -contact.omega), left_out
 
 
+def _nodal(scene: Scene, masses: FloatArray) -> tuple[list[Contact], list[Omission]]:
+    """Nodes with a stiffness of their own: of each stiffness the node that swings fastest, per unit of its length."""
+    springs = scene.contact_input().extras.nodal
+    if springs is None:
+        return [], []
+    length, mass = np.zeros(len(scene.node_ids)), np.zeros(len(scene.node_ids))
+    for end in scene.element_nodes.T:
+        np.add.at(length, end, 0.5 * scene.length)
+        np.add.at(mass, end, 0.5 * scene.length * masses)
+    frequency = omega(springs.stiffness, mass)
+    found: list[Contact] = []
+    left_out: list[Omission] = []
+    for stiffness in np.unique(springs.stiffness[springs.stiffness > 0.0]).tolist():
+        nodes = np.flatnonzero(springs.stiffness == stiffness)
+        if np.isnan(frequency[nodes]).all():
+            what = f"nodal stiffness {stiffness:.6g}"
+            left_out.append(Omission(what, "no frequency: the mass of its nodes is not known"))
+            continue
+        node = int(nodes[np.nanargmax(frequency[nodes])])
+        element = int(np.flatnonzero((scene.element_nodes == node).any(axis=1))[0])
+        name = f"nodal {stiffness:.6g} at node {scene.node_ids[node]}"
+        per_length, swings = float(stiffness / length[node]), float(frequency[node])
+        load = float(mass[node] / length[node])
+        found.append(Contact(name, element, len(nodes), per_length, load, swings, *_small(scene, element)))
+    return found, left_out
+
+
+def _small(scene: Scene, element: int) -> tuple[float, float]:
+    """A depth of a linear law, and as far to both sides."""
+    diameter = float(scene.diameter[element])
+    depth = 0.01 * diameter if np.isfinite(diameter) else 0.01
+    return depth, depth
+
+
 def _groups(kinds: IndexArray) -> list[tuple[int, int]]:
     """The first row of each kind and how many there are."""
     if not len(kinds):
@@ -79,8 +112,7 @@ def _steepest(scene: Scene, element: int) -> _Steepest:
     diameter = float(scene.diameter[element])
     if scene.law[element] == LawKind.CURVE:
         return _of_curve(arrays.curves[int(arrays.curve_index[element])], diameter)
-    depth = 0.01 * diameter if np.isfinite(diameter) else 0.01
-    return _Steepest(float(arrays.linear_stiffness[element]), depth, depth)
+    return _Steepest(float(arrays.linear_stiffness[element]), *_small(scene, element))
 
 
 def _of_curve(curve: ForceCurve, diameter: float) -> _Steepest:

@@ -6,6 +6,7 @@ import numpy as np
 
 from mudline.contact import ContactInput, ContactModel
 from mudline.contact.arrays import FloatArray
+from mudline.contact.inputs import LawKind
 from mudline.scene.model import Scene
 from mudline.study.schemes.system import Forces, History
 from mudline.study.stability.contacts import Contact
@@ -22,7 +23,7 @@ class Pressed:
     """
 
     def __init__(self, scene: Scene, contact: Contact, runs: int) -> None:
-        self._model = ContactModel(_copies(scene, contact.element, runs))
+        self._model = ContactModel(_copies(scene, contact, runs))
         self._depth = contact.depth
         self._points = np.zeros((runs, 2, 3))
         self._points[:, 1, 1] = 1.0
@@ -37,8 +38,10 @@ class Pressed:
         return Forces(result.force - self.load, -result.stiffness, np.zeros(velocity.shape), history)
 
 
-def _copies(scene: Scene, element: int, runs: int) -> ContactInput:
-    arrays = scene.law_arrays()
+def _copies(scene: Scene, contact: Contact, runs: int) -> ContactInput:
+    """Elements on the curve of the contact, else with its stiffness: a node's is spread over its length."""
+    arrays, element = scene.law_arrays(), contact.element
+    on_curve = arrays.law[element] == LawKind.CURVE
     return ContactInput(
         node_ids=np.arange(1, 2 * runs + 1),
         coordinates=np.zeros((2 * runs, 3)),
@@ -46,8 +49,8 @@ def _copies(scene: Scene, element: int, runs: int) -> ContactInput:
         element_nodes=np.arange(2 * runs).reshape(runs, 2),
         length=np.ones(runs),
         diameter=np.full(runs, scene.diameter[element]),
-        law=np.full(runs, arrays.law[element]),
-        curve_index=np.full(runs, arrays.curve_index[element]),
+        law=np.full(runs, LawKind.CURVE if on_curve else LawKind.LINEAR, dtype=np.int8),
+        curve_index=np.full(runs, arrays.curve_index[element] if on_curve else -1),
         curves=arrays.curves,
-        linear_stiffness=np.full(runs, arrays.linear_stiffness[element]),
+        linear_stiffness=np.full(runs, contact.stiffness),
     )

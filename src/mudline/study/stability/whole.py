@@ -21,7 +21,6 @@ from mudline.study.stability.ladder.verdict import Judgement
 from mudline.study.stability.landings import Landing, landings
 from mudline.study.stability.pictures import critical_picture, ladder_picture, landings_picture
 from mudline.study.stability.release import Release, releases
-from mudline.study.stability.suction_law import input_with_suction
 from mudline.study.stability.tables import (
     cells_table,
     contacts_table,
@@ -88,7 +87,7 @@ def _measured(scene: Scene, contacts: Sequence[Contact], options: StudyOptions) 
 
 
 def _released(scene: Scene, omissions: list[Omission]) -> list[Release]:
-    suction = input_with_suction(scene).extras.suction
+    suction = scene.contact_input().extras.suction
     if suction is None:
         omissions.append(Omission("release of suction", "no element has *SEABED SUCTION"))
         return []

@@ -9,13 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from mudline.contact import ContactModel
 from mudline.study.stability.ladder.comparing import Compared, Tally
 from mudline.study.stability.ladder.decks import DIAMETER, suction_deck
 from mudline.study.stability.ladder.exact import SMALLEST
 from mudline.study.stability.ladder.judging import guarded, located, scene_of
 from mudline.study.stability.ladder.verdict import Judgement, Verdict
-from mudline.study.stability.suction_law import input_with_suction
 
 BOUND = 64.0
 """Roundings of the largest suction. Powers and products behind a law take some 15; on the release, where the distance
@@ -51,13 +49,12 @@ def judge_suction(cell: SuctionCell) -> Judgement:
 
 def _judged(cell: SuctionCell) -> Judgement:
     scene = scene_of(suction_deck(cell.cohesion))
-    inputs = input_with_suction(scene)
-    if inputs.extras.suction is None:
+    model = scene.contact()
+    if model.input.extras.suction is None:
         return Judgement(cell.family, cell.value, Verdict.WRONG, told="the deck's suction is not there")
     velocity = float(cell.velocity)
     heights, exact, largest = _expected(float(cell.cohesion), velocity, _SHARES)
     tally = Tally()
-    model = ContactModel(inputs)
     state = model.initial_state()
     for index, height in enumerate([-0.01, *heights]):
         points, moving = np.zeros((2, 3)), np.zeros((2, 3))
