@@ -3,22 +3,29 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from mudline.contact.suction.law import from_cohesion
+from mudline.contact.extras import ElementSuction, Extras
+from mudline.contact.suction.law import SuctionLaw, from_cohesion
 from mudline.curves import ForceCurve
+from mudline.deck.loading import load_bytes
+from mudline.scene.build import resolve
 from mudline.study.errors import StudyError
 from mudline.study.precision import integration, reference
 from mudline.study.precision.case import Case
-from mudline.study.precision.cases import reference_drop
+from mudline.study.precision.cases import all_cases, reference_drop
 from mudline.study.precision.drag import Drag, drag_case
 from mudline.study.precision.drop import drop_case, drop_to
 from mudline.study.precision.integration import row
 from mudline.study.precision.laws import CurveLaw, LinearLaw
 from mudline.study.precision.pull import Pull, SuctionNumbers, breakout, pull_case
 from mudline.study.precision.reference import bounce, contact_time
+from mudline.study.precision.seabed import friction_of, seabed_of, suction_of
+from mudline.study.report import Omission
+from mudline.study.sample import TEXT, sample_scene
 from mudline.study.schemes.catalogue import SCHEMES
 
 CLAY = CurveLaw("clay", ForceCurve([(0.0, 0.0), (0.02, 640.0), (0.1, 1480.0), (0.5, 2450.0)]), 0.3)
@@ -162,3 +169,52 @@ def test_endless_runs_are_not_begun(monkeypatch: pytest.MonkeyPatch) -> None:
     found = row(case, SCHEMES["rk4"], 0.01)
     assert "it would take" in found.reason
     assert found.errors == (None, None, None)
+
+
+def test_suction_of_a_deck_is_taken_from_it() -> None:
+    found = sample_scene()
+    inputs = found.contact_input()
+    law = SuctionLaw(*(np.array([low, 2.0 * low]) for low in (2000.0, 0.18, 0.3, 0.26, 0.2, 0.4, 1.0, 1e-3)))
+    given = replace(inputs, extras=Extras(suction=ElementSuction(np.array([5, 0]), law)))
+    bed = seabed_of(found).beds[0]
+    notes: list[str] = []
+    assert suction_of(found, given, bed, notes) == tuple(float(values[1]) for values in law)
+    assert suction_of(found, given, bed._replace(element=9), notes).force_factor == 2000.0
+    assert not notes
+    assert suction_of(found, replace(inputs, extras=Extras()), bed, notes).force_factor == pytest.approx(2086.5435606)
+    assert "Bridge" in notes[0]
+
+
+def test_friction_of_a_deck_is_taken_from_it() -> None:
+    found = sample_scene()
+    bed = seabed_of(found).beds[0]
+    inputs = found.contact_input()
+    notes: list[str] = []
+    drag = friction_of(inputs, bed, notes)
+    assert drag.limit == pytest.approx(0.35 * bed.weight)
+    assert drag.stiffness == pytest.approx(drag.limit / 0.003)
+    assert inputs.extras.friction is not None
+    law = inputs.extras.friction.law
+    constant = replace(inputs.extras.friction, law=replace(law, stiffness=np.full(law.stiffness.shape, 4e4)))
+    stiff = friction_of(replace(inputs, extras=replace(inputs.extras, friction=constant)), bed, notes)
+    assert stiff.stiffness == pytest.approx(4e4 / 2.0)
+    assert not notes
+    bare = friction_of(replace(inputs, extras=Extras()), bed, notes)
+    assert (bare.limit, bare.stiffness) == pytest.approx((0.5 * bed.weight, 0.5 * bed.weight / 0.003))
+    assert "no friction along the line" in notes[0]
+
+
+def test_case_that_overflows_is_told_of() -> None:
+    found = resolve(load_bytes(TEXT.replace(", 0.003,", ", 1.0E-307,").encode(), "a.keyxm")).require()
+    omissions: list[Omission] = []
+    with np.errstate(all="ignore"):
+        cases = all_cases(found, seabed_of(found), omissions, [])
+    assert "drag" not in {case.name for case in cases}
+    assert [omission.reason for omission in omissions] == ["its stiffness or its duration overflows"]
+
+
+def test_curve_of_many_points_does_without_stops(monkeypatch: pytest.MonkeyPatch) -> None:
+    drop = drop_to(CLAY, 170.0, 900.0, 0.075)
+    stopping = bounce(CLAY, drop.mass, drop.weight, drop.speed)
+    monkeypatch.setattr(reference, "_MOST_BREAKS", 0)
+    assert bounce(CLAY, drop.mass, drop.weight, drop.speed).time == pytest.approx(stopping.time, rel=1e-6)

@@ -118,6 +118,14 @@ def test_extreme_decks_end_in_reasons(stiffness: str) -> None:
     assert report.tables[2].rows
 
 
+@pytest.mark.parametrize("point", ["1.0E-290, 450.0", "0.01, 1.0E15", "0.01, 1.0E-300", "0.01, -450.0", "1.0E9, 450.0"])
+def test_extreme_curves_end_in_reasons(point: str) -> None:
+    text = TEXT.replace("*SEABED SUCTION\n SET=Clay\n COHESION=5.0E3\n", "")
+    report = running.run(scene(text.replace("0.01,  450.0", point)), StudyOptions())
+    assert report.tables[0].rows
+    assert json.loads(report.json())["study"] == "precision"
+
+
 def test_imperial_deck() -> None:
     deck = SAMPLES / "imperial-riser.keyxi"
     found = resolve(load_bytes(deck.read_bytes(), deck.name)).require()

@@ -42,7 +42,7 @@ def all_cases(scene: Scene, seabed: Seabed, omissions: list[Omission], notes: li
         _add(cases, omissions, f"drop on {bed.law.name}", partial(_drop, bed))
     for bed in seabed.beds[:1]:
         _add(cases, omissions, f"pull off {bed.law.name}", partial(_pull, scene, seabed, bed, notes))
-        _add(cases, omissions, f"drag along {bed.law.name}", partial(_drag, scene, bed, notes))
+        _add(cases, omissions, f"drag along {bed.law.name}", partial(_drag, seabed, bed, notes))
     return cases
 
 
@@ -57,8 +57,8 @@ def _pull(scene: Scene, seabed: Seabed, bed: Bed, notes: list[str]) -> Case:
     return pull_case(Pull(bed.law.name, bed.law, suction, bed.mass, static_depth(bed), usual_velocity(scene)))
 
 
-def _drag(scene: Scene, bed: Bed, notes: list[str]) -> Case:
-    return drag_case(friction_of(scene, bed, notes))
+def _drag(seabed: Seabed, bed: Bed, notes: list[str]) -> Case:
+    return drag_case(friction_of(seabed.inputs, bed, notes))
 
 
 def _add(cases: list[Case], omissions: list[Omission], what: str, make: Callable[[], Case]) -> None:

@@ -19,6 +19,8 @@ from mudline.study.precision.pull import SuctionNumbers
 _DIAMETER = 0.3
 _MASS = 150.0
 _COHESION = 5000.0
+_FRICTION = 0.5
+_MOBILISATION = 0.01
 _UNITS = {"imperial": (0.3048, 4.4482216)}
 """Metres and newtons of a deck's units."""
 
@@ -116,15 +118,17 @@ def usual_velocity(scene: Scene) -> float:
     return 0.1 / _UNITS.get(scene.units, (1.0, 1.0))[0]
 
 
-def friction_of(scene: Scene, bed: Bed, notes: list[str]) -> Drag:
-    """Coefficient and mobilisation length of the bed's element along the line, else 0.5 and a hundredth of D."""
-    coefficient = float(scene.bed.column("friction")[bed.element, 0])
-    length = float(scene.bed.column("mobilisation")[bed.element, 0])
-    if not coefficient > 0.0:
-        coefficient = 0.5
-        notes.append("The bed has no friction along the line: a coefficient of 0.5 is taken.")
-    if not length > 0.0:
-        length = 0.01 * bed.diameter
-        notes.append("No mobilisation length is given: a hundredth of the diameter is taken.")
-    limit = coefficient * bed.weight
-    return Drag(bed.law.name, bed.mass, limit, limit / length)
+def friction_of(inputs: ContactInput, bed: Bed, notes: list[str]) -> Drag:
+    """Friction along the line at the bed's element, else of 0.5, mobilised over a hundredth of the diameter."""
+    given = inputs.extras.friction
+    node, length = int(inputs.element_nodes[bed.element, 0]), float(inputs.length[bed.element])
+    if given is None or not (given.law.active[node] and given.law.coefficients[node, 0] > 0.0 and length > 0.0):
+        notes.append("The bed has no friction along the line: 0.5, mobilised over a hundredth of D, is taken.")
+        limit = _FRICTION * bed.weight
+        return Drag(bed.law.name, bed.mass, limit, limit / (_MOBILISATION * bed.diameter))
+    limit = float(given.law.coefficients[node, 0]) * bed.weight
+    if given.law.constant[node, 0]:
+        stiffness = float(given.law.stiffness[node, 0]) / length
+    else:
+        stiffness = limit / float(given.law.mobilisation[node, 0])
+    return Drag(bed.law.name, bed.mass, limit, stiffness)
