@@ -33,7 +33,7 @@ COMMANDS = {
     "show": "Summarise a deck: sections, keywords, sets, curves, diameters.",
     "curves": "Show the force-embedment curves that a deck really gives.",
     "evaluate": "Contact forces and stiffnesses of a deck.",
-    "study": "Measure how exact, how stable and how costly the numbers of a deck are.",
+    "study": "Measure precision, stability and cost on a deck.",
     "rules": "List the rules, or explain one.",
     "schema": "Print the JSON Schema of a deck in JSON or YAML.",
     "config": "Show what configuration holds for a deck.",
