@@ -183,6 +183,16 @@ def test_suction_of_no_force_asks_for_nothing() -> None:
 # -------------------------------------------------------------------------------------------------------------- rule
 
 
+@pytest.mark.parametrize(("extra", "told"), [("", ["24.29"]), (" 99, 1, 77\n", [])])
+def test_a_stiffness_of_nodes_counts_for_the_step(extra: str, told: list[str]) -> None:
+    """The last node carries half of an element, 1 m; a deck whose nodes are not known has no step to tell of."""
+    text = TEXT.replace(" SMOOTHING=AUTO", " NODAL STIFFNESS=1.0E5").replace(" STIFFNESS=Soft Clay", " STIFFNESS=1.0")
+    text = text.replace(" 1, 1, 2\n GEN=1, 10\n", f" 1, 1, 2\n GEN=1, 10\n{extra}")
+    text += "*TIME\n STEP=FIXED\n 0.0, 120.0, 0.1, 24.0\n"
+    findings = lint_bytes(text.encode(), "deck.keyxm", select(["STB002"]))
+    assert [found.message.partition("omega = ")[2][:5] for found in findings] == told
+
+
 @pytest.mark.parametrize("step", ["0.1", "0.0168", "0.0169"])
 def test_a_restart_is_told_of_the_step_that_does_on_the_bed_of_its_static_deck(tmp_path: Path, step: str) -> None:
     (tmp_path / "static.keyxm").write_text(TEXT, encoding="utf-8")

@@ -20,6 +20,8 @@ from mudline.contact.inputs import LawKind
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
+from mudline.scene.contact_parts.nodal import nodal_stiffness
+from mudline.scene.contact_parts.smoothing import KEYWORD
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats
 
@@ -126,7 +128,21 @@ def _stiffness(scene: Scene) -> Floats:
     for number, entry in enumerate(scene.laws.curves):
         if entry.curve is not None and entry.whole:
             steepest[scene.laws.followers(number)] = steepest_slope(entry.curve.ratios, entry.curve.slopes)
-    return np.where(scene.law == LawKind.CURVE, steepest / scene.diameter, linear)
+    found = np.where(scene.law == LawKind.CURVE, steepest / scene.diameter, linear)
+    return np.where(scene.nodal, _nodal(scene), found) if scene.nodal.any() else found
+
+
+def _nodal(scene: Scene) -> Floats:
+    """Stiffness of the stiffer end of each element, spread over the halves of the elements that meet there."""
+    nodes, length = scene.element_nodes, np.zeros(len(scene.node_ids))
+    if (nodes < 0).any():
+        return np.full(len(nodes), np.nan)
+    for end in nodes.T:
+        np.add.at(length, end, 0.5 * scene.length)
+    with np.errstate(all="ignore"):
+        spread = nodal_stiffness(scene, scene.extensions[KEYWORD]) / length
+    found: Floats = np.fmax(*spread[nodes].T)
+    return found
 
 
 def _mass(scene: Scene) -> Floats:
