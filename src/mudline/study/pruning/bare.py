@@ -1,0 +1,28 @@
+"""What nobody who wants the same results can do without, in plain numpy: a line of code for each."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mudline.contact.arrays import BoolArray, FloatArray
+from mudline.contact.inputs import ContactInput
+
+
+def bare_evaluation(inputs: ContactInput, points: FloatArray) -> tuple[FloatArray | BoolArray, ...]:
+    """Depth, ratio, contact, force, slope, stiffness, and reactions, of a chain of elements on one curve, flat bed.
+
+    All elements are taken to touch the bed; nothing is checked, no history, no other law or bed.
+    """
+    gap = points[:, 0] + 0.0
+    depth = -0.5 * (gap[:-1] + gap[1:])
+    ratio = depth / inputs.diameter
+    contact = depth > 0.0
+    force, slope = inputs.curves[0].evaluate(ratio)
+    stiffness = slope / inputs.diameter
+    share = 0.5 * inputs.length * force
+    normal_force = np.zeros(len(points))
+    normal_force[:-1] += share
+    normal_force[1:] += share
+    reaction = np.zeros(points.shape)
+    reaction[:, 0] = normal_force
+    return gap, depth, ratio, contact, force, slope, stiffness, normal_force, reaction
