@@ -15,6 +15,7 @@ from mudline.deck.loading import load_bytes
 from mudline.scene.build import resolve
 from mudline.study.errors import StudyError
 from mudline.study.precision import integration, reference
+from mudline.study.precision import pull as pull_module
 from mudline.study.precision.case import Case
 from mudline.study.precision.cases import all_cases, reference_drop
 from mudline.study.precision.drag import Drag, drag_case
@@ -110,7 +111,7 @@ def test_suction_numbers_are_those_of_the_law() -> None:
     assert law.force(0.2, 0.1) == 0.0
 
 
-def test_breakout() -> None:
+def test_breakout(monkeypatch: pytest.MonkeyPatch) -> None:
     pull = Pull("clay", CLAY, suction(), 170.0, 0.01, 0.1)
     exact = breakout(pull)
     assert exact.uplift == pytest.approx(0.294 * exact.speed**0.26, rel=1e-10)
@@ -119,6 +120,9 @@ def test_breakout() -> None:
     assert kinetic == pytest.approx(pull.pull * exact.uplift - exact.work, rel=1e-9)
     with pytest.raises(StudyError, match="without slowing down"):
         breakout(Pull("clay", LinearLaw("bed", 1e7), suction(), 170.0, 0.01, 1e-5))
+    monkeypatch.setattr(pull_module, "_STOPS", 1)
+    with pytest.raises(StudyError, match="again and again"):
+        breakout(pull)
 
 
 CASES = {

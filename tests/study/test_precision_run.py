@@ -6,6 +6,7 @@ import json
 import sys
 from dataclasses import replace
 from pathlib import Path
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -14,13 +15,14 @@ from mudline.deck.loading import load_bytes
 from mudline.scene.build import resolve
 from mudline.scene.model import Scene
 from mudline.study import precision
+from mudline.study.errors import StudyError
 from mudline.study.mass import mass_per_length, submerged_weight, surroundings
 from mudline.study.options import StudyOptions
 from mudline.study.precision import curves as curve_study
 from mudline.study.precision import running
 from mudline.study.precision.cases import reference_drop
 from mudline.study.precision.smoothing import PUBLISHED, at_rest, impacts, weightless
-from mudline.study.report import StudyReport
+from mudline.study.report import Column, StudyReport, StudyTable
 from mudline.study.sample import TEXT, sample_scene
 from tests.cli.runner import run
 
@@ -211,3 +213,26 @@ def test_command_refuses_bad_places_and_decks(tmp_path: Path) -> None:
     assert run("study", "precision", SAMPLES / "broken.keyxm").code == 1
     assert run("study", "precision", tmp_path / "missing.keyxm").code == 2
     assert run("study", "guessing").code == 2
+
+
+def test_command_tells_why_a_study_cannot_be_made(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(precision, "run", Mock(side_effect=StudyError("there is nothing to study")))
+    outcome = run("study", "precision")
+    assert (outcome.code, outcome.err) == (1, "mudline: built-in-sample.keyxm: there is nothing to study\n")
+    monkeypatch.setattr(precision, "run", Mock(side_effect=ModuleNotFoundError("no", name="scipy.integrate")))
+    assert "this study needs scipy: pip install 'mudline[study]'" in run("study", "precision").err
+    monkeypatch.setattr(precision, "run", Mock(side_effect=ModuleNotFoundError("no", name="mudline.missing")))
+    with pytest.raises(ModuleNotFoundError):
+        run("study", "precision")
+
+
+def test_command_shows_every_kind_of_cell(monkeypatch: pytest.MonkeyPatch) -> None:
+    cells = [("a", True, 0.25, None), ("b", False, float("nan"), 3)]
+    columns = (Column("name"), Column("right"), Column("size", "m"), Column("count"))
+    monkeypatch.setattr(
+        precision, "run", lambda *_: StudyReport("precision", "T", (StudyTable("t", "Cells", columns, cells),))
+    )
+    lines = run("study", "precision", "-q").out.splitlines()
+    assert lines[0] == "Cells"
+    assert lines[-3].split() == ["a", "yes", "0.25"]
+    assert lines[-2].split() == ["b", "no", "3"]

@@ -121,9 +121,9 @@ def breakout(pull: Pull) -> Breakout:
             raise StudyError(f"{pull.name}: the pull does not break the mass out without slowing down")
         largest = max(largest, law.force(float(stop.state[0]), float(stop.state[1])))
         if stop.event == len(events) - 1:
-            break
-    x, v, work = stop.state.tolist()
-    return Breakout(stop.time, x, v, largest, work)
+            x, v, work = stop.state.tolist()
+            return Breakout(stop.time, x, v, largest, work)
+    raise StudyError(f"{pull.name}: the mass comes by the corners of its suction again and again")
 
 
 class _Memory(NamedTuple):
