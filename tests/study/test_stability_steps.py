@@ -17,9 +17,11 @@ from mudline.study.sample import TEXT, sample_scene
 from mudline.study.schemes.catalogue import SCHEMES
 from mudline.study.schemes.newton import Newton
 from mudline.study.stability import bounded
-from mudline.study.stability.bounded import BOUNDED, GROWS, SHARES, measure
+from mudline.study.stability.bounded import BOUNDED, GROWS, SHARES, can_swing, measure
 from mudline.study.stability.contacts import find_contacts
 from mudline.study.stability.cycles import EXAMPLE, STARTS, Pulled, bracketed, cyclings, ensemble, path, residual
+from mudline.study.stability.ladder.cells import cells
+from mudline.study.stability.ladder.judging import judge
 from mudline.study.stability.landings import LANDERS, OMEGA_DTS, landing, landings
 from mudline.study.stability.release import equilibria, releases
 
@@ -99,6 +101,20 @@ def test_schemes_do_on_contacts_what_is_predicted(name: str) -> None:
 def test_the_schemes_and_the_rules_have_the_same_limits() -> None:
     limits = {name: CRITICAL_OMEGA_DT.get(name, np.inf) for name in SCHEMES}
     assert limits == {name: scheme.limit for name, scheme in SCHEMES.items()}
+
+
+@pytest.mark.parametrize("family", ["segment width", "tiny linear stiffness", "huge curve ratios"])
+def test_contacts_of_extreme_decks_are_stepped_as_predicted_or_left_out(family: str) -> None:
+    stepped = 0
+    for cell in cells():
+        if cell.family != family or not judge(cell).results:
+            continue
+        scene = scene_of(cell.text)
+        for contact in filter(can_swing, find_contacts(scene)[0]):
+            stepped += 1
+            for name in ("rk2", "newmark"):
+                assert measure(scene, contact, SCHEMES[name]).as_predicted, (cell.value, name)
+    assert stepped > 1
 
 
 def test_a_step_that_is_not_as_predicted_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:

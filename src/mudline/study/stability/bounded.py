@@ -31,6 +31,18 @@ ALWAYS = 1.0
 
 BOUNDED, GROWS, NO_CONVERGENCE, NOT_TRIED = "bounded", "grows", "no convergence", "-"
 
+_NARROWEST = 1e-5
+_SOFTEST = 1e-280
+_SLOWEST = 1e-140
+"""And the fastest the other way round: the square of a step must be a number."""
+
+
+def can_swing(contact: Contact) -> bool:
+    """Whether a small swing is more than the rounding of depths and forces."""
+    wide = _NARROWEST * contact.scale < contact.reach < np.inf
+    felt = _SOFTEST < contact.stiffness * contact.reach < np.inf
+    return wide and felt and _SLOWEST < contact.omega < 1.0 / _SLOWEST
+
 
 class Measured(NamedTuple):
     """A scheme on a contact.
@@ -86,7 +98,7 @@ def _outcomes(scene: Scene, contact: Contact, scheme: Scheme, omega_dt: FloatArr
     """What a small motion does, for values (k,) of omega dt."""
     system = Pressed(scene, contact, len(omega_dt))
     if isinstance(scheme, OneStep):
-        enough = 64.0 * float(np.finfo(np.float64).eps) * max(abs(system.load), contact.stiffness * contact.reach)
+        enough = 64.0 * float(np.finfo(np.float64).eps) * max(abs(system.load), contact.stiffness * contact.scale)
         scheme = scheme.solved_by(replace(Newton(), tolerance=enough))
     start = AMPLITUDE * contact.reach
     motion = Motion.start(system, np.full(len(omega_dt), start), np.zeros(len(omega_dt)))

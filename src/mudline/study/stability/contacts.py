@@ -26,6 +26,7 @@ class Contact(NamedTuple):
     omega: root of stiffness over mass, radians per unit of time.
     depth: a penetration in the middle of where the law has this stiffness.
     reach: how far to both sides it has it.
+    scale: the largest distance that the law reckons with there: a swing below its rounding is lost.
     """
 
     name: str
@@ -36,12 +37,14 @@ class Contact(NamedTuple):
     omega: float
     depth: float
     reach: float
+    scale: float
 
 
 class _Steepest(NamedTuple):
     stiffness: float
     depth: float
     reach: float
+    scale: float
 
 
 def find_contacts(scene: Scene) -> tuple[list[Contact], list[Omission]]:
@@ -92,11 +95,11 @@ def _nodal(scene: Scene, masses: FloatArray) -> tuple[list[Contact], list[Omissi
     return found, left_out
 
 
-def _small(scene: Scene, element: int) -> tuple[float, float]:
-    """A depth of a linear law, and as far to both sides."""
+def _small(scene: Scene, element: int) -> tuple[float, float, float]:
+    """A depth of a linear law, and as far to both sides: its scale too."""
     diameter = float(scene.diameter[element])
     depth = 0.01 * diameter if np.isfinite(diameter) else 0.01
-    return depth, depth
+    return depth, depth, depth
 
 
 def _groups(kinds: IndexArray) -> list[tuple[int, int]]:
@@ -118,10 +121,12 @@ def _steepest(scene: Scene, element: int) -> _Steepest:
 def _of_curve(curve: ForceCurve, diameter: float) -> _Steepest:
     """The segment of the largest slope; the continued end counts as one as wide as the last segment."""
     slope = steepest_slope(curve.ratios, curve.slopes)
-    ratios: FloatArray = np.append(curve.ratios, 2.0 * curve.ratios[-1] - curve.ratios[-2])
-    ratios[-1] = max(ratios[-1], 0.1 + max(ratios[-2], 0.0))
+    last, width = curve.ratios[-1], curve.ratios[-1] - curve.ratios[-2]
+    with np.errstate(over="ignore"):
+        end = max(last + width, 0.1 + max(last, 0.0))
+    ratios: FloatArray = np.append(curve.ratios, min(end, np.finfo(np.float64).max))
     slopes = np.append(curve.slopes, curve.slopes[-1])
     at = int(np.argmax(np.where(ratios[1:] > 0.0, slopes, -np.inf)))
-    low, high = max(ratios[at], 0.0), ratios[at + 1]
-    middle, half = 0.5 * float(low + high), 0.5 * float(high - low)
-    return _Steepest(slope / diameter, middle * diameter, half * diameter)
+    low, high = max(float(ratios[at]), 0.0), float(ratios[at + 1])
+    middle, half, far = 0.5 * low + 0.5 * high, 0.5 * high - 0.5 * low, max(abs(float(ratios[at])), high)
+    return _Steepest(slope / diameter, middle * diameter, half * diameter, far * diameter)

@@ -11,6 +11,9 @@ from mudline.scene.model import Scene
 from mudline.study.schemes.system import Forces, History
 from mudline.study.stability.contacts import Contact
 
+_FAR = 10.0
+"""Times the reach of the segment: a motion that comes so far has grown, and has no force any more."""
+
 
 class Pressed:
     """`runs` copies of an element of the scene, under a load that holds them at the depth of the contact.
@@ -25,6 +28,7 @@ class Pressed:
     def __init__(self, scene: Scene, contact: Contact, runs: int) -> None:
         self._model = ContactModel(_copies(scene, contact, runs))
         self._depth = contact.depth
+        self._far = _FAR * contact.reach
         self._points = np.zeros((runs, 2, 3))
         self._points[:, 1, 1] = 1.0
         self.mass: FloatArray = np.full(runs, contact.mass)
@@ -33,9 +37,11 @@ class Pressed:
 
     def forces(self, position: FloatArray, velocity: FloatArray, history: History) -> Forces:
         """See `System`."""
-        self._points[:, :, 0] = (position - self._depth)[:, None]
+        usable = np.abs(position) < self._far
+        self._points[:, :, 0] = (np.where(usable, position, 0.0) - self._depth)[:, None]
         result = self._model.evaluate(self._points.reshape(-1, 3))
-        return Forces(result.force - self.load, -result.stiffness, np.zeros(velocity.shape), history)
+        force = np.where(usable, result.force - self.load, np.nan)
+        return Forces(force, -result.stiffness, np.zeros(velocity.shape), history)
 
 
 def _copies(scene: Scene, contact: Contact, runs: int) -> ContactInput:

@@ -10,7 +10,7 @@ from mudline.study.options import StudyOptions
 from mudline.study.report import Omission, StudyReport
 from mudline.study.schemes.catalogue import SCHEMES
 from mudline.study.schemes.newton import Newton
-from mudline.study.stability.bounded import Measured, measure
+from mudline.study.stability.bounded import Measured, can_swing, measure
 from mudline.study.stability.contacts import Contact, find_contacts
 from mudline.study.stability.cycles import EXAMPLE, cyclings, path
 from mudline.study.stability.ladder.cells import cells
@@ -33,8 +33,6 @@ from mudline.study.stability.tables import (
 
 MOST_CONTACTS = 6
 """Stepped by default, the fastest; all of them in a full run."""
-NARROWEST = 1e-7
-"""Half width of a segment over its depth: in a narrower one a small swing is lost in the rounding of the depth."""
 BY_CHANCE = 4000
 """Decks by chance in a full run."""
 
@@ -42,9 +40,9 @@ BY_CHANCE = 4000
 def study_scene(scene: Scene, options: StudyOptions) -> StudyReport:
     """The whole study of a scene."""
     found, omissions = find_contacts(scene)
-    wide = [one for one in found if one.reach > NARROWEST * one.depth]
+    wide = [one for one in found if can_swing(one)]
     omissions += [
-        Omission(one.name, "not stepped: its steepest segment is too narrow") for one in found if one not in wide
+        Omission(one.name, "not stepped: a small swing there is lost in rounding") for one in found if one not in wide
     ]
     stepped = wide if options.full else wide[:MOST_CONTACTS]
     omissions += [
