@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
-from mudline.contact.arrays import BoolArray, FloatArray
+from mudline.contact.arrays import FloatArray
 from mudline.contact.inputs import ContactInput
 
 
-def bare_evaluation(inputs: ContactInput, points: FloatArray) -> tuple[FloatArray | BoolArray, ...]:
+def bare_evaluation(inputs: ContactInput, points: FloatArray) -> tuple[NDArray[np.float64 | np.bool_], ...]:
     """Depth, ratio, contact, force, slope, stiffness, and reactions, of a chain of elements on one curve, flat bed.
 
     All elements are taken to touch the bed; nothing is checked, no history, no other law or bed.

@@ -72,7 +72,7 @@ def cost(variant: Variant, pipe: Pipe, nodes: int) -> CostRow:
     model = ContactModel(inputs)
     points = positions(variant, inputs, pipe)
     taken = stepping(model, series(points, pipe))
-    prepared = spent(lambda: ContactModel(inputs), runs=2, at_least=0.0)
+    prepared = spent(lambda: ContactModel(inputs), few=True)
     per = 1e9 / (nodes * STEPS)
     touching, peak = _evaluated(model, points)
     return CostRow(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from mudline.contact.inputs import LawKind
 from mudline.scene.model import Scene
 from mudline.study.options import StudyOptions
 from mudline.study.pruning.cost import costs, curve_alone
@@ -56,7 +57,7 @@ def _studied(scene: Scene, options: StudyOptions) -> StudyReport:
     inputs = scene.contact_input()
     notes = [" ".join(note.split()) for note in _NOTES]
     pipe = pipe_of(inputs, next(iter(sample_scene().curves.values())))
-    if pipe.curve not in inputs.curves:
+    if not inputs.with_law(LawKind.CURVE).size:
         notes.append("The deck's elements have no curve: that of the built-in sample stands for one.")
     found = variants(inputs, pipe)
     ladder = (*LADDER, MOST) if options.full else LADDER
