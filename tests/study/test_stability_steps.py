@@ -77,6 +77,21 @@ def test_nodes_with_a_stiffness_of_their_own() -> None:
     assert "nodal stiffness 100000" in {omission.what for omission in left_out}
 
 
+def test_the_way_back_may_be_the_stiffest() -> None:
+    back = TEXT.replace("*SEABED SUCTION", "*SEABED UNLOADING\n SET=Clay\n STIFFNESS={}\n*SEABED SUCTION")
+    scene = scene_of(back.format("4.0E5"))
+    found, _ = find_contacts(scene)
+    assert [one.name for one in found] == [
+        "unloading of curve:Soft Clay on Clay",
+        "curve:Soft Clay on Clay",
+        "linear on Sand",
+    ]
+    assert found[0].omega == pytest.approx((4e5 / MASS) ** 0.5, rel=1e-12)
+    assert measure(scene, found[0], SCHEMES["velocity-verlet"]).as_predicted
+    softer, _ = find_contacts(scene_of(back.format("1.0E5")))
+    assert softer == find_contacts(sample_scene())[0]
+
+
 def test_the_continued_end_may_be_the_steepest() -> None:
     found, _ = find_contacts(curved(" -2, -30\n -1, -10\n"))
     assert found[-1].stiffness == pytest.approx(20.0 / 0.3)
@@ -207,6 +222,14 @@ def test_a_stiffness_of_nodes_counts_for_the_step(extra: str, told: list[str]) -
     text += "*TIME\n STEP=FIXED\n 0.0, 120.0, 0.1, 24.0\n"
     findings = lint_bytes(text.encode(), "deck.keyxm", select(["STB002"]))
     assert [found.message.partition("omega = ")[2][:5] for found in findings] == told
+
+
+@pytest.mark.parametrize(("stiffness", "omega"), [("4.0E5", (4e5 / MASS) ** 0.5), ("1.0E3", (1.5e5 / MASS) ** 0.5)])
+def test_the_way_back_counts_for_the_step_where_it_is_stiffer(stiffness: str, omega: float) -> None:
+    text = f"{TEXT}*TIME\n STEP=FIXED\n 0.0, 120.0, 0.1, 24.0\n"
+    text = text.replace("$LOAD CASE", f"*SEABED UNLOADING\n SET=Clay\n STIFFNESS={stiffness}\n$LOAD CASE")
+    (found,) = lint_bytes(text.encode(), "deck.keyxm", select(["STB002"]))
+    assert f"omega = {omega:.4g} rad/s" in found.message
 
 
 @pytest.mark.parametrize("step", ["0.1", "0.0168", "0.0169"])

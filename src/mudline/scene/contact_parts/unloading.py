@@ -11,6 +11,7 @@ from mudline.scene.contact_parts.picking import number, picked, refuse, refuse_e
 from mudline.scene.numbering import Floats, Mask
 
 if TYPE_CHECKING:
+    from mudline.scene.extensions import Extension
     from mudline.scene.model import Scene
 
 KEYWORD = "SEABED UNLOADING"
@@ -27,5 +28,9 @@ def unloading_stiffness(scene: Scene, smooth: Mask) -> Floats | None:
             refuse_entry(where, "stiffness", "the unloading stiffness is not above 0")
     held = (extension.of_element >= 0) & np.isin(scene.law, (LawKind.CURVE, LawKind.LINEAR))
     refuse(extension, held & smooth, scene.element_ids, "there is smoothing too where the reaction unloads")
-    stiffness = picked((number(entry, "stiffness") for entry in extension.entries), extension.of_element)
-    return np.where(held, stiffness, np.nan) if held.any() else None
+    return np.where(held, given_stiffness(extension), np.nan) if held.any() else None
+
+
+def given_stiffness(extension: Extension) -> Floats:
+    """The stiffness of the block that each element (m,) follows, NaN without one."""
+    return picked((number(entry, "stiffness") for entry in extension.entries), extension.of_element)

@@ -10,6 +10,8 @@ from mudline.contact.arrays import FloatArray, IndexArray
 from mudline.contact.critical_step import omega, steepest_slope
 from mudline.contact.inputs import LawKind
 from mudline.curves import ForceCurve
+from mudline.scene.contact_parts.unloading import KEYWORD as UNLOADING
+from mudline.scene.contact_parts.unloading import given_stiffness
 from mudline.scene.model import Scene
 from mudline.study.mass import mass_per_length
 from mudline.study.report import Omission
@@ -27,6 +29,7 @@ class Contact(NamedTuple):
     depth: a penetration in the middle of where the law has this stiffness.
     reach: how far to both sides it has it.
     scale: the largest distance that the law reckons with there: a swing below its rounding is lost.
+    unloading: whether the stiffness is that of the way back.
     """
 
     name: str
@@ -38,6 +41,7 @@ class Contact(NamedTuple):
     depth: float
     reach: float
     scale: float
+    unloading: bool = False
 
 
 class _Steepest(NamedTuple):
@@ -50,7 +54,10 @@ class _Steepest(NamedTuple):
 def find_contacts(scene: Scene) -> tuple[list[Contact], list[Omission]]:
     """The contacts that swing, the stiffest first, and those of which no frequency is known."""
     springs = np.flatnonzero(np.isin(scene.law, (LawKind.CURVE, LawKind.LINEAR)))
-    kinds = np.column_stack([scene.laws.of_element[springs], scene.section_table.of_element[springs]])
+    back = scene.extensions.get(UNLOADING)
+    ways = np.full(len(scene.law), -1) if back is None else back.of_element
+    kinds = np.column_stack([part[springs] for part in (scene.laws.of_element, scene.section_table.of_element, ways)])
+    returns = np.full(len(scene.law), np.nan) if back is None else given_stiffness(back)
     masses = mass_per_length(scene)
     found, left_out = _nodal(scene, masses)
     for first, count in _groups(kinds):
@@ -62,9 +69,14 @@ def find_contacts(scene: Scene) -> tuple[list[Contact], list[Omission]]:
             what = "the mass per unit length is not known" if np.isnan(masses[element]) else "its law never stiffens"
             left_out.append(Omission(name, f"no frequency: {what}"))
             continue
-        found.append(
-            Contact(name, element, count, steepest.stiffness, float(masses[element]), frequency, *steepest[1:])
-        )
+        mass = float(masses[element])
+        found.append(Contact(name, element, count, steepest.stiffness, mass, frequency, *steepest[1:]))
+        if (stiffness := float(returns[element])) > steepest.stiffness:
+            frequency = float(omega(np.array(stiffness), masses[element : element + 1])[0])
+            place = _small(scene, element)
+            found.append(
+                Contact(f"unloading of {name}", element, count, stiffness, mass, frequency, *place, unloading=True)
+            )
     return sorted(found, key=lambda contact: -contact.omega), left_out
 
 

@@ -45,9 +45,12 @@ class Pressed:
 
 
 def _copies(scene: Scene, contact: Contact, runs: int) -> ContactInput:
-    """Elements on the curve of the contact, else with its stiffness: a node's is spread over its length."""
+    """Elements on the curve of the contact, else with its stiffness: a node's is spread over its length.
+
+    A small swing on an unloading line is one on a spring.
+    """
     arrays, element = scene.law_arrays(), contact.element
-    on_curve = arrays.law[element] == LawKind.CURVE
+    on_curve = arrays.law[element] == LawKind.CURVE and not contact.unloading
     return ContactInput(
         node_ids=np.arange(1, 2 * runs + 1),
         coordinates=np.zeros((2 * runs, 3)),

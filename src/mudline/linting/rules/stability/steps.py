@@ -22,6 +22,8 @@ from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
 from mudline.scene.contact_parts.nodal import nodal_stiffness
 from mudline.scene.contact_parts.smoothing import KEYWORD
+from mudline.scene.contact_parts.unloading import KEYWORD as UNLOADING
+from mudline.scene.contact_parts.unloading import given_stiffness
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats
 
@@ -49,8 +51,9 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
     A pipe on the seabed swings with omega, the root of stiffness over mass, both per unit length. Implicit schemes that
     are called unconditionally stable are so for linear systems: contact that opens and closes gives energy to the pipe
     when omega times the step is large, within 3 % of its speed at 0.5 and far more above; explicit schemes fail above
-    2. Only backward Euler never does. The mass is that of the section without added water, and the third value of *TIME
-    is read as the step (inferred). Give the step that the message names.
+    2. Only backward Euler never does. The stiffness of *SEABED UNLOADING counts where it is the larger one. The mass is
+    that of the section without added water, and the third value of *TIME is read as the step (inferred). Give the step
+    that the message names.
 
     Bad:
         $MODEL
@@ -129,6 +132,8 @@ def _stiffness(scene: Scene) -> Floats:
         if entry.curve is not None and entry.whole:
             steepest[scene.laws.followers(number)] = steepest_slope(entry.curve.ratios, entry.curve.slopes)
     found = np.where(scene.law == LawKind.CURVE, steepest / scene.diameter, linear)
+    if UNLOADING in scene.extensions:
+        found = np.where(np.isnan(found), np.nan, np.fmax(found, given_stiffness(scene.extensions[UNLOADING])))
     return np.where(scene.nodal, _nodal(scene), found) if scene.nodal.any() else found
 
 
