@@ -43,7 +43,7 @@ def _draw_nodes(rows: Sequence[CostRow], alone: Sequence[CurveRow], figure: Figu
     label(time, "Time of one step", "nodes [-]", "time per node and step [ns]")
     label(memory, "Most memory during one step", "nodes [-]", "memory per node [bytes]")
     most = max(row.peak for row in rows)
-    memory.set_ylim(100.0, 10.0 ** np.ceil(np.log10(most)))
+    memory.set_ylim(100.0, 2.0 * most)
     memory.yaxis.set_minor_formatter("")
     legend_below(figure, time, 4)
 
@@ -92,7 +92,7 @@ def _draw_growth(rows: Sequence[GrowthRow], fits: Sequence[Fit], figure: Figure)
         _slope(axes, sizes, seconds, fit.exponent, "--", "all sizes")
         half = len(sizes) // 2
         _slope(axes, sizes[half:], seconds[half:], fit.upper, "-", "larger half")
-        axes.set_ylim(0.5 * min(seconds), max(2.0 * max(seconds), 10.0 * min(seconds)))
+        axes.set_ylim(0.25 * min(seconds), max(4.0 * max(seconds), 50.0 * min(seconds)))
         axes.set_xlim(0.8 * min(sizes), 1.25 * max(sizes))
         label(axes, f"Number of {fit.what}", "number [-]", "time [ms]")
         axes.legend(fontsize="small", loc="upper left")
