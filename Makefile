@@ -12,7 +12,7 @@ BENCHMARKS := $(sort $(wildcard tests/benchmarks/*.py))
 ARGS ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help install demo test lint format typecheck docs bench build clean
+.PHONY: help install demo test lint format typecheck docs pictures bench build clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-10s %s\n", $$1, $$2 }' Makefile
@@ -69,6 +69,9 @@ format: $(VENV)/.developer ## put the code into its canonical layout
 
 docs: $(VENV)/.developer ## write anew what docs/ has from the program
 	$(BIN)/python -m tests.docs.make
+
+pictures: $(VENV)/.developer ## draw anew the pictures of docs/images
+	$(BIN)/python -m tests.docs.pictures
 
 bench: $(VENV)/.developer ## run the benchmarks
 	@for script in $(BENCHMARKS); do echo "== $$script"; $(BIN)/python "$$script" || exit; done
