@@ -127,7 +127,7 @@ class ContactModel:
 
         Without velocities (n, 3) they are differences to the step before over `dt`, 0 at the first step.
         """
-        result, after, _ = self.step_in_detail(positions, velocities, state, dt)
+        result, after, _ = self._step(positions, velocities, state, dt, detailed=False)
         return result, after
 
     def step_in_detail(
@@ -138,6 +138,17 @@ class ContactModel:
         dt: float | None = None,
     ) -> tuple[ContactResult, ContactState, StepDetail]:
         """The same with the derivatives of its parts, which `tangent` assembles."""
+        return self._step(positions, velocities, state, dt, detailed=True)
+
+    def _step(
+        self,
+        positions: ArrayLike,
+        velocities: ArrayLike | None,
+        state: ContactState,
+        dt: float | None,
+        *,
+        detailed: bool,
+    ) -> tuple[ContactResult, ContactState, StepDetail]:
         nodes = len(self.input.node_ids)
         series = as_series(positions, nodes)
         if len(series) != 1:
@@ -153,7 +164,7 @@ class ContactModel:
                 if dt is None or not dt > 0.0:
                     raise ValueError("a step without velocities needs dt > 0")
                 moving = (points[0] - state.positions) / dt
-            detail, after = self._one_step(points, moving, part, state, 0)
+            detail, after = self._one_step(points, moving, part, state, 0, detailed=detailed)
         return part.step(0), after, detail
 
     def tangent(
@@ -201,14 +212,21 @@ class ContactModel:
         return state
 
     def _one_step(
-        self, points: FloatArray, moving: FloatArray, part: ContactResult, state: ContactState, number: int
+        self,
+        points: FloatArray,
+        moving: FloatArray,
+        part: ContactResult,
+        state: ContactState,
+        number: int,
+        *,
+        detailed: bool = False,
     ) -> tuple[StepDetail, ContactState]:
         self._locate(points, part)
         self._embed(part, number)
         self._stages.press(part, number)
         detail, after = self._stages.look_back(part, points[0], moving, state, number)
         stiffness = self._stages.gather(part, number)
-        detail, after = self._stages.slide(part, points[0], detail._replace(nodal=stiffness), after)
+        detail, after = self._stages.slide(part, points[0], detail._replace(nodal=stiffness), after, detailed=detailed)
         self._stages.check(part, number)
         self._blank_absent(part)
         return detail, after

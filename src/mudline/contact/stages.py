@@ -17,6 +17,7 @@ from mudline.contact.state import ContactState
 if TYPE_CHECKING:
     from mudline.contact.assembly import Assembly
     from mudline.contact.floors.base import Floor
+    from mudline.contact.friction.directions import Line
     from mudline.contact.lateral import LateralSprings, LateralStage
     from mudline.contact.laws.spring import Springs
     from mudline.contact.laws.unloading import UnloadingReaction
@@ -61,6 +62,7 @@ class Stages:
         self.assembly = _assembly(inputs, [self.normal, self.springs, self.suction])
         self.friction = _friction(inputs)
         self.lateral = _lateral(inputs)
+        self._line = _line(inputs)
         self._inputs = inputs
         self._bends = any(stage is not None for stage in (self.unloading, self.springs, self.suction))
         self._at_nodes = any(stage is not None for stage in (self.nodal, self.friction, self.lateral))
@@ -110,14 +112,24 @@ class Stages:
         return stiffness
 
     def slide(
-        self, part: ContactResult, points: FloatArray, detail: StepDetail, state: ContactState
+        self,
+        part: ContactResult,
+        points: FloatArray,
+        detail: StepDetail,
+        state: ContactState,
+        *,
+        detailed: bool = True,
     ) -> tuple[StepDetail, ContactState]:
-        """Friction and lateral springs of one step."""
+        """Friction and lateral springs of one step; without `detailed` some derivatives are left out."""
+        if self._line is None:
+            return detail, state
+        points = np.asfortranarray(points)
+        along = self._line.axial(points, part.normal[0])
         if self.friction is not None and state.friction is not None and state.laid is not None:
-            sliding, history = self.friction.apply(part, points, state.friction, state.laid)
+            sliding, history = self.friction.apply(part, points, along, state.friction, state.laid, detailed=detailed)
             detail, state = detail._replace(sliding=sliding), replace(state, friction=history)
         if self.lateral is not None and state.touchdown is not None:
-            springs, touchdown = self.lateral.apply(part, points, state.touchdown)
+            springs, touchdown = self.lateral.apply(part, points, along, state.touchdown)
             detail, state = detail._replace(lateral=springs), replace(state, touchdown=touchdown)
         return detail, state
 
@@ -200,7 +212,7 @@ def _friction(inputs: ContactInput) -> FrictionStage | None:
         return None
     from mudline.contact.sliding import FrictionStage  # noqa: PLC0415 - only now is it needed
 
-    return FrictionStage(inputs, inputs.extras.friction, _trench(inputs))
+    return FrictionStage(inputs.extras.friction, _trench(inputs))
 
 
 def _trench(inputs: ContactInput) -> TrenchStage | None:
@@ -217,3 +229,11 @@ def _lateral(inputs: ContactInput) -> LateralStage | None:
     from mudline.contact.lateral import LateralStage  # noqa: PLC0415 - only now is it needed
 
     return LateralStage(inputs, inputs.extras.lateral)
+
+
+def _line(inputs: ContactInput) -> Line | None:
+    if inputs.extras.friction is None and inputs.extras.lateral is None:
+        return None
+    from mudline.contact.friction.directions import Line  # noqa: PLC0415 - only now is it needed
+
+    return Line(inputs.element_nodes, len(inputs.node_ids))
