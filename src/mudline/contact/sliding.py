@@ -69,7 +69,11 @@ class FrictionStage:
             places = np.where(absent[:, None], 0.0, points)
             compression = np.where(absent, 0.0, compression)
         directions = self._turn(along, part.normal[0])
-        ditch = None if self._trench is None else self._trench.locate(places, directions[1], laid)
+        ditch = (
+            None
+            if self._trench is None
+            else self._trench.locate(places, directions[1], laid, compression > 0.0, detailed=detailed)
+        )
         moved = move(self._law, history, places, directions, compression, None if ditch is None else ditch.extra)
         _add(part, moved, directions)
         if not detailed:
