@@ -144,6 +144,9 @@ def test_text_tells_states(place: Place, pulled: tuple[str, ...]) -> None:
         ["1", "0"],
         ["0", "0"],
     ]
+    rows = run("evaluate", *pulled, "--output-format", "json").json()["steps"][2]["elements"]
+    pull = next(line.split() for line in text.splitlines() if line.startswith("pull on an element"))
+    assert [float(pull[4]), *pull[5:]] == [pytest.approx(-rows[0]["force"], rel=1e-5), "N/m", "2", "1"]
     single = run("evaluate", place(BOTH), "--table", "nodes").out
     assert "axial friction of nodes    stick" in single
     assert "suction of elements        compression" in single

@@ -40,6 +40,9 @@ def print_evaluation(digest: Digest, which: str, view: View) -> None:
     rows = touching_elements if which == "elements" else touching_nodes
     columns, cells = rows(digest.evaluation, digest.first)
     told = list(cells if view.verbose else _joined(cells))
+    if not told:
+        printer.print(f"No {which} in contact", highlight=False)
+        return
     left = len(told) - len(told[: digest.most])
     note = f"{left} more lines: -v shows all, -o writes all" if left else ""
     print_table(printer, f"{which.capitalize()} in contact", columns, told[: digest.most], left=LEFT, note=note)
@@ -138,13 +141,14 @@ def _print_peaks(printer: Console, digest: Digest) -> None:
     units = {
         "reaction": ("total reaction", names.force),
         "force": ("force of an element", names.line_force),
+        "pull": ("pull on an element", names.line_force),
         "touching": ("elements in contact", ""),
         "deepest": ("depth", names.length),
     }
     rows = []
     for key, (what, unit) in units.items():
         peak = digest.peaks.found.get(key)
-        if peak is not None and times is not None and not (key == "force" and peak.value == 0.0):
+        if peak is not None and times is not None and not (key in {"force", "pull"} and peak.value == 0.0):
             element = "" if peak.element is None else str(peak.element)
             rows.append((what, shown(peak.value), unit, shown(float(times[peak.step])), element))
     columns = ("largest", "value", "unit", _time(names), "element")
