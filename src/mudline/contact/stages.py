@@ -88,15 +88,14 @@ class Stages:
     ) -> tuple[StepDetail, ContactState]:
         """Unloading and suction of the step `number`, and the state behind it as far as they are concerned."""
         state = replace(state, positions=points, laid=points if state.laid is None else state.laid)
-        unloads: tuple[IndexArray, UnloadingReaction] | None = None
+        unloaded: UnloadingReaction | None = None
         detail = StepDetail()
         if self.unloading is not None and state.unloading is not None:
-            reaction, after = self.unloading.apply(part, state.unloading)
-            state, unloads = replace(state, unloading=after), (self.unloading.elements, reaction)
+            unloaded, after = self.unloading.apply(part, state.unloading)
+            state = replace(state, unloading=after)
         if self.suction is not None and state.suction is not None:
-            velocity = self.suction.pull_out(part, moving, number)
-            suction, history = self.suction.apply(part, velocity, state.suction, unloads)
-            state, detail = replace(state, suction=history), StepDetail(suction=(self.suction.elements, suction))
+            suction, history = self.suction.apply(part, moving, state.suction, unloaded, number)
+            state, detail = replace(state, suction=history), StepDetail(suction=suction)
         return detail, state
 
     def gather(self, part: ContactResult, first_step: int) -> FloatArray | None:
