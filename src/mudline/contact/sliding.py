@@ -38,11 +38,14 @@ class Sliding:
 class FrictionStage:
     """Friction of the nodes that have it, with the trenches they lie in."""
 
-    def __init__(self, friction: NodeFriction, trench: TrenchStage | None) -> None:
+    def __init__(self, friction: NodeFriction, trench: TrenchStage | None, same_normal: FloatArray | None) -> None:
         self._law = PreparedLaw(friction.law)
         self._angle = friction.angle
         self._turned = np.flatnonzero(~np.isnan(friction.angle))
         self._trench = trench
+        self._fixed = (
+            None if same_normal is None else self._at_angle(np.broadcast_to(same_normal, (len(self._turned), 3)))
+        )
 
     def initial(self) -> FrictionHistory:
         """Nothing has touched the bed."""
@@ -85,11 +88,16 @@ class FrictionStage:
         if not self._turned.size:
             return along
         first, second = (np.array(axis, order="F") for axis in along)
-        turned = at_angle(self._angle[self._turned], gathered(normals, self._turned))
+        turned = self._at_angle(gathered(normals, self._turned)) if self._fixed is None else self._fixed
         for axis in range(3):
             first[self._turned, axis] = turned[0][:, axis]
             second[self._turned, axis] = turned[1][:, axis]
         return first, second
+
+    def _at_angle(self, normals: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """u1 and u2 of the nodes at an angle to +Y, whose normals (k, 3) are given."""
+        first, second = at_angle(self._angle[self._turned], normals)
+        return np.asfortranarray(first), np.asfortranarray(second)
 
     def _in_detail(self, moved: Moved, directions: tuple[FloatArray, FloatArray], ditch: InTrench | None) -> Sliding:
         from mudline.contact.friction.derivatives import with_derivatives  # noqa: PLC0415 - only tangents need it

@@ -143,8 +143,10 @@ class Stages:
             for what, values in (("slope", part.slope), ("stiffness", part.stiffness)):
                 refuse_elements(np.isinf(values), self._inputs.element_ids, first_step, f"its {what} overflows")
         if self._at_nodes:
-            wrong: BoolArray = np.logical_or.reduce(~np.isfinite(part.reaction), axis=2)
-            refuse_nodes(wrong, self._inputs.node_ids, first_step, "the reaction there overflows")
+            finite = np.isfinite(part.reaction)
+            if not finite.all():
+                wrong: BoolArray = np.logical_or.reduce(~finite, axis=2)
+                refuse_nodes(wrong, self._inputs.node_ids, first_step, "the reaction there overflows")
 
 
 def _normal_law(inputs: ContactInput) -> NormalLaw | None:
@@ -211,7 +213,8 @@ def _friction(inputs: ContactInput) -> FrictionStage | None:
         return None
     from mudline.contact.sliding import FrictionStage  # noqa: PLC0415 - only now is it needed
 
-    return FrictionStage(inputs.extras.friction, _trench(inputs))
+    same_normal = FlatFloor.same_normal if inputs.floor is None else inputs.floor.same_normal
+    return FrictionStage(inputs.extras.friction, _trench(inputs), same_normal)
 
 
 def _trench(inputs: ContactInput) -> TrenchStage | None:
