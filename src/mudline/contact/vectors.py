@@ -24,18 +24,14 @@ def nothing(count: int, components: int = 3) -> FloatArray:
 
 def gathered(vectors: FloatArray, rows: IndexArray) -> FloatArray:
     """The `rows` (k,) of vectors (n, components)."""
-    found = blank(len(rows), vectors.shape[1])
-    for axis in range(vectors.shape[1]):
-        np.take(vectors[:, axis], rows, out=found[:, axis], mode="clip")  # clip: the one mode without a buffer
-    return found
+    return vectors.T.take(rows, axis=1).T
 
 
 def dot(one: FloatArray, other: FloatArray) -> FloatArray:
     """Scalar products (n,) of vectors (n, 3)."""
-    total: FloatArray = one[:, 0] * other[:, 0]
-    term = one[:, 1] * other[:, 1]
-    total += term
-    total += np.multiply(one[:, 2], other[:, 2], out=term)
+    product = np.multiply(one, other, order="F")
+    total: FloatArray = product[:, 0] + product[:, 1]
+    total += product[:, 2]
     return total
 
 
@@ -52,10 +48,7 @@ def cross(one: FloatArray, other: FloatArray) -> FloatArray:
 
 def scaled(vectors: FloatArray, factors: FloatArray) -> FloatArray:
     """Vectors (n, 3), each times its factor (n,)."""
-    product = blank(len(vectors))
-    for axis in range(3):
-        np.multiply(vectors[:, axis], factors, out=product[:, axis])
-    return product
+    return np.multiply(vectors, factors[:, np.newaxis], order="F")
 
 
 def added_at(rows: Sequence[IndexArray], vectors: FloatArray, count: int) -> FloatArray:

@@ -102,6 +102,5 @@ def _projected(wanted: FloatArray, normals: FloatArray) -> FloatArray:
     able = size > whole
     if not able.all():
         size[~able] = np.nan
-    for axis in range(3):
-        rest[:, axis] /= size
+    rest /= size[:, np.newaxis]
     return rest

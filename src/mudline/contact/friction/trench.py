@@ -190,8 +190,7 @@ class LaidCentreline:
         nearer = away < distance
         np.copyto(share, second, where=nearer)
         np.copyto(distance, away, where=nearer)
-        for axis in range(3):
-            np.copyto(found[:, axis], foot[:, axis], where=nearer)
+        np.copyto(found, foot, where=nearer[:, np.newaxis])
         current = np.where(nearer, other.element, one.element)
         settled = _Settled(found, current, share)
         self._walk(points, settled, distance)
