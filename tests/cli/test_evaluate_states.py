@@ -163,7 +163,12 @@ def test_rigid_bed_restrains_nodes(place: Place) -> None:
     series = run("evaluate", place(RIGID), "--positions", place(PULL, "p.csv"), "--output-format", "json").json()
     assert_fits(series, "evaluate")
     assert [step["restrained"] for step in series["steps"]] == [[1, 2], [1, 2], [], [], []]
-    assert "rigid bed  restrained nodes      2" in run("evaluate", place(RIGID)).out
+    text = run("evaluate", place(RIGID)).out
+    assert "rigid bed  restrained nodes      2" in text
+    assert text.splitlines()[5].split()[:4] == ["rigid", "ALL", "2", "1"]
+    assert len(text.splitlines()[5].split()) == 5, "no reaction is told, as none is known"
+    nodes = run("evaluate", place(RIGID), "--table", "nodes").out
+    assert nodes.splitlines()[-2].split()[:3] == ["1", "to", "2"]
 
 
 def test_no_seabed_is_no_value(place: Place, folder: Path) -> None:

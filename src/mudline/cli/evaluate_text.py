@@ -73,7 +73,7 @@ def _print_totals(printer: Console, evaluation: Evaluation, part: Part) -> None:
         (each.law, each.set_name, str(each.elements), str(each.touching), _depth(each), shown(each.reaction))
         for each in found
     ]
-    if len(found) > 1 or any(each.reaction is None for each in found):
+    if len(found) > 1 or any(each.law == "nodal" for each in found):
         sums = (sum(each.elements for each in found), sum(each.touching for each in found))
         deepest = max((each for each in found if each.deepest is not None), key=_by_depth, default=found[0])
         total = shown(reaction(evaluation, part.result.step(0)))
