@@ -3,11 +3,24 @@
 from __future__ import annotations
 
 import math
+from typing import Final
 
 from mudline.contact.compiled.jit import jitted
 
 Mapped = tuple[float, float, bool, bool]
 """Forces along u1 and u2, and which of them are at their limit."""
+
+_SURELY: Final = 1.0 - 1e-12
+
+
+@jitted
+def inside(first: float, second: float, first_limit: float, second_limit: float, elliptic: bool) -> bool:  # noqa: FBT001
+    """Whether trial forces are surely within their limits; not said of all that are within an ellipse."""
+    within = (abs(first) <= first_limit) & (abs(second) <= second_limit)
+    if not elliptic or not within:
+        return within
+    one, other = first / first_limit, second / second_limit
+    return one * one + other * other < _SURELY
 
 
 @jitted
@@ -37,3 +50,11 @@ def ellipse(first: float, second: float, first_limit: float, second_limit: float
         slides or (not one and first != 0.0),
         slides or (not other and second != 0.0),
     )
+
+
+@jitted
+def dragged(slips: bool, elongation: float, force: float, stiffness: float) -> float:  # noqa: FBT001
+    """The way of the anchor to where the spring bears its force."""
+    if not slips:
+        return 0.0
+    return elongation - (force / stiffness if stiffness > 0.0 else elongation)

@@ -58,8 +58,7 @@ class Nodes(NamedTuple):
     """Nodes (n,).
 
     Attributes:
-        numbers: (n, 8) coefficients of friction along u1 and u2, constant springs (NaN for none), mobilised springs per
-            normal force, cosine and sine of the angle (NaN for none).
+        numbers: (n, 8) coefficients of friction along u1 and u2, springs, springs per normal force, cosine and sine of the angle (NaN for none).
         springs: (n, 2) stiffness of the nodal spring, 0 for none, and half width of its zone.
         one_sided: as in `NodalSprings`.
         active: nodes that have friction.
@@ -172,8 +171,9 @@ def _nodes(inputs: ContactInput) -> Nodes:
     if extras.friction is not None:
         law, turn = extras.friction.law, np.radians(extras.friction.angle)
         with np.errstate(all="ignore"):
-            rising = law.coefficients / law.mobilisation
-        numbers = np.column_stack([law.coefficients, law.stiffness, rising, np.cos(turn), np.sin(turn)])
+            rising = np.where(law.constant, 0.0, law.coefficients / law.mobilisation)
+        constant = np.where(law.constant, law.stiffness, 0.0)
+        numbers = np.column_stack([law.coefficients, constant, rising, np.cos(turn), np.sin(turn)])
         active, elliptic = law.active.copy(), law.ellipse.copy()
     nodal = extras.nodal
     springs = np.zeros((count, 2))

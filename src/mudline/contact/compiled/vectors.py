@@ -11,6 +11,8 @@ Vector = tuple[float, float, float]
 
 _STEEPEST: Final = 1.0e-9
 """As in `friction.directions`."""
+_CLEAR: Final = 1.0e-12
+"""A sum of unit tangents whose square in the bed is above this has a projection on the bed, at some elements a node."""
 
 
 @jitted
@@ -59,3 +61,23 @@ def unit_tangent(start: Vector, end: Vector) -> Vector:
     if not 0.0 < length < math.inf:
         return (0.0, 0.0, 0.0)
     return (span[0] / length, span[1] / length, span[2] / length)
+
+
+@jitted
+def along_line(tangent: Vector, normal: Vector) -> Vector:
+    """The direction u1 of a node from the sum of the unit tangents of its elements."""
+    along = dot(tangent, normal)
+    rest = (tangent[0] - normal[0] * along, tangent[1] - normal[1] * along, tangent[2] - normal[2] * along)
+    square = dot(rest, rest)
+    if not square > _CLEAR:
+        return in_plane(tangent, normal)
+    share = 1.0 / math.sqrt(square)
+    return (rest[0] * share, rest[1] * share, rest[2] * share)
+
+
+@jitted
+def at_angle(cosine: float, sine: float, normal: Vector) -> Vector:
+    """The direction u1 of a node whose u1 is +Y in the bed, turned."""
+    u = along_line((0.0, 1.0, 0.0), normal)
+    v = cross(normal, u)
+    return (cosine * u[0] + sine * v[0], cosine * u[1] + sine * v[1], cosine * u[2] + sine * v[2])
