@@ -55,7 +55,7 @@ class LateralStage:
 
         `along` are the directions of the line and across it at the nodes.
         """
-        touches = np.flatnonzero(part.contact[0, self._elements])
+        touches = np.flatnonzero(part.contact[0][self._elements])
         elements = self._elements[touches]
         first, second = (end[touches] for end in self._ends)
         start, end = gathered(points, first), gathered(points, second)
@@ -80,8 +80,8 @@ class LateralStage:
 
     def _touched(self, elements: IndexArray, held: FloatArray) -> FloatArray:
         after = self.initial()
-        for axis in range(3):
-            after[elements, axis] = held[:, axis]
+        for column, values in zip(after.T, held.T, strict=True):
+            column[elements] = values
         return after
 
 

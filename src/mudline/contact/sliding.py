@@ -89,9 +89,9 @@ class FrictionStage:
             return along
         first, second = (np.array(axis, order="F") for axis in along)
         turned = self._at_angle(gathered(normals, self._turned)) if self._fixed is None else self._fixed
-        for axis in range(3):
-            first[self._turned, axis] = turned[0][:, axis]
-            second[self._turned, axis] = turned[1][:, axis]
+        for whole, values in zip((first, second), turned, strict=True):
+            for column, part in zip(whole.T, values.T, strict=True):
+                column[self._turned] = part
         return first, second
 
     def _at_angle(self, normals: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -33,17 +33,17 @@ class Unloading:
 
         An element without a depth keeps its history and has no reaction.
         """
-        found = part.depth[0, self.elements]
+        found = part.depth[0][self.elements]
         depth = np.fmax(found, 0.0)
-        force, stiffness = part.force[0, self.elements], part.stiffness[0, self.elements]
+        force, stiffness = part.force[0][self.elements], part.stiffness[0][self.elements]
         deeper = np.flatnonzero(depth > history.z_max)
         reaction, after = unloading.step(history, depth, VirginPath(force, stiffness, self._steepest(depth, deeper)))
         known = ~np.isnan(found)
         uplift = np.where(known, after.z_p - found, 0.0)
         reaction = reaction._replace(uplift=uplift, compressed=reaction.compressed & known)
-        part.force[0, self.elements] = reaction.force
-        part.stiffness[0, self.elements] = reaction.stiffness
-        part.slope[0, self.elements] = reaction.stiffness * self._diameter
+        part.force[0][self.elements] = reaction.force
+        part.stiffness[0][self.elements] = reaction.stiffness
+        part.slope[0][self.elements] = reaction.stiffness * self._diameter
         return reaction, after
 
     def _steepest(self, depth: FloatArray, deeper: IndexArray) -> FloatArray:

@@ -79,8 +79,8 @@ class SuctionStage:
             PositionError: the velocity of a node is not finite; those off the bed or without position do not count.
         """
         along = self._along_normals(part, moving, number)
-        uplift = self._onset - part.depth[0, self.elements]
-        compressed = part.contact[0, self.elements]
+        uplift = self._onset - part.depth[0][self.elements]
+        compressed = part.contact[0][self.elements]
         if unloading is not None:
             self._from_trench_bottom(uplift, compressed, unloading)
         # all others are at rest: pressed, never pressed, or unknown
@@ -95,7 +95,7 @@ class SuctionStage:
         add_uplift(part, elements, suction.force, suction.by_uplift, self._diameter[loose])
         after = _after(compressed, loose, moved)
         if part.state is not None:
-            part.state[0, self.elements] = after.state
+            part.state[0][self.elements] = after.state
         return (elements, suction), after
 
     def _along_normals(self, part: ContactResult, moving: FloatArray, number: int) -> FloatArray:

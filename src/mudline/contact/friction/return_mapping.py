@@ -13,7 +13,7 @@ import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray, StateArray
 from mudline.contact.friction.law import FrictionHistory, FrictionLaw, FrictionState
-from mudline.contact.vectors import blank, dot, gathered
+from mudline.contact.vectors import blank, dot, gathered, nothing
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -157,7 +157,7 @@ def move(
     closed = held.law.active & (compression > 0.0)
     anchored = closed & (history.states[:, 0] > FrictionState.OPEN)
     pressing = np.where(closed, compression, 0.0)
-    anchors = np.where(anchored[:, None], history.anchors, points)
+    anchors = _anchors(history.anchors, anchored, points)
     springs = _springs(held, pressing, directions, points - anchors)
     limits = _limits(held, springs.trial, pressing, extra)
     force, slips = _in_box(springs.trial, limits.force)
@@ -166,6 +166,15 @@ def move(
     states = _left_behind(held, closed, anchors, slips)
     np.subtract(0.0, force, out=force)  # the reaction to what the springs feel, and no -0
     return Moved(force, springs, limits, slips, moved, closed, anchored, FrictionHistory(anchors, states))
+
+
+def _anchors(before: FloatArray, anchored: BoolArray, points: FloatArray) -> FloatArray:
+    """Anchors (n, 3), which stand at the nodes where there were none."""
+    anchors = np.array(before, order="F")
+    new = np.flatnonzero(~anchored)
+    for anchor, place in zip(anchors.T, points.T, strict=True):
+        anchor[new] = place[new]
+    return anchors
 
 
 def _springs(
@@ -214,9 +223,10 @@ def _into_ellipses(
         return
     tried = gathered(trial, nodes)
     found = gauge(tried, gathered(limits, nodes))
+    lost = ~found.able & (tried != 0.0)  # a direction without a limit holds nothing
     for side in range(2):
-        force[nodes, side] = found.trial[:, side] / found.scale
-        slips[nodes, side] = found.slides | (~found.able[:, side] & (tried[:, side] != 0.0))
+        force[:, side][nodes] = found.trial[:, side] / found.scale
+        slips[:, side][nodes] = found.slides | lost[:, side]
 
 
 def _drag(
@@ -227,14 +237,14 @@ def _drag(
     slips: BoolArray,
 ) -> FloatArray:
     """Drag the anchors of what slips to where the spring bears its force; return the ways (n, 2)."""
-    moved = np.zeros((2, len(anchors))).T
+    moved = nothing(len(anchors), 2)
     for side, axis in enumerate(directions):
         nodes = np.flatnonzero(slips[:, side])
-        stiffness, elongation = springs.stiffness[nodes, side], springs.elongation[nodes, side]
-        stretch = np.where(stiffness > 0.0, force[nodes, side] / stiffness, elongation)
-        moved[nodes, side] = way = elongation - stretch
-        for component in range(3):
-            anchors[nodes, component] += axis[nodes, component] * way
+        stiffness, elongation = springs.stiffness[:, side][nodes], springs.elongation[:, side][nodes]
+        stretch = np.where(stiffness > 0.0, force[:, side][nodes] / stiffness, elongation)
+        moved[:, side][nodes] = way = elongation - stretch
+        for anchor, share in zip(anchors.T, axis.T, strict=True):
+            anchor[nodes] += share[nodes] * way
     return moved
 
 
@@ -243,7 +253,8 @@ def _left_behind(held: PreparedLaw, closed: BoolArray, anchors: FloatArray, slip
     states = slips.astype(np.int8)
     states += np.int8(FrictionState.STICK)
     open_ = np.flatnonzero(~closed)
-    for component in range(3):
-        anchors[open_, component] = np.nan
-    states[open_] = held.idle[open_]
+    for anchor in anchors.T:
+        anchor[open_] = np.nan
+    for state, idle in zip(states.T, held.idle.T, strict=True):
+        state[open_] = idle[open_]
     return states
