@@ -12,7 +12,7 @@ BENCHMARKS := $(sort $(wildcard tests/benchmarks/*.py))
 ARGS ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help install demo test lint format typecheck docs studies bench build clean
+.PHONY: help install demo test lint format typecheck docs pictures studies bench build clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-10s %s\n", $$1, $$2 }' Makefile
@@ -69,6 +69,9 @@ format: $(VENV)/.developer ## put the code into its canonical layout
 
 docs: $(VENV)/.developer ## write anew what docs/ has from the program
 	$(BIN)/python -m tests.docs.make
+
+pictures: $(VENV)/.developer ## draw anew the pictures of docs/images
+	$(BIN)/python -m tests.docs.pictures
 
 studies: $(VENV)/.developer ## write anew the pictures and numbers of docs/studies/, minutes
 	@for study in precision stability pruning; do $(BIN)/mudline study $$study -o docs/studies || exit; done

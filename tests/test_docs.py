@@ -36,6 +36,8 @@ JSON = {
         "evaluate -q samples/flowline-gen.keyxm --plan",
         "evaluate -q samples/scr-touchdown.keyxm --positions samples/positions.csv",
         "evaluate -q samples/linear.keyxm --tension cut",
+        "evaluate -q samples/full-cycle.keyxm --positions samples/full-cycle.csv",
+        "evaluate -q samples/slope-friction.keyxm --positions samples/slope-friction.csv",
     ),
     "diff": (
         "diff samples/parametric.keyxm samples/variations.keyxm",

@@ -90,12 +90,14 @@ def test_every_sample_is_there() -> None:
     assert DECKS == [
         "broken.keyxm",
         "flowline-gen.keyxm",
+        "full-cycle.keyxm",
         "imperial-riser.keyxi",
         "legacy-flowline.keyxm",
         "lines-deck.keyxm",
         "parametric.keyxm",
         "scr-dynamic.keyxm",
         "scr-touchdown.keyxm",
+        "slope-friction.keyxm",
         "variations.keyxm",
     ]
 
@@ -117,7 +119,7 @@ def test_a_sample_begins_with_what_it_shows_and_says_that_it_is_synthetic(name: 
     assert "synthetic" in header[0].lower()
 
 
-@pytest.mark.parametrize("name", ["positions.csv", "elements.csv", "lines-positions.csv"])
+@pytest.mark.parametrize("name", sorted(path.name for path in SAMPLES.glob("*.csv")))
 def test_data_files_are_small(name: str) -> None:
     assert (SAMPLES / name).stat().st_size < 200_000
 

@@ -169,7 +169,7 @@ def test_contact(path: Path) -> None:
     assert contact.evaluate(moved).force.shape == (4, 2)
     assert contact.evaluate(moved[0]).ratio[0] == pytest.approx(0.4)
     assert [stage.stage for stage in contact.plan] == (
-        ["floor", "normal law", "suction", "friction", "trench", "assembly"]
+        ["floor", "normal law", "smoothing", "unloading", "suction", "friction", "lateral", "trench", "assembly"]
     )
 
 

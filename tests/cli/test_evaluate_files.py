@@ -155,7 +155,7 @@ def test_positions_of_one_node_leave_nothing_to_evaluate(place: Place, folder: P
     assert found["steps"][0]["elements"] == []
     (folder / "p.csv").write_text("node,x,y,z\n2,-0.1,0,0\n", encoding="utf-8")
     outcome = run("evaluate", place(), "--positions", "p.csv")
-    assert (outcome.code, outcome.out.splitlines()[5:7]) == (0, ["", "Elements in contact"])
+    assert (outcome.code, outcome.out.splitlines()[5:7]) == (0, ["", "No elements in contact"])
 
 
 def test_elements_from_a_file() -> None:

@@ -144,6 +144,9 @@ def test_text_tells_states(place: Place, pulled: tuple[str, ...]) -> None:
         ["1", "0"],
         ["0", "0"],
     ]
+    rows = run("evaluate", *pulled, "--output-format", "json").json()["steps"][2]["elements"]
+    pull = next(line.split() for line in text.splitlines() if line.startswith("pull on an element"))
+    assert [float(pull[4]), *pull[5:]] == [pytest.approx(-rows[0]["force"], rel=1e-5), "N/m", "2", "1"]
     single = run("evaluate", place(BOTH), "--table", "nodes").out
     assert "axial friction of nodes    stick" in single
     assert "suction of elements        compression" in single
@@ -160,7 +163,12 @@ def test_rigid_bed_restrains_nodes(place: Place) -> None:
     series = run("evaluate", place(RIGID), "--positions", place(PULL, "p.csv"), "--output-format", "json").json()
     assert_fits(series, "evaluate")
     assert [step["restrained"] for step in series["steps"]] == [[1, 2], [1, 2], [], [], []]
-    assert "rigid bed  restrained nodes      2" in run("evaluate", place(RIGID)).out
+    text = run("evaluate", place(RIGID)).out
+    assert "rigid bed  restrained nodes      2" in text
+    assert text.splitlines()[5].split()[:4] == ["rigid", "ALL", "2", "1"]
+    assert len(text.splitlines()[5].split()) == 5, "no reaction is told, as none is known"
+    nodes = run("evaluate", place(RIGID), "--table", "nodes").out
+    assert nodes.splitlines()[-2].split()[:3] == ["1", "to", "2"]
 
 
 def test_no_seabed_is_no_value(place: Place, folder: Path) -> None:

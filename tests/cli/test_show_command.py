@@ -40,8 +40,8 @@ curve:Clay  Pipe         2
 
 Static embedment
                    weight             penetration
-set   law           [N/m]      ratio          [m]  stiffness  extrapolated
-──────────────────────────────────────────────────────────────────────────
+set   law           [N/m]      ratio          [m]  stiffness
+────────────────────────────────────────────────────────────
 Pipe  curve:Clay  348.178  0.0348178    0.0174089      20000
 
 """
@@ -216,3 +216,11 @@ def test_the_shape_of_the_bed(profile: str, words: str, place: Place) -> None:
     name = place(CLEAN + f"*SEABED PROFILE\n {profile}\n")
     assert words in run("show", name).out
     assert_fits(run("show", name, "--output-format", "json").json(), "show")
+
+
+def test_a_weight_beyond_the_curve_is_told(place: Place) -> None:
+    soft = CLEAN.replace(" 0.5, 3000.0", " 0.5, 30.0").replace(" 0.1, 1000.0", " 0.1, 1.0")
+    assert soft != CLEAN
+    out = run("show", place(soft)).out
+    assert "stiffness  extrapolated" in out
+    assert out.rstrip().endswith("above")

@@ -230,10 +230,10 @@ def test_table_in_a_pipe_is_as_wide_as_it_has_to_be(place: Place, monkeypatch: p
 
 
 def test_table_on_a_terminal_folds_its_texts(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("COLUMNS", "60")
+    monkeypatch.setenv("COLUMNS", "72")
     name = place(CLEAN.replace("Pipe", "The whole of the pipe " * 8))
     text = plain(run("show", name, terminal=True).out)
-    assert max(map(len, text.splitlines())) <= 60
+    assert max(map(len, text.splitlines())) <= 72
     assert " ".join(text.split()).count("The whole of the pipe") >= 8
 
 

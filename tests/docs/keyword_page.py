@@ -53,6 +53,20 @@ _CERTAIN = """## Certain and inferred
 {text}
 """
 
+_COMPUTED = {
+    "SEABED PROFILE": "floors",
+    "SEABED PLANES": "floors",
+    "SEABED STIFFNESS": "normal-laws",
+    "EMBEDMENT": "normal-laws",
+    "SEABED PROPERTIES": "normal-laws",
+    "SEABED CONTACT": "smoothing",
+    "SEABED UNLOADING": "unloading",
+    "SEABED SUCTION": "suction",
+    "SEABED FRICTION": "friction",
+    "SEABED TRENCH": "trenches",
+}
+"""Where the page on the evaluator says what a keyword does."""
+
 _OWN = "(extension)"
 """How the summary of a keyword says that the language does not have it elsewhere."""
 
@@ -105,6 +119,8 @@ def _of_model(block: type[Block]) -> Iterator[str]:
     for caption, table in tables(block):
         yield "\n".join([*([caption, ""] if caption else []), *table, ""])
     yield _EXAMPLE.format(example=block.example.rstrip("\n"))
+    if place := _COMPUTED.get(block.names[0]):
+        yield f"What is computed from it: [the contact evaluator](../contact.md#{place}).\n"
     yield _rules(block)
     yield _CERTAIN.format(text=_certain(block))
 

@@ -240,6 +240,14 @@ def test_a_linear_law_needs_no_diameter() -> None:
     assert told(PIPE + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=1\n") == []
 
 
+def test_a_stiffness_of_the_nodes_needs_no_diameter_whatever_curve_it_replaces() -> None:
+    text = PIPE + "*ELEMENT SETS\n SET=a\n GEN=1, 5\n" + CLAY
+    text += "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=Clay\n"
+    nodal = "*SEABED CONTACT\n SET={}\n NODAL STIFFNESS=5000\n"
+    assert told(text + nodal.format("ALL")) == []
+    assert [message.split(" have ")[0] for message in messages(text + nodal.format("a"))] == ["5 elements (first: 6)"]
+
+
 def test_a_drag_diameter_of_0_is_no_diameter() -> None:
     text = PIPE + "*GEOMETRIC SETS\n SET=ALL\n ,,,, 1, 1, 0, 0.0, 0.3\n" + CLAY
     text += "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=Clay\n"

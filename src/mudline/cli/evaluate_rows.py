@@ -46,12 +46,15 @@ def touching_elements(evaluation: Evaluation, part: Part) -> tuple[Cells, Iterat
 
 
 def touching_nodes(evaluation: Evaluation, part: Part) -> tuple[Cells, Iterator[Cells]]:
-    """Nodes on which the bed acts, at the first step of a part."""
+    """Nodes on which the bed acts, also by restraining them, at the first step of a part."""
     names = unit_names(evaluation.scene.units)
     axes = (headed(f"reaction {axis}", names.force) for axis in "XYZ")
     columns: Cells = ("node", headed("gap", names.length), *axes)
     result = part.result.step(0)
-    index = evaluation.nodes[(result.reaction[evaluation.nodes] != 0.0).any(axis=1)]
+    acts = (result.reaction != 0.0).any(axis=1)
+    if result.restrained is not None:
+        acts |= result.restrained
+    index = evaluation.nodes[acts[evaluation.nodes]]
     cells = [
         [str(number) for number in evaluation.scene.node_ids[index].tolist()],
         *(_numbers(column, index) for column in (result.gap, *result.reaction.T)),

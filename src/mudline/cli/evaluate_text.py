@@ -40,6 +40,9 @@ def print_evaluation(digest: Digest, which: str, view: View) -> None:
     rows = touching_elements if which == "elements" else touching_nodes
     columns, cells = rows(digest.evaluation, digest.first)
     told = list(cells if view.verbose else _joined(cells))
+    if not told:
+        printer.print(f"No {which} in contact", highlight=False)
+        return
     left = len(told) - len(told[: digest.most])
     note = f"{left} more lines: -v shows all, -o writes all" if left else ""
     print_table(printer, f"{which.capitalize()} in contact", columns, told[: digest.most], left=LEFT, note=note)
@@ -70,7 +73,7 @@ def _print_totals(printer: Console, evaluation: Evaluation, part: Part) -> None:
         (each.law, each.set_name, str(each.elements), str(each.touching), _depth(each), shown(each.reaction))
         for each in found
     ]
-    if len(found) > 1 or any(each.reaction is None for each in found):
+    if len(found) > 1 or any(each.law == "nodal" for each in found):
         sums = (sum(each.elements for each in found), sum(each.touching for each in found))
         deepest = max((each for each in found if each.deepest is not None), key=_by_depth, default=found[0])
         total = shown(reaction(evaluation, part.result.step(0)))
@@ -138,13 +141,14 @@ def _print_peaks(printer: Console, digest: Digest) -> None:
     units = {
         "reaction": ("total reaction", names.force),
         "force": ("force of an element", names.line_force),
+        "pull": ("pull on an element", names.line_force),
         "touching": ("elements in contact", ""),
         "deepest": ("depth", names.length),
     }
     rows = []
     for key, (what, unit) in units.items():
         peak = digest.peaks.found.get(key)
-        if peak is not None and times is not None and not (key == "force" and peak.value == 0.0):
+        if peak is not None and times is not None and not (key in {"force", "pull"} and peak.value == 0.0):
             element = "" if peak.element is None else str(peak.element)
             rows.append((what, shown(peak.value), unit, shown(float(times[peak.step])), element))
     columns = ("largest", "value", "unit", _time(names), "element")

@@ -49,24 +49,14 @@ def print_summary(summary: dict[str, Any], view: View) -> None:
 
 
 def _print_static(printer: Console, rows: list[dict[str, Any]], names: UnitNames) -> None:
-    columns = (
-        "set",
-        "law",
-        headed("weight", names.line_force),
-        "ratio",
-        headed("penetration", names.length),
-        "stiffness",
-    )
-    cells = [
-        (
-            row["set"] or "",
-            row["law"],
-            *(shown(row[name]) for name in ("weight", "ratio", "penetration", "stiffness")),
-            row["extrapolated"] or "",
-        )
-        for row in rows
-    ]
-    print_table(printer, "Static embedment", (*columns, "extrapolated"), cells, left=("set", "law", "extrapolated"))
+    columns = ["set", "law", headed("weight", names.line_force), "ratio"]
+    columns += [headed("penetration", names.length), "stiffness"]
+    numbers = ("weight", "ratio", "penetration", "stiffness")
+    cells = [[row["set"] or "", row["law"], *(shown(row[name]) for name in numbers)] for row in rows]
+    if any(row["extrapolated"] for row in rows):
+        columns.append("extrapolated")
+        cells = [[*line, row["extrapolated"] or ""] for line, row in zip(cells, rows, strict=True)]
+    print_table(printer, "Static embedment", columns, cells, left=("set", "law", "extrapolated"))
 
 
 def _print_head(printer: Console, summary: dict[str, Any], names: UnitNames) -> None:

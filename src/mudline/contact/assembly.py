@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from mudline.contact.arrays import FloatArray, IndexArray
+from mudline.contact.ends import Ends
 from mudline.contact.errors import ElementError
 from mudline.contact.inputs import ContactInput
 from mudline.contact.result import ContactResult
@@ -19,8 +20,8 @@ class Assembly:
 
     def __init__(self, inputs: ContactInput, elements: IndexArray) -> None:
         self._element_ids = inputs.element_ids[elements]
-        self._elements = elements
-        self._ends = inputs.element_nodes[elements].T
+        self._elements = None if len(elements) == len(inputs.element_ids) else elements
+        self._ends = Ends(inputs.element_nodes[elements], len(inputs.node_ids))
         self._half_length = 0.5 * inputs.length[elements]
 
     def apply(self, part: ContactResult, first_step: int) -> None:
@@ -29,17 +30,14 @@ class Assembly:
         Raises:
             ElementError: an element's force or the sum at a node overflows.
         """
-        load = np.take(part.force, self._elements, axis=1)
-        load *= self._half_length
+        force = part.force if self._elements is None else np.take(part.force, self._elements, axis=1)
+        load = force * self._half_length
         self._check(load, first_step)
-        steps, nodes = part.normal_force.shape
-        row = nodes * np.arange(steps)[:, np.newaxis]
-        total = part.normal_force.reshape(-1)
-        for end in self._ends:
-            # bincount adds in the order of the elements, so a step's sum does not depend on the steps beside it.
-            total += np.bincount((row + end).reshape(-1), load.reshape(-1), len(total))
-        for end in self._ends:
-            self._check(part.normal_force[:, end], first_step)
+        # in the order of the elements, so a step's sum does not depend on the steps beside it
+        self._ends.add(load, part.normal_force)
+        if not np.isfinite(part.normal_force).all():
+            for at_end in self._ends.at(part.normal_force):
+                self._check(at_end, first_step)
 
     def _check(self, values: FloatArray, first_step: int) -> None:
         """Refuse values (steps, elements) that overflowed."""

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mudline.contact.arrays import BoolArray, FloatArray
+from mudline.contact.compiled.choice import Backend, checked, compiles
 from mudline.contact.errors import refuse_elements, refuse_nodes
 from mudline.contact.inputs import ContactInput, LawKind
 from mudline.contact.plan import Plan, make_plan
@@ -18,6 +19,8 @@ from mudline.contact.stages import Stages, StepDetail
 from mudline.contact.state import ContactState
 
 if TYPE_CHECKING:
+    from mudline.contact.compiled.runner import Runner
+    from mudline.contact.compiled.tables import Tables
     from mudline.contact.tangent import Tangent
 
 _CHUNK = 16384
@@ -43,7 +46,19 @@ class ContactModel:
         plan: the stages, active or not, and why.
     """
 
-    def __init__(self, inputs: ContactInput) -> None:
+    def __init__(self, inputs: ContactInput, *, backend: Backend = "auto") -> None:
+        """Make the stages that an input needs.
+
+        `backend` says how a scene with history goes through its steps: "numpy", "fast" (compiled loops; equal to
+        rounding) or "auto": "fast" for long series if the extra `mudline[fast]` is installed. Tangents and scenes
+        without history are always reckoned with numpy.
+
+        Raises:
+            ImportError: `backend` is "fast", but the extra is not installed.
+            ValueError: there is no such backend.
+        """
+        self._backend = checked(backend)
+        self._tables: Tables | None = None
         self.input = inputs
         self.plan: Plan = make_plan(inputs)
         self._stages = Stages(inputs)
@@ -102,11 +117,12 @@ class ContactModel:
         rows = max(1, _CHUNK // max(nodes, len(self.input.element_ids), 1))
         whole = self._blank(len(series), evaluated, mask) if together else None
         state = self.initial_state()
+        runner = self._runner(len(series), mask)
         for start in range(0, len(series), rows):
             steps = range(start, min(start + rows, len(series)))
             count = len(steps)
             part = self._blank(count, evaluated, mask) if whole is None else whole.steps(steps.start, steps.stop)
-            state = self._evaluate_steps(series, motion, clock, steps, part, state)
+            state = self._evaluate_steps(series, motion, clock, steps, part, state, runner)
             if whole is None:
                 yield Stepped(start, part)
         if whole is not None:
@@ -127,7 +143,7 @@ class ContactModel:
 
         Without velocities (n, 3) they are differences to the step before over `dt`, 0 at the first step.
         """
-        result, after, _ = self.step_in_detail(positions, velocities, state, dt)
+        result, after, _ = self._step(positions, velocities, state, dt, detailed=False)
         return result, after
 
     def step_in_detail(
@@ -138,6 +154,17 @@ class ContactModel:
         dt: float | None = None,
     ) -> tuple[ContactResult, ContactState, StepDetail]:
         """The same with the derivatives of its parts, which `tangent` assembles."""
+        return self._step(positions, velocities, state, dt, detailed=True)
+
+    def _step(
+        self,
+        positions: ArrayLike,
+        velocities: ArrayLike | None,
+        state: ContactState,
+        dt: float | None,
+        *,
+        detailed: bool,
+    ) -> tuple[ContactResult, ContactState, StepDetail]:
         nodes = len(self.input.node_ids)
         series = as_series(positions, nodes)
         if len(series) != 1:
@@ -153,7 +180,11 @@ class ContactModel:
                 if dt is None or not dt > 0.0:
                     raise ValueError("a step without velocities needs dt > 0")
                 moving = (points[0] - state.positions) / dt
-            detail, after = self._one_step(points, moving, part, state, 0)
+            runner = None if detailed else self._runner(1, mask)
+            after = None if runner is None else runner.advance(points, moving[None], np.zeros(1), part, state)
+            if after is not None:
+                return part.step(0), after, StepDetail()
+            detail, after = self._one_step(points, moving, part, state, 0, detailed=detailed)
         return part.step(0), after, detail
 
     def tangent(
@@ -181,6 +212,7 @@ class ContactModel:
         steps: range,
         part: ContactResult,
         state: ContactState,
+        runner: Runner | None,
     ) -> ContactState:
         """Evaluate some steps into `part`: at once where nothing looks back, else one after the other."""
         with np.errstate(all="ignore"):  # everything that can overflow is checked
@@ -193,6 +225,12 @@ class ContactModel:
                 self._stages.check(part, steps.start)
                 self._blank_absent(part)
                 return state
+            if runner is not None:
+                rates, since = _rates(points, motion, clock, steps)
+                after = runner.advance(points, rates, since, part, state)
+                if after is not None:
+                    self._blank_absent(part)
+                    return after
             for index, number in enumerate(steps):
                 moving = _velocity(points[index], motion, clock, number, state)
                 _, state = self._one_step(
@@ -201,17 +239,35 @@ class ContactModel:
         return state
 
     def _one_step(
-        self, points: FloatArray, moving: FloatArray, part: ContactResult, state: ContactState, number: int
+        self,
+        points: FloatArray,
+        moving: FloatArray,
+        part: ContactResult,
+        state: ContactState,
+        number: int,
+        *,
+        detailed: bool = False,
     ) -> tuple[StepDetail, ContactState]:
         self._locate(points, part)
         self._embed(part, number)
         self._stages.press(part, number)
         detail, after = self._stages.look_back(part, points[0], moving, state, number)
         stiffness = self._stages.gather(part, number)
-        detail, after = self._stages.slide(part, points[0], detail._replace(nodal=stiffness), after)
+        detail, after = self._stages.slide(part, points[0], detail._replace(nodal=stiffness), after, detailed=detailed)
         self._stages.check(part, number)
         self._blank_absent(part)
         return detail, after
+
+    def _runner(self, steps: int, mask: BoolArray) -> Runner | None:
+        """The compiled loops, if they are to go through so many steps."""
+        if not self.plan.history or not compiles(self._backend, steps * len(mask)):
+            return None
+        from mudline.contact.compiled.runner import Runner  # noqa: PLC0415 - loads numba
+        from mudline.contact.compiled.tables import tables  # noqa: PLC0415 - loads suction and friction
+
+        if self._tables is None:
+            self._tables = tables(self.input, self._stages.onset)
+        return Runner(self._tables, self._stages.floor, mask)
 
     def _locate(self, points: FloatArray, part: ContactResult) -> None:
         """Gaps and normals of the nodes."""
@@ -265,3 +321,17 @@ def _velocity(
         return np.zeros_like(points)
     velocity: FloatArray = (points - state.positions) / (clock[number] - clock[number - 1])
     return velocity
+
+
+def _rates(
+    points: FloatArray, motion: RealArray | None, clock: FloatArray | None, steps: range
+) -> tuple[FloatArray, FloatArray]:
+    """Velocities (steps, n, 3) and zeros, or the points and the times (steps,) over which their differences count."""
+    since = np.zeros(len(steps))
+    if motion is not None:
+        return np.asarray(motion[steps.start : steps.stop], np.float64), since
+    if clock is None:
+        return np.zeros_like(points), since
+    first = max(steps.start, 1)
+    since[first - steps.start :] = np.diff(clock[first - 1 : steps.stop])
+    return points, since

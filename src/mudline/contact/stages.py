@@ -17,6 +17,7 @@ from mudline.contact.state import ContactState
 if TYPE_CHECKING:
     from mudline.contact.assembly import Assembly
     from mudline.contact.floors.base import Floor
+    from mudline.contact.friction.directions import Line
     from mudline.contact.lateral import LateralSprings, LateralStage
     from mudline.contact.laws.spring import Springs
     from mudline.contact.laws.unloading import UnloadingReaction
@@ -61,6 +62,7 @@ class Stages:
         self.assembly = _assembly(inputs, [self.normal, self.springs, self.suction])
         self.friction = _friction(inputs)
         self.lateral = _lateral(inputs)
+        self._line = _line(inputs)
         self._inputs = inputs
         self._bends = any(stage is not None for stage in (self.unloading, self.springs, self.suction))
         self._at_nodes = any(stage is not None for stage in (self.nodal, self.friction, self.lateral))
@@ -86,15 +88,14 @@ class Stages:
     ) -> tuple[StepDetail, ContactState]:
         """Unloading and suction of the step `number`, and the state behind it as far as they are concerned."""
         state = replace(state, positions=points, laid=points if state.laid is None else state.laid)
-        unloads: tuple[IndexArray, UnloadingReaction] | None = None
+        unloaded: UnloadingReaction | None = None
         detail = StepDetail()
         if self.unloading is not None and state.unloading is not None:
-            reaction, after = self.unloading.apply(part, state.unloading)
-            state, unloads = replace(state, unloading=after), (self.unloading.elements, reaction)
+            unloaded, after = self.unloading.apply(part, state.unloading)
+            state = replace(state, unloading=after)
         if self.suction is not None and state.suction is not None:
-            velocity = self.suction.pull_out(part, moving, number)
-            suction, history = self.suction.apply(part, velocity, state.suction, unloads)
-            state, detail = replace(state, suction=history), StepDetail(suction=(self.suction.elements, suction))
+            suction, history = self.suction.apply(part, moving, state.suction, unloaded, number)
+            state, detail = replace(state, suction=history), StepDetail(suction=suction)
         return detail, state
 
     def gather(self, part: ContactResult, first_step: int) -> FloatArray | None:
@@ -110,14 +111,24 @@ class Stages:
         return stiffness
 
     def slide(
-        self, part: ContactResult, points: FloatArray, detail: StepDetail, state: ContactState
+        self,
+        part: ContactResult,
+        points: FloatArray,
+        detail: StepDetail,
+        state: ContactState,
+        *,
+        detailed: bool = True,
     ) -> tuple[StepDetail, ContactState]:
-        """Friction and lateral springs of one step."""
+        """Friction and lateral springs of one step; without `detailed` some derivatives are left out."""
+        if self._line is None:
+            return detail, state
+        points = np.asfortranarray(points)
+        along = self._line.axial(points, part.normal[0])
         if self.friction is not None and state.friction is not None and state.laid is not None:
-            sliding, history = self.friction.apply(part, points, state.friction, state.laid)
+            sliding, history = self.friction.apply(part, points, along, state.friction, state.laid, detailed=detailed)
             detail, state = detail._replace(sliding=sliding), replace(state, friction=history)
         if self.lateral is not None and state.touchdown is not None:
-            springs, touchdown = self.lateral.apply(part, points, state.touchdown)
+            springs, touchdown = self.lateral.apply(part, points, along, state.touchdown)
             detail, state = detail._replace(lateral=springs), replace(state, touchdown=touchdown)
         return detail, state
 
@@ -132,8 +143,10 @@ class Stages:
             for what, values in (("slope", part.slope), ("stiffness", part.stiffness)):
                 refuse_elements(np.isinf(values), self._inputs.element_ids, first_step, f"its {what} overflows")
         if self._at_nodes:
-            wrong: BoolArray = np.logical_or.reduce(~np.isfinite(part.reaction), axis=2)
-            refuse_nodes(wrong, self._inputs.node_ids, first_step, "the reaction there overflows")
+            finite = np.isfinite(part.reaction)
+            if not finite.all():
+                wrong: BoolArray = np.logical_or.reduce(~finite, axis=2)
+                refuse_nodes(wrong, self._inputs.node_ids, first_step, "the reaction there overflows")
 
 
 def _normal_law(inputs: ContactInput) -> NormalLaw | None:
@@ -200,7 +213,8 @@ def _friction(inputs: ContactInput) -> FrictionStage | None:
         return None
     from mudline.contact.sliding import FrictionStage  # noqa: PLC0415 - only now is it needed
 
-    return FrictionStage(inputs, inputs.extras.friction, _trench(inputs))
+    same_normal = FlatFloor.same_normal if inputs.floor is None else inputs.floor.same_normal
+    return FrictionStage(inputs.extras.friction, _trench(inputs), same_normal)
 
 
 def _trench(inputs: ContactInput) -> TrenchStage | None:
@@ -217,3 +231,11 @@ def _lateral(inputs: ContactInput) -> LateralStage | None:
     from mudline.contact.lateral import LateralStage  # noqa: PLC0415 - only now is it needed
 
     return LateralStage(inputs, inputs.extras.lateral)
+
+
+def _line(inputs: ContactInput) -> Line | None:
+    if inputs.extras.friction is None and inputs.extras.lateral is None:
+        return None
+    from mudline.contact.friction.directions import Line  # noqa: PLC0415 - only now is it needed
+
+    return Line(inputs.element_nodes, len(inputs.node_ids))

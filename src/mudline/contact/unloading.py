@@ -18,9 +18,11 @@ class Unloading:
         self.elements: IndexArray = np.flatnonzero(~np.isnan(stiffness))
         self._stiffness = stiffness[self.elements]
         self._diameter = inputs.diameter[self.elements]
-        self._linear = inputs.linear_stiffness[self.elements]
-        index = np.where(inputs.law[self.elements] == LawKind.CURVE, inputs.curve_index[self.elements], -1)
-        self._curves = [(inputs.curves[used], np.flatnonzero(index == used)) for used in np.unique(index[index >= 0])]
+        linear = inputs.linear_stiffness[self.elements]
+        self._linear = np.where(np.isnan(linear), 0.0, linear)
+        on_curve = inputs.law[self.elements] == LawKind.CURVE
+        self._index = np.where(on_curve, inputs.curve_index[self.elements], -1)
+        self._curves = [(used, inputs.curves[used]) for used in np.unique(self._index[on_curve]).tolist()]
 
     def initial(self) -> UnloadingHistory:
         """Nothing has touched the bed."""
@@ -31,22 +33,26 @@ class Unloading:
 
         An element without a depth keeps its history and has no reaction.
         """
-        at = (0, self.elements)
-        known = ~np.isnan(part.depth[at])
-        depth = np.where(known, np.maximum(part.depth[at], 0.0), 0.0)
-        virgin = VirginPath(part.force[at], part.stiffness[at], self._steepest(depth))
-        reaction, after = unloading.step(history, depth, virgin)
-        uplift = np.where(known, after.z_p - part.depth[at], 0.0)
+        found = part.depth[0][self.elements]
+        depth = np.fmax(found, 0.0)
+        force, stiffness = part.force[0][self.elements], part.stiffness[0][self.elements]
+        deeper = np.flatnonzero(depth > history.z_max)
+        reaction, after = unloading.step(history, depth, VirginPath(force, stiffness, self._steepest(depth, deeper)))
+        known = ~np.isnan(found)
+        uplift = np.where(known, after.z_p - found, 0.0)
         reaction = reaction._replace(uplift=uplift, compressed=reaction.compressed & known)
-        part.force[at] = reaction.force
-        part.stiffness[at] = reaction.stiffness
-        part.slope[at] = reaction.stiffness * self._diameter
+        part.force[0][self.elements] = reaction.force
+        part.stiffness[0][self.elements] = reaction.stiffness
+        part.slope[0][self.elements] = reaction.stiffness * self._diameter
         return reaction, after
 
-    def _steepest(self, depth: FloatArray) -> FloatArray:
-        """The steepest slope of the virgin path between the mudline and each depth."""
-        steepest = np.where(np.isnan(self._linear), 0.0, self._linear)
-        for curve, rows in self._curves:
+    def _steepest(self, depth: FloatArray, deeper: IndexArray) -> FloatArray:
+        """The steepest slope of the virgin path between the mudline and each depth; of curves where it is `deeper`."""
+        steepest = self._linear.copy()
+        if not deeper.size:
+            return steepest
+        for number, curve in self._curves:
+            rows = deeper[self._index[deeper] == number]
             diameter = self._diameter[rows]
             steepest[rows] = unloading.steepest_slope(curve, depth[rows] / diameter) / diameter
         return steepest

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
+from mudline.contact.ends import Ends
 from mudline.contact.errors import refuse_nodes
 from mudline.contact.extras import ElementSuction, SuctionSprings
 from mudline.contact.inputs import ContactInput
 from mudline.contact.result import ContactResult
 from mudline.contact.suction import Suction, SuctionHistory, SuctionState, step, suction_spring
+from mudline.contact.vectors import dot
 
 if TYPE_CHECKING:  # suction does without unloading
     from mudline.contact.laws.unloading import UnloadingReaction
@@ -31,8 +32,11 @@ class UpliftSprings:
     def apply(self, part: ContactResult) -> None:
         """Add to force, stiffness and slope of `part` (steps, m)."""
         uplift = self._onset - part.depth[:, self.elements]
-        force, by_uplift = suction_spring(uplift, self._stiffness, self._extent)
-        add_uplift(part, self.elements, force, by_uplift, self._diameter)
+        held = np.flatnonzero((uplift > 0.0) & (uplift <= self._extent))
+        step, column = np.divmod(held, len(self.elements)) if held.size else (held, held)
+        force, by_uplift = suction_spring(uplift.reshape(-1)[held], self._stiffness[column], self._extent[column])
+        where = step * part.depth.shape[1] + self.elements[column]
+        add_uplift(part, where, force, by_uplift, self._diameter[column])
 
 
 class SuctionStage:
@@ -41,83 +45,87 @@ class SuctionStage:
     def __init__(self, inputs: ContactInput, suction: ElementSuction, onset: FloatArray) -> None:
         self.elements = suction.elements
         self._law = suction.law
-        self._ends = inputs.element_nodes
+        self._ends = Ends(inputs.element_nodes, len(inputs.node_ids))
         self._node_ids = inputs.node_ids
         self._onset = onset[self.elements]
         self._diameter = inputs.diameter[self.elements]
+        unloading = (
+            np.zeros(0, np.intp)
+            if inputs.extras.unloading is None
+            else np.flatnonzero(~np.isnan(inputs.extras.unloading))
+        )
+        # which of these elements unload on a line of their own, and which of those that do so they are
+        _, self._here, self._there = np.intersect1d(self.elements, unloading, assume_unique=True, return_indices=True)
 
     def initial(self) -> SuctionHistory:
         """Nothing has touched the bed."""
         return SuctionHistory.initial(len(self.elements))
 
-    def pull_out(self, part: ContactResult, moving: FloatArray, number: int) -> FloatArray:
-        """Pull-out velocities (m,) of all elements in the step `number`, the mean of those of their nodes.
-
-        `moving` (n, 3) are the velocities of the nodes; those off the bed or without position do not count.
-
-        Raises:
-            PositionError: the velocity of a node that counts is not finite.
-        """
-        along = np.einsum("ij,ij->i", moving, part.normal[0])
-        wrong = ~np.isfinite(along) & ~np.isnan(part.gap[0])
-        refuse_nodes(wrong[None], self._node_ids, number, "its velocity is not finite")
-        first, second = self._ends.T
-        mean: FloatArray = 0.5 * along[first] + 0.5 * along[second]
-        return mean
-
     def apply(
         self,
         part: ContactResult,
-        velocity: FloatArray,
+        moving: FloatArray,
         history: SuctionHistory,
-        unloading: tuple[IndexArray, UnloadingReaction] | None,
-    ) -> tuple[Suction, SuctionHistory]:
-        """Add to the one step of `part`; `velocity` (m,) is the pull-out velocity of all elements.
+        unloading: UnloadingReaction | None,
+        number: int,
+    ) -> tuple[tuple[IndexArray, Suction], SuctionHistory]:
+        """Add to the one step of `part`; return what pulls, with its elements, and the next history.
 
-        `unloading` are the elements on unloading lines, whose uplift counts from the trench bottom. An element without
-        a depth, off the bed or without position, forgets what it knew.
+        `moving` (n, 3) are the velocities of the nodes in the step `number`. `unloading` is the reaction of elements on
+        unloading lines, whose uplift counts from the trench bottom. An element without a depth, off the bed or without
+        position, forgets what it knew.
+
+        Raises:
+            PositionError: the velocity of a node is not finite; those off the bed or without position do not count.
         """
-        uplift = self._onset - part.depth[0, self.elements]
-        compressed = part.contact[0, self.elements]
+        along = self._along_normals(part, moving, number)
+        uplift = self._onset - part.depth[0][self.elements]
+        compressed = part.contact[0][self.elements]
         if unloading is not None:
-            uplift, compressed = self._from_trench_bottom(uplift, compressed, *unloading)
-        known = ~np.isnan(uplift)
-        motion = np.where(known, velocity[self.elements], 0.0)
-        suction, after = step(self._law, history, np.where(known, uplift, 0.0), motion, compressed & known)
-        if not known.all():
-            suction = Suction(*(np.where(known, values, 0.0) for values in suction))
-            after = _forgotten(after, ~known)
-        add_uplift(part, self.elements, suction.force, suction.by_uplift, self._diameter)
+            self._from_trench_bottom(uplift, compressed, unloading)
+        # all others are at rest: pressed, never pressed, or unknown
+        loose = np.flatnonzero(
+            (history.armed | (history.state == SuctionState.BROKEN)) & ~compressed & ~np.isnan(uplift)
+        )
+        elements = self.elements[loose]
+        velocity = 0.5 * along[self._ends.first[elements]] + 0.5 * along[self._ends.second[elements]]
+        suction, moved = step(
+            self._law.rows(loose), history.rows(loose), uplift[loose], velocity, np.zeros(len(loose), np.bool_)
+        )
+        add_uplift(part, elements, suction.force, suction.by_uplift, self._diameter[loose])
+        after = _after(compressed, loose, moved)
         if part.state is not None:
-            part.state[0, self.elements] = after.state
-        return suction, after
+            part.state[0][self.elements] = after.state
+        return (elements, suction), after
 
-    def _from_trench_bottom(
-        self, uplift: FloatArray, compressed: BoolArray, elements: IndexArray, reaction: UnloadingReaction
-    ) -> tuple[FloatArray, BoolArray]:
-        """Uplift and compression with those of the elements that unload on a line of their own."""
-        shared, here, there = np.intersect1d(self.elements, elements, assume_unique=True, return_indices=True)
-        del shared
-        uplift, compressed = uplift.copy(), compressed.copy()
-        known = ~np.isnan(uplift[here])
-        uplift[here[known]] = reaction.uplift[there[known]]
-        compressed[here] = reaction.compressed[there]
-        return uplift, compressed
+    def _along_normals(self, part: ContactResult, moving: FloatArray, number: int) -> FloatArray:
+        """Velocities (n,) of the nodes along their normals."""
+        along = dot(moving, part.normal[0])
+        finite = np.isfinite(along)
+        if not finite.all():
+            refuse_nodes((~finite & ~np.isnan(part.gap[0]))[None], self._node_ids, number, "its velocity is not finite")
+        return along
+
+    def _from_trench_bottom(self, uplift: FloatArray, compressed: BoolArray, reaction: UnloadingReaction) -> None:
+        """Put in uplift and compression those of the elements that unload on a line of their own."""
+        known = ~np.isnan(uplift[self._here])
+        uplift[self._here] = np.where(known, reaction.uplift[self._there], np.nan)
+        compressed[self._here] = reaction.compressed[self._there]
 
 
 def add_uplift(
-    part: ContactResult, elements: IndexArray, force: FloatArray, by_uplift: FloatArray, diameter: FloatArray
+    part: ContactResult, where: IndexArray, force: FloatArray, by_uplift: FloatArray, diameter: FloatArray
 ) -> None:
-    """Add a force per unit length and its tangent, which is told by uplift, to elements of `part`."""
-    part.force[:, elements] += force
-    part.stiffness[:, elements] -= by_uplift
-    part.slope[:, elements] -= by_uplift * diameter
+    """Add a force per unit length and its tangent, which is told by uplift, at flat positions of `part` (steps, m)."""
+    if not where.size:
+        return
+    part.force.reshape(-1)[where] += force
+    part.stiffness.reshape(-1)[where] -= by_uplift
+    part.slope.reshape(-1)[where] -= by_uplift * diameter
 
 
-def _forgotten(history: SuctionHistory, which: BoolArray) -> SuctionHistory:
-    return replace(
-        history,
-        armed=history.armed & ~which,
-        v_max=np.where(which, 0.0, history.v_max),
-        state=np.where(which, np.int8(SuctionState.FREE), history.state),
-    )
+def _after(compressed: BoolArray, loose: IndexArray, moved: SuctionHistory) -> SuctionHistory:
+    """The history of all elements, from that of those that are `loose`."""
+    after = SuctionHistory(compressed, np.zeros(len(compressed)), compressed.astype(np.int8))
+    after.armed[loose], after.v_max[loose], after.state[loose] = moved.armed, moved.v_max, moved.state
+    return after

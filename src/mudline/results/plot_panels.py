@@ -15,6 +15,8 @@ from mudline.scene.numbering import Floats, Indices
 _MOST = 4000
 """Points of a line that are drawn."""
 _MOST_CURVES = 8
+_LEAST = 0.01
+"""Least span of a scale, as a part of the largest value on it."""
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#F0E442")
 """Told apart by colour-blind eyes (Okabe and Ito)."""
 _BED = "#8c6d46"
@@ -49,6 +51,7 @@ def profile(axes: Axes, data: PlotData, chosen: Chosen) -> None:
         held = held[thinned(chosen.result.force[held], _MOST)]
         lines = LineCollection(list(places[ends[held]]), cmap="viridis", linewidths=4.0, zorder=3)
         lines.set_array(chosen.result.force[held])
+        lines.set_clim(*widened(chosen.result.force[held]))
         axes.add_collection(lines)
         bar = axes.figure.colorbar(lines, ax=axes, pad=0.01)
         bar.set_label(_label("force of the bed\nper unit length", names.line_force))
@@ -155,12 +158,23 @@ def trace(axes: Axes, data: PlotData, name: str, label: str, *, last: bool) -> N
         axes.plot(times, most, color=COLORS[0], linewidth=1.2)
     else:
         axes.fill_between(times, least, most, color=COLORS[0], linewidth=0.6)
+    known = np.concatenate([least, most])
+    known = known[~np.isnan(known)]
+    if known.size and 0.0 < np.ptp(known) < _LEAST * np.abs(known).max():
+        axes.set_ylim(*widened(known))
     axes.set_ylabel(label)
     axes.grid(visible=True, alpha=0.3)
     if last:
         axes.set_xlabel("time [s]" if unit_names(data.evaluation.scene.units).length else "time")
     else:
         axes.tick_params(labelbottom=False)
+
+
+def widened(values: Floats) -> tuple[float, float]:
+    """The least and the largest value, drawn apart to a hundredth of their size: no scale shows what is rounding."""
+    low, high = float(values.min()), float(values.max())
+    room = 0.5 * max(0.0, _LEAST * max(abs(low), abs(high)) - (high - low))
+    return low - room, high + room
 
 
 def _some(rows: Indices) -> Indices:

@@ -61,7 +61,7 @@ def totals(evaluation: Evaluation, part: Part) -> list[Total]:
             len(members),
             int(result.contact[members].sum()),
             _largest(result.depth[members]),
-            None if law == "nodal" else _sum(line_forces[members]),
+            None if law in _AT_NODES else _sum(line_forces[members]),
         )
         for (law, name), members in groups.items()
     ]
@@ -98,6 +98,8 @@ def _step(evaluation: Evaluation, part: Part, step: int) -> StepTotal:
     )
 
 
+_AT_NODES = ("nodal", "rigid")
+"""Laws without a force per unit length."""
 _HELD = (STATES.index("suction"), STATES.index("hold"))
 
 

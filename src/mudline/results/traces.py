@@ -18,6 +18,8 @@ class Traces(NamedTuple):
         reaction: total normal force on all nodes.
         force: largest magnitude of an element's force per unit length, with its sign.
         force_element: the index of that element, -1 for none.
+        pull: largest magnitude of an element's force per unit length that holds it down, 0 where none is.
+        pull_element: the index of that element, -1 for none.
         touching: number of elements in contact.
         deepest: largest depth of an element.
         deepest_element: the index of that element, -1 for none.
@@ -26,6 +28,8 @@ class Traces(NamedTuple):
     reaction: Floats
     force: Floats
     force_element: Indices
+    pull: Floats
+    pull_element: Indices
     touching: Floats
     deepest: Floats
     deepest_element: Indices
@@ -37,9 +41,10 @@ def traces(evaluation: Evaluation, part: Part) -> Traces:
     with np.errstate(over="ignore", invalid="ignore"):
         reaction = result.normal_force[:, evaluation.nodes].sum(axis=1)
     force, force_at = _largest(result.force[:, chosen], chosen, by_size=True)
+    pull, pull_at = _largest(np.maximum(0.0 - result.force[:, chosen], 0.0), chosen, by_size=False)
     deepest, deepest_at = _largest(result.depth[:, chosen], chosen, by_size=False)
     touching = np.count_nonzero(result.contact[:, chosen], axis=1).astype(np.float64)
-    return Traces(reaction, force, force_at, touching, deepest, deepest_at)
+    return Traces(reaction, force, force_at, pull, pull_at, touching, deepest, deepest_at)
 
 
 def _largest(values: Floats, chosen: Indices, *, by_size: bool) -> tuple[Floats, Indices]:
@@ -70,8 +75,12 @@ class Peaks:
     def take(self, part: Part) -> None:
         """Look at some steps."""
         of_part = traces(self.evaluation, part)
-        elements = {"force": of_part.force_element, "deepest": of_part.deepest_element}
-        for name in ("reaction", "force", "touching", "deepest"):
+        elements = {
+            "force": of_part.force_element,
+            "pull": of_part.pull_element,
+            "deepest": of_part.deepest_element,
+        }
+        for name in ("reaction", "force", "pull", "touching", "deepest"):
             values: Floats = getattr(of_part, name)
             sizes = np.abs(values) if name == "force" else values
             if np.isnan(sizes).all():

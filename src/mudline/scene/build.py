@@ -50,6 +50,6 @@ def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:
         check_soil(context, sets, nodes)
         check_boundaries(context, nodes)
     check_laws(context, laws)
-    check_diameters(context, laws, sections, elements.numbered)
+    check_diameters(context, laws, sections, elements.numbered, extensions.get("SEABED CONTACT"))
     check_ranges(context)
     return Scene(ready, nodes, elements, sets, sections, laws, bed, extensions, floor, context.problems)

@@ -6,9 +6,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, cast
 
+import numpy as np
+
 from mudline.diagnostics import Where
 from mudline.scene.context import Context
-from mudline.scene.numbering import Indices
+from mudline.scene.numbering import Indices, Mask
 from mudline.scene.sets import NamedSet, Sets, later_wins
 
 if TYPE_CHECKING:
@@ -31,6 +33,14 @@ def read_extensions(context: Context, sets: Sets, count: int) -> dict[str, Exten
     """What the deck gives, by keyword; keywords that it has not are left out."""
     present = context.deck.keywords()
     return {keyword: _read(context, sets, keyword, count) for keyword in BY_SET if keyword in present}
+
+
+def with_nodal_stiffness(contact: Extension) -> Mask:
+    """Elements (m,) whose block of `*SEABED CONTACT` gives their nodes a stiffness."""
+    given = (getattr(entry, "nodal_stiffness", None) for entry in contact.entries)
+    flags = [isinstance(value, float | int) and value >= 0.0 for value in given]
+    found: Mask = np.array([*flags, False])[contact.of_element]
+    return found
 
 
 def _read(context: Context, sets: Sets, keyword: str, count: int) -> Extension:

@@ -11,6 +11,7 @@ from mudline.contact.inputs import LawKind
 from mudline.diagnostics import Severity, Where
 from mudline.keywords.text import shown
 from mudline.scene.context import Context
+from mudline.scene.extensions import Extension, with_nodal_stiffness
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.laws import LawTable, typed_blocks
 from mudline.scene.numbering import Numbered
@@ -88,9 +89,16 @@ def _rigid(context: Context) -> None:
                     context.tell(SBD001, message, inner, Severity.WARNING)
 
 
-def check_diameters(context: Context, laws: LawTable, sections: SectionTable, elements: Numbered) -> None:
-    """Elements on a curve need a diameter; told once for each place that gives the curve."""
+def check_diameters(
+    context: Context, laws: LawTable, sections: SectionTable, elements: Numbered, contact: Extension | None
+) -> None:
+    """Elements on a curve need a diameter; told once for each place that gives the curve.
+
+    Where `*SEABED CONTACT` (`contact`) gives the nodes a stiffness, the curve does not count.
+    """
     on_curve = np.array([*(grant.kind is LawKind.CURVE for grant in laws.grants), False])[laws.of_element]
+    if contact is not None:
+        on_curve &= ~with_nodal_stiffness(contact)
     missing = np.flatnonzero(on_curve & np.isnan(sections.diameter) & ~sections.faulty)
     if not missing.size:
         return

@@ -21,7 +21,7 @@ from mudline.scene.contact_parts.build import extras_of, floor_of
 from mudline.scene.contact_parts.refused import RefusedError
 from mudline.scene.context import Context
 from mudline.scene.elements import ElementTable
-from mudline.scene.extensions import Extension
+from mudline.scene.extensions import Extension, with_nodal_stiffness
 from mudline.scene.floor import Floor
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.laws import Grant, LawTable
@@ -134,9 +134,7 @@ class Scene:
         contact = self.extensions.get("SEABED CONTACT")
         if contact is None:
             return np.zeros(len(self.element_ids), dtype=np.bool_)
-        given = (getattr(entry, "nodal_stiffness", None) for entry in contact.entries)
-        flags = [isinstance(value, float | int) and value >= 0.0 for value in given]
-        found: Mask = np.array([*flags, False])[contact.of_element] & (self._granted != LawKind.RIGID)
+        found: Mask = with_nodal_stiffness(contact) & (self._granted != LawKind.RIGID)
         return found
 
     @cached_property

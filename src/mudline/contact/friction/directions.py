@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from mudline.contact.arrays import FloatArray, IndexArray
-from mudline.contact.vectors import cross, dot, scaled
+from mudline.contact.ends import Ends
+from mudline.contact.vectors import blank, cross, dot, scaled
 
 _ALONG_Y = np.array([0.0, 1.0, 0.0])
 _ALONG_Z = np.array([0.0, 0.0, 1.0])
@@ -38,18 +39,36 @@ def axial(
     (n, 3); where that leaves nothing, +Y is projected instead. An element with a node at NaN has no tangent. `sense`
     is that of `senses`; None where all elements run the same way.
     """
-    ends = np.ascontiguousarray(element_nodes.T)
-    span = [np.subtract(column[ends[1]], column[ends[0]]) for column in np.ascontiguousarray(points.T)]
+    return in_plane(tangents(points, Ends(element_nodes, len(points)), sense), normals)
+
+
+def tangents(points: FloatArray, ends: Ends, sense: FloatArray | None = None) -> FloatArray:
+    """Sums (n, 3) of the unit tangents of the elements at each node; see `axial`."""
+    span = [np.subtract(second, first) for first, second in map(ends.at, points.T)]
     length = np.sqrt(span[0] * span[0] + span[1] * span[1] + span[2] * span[2])
     length[~(length > 0.0)] = np.inf  # no tangent
-    total = np.empty(points.shape)
+    total = blank(len(points))
     for axis, part in enumerate(span):
         unit = np.divide(part, length, out=part)
-        unit[np.isnan(unit)] = 0.0
+        absent = np.isnan(unit)
+        if absent.any():
+            unit[absent] = 0.0
         given = [unit if sense is None else unit * sense[:, side] for side in range(2)]
-        total[:, axis] = np.bincount(ends[0], given[0], len(points))
-        total[:, axis] += np.bincount(ends[1], given[1], len(points))
-    return in_plane(total, normals)
+        total[:, axis] = ends.summed(*given)
+    return total
+
+
+class Line:
+    """The line that runs through nodes, with what does not change as they move."""
+
+    def __init__(self, element_nodes: IndexArray, nodes: int) -> None:
+        self._ends = Ends(element_nodes, nodes)
+        sense = senses(element_nodes, nodes)
+        self._sense = None if (sense == 1.0).all() else np.asfortranarray(sense)
+
+    def axial(self, points: FloatArray, normals: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Directions of the line and across it at nodes at `points` (n, 3); see `axial`."""
+        return in_plane(tangents(points, self._ends, self._sense), normals)
 
 
 def at_angle(angles: FloatArray, normals: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -79,7 +98,9 @@ def _projected(wanted: FloatArray, normals: FloatArray) -> FloatArray:
     rest = scaled(normals, dot(wanted, normals))
     np.subtract(wanted, rest, out=rest)
     size, whole = (np.sqrt(dot(part, part)) for part in (rest, wanted))
-    size[~(size > _STEEPEST * whole)] = np.nan
-    for axis in range(3):
-        rest[:, axis] /= size
+    whole *= _STEEPEST
+    able = size > whole
+    if not able.all():
+        size[~able] = np.nan
+    rest /= size[:, np.newaxis]
     return rest

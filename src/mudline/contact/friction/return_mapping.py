@@ -10,11 +10,10 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
+from mudline.contact.arrays import BoolArray, FloatArray, IndexArray, StateArray
 from mudline.contact.friction.law import FrictionHistory, FrictionLaw, FrictionState
-from mudline.contact.vectors import dot, scaled
+from mudline.contact.vectors import blank, dot, gathered, nothing
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -55,31 +54,76 @@ class FrictionForce:
     history: FrictionHistory
 
 
-class _Limits(NamedTuple):
-    """Limits (n, 2) on the side that the trial lies on, and their derivatives by N and by the offset along u2."""
+class PreparedLaw:
+    """A law as the steps want it, columns in one piece.
+
+    Attributes:
+        law: the law itself.
+        constant, rising: the springs (n, 2) under a normal force N are constant + rising N.
+        coefficients: (n, 2) Coulomb coefficients.
+        curved: nodes with an ellipse.
+        idle: (n, 2) states of nodes that are open.
+    """
+
+    def __init__(self, law: FrictionLaw) -> None:
+        self.law = law
+        with np.errstate(all="ignore"):
+            rising = np.where(law.constant, 0.0, law.coefficients / law.mobilisation)
+        self.constant = np.asfortranarray(np.where(law.constant, law.stiffness, 0.0))
+        self.rising = np.asfortranarray(rising)
+        self.coefficients = np.asfortranarray(law.coefficients)
+        self.curved: IndexArray = np.flatnonzero(law.ellipse & law.active)
+        self.idle = FrictionHistory.start(law).states
+
+
+class Limits(NamedTuple):
+    """Limits (n, 2) on the side that the trial lies on, and where (n,) the trench is part of the lateral one."""
 
     force: FloatArray
-    by_compression: FloatArray
-    by_offset: FloatArray
+    against: BoolArray | None
 
 
-class _Springs(NamedTuple):
-    """Springs (n, 2), their elongations, the trial forces in them and the derivatives of these by N."""
+class Springs(NamedTuple):
+    """Springs (n, 2), their elongations and the trial forces in them."""
 
     stiffness: FloatArray
     elongation: FloatArray
     trial: FloatArray
-    by_compression: FloatArray
 
 
-class _Mapped(NamedTuple):
-    """Spring forces (n, 2), their derivatives (n, 2, 2), (n, 2) and (n, 2), and what slips (n, 2)."""
+class Moved(NamedTuple):
+    """One step of nodes (n,), without derivatives.
+
+    force: (n, 2) force on the pipe.
+    springs, limits: what the trial was made of.
+    slips: (n, 2) what is at its limit.
+    moved: (n, 2) ways that the anchors were dragged along u1 and u2.
+    closed, anchored: (n,) nodes that are pressed on, and those of them that were before.
+    history: what the next step begins with.
+    """
 
     force: FloatArray
-    by_position: FloatArray
-    by_offset: FloatArray
-    by_compression: FloatArray
+    springs: Springs
+    limits: Limits
     slips: BoolArray
+    moved: FloatArray
+    closed: BoolArray
+    anchored: BoolArray
+    history: FrictionHistory
+
+
+class Gauge(NamedTuple):
+    """Trials of nodes (k,) against their ellipses.
+
+    able: (k, 2) directions that have a limit. trial: (k, 2) trials in these. share: (k, 2) trial / limit. slides: (k,)
+    where the trial is outside. scale: (k,) what it is divided by to lie on the ellipse, or 1.
+    """
+
+    able: BoolArray
+    trial: FloatArray
+    share: FloatArray
+    slides: BoolArray
+    scale: FloatArray
 
 
 def slide(
@@ -95,108 +139,122 @@ def slide(
     `directions` are u1 and u2, each (n, 3). A node without normal force is open and forgets its anchor; one that is
     pressed on again gets a new one where it stands.
     """
-    closed = law.active & (compression > 0.0)
+    from mudline.contact.friction.derivatives import with_derivatives  # noqa: PLC0415 - forces alone do without it
+
+    held = PreparedLaw(law)
+    return with_derivatives(held, move(held, history, points, directions, compression, extra), extra)
+
+
+def move(
+    held: PreparedLaw,
+    history: FrictionHistory,
+    points: FloatArray,
+    directions: tuple[FloatArray, FloatArray],
+    compression: FloatArray,
+    extra: ExtraLimit | None = None,
+) -> Moved:
+    """The same without derivatives."""
+    closed = held.law.active & (compression > 0.0)
     anchored = closed & (history.states[:, 0] > FrictionState.OPEN)
-    anchors = np.where(anchored[:, None], history.anchors, points)
-    way = points - anchors
-    elongation = np.empty((len(points), 2))
+    pressing = np.where(closed, compression, 0.0)
+    anchors = _anchors(history.anchors, anchored, points)
+    springs = _springs(held, pressing, directions, points - anchors)
+    limits = _limits(held, springs.trial, pressing, extra)
+    force, slips = _in_box(springs.trial, limits.force)
+    _into_ellipses(force, slips, held.curved, springs.trial, limits.force)
+    moved = _drag(anchors, directions, springs, force, slips)
+    states = _left_behind(held, closed, anchors, slips)
+    np.subtract(0.0, force, out=force)  # the reaction to what the springs feel, and no -0
+    return Moved(force, springs, limits, slips, moved, closed, anchored, FrictionHistory(anchors, states))
+
+
+def _anchors(before: FloatArray, anchored: BoolArray, points: FloatArray) -> FloatArray:
+    """Anchors (n, 3), which stand at the nodes where there were none."""
+    anchors = np.array(before, order="F")
+    new = np.flatnonzero(~anchored)
+    for anchor, place in zip(anchors.T, points.T, strict=True):
+        anchor[new] = place[new]
+    return anchors
+
+
+def _springs(
+    held: PreparedLaw, pressing: FloatArray, directions: tuple[FloatArray, FloatArray], way: FloatArray
+) -> Springs:
+    """Springs whose anchors are `way` (n, 3) behind."""
+    elongation = blank(len(way), 2)
     for side, axis in enumerate(directions):
         elongation[:, side] = dot(axis, way)
-    springs = _springs(law, np.where(closed, compression, 0.0), elongation)
-    limits = _limits(law, springs, np.where(closed, compression, 0.0), extra)
-    mapped = _box(springs, limits)
-    curved = np.flatnonzero(law.ellipse & closed)
-    if curved.size:
-        _ellipses_in(mapped, curved, springs, limits)
-    stretch = np.where(springs.stiffness > 0.0, mapped.force / springs.stiffness, elongation)
-    moved = np.where(mapped.slips, elongation - stretch, 0.0)
+    stiffness = held.rising * pressing[:, None]
+    stiffness += held.constant
+    return Springs(stiffness, elongation, stiffness * elongation)
+
+
+def _limits(held: PreparedLaw, trial: FloatArray, pressing: FloatArray, extra: ExtraLimit | None) -> Limits:
+    limits = held.coefficients * pressing[:, None]
+    if extra is None:
+        return Limits(limits, None)
+    against = (extra.outward != 0.0) & (np.sign(trial[:, 1]) == extra.outward)
+    limits[:, 1] += extra.force * against
+    return Limits(limits, against)
+
+
+def _in_box(trial: FloatArray, limits: FloatArray) -> tuple[FloatArray, BoolArray]:
+    """Each direction for itself: the forces in the springs, and what slips."""
+    slips = np.abs(trial) > limits
+    force = np.minimum(trial, limits)
+    return np.maximum(force, -limits, out=force), slips
+
+
+def gauge(trial: FloatArray, limits: FloatArray) -> Gauge:
+    """Trials (k, 2) against the ellipses of their limits."""
+    able = limits > 0.0
+    trial = np.where(able, trial, 0.0)
+    share = trial / np.where(able, limits, 1.0)
+    size = np.hypot(share[:, 0], share[:, 1])
+    slides = size > 1.0
+    return Gauge(able, trial, share, slides, np.where(slides, size, 1.0))
+
+
+def _into_ellipses(
+    force: FloatArray, slips: BoolArray, nodes: IndexArray, trial: FloatArray, limits: FloatArray
+) -> None:
+    """Both directions together, at `nodes`: a trial outside of the ellipse is drawn back along its own direction."""
+    if not nodes.size:
+        return
+    tried = gathered(trial, nodes)
+    found = gauge(tried, gathered(limits, nodes))
+    lost = ~found.able & (tried != 0.0)  # a direction without a limit holds nothing
+    for side in range(2):
+        force[:, side][nodes] = found.trial[:, side] / found.scale
+        slips[:, side][nodes] = found.slides | lost[:, side]
+
+
+def _drag(
+    anchors: FloatArray,
+    directions: tuple[FloatArray, FloatArray],
+    springs: Springs,
+    force: FloatArray,
+    slips: BoolArray,
+) -> FloatArray:
+    """Drag the anchors of what slips to where the spring bears its force; return the ways (n, 2)."""
+    moved = nothing(len(anchors), 2)
     for side, axis in enumerate(directions):
-        anchors += scaled(axis, moved[:, side])
-    states = np.where(mapped.slips, FrictionState.SLIP, FrictionState.STICK)
-    return FrictionForce(
-        _on_pipe(mapped.force, closed),
-        _on_pipe(mapped.by_position, anchored),  # where it touches down there is no force, wherever that is
-        _on_pipe(mapped.by_offset, closed),
-        _on_pipe(mapped.by_compression, closed),
-        springs.elongation,
-        np.where(closed, mapped.force[:, 0] * moved[:, 0] + mapped.force[:, 1] * moved[:, 1], 0.0),
-        _remembered(law, closed, anchors, states.astype(np.int8)),
-    )
+        nodes = np.flatnonzero(slips[:, side])
+        stiffness, elongation = springs.stiffness[:, side][nodes], springs.elongation[:, side][nodes]
+        stretch = np.where(stiffness > 0.0, force[:, side][nodes] / stiffness, elongation)
+        moved[:, side][nodes] = way = elongation - stretch
+        for anchor, share in zip(anchors.T, axis.T, strict=True):
+            anchor[nodes] += share[nodes] * way
+    return moved
 
 
-def _springs(law: FrictionLaw, compression: FloatArray, elongation: FloatArray) -> _Springs:
-    stiffness, rising = law.springs(compression)
-    return _Springs(stiffness, elongation, stiffness * elongation, rising * elongation)
-
-
-def _limits(law: FrictionLaw, springs: _Springs, compression: FloatArray, extra: ExtraLimit | None) -> _Limits:
-    limits = law.coefficients * compression[:, None]
-    by_offset = np.zeros_like(limits)
-    if extra is not None:
-        against = (extra.outward != 0.0) & (np.sign(springs.trial[:, 1]) == extra.outward)
-        limits[:, 1] += np.where(against, extra.force, 0.0)
-        by_offset[:, 1] = np.where(against, extra.slope, 0.0)
-    return _Limits(limits, law.coefficients, by_offset)
-
-
-def _box(springs: _Springs, limits: _Limits) -> _Mapped:
-    """Each direction for itself."""
-    slips = np.abs(springs.trial) > limits.force
-    side = np.sign(springs.trial)
-    force = np.where(slips, side * limits.force, springs.trial)
-    by_position = np.zeros((*force.shape, 2))
-    for axis in range(2):
-        by_position[:, axis, axis] = np.where(slips[:, axis], 0.0, springs.stiffness[:, axis])
-    by_offset = np.where(slips, side * limits.by_offset, 0.0)
-    by_compression = np.where(slips, side * limits.by_compression, springs.by_compression)
-    return _Mapped(force, by_position, by_offset, by_compression, slips)
-
-
-def _ellipse(springs: _Springs, limits: _Limits) -> _Mapped:
-    """Both directions together: a trial outside the ellipse of the limits is drawn back along its own direction."""
-    able = limits.force > 0.0
-    trial = np.where(able, springs.trial, 0.0)
-    share = np.divide(trial, limits.force, out=np.zeros_like(trial), where=able)
-    gauge = np.hypot(share[:, 0], share[:, 1])
-    slides = gauge > 1.0
-    scale = np.where(slides, gauge, 1.0)[:, None]
-    force = trial / scale
-    unit = np.where(slides[:, None] & able, share / scale, 0.0)
-    # relative change of the gauge with a trial force and, falling, with a limit
-    by_trial = np.divide(unit, limits.force * scale, out=np.zeros_like(trial), where=able)
-    by_limit = np.divide(unit * unit, limits.force, out=np.zeros_like(trial), where=able)
-    stiffness = np.where(able, springs.stiffness, 0.0)
-    growth_by_position = by_trial * stiffness
-    growth_by_offset = 0.0 - (by_limit * limits.by_offset).sum(axis=1)
-    trial_by_n = np.where(able, springs.by_compression, 0.0)
-    growth_by_n = (by_trial * trial_by_n - by_limit * limits.by_compression).sum(axis=1)
-    by_position = -force[:, :, None] * growth_by_position[:, None, :]
-    for axis in range(2):
-        by_position[:, axis, axis] += stiffness[:, axis] / scale[:, 0]
-    by_offset = 0.0 - force * growth_by_offset[:, None]
-    by_compression = trial_by_n / scale - force * growth_by_n[:, None]
-    slips = slides[:, None] | (~able & (springs.trial != 0.0))
-    return _Mapped(force, by_position, by_offset, by_compression, slips)
-
-
-def _ellipses_in(mapped: _Mapped, nodes: IndexArray, springs: _Springs, limits: _Limits) -> None:
-    """Put the mapping of the ellipses in the place of that of the boxes at `nodes`."""
-    by_ellipse = _ellipse(
-        _Springs(*(values.take(nodes, axis=0) for values in springs)),
-        _Limits(*(values.take(nodes, axis=0) for values in limits)),
-    )
-    for whole, values in zip(mapped, by_ellipse, strict=True):
-        whole[nodes] = values
-
-
-def _on_pipe(values: FloatArray, closed: BoolArray) -> FloatArray:
-    """The reaction to what the springs feel; nothing where a node is open, and no -0."""
-    shape = (-1,) + (1,) * (values.ndim - 1)
-    return np.where(closed.reshape(shape), 0.0 - values, 0.0)
-
-
-def _remembered(law: FrictionLaw, closed: BoolArray, anchors: FloatArray, states: NDArray[np.int8]) -> FrictionHistory:
-    open_ = np.where(law.active, FrictionState.OPEN, FrictionState.NONE).astype(np.int8)
-    return FrictionHistory(
-        np.where(closed[:, None], anchors, np.nan), np.where(closed[:, None], states, open_[:, None])
-    )
+def _left_behind(held: PreparedLaw, closed: BoolArray, anchors: FloatArray, slips: BoolArray) -> StateArray:
+    """The states; open nodes forget their anchors."""
+    states = slips.astype(np.int8)
+    states += np.int8(FrictionState.STICK)
+    open_ = np.flatnonzero(~closed)
+    for anchor in anchors.T:
+        anchor[open_] = np.nan
+    for state, idle in zip(states.T, held.idle.T, strict=True):
+        state[open_] = idle[open_]
+    return states

@@ -8,13 +8,13 @@ outward motion only. The bed is not lowered.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
 from mudline.contact.arrays import FloatArray, IndexArray
 from mudline.contact.friction.return_mapping import ExtraLimit
-from mudline.contact.vectors import dot, scaled
+from mudline.contact.vectors import dot, gathered, scaled
 
 
 class Centreline(Protocol):
@@ -25,6 +25,14 @@ class Centreline(Protocol):
 
         Also how the way from there to the point changes with the point, (n, 3, 3).
         """
+
+    def feet(self, points: FloatArray, rows: IndexArray | None = None) -> FloatArray:
+        """The nearest points alone; `rows` says which of the nodes the points are those of."""
+
+    def nearest_along(
+        self, points: FloatArray, lateral: FloatArray, rows: IndexArray | None = None
+    ) -> tuple[FloatArray, FloatArray]:
+        """The nearest points; of the changes only that along `lateral` (n, 3), as gradients (n, 3)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -40,6 +48,10 @@ class TrenchLaw:
     bottom: FloatArray
     upper: FloatArray
     peak: FloatArray
+
+    def rows(self, rows: IndexArray) -> TrenchLaw:
+        """The trenches of some nodes."""
+        return TrenchLaw(self.bottom[rows], self.upper[rows], self.peak[rows])
 
     def limit(self, offset: FloatArray) -> ExtraLimit:
         """What the trench adds at offsets (n,) from the centreline."""
@@ -69,89 +81,151 @@ class StraightCentreline:
 
     def nearest(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
         """The foot of each point in the plan, at the point's own elevation; see `Centreline`."""
-        start, end = np.array(self.start), np.array(self.end)
-        along = (end - start) / np.hypot(*(end - start))
-        found = points.copy()
-        found[:, 1:] = start + ((points[:, 1:] - start) @ along)[:, None] * along
+        along = self._along
         across = np.zeros((3, 3))
         across[1:, 1:] = np.eye(2) - np.outer(along, along)
-        return found, np.broadcast_to(across, (len(points), 3, 3))
+        return self.feet(points), np.broadcast_to(across, (len(points), 3, 3))
 
-    def nearest_along(self, points: FloatArray, lateral: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """The same; of the changes only that along `lateral` (n, 3), as gradients (n, 3)."""
+    def feet(self, points: FloatArray, rows: IndexArray | None = None) -> FloatArray:
+        """See `Centreline`."""
+        del rows  # one line for all nodes
+        along, start = self._along, np.array(self.start)
+        found = np.array(points, order="F")
+        found[:, 1:] -= start
+        # not as a matrix product: what that rounds depends on how many points there are
+        way = found[:, 1] * along[0]
+        way += found[:, 2] * along[1]
+        for axis in range(2):
+            np.multiply(way, along[axis], out=found[:, 1 + axis])
+        found[:, 1:] += start
+        return found
+
+    def nearest_along(
+        self, points: FloatArray, lateral: FloatArray, rows: IndexArray | None = None
+    ) -> tuple[FloatArray, FloatArray]:
+        """See `Centreline`."""
+        del rows
         found, across = self.nearest(points)
         return found, lateral @ across[0] if len(points) else lateral.copy()
+
+    @property
+    def _along(self) -> FloatArray:
+        way: FloatArray = np.array(self.end) - np.array(self.start)
+        way /= np.hypot(*way)
+        return way
+
+
+class _Pieces(NamedTuple):
+    """A straight piece of the line for each of some points (k,): start, span (k, 3), its square and its element."""
+
+    start: FloatArray
+    span: FloatArray
+    square: FloatArray
+    element: IndexArray
+
+    def rows(self, rows: IndexArray) -> _Pieces:
+        """Some of them."""
+        return _Pieces(gathered(self.start, rows), gathered(self.span, rows), self.square[rows], self.element[rows])
+
+
+class _Settled(NamedTuple):
+    """Nearest points (k, 3), their elements (k,), -1 for nodes without one, and their shares of these (k,)."""
+
+    found: FloatArray
+    element: IndexArray
+    share: FloatArray
 
 
 class LaidCentreline:
     """The line through the nodes as they were laid: straight between the two nodes of an element.
 
     A node looks for its nearest point from its own place along the line, so that a stretch of the line which happens to
-    pass nearby is not taken for its own trench.
+    pass nearby is not taken for its own trench. Points are those of the `nodes` (k,), which are all unless told.
     """
 
-    def __init__(self, laid: FloatArray, element_nodes: IndexArray) -> None:
+    def __init__(self, laid: FloatArray, element_nodes: IndexArray, nodes: IndexArray | None = None) -> None:
         known = ~np.isnan(laid[:, 0])  # NaN stands for nodes without a position
         self._ends = element_nodes[known[element_nodes].all(axis=1)]
-        self._start = laid[self._ends[:, 0]]
-        self._span = laid[self._ends[:, 1]] - self._start
-        self._square = dot(self._span, self._span)
+        start = np.asfortranarray(laid[self._ends[:, 0]])
+        span = np.asfortranarray(laid[self._ends[:, 1]] - start)
+        square = dot(span, span)
+        square[~(square > 0.0)] = np.inf  # a piece without length has its foot at its start
+        self._pieces = _Pieces(start, span, square, np.arange(len(start)))
         self._elements_at = _two_of_each(self._ends, len(laid))
+        beside = self._elements_at if nodes is None else self._elements_at[nodes]
+        self._beside = [self._of_elements(elements) for elements in beside.T]
 
     def nearest(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """The nearest points of the laid line; see `Centreline`."""
-        found, elements, inside = self._settled(points)
+        """See `Centreline`."""
+        found, elements, share = self._settled(points, None)
+        inside = np.flatnonzero((share > 0.0) & (share < 1.0))
         across = np.broadcast_to(np.eye(3), (len(points), 3, 3)).copy()
-        span, square = self._span[elements[inside]], self._square[elements[inside]]
-        across[inside] -= span[:, :, None] * span[:, None, :] / square[:, None, None]
+        piece = self._pieces.rows(elements[inside])
+        across[inside] -= piece.span[:, :, None] * piece.span[:, None, :] / piece.square[:, None, None]
         # a node without elements is its own centreline
         across[elements < 0] = 0.0
         return found, across
 
-    def nearest_along(self, points: FloatArray, lateral: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """The same; of the changes only that along `lateral` (n, 3), as gradients (n, 3)."""
-        found, elements, inside = self._settled(points)
+    def feet(self, points: FloatArray, rows: IndexArray | None = None) -> FloatArray:
+        """See `Centreline`."""
+        return self._settled(points, rows).found
+
+    def nearest_along(
+        self, points: FloatArray, lateral: FloatArray, rows: IndexArray | None = None
+    ) -> tuple[FloatArray, FloatArray]:
+        """See `Centreline`."""
+        found, elements, share = self._settled(points, rows)
+        inside = np.flatnonzero((share > 0.0) & (share < 1.0))
         gradient = lateral.copy()
-        span, square = self._span.take(elements[inside], axis=0), self._square[elements[inside]]
-        held = lateral.take(inside, axis=0)
-        gradient[inside] = held - scaled(span, dot(held, span) / square)
+        piece, held = self._pieces.rows(elements[inside]), gathered(lateral, inside)
+        gradient[inside] = held - scaled(piece.span, dot(held, piece.span) / piece.square)
         gradient[elements < 0] = 0.0
         return found, gradient
 
-    def _settled(self, points: FloatArray) -> tuple[FloatArray, IndexArray, IndexArray]:
-        """Nearest points, their elements (-1 for nodes without one), and which nodes' points are inside of theirs."""
-        current, other = self._elements_at.T.copy()
-        held = np.flatnonzero(current >= 0)
-        found = points.copy()
-        share, found[held], distance = self._foot(points[held], current[held])
-        beside = np.flatnonzero(other[held] >= 0)
-        second, foot, away = self._foot(points[held[beside]], other[held[beside]])
-        nearer = away < distance[beside]
-        better = beside[nearer]
-        share[better], distance[better], found[held[better]] = second[nearer], away[nearer], foot[nearer]
-        current[held[better]] = other[held[better]]
-        shares = np.zeros(len(points))
-        shares[held] = share
-        while held.size:
-            following = self._beyond(current[held], share)
-            ahead = np.flatnonzero(following >= 0)
-            held, following, before = held[ahead], following[ahead], distance[ahead]
-            share, foot, distance = self._foot(points[held], following)
-            nearer = distance < before
-            held, share, distance = held[nearer], share[nearer], distance[nearer]
-            current[held], found[held], shares[held] = following[nearer], foot[nearer], share
-        return found, current, np.flatnonzero((shares > 0.0) & (shares < 1.0))
+    def _settled(self, points: FloatArray, rows: IndexArray | None) -> _Settled:
+        """Of the two pieces beside the node the nearer one, and from there along the line as long as it gets nearer."""
+        one, other = self._beside if rows is None else (pieces.rows(rows) for pieces in self._beside)
+        share, found, distance = _foot(points, one)
+        second, foot, away = _foot(points, other)
+        nearer = away < distance
+        np.copyto(share, second, where=nearer)
+        np.copyto(distance, away, where=nearer)
+        np.copyto(found, foot, where=nearer[:, np.newaxis])
+        current = np.where(nearer, other.element, one.element)
+        settled = _Settled(found, current, share)
+        self._walk(points, settled, distance)
+        alone = np.flatnonzero(current < 0)
+        if alone.size:
+            found[alone], share[alone] = points[alone], 0.0
+        return settled
 
-    def _foot(self, points: FloatArray, elements: IndexArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Share of the element, nearest point and distance of each point on an element."""
-        start, span = self._start.take(elements, axis=0), self._span.take(elements, axis=0)
-        square = self._square[elements]
-        share = dot(points - start, span) / np.where(square > 0.0, square, np.inf)
-        np.minimum(np.maximum(share, 0.0, out=share), 1.0, out=share)
-        foot = scaled(span, share)
-        foot += start
-        away = points - foot
-        return share, foot, np.sqrt(dot(away, away))
+    def _walk(self, points: FloatArray, settled: _Settled, distance: FloatArray) -> None:
+        """Go on beyond the ends of elements that the feet stand on."""
+        found, current, shares = settled
+        held = np.flatnonzero((shares <= 0.0) | (shares >= 1.0))
+        while held.size:
+            following = self._beyond(current[held], shares[held])
+            ahead = np.flatnonzero(following >= 0)
+            held, following = held[ahead], following[ahead]
+            share, foot, away = _foot(gathered(points, held), self._pieces.rows(following))
+            nearer = away < distance[held]
+            held, share = held[nearer], share[nearer]
+            current[held], found[held], shares[held], distance[held] = (
+                following[nearer],
+                foot[nearer],
+                share,
+                away[nearer],
+            )
+
+    def _of_elements(self, elements: IndexArray) -> _Pieces:
+        """The pieces of elements (k,), NaN for those that are -1."""
+        there = elements >= 0
+        if not len(self._ends):
+            nowhere = np.full((3, len(elements)), np.nan).T
+            return _Pieces(nowhere, nowhere, nowhere[:, 0], elements)
+        piece = self._pieces.rows(np.where(there, elements, 0))
+        piece.start[~there] = np.nan
+        return piece._replace(element=elements)
 
     def _beyond(self, elements: IndexArray, share: FloatArray) -> IndexArray:
         """The element behind the end that the foot stands on; -1 inside an element and at the end of the line."""
@@ -159,6 +233,19 @@ class LaidCentreline:
         one, other = self._elements_at[end].T
         following = np.where(one == elements, other, one)
         return np.where((share > 0.0) & (share < 1.0), -1, following)
+
+
+def _foot(points: FloatArray, piece: _Pieces) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Share of the piece, nearest point and distance of each point."""
+    away = points - piece.start
+    share = dot(away, piece.span)
+    share /= piece.square
+    np.minimum(np.maximum(share, 0.0, out=share), 1.0, out=share)
+    foot = scaled(piece.span, share)
+    foot += piece.start
+    np.subtract(points, foot, out=away)
+    distance = dot(away, away)
+    return share, foot, np.sqrt(distance, out=distance)
 
 
 def _two_of_each(element_nodes: IndexArray, nodes: int) -> IndexArray:

@@ -34,13 +34,16 @@ def force_and_slope(
     """
     force, slope = (np.empty(z.shape), np.empty(z.shape)) if out is None else out
     with np.errstate(all="ignore"):
-        start = zone_start(h, one_sided)
-        inside = (z > start) & (z < np.where(one_sided, 2.0 * h, h))
-        zone = _in_the_zone(z, stiffness, h, one_sided)
-        past = np.maximum(z - np.where(one_sided, h, 0.0), 0.0)
-        beyond = ~inside & (z > start)
-        force[...] = np.where(inside, zone[0], np.where(beyond, stiffness * past, 0.0))
-        slope[...] = np.where(inside, zone[1], np.where(beyond, stiffness, 0.0))
+        in_contact = z > zone_start(h, one_sided)
+        past = z - np.where(one_sided, h, 0.0)
+        np.multiply(stiffness, np.fmax(past, 0.0, out=past), out=force)
+        np.multiply(stiffness, in_contact, out=slope)
+        inside = np.flatnonzero(in_contact & (z < np.where(one_sided, 2.0 * h, h)))
+        if inside.size:
+            row = inside % z.shape[-1] if z.ndim > 1 else inside
+            zone = _in_the_zone(z.reshape(-1)[inside], stiffness[row], h[row], one_sided[row])
+            np.put(force, inside, zone[0])
+            np.put(slope, inside, zone[1])
     return force, slope
 
 

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from mudline.contact.arrays import BoolArray, FloatArray
+from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
 
 if TYPE_CHECKING:  # a linear law does not load the curves
     from mudline.curves import ForceCurve
@@ -82,40 +82,38 @@ def step(history: UnloadingHistory, z: FloatArray, virgin: VirginPath) -> tuple[
 
     At z_max itself, after the step that reached it, the stiffness is that of unloading.
     """
-    deeper = z > history.z_max
+    deeper = np.flatnonzero(z > history.z_max)
     with np.errstate(all="ignore"):
         after = _deepened(history, z, virgin, deeper)
-        stiffness = _line_stiffness(after)
+        stiffness = _line_stiffness(after.stiffness, after.z_max, after.force_max)
         compressed = z > after.z_p
-        on_line = np.where(compressed, np.maximum(after.force_max - stiffness * (after.z_max - z), 0.0), 0.0)
-        reaction = UnloadingReaction(
-            force=np.where(deeper, virgin.force, on_line),
-            stiffness=np.where(deeper, virgin.slope, np.where(compressed, stiffness, 0.0)),
-            compressed=compressed,
-            uplift=after.z_p - z,
-        )
-    return reaction, after
+        on_line = after.force_max - stiffness * (after.z_max - z)
+        force = np.where(compressed, np.maximum(on_line, 0.0, out=on_line), 0.0)
+        stiffness = np.where(compressed, stiffness, 0.0)
+        force[deeper], stiffness[deeper] = virgin.force[deeper], virgin.slope[deeper]
+    return UnloadingReaction(force, stiffness, compressed, after.z_p - z), after
 
 
-def _deepened(history: UnloadingHistory, z: FloatArray, virgin: VirginPath, deeper: BoolArray) -> UnloadingHistory:
-    """The history with the deepest point where it is now."""
-    after = UnloadingHistory(
-        stiffness=np.where(deeper, np.maximum(history.stiffness, virgin.steepest), history.stiffness),
-        z_max=np.where(deeper, z, history.z_max),
-        force_max=np.where(deeper, np.maximum(virgin.force, 0.0), history.force_max),
-        z_p=history.z_p.copy(),
-    )
+def _deepened(history: UnloadingHistory, z: FloatArray, virgin: VirginPath, deeper: IndexArray) -> UnloadingHistory:
+    """The history with the deepest point where it is now, of the elements that are `deeper` than ever."""
+    kept = (history.stiffness, history.z_max, history.force_max, history.z_p)
+    after = UnloadingHistory(*(values.copy() for values in kept))
+    if not deeper.size:
+        return after
+    z_max, force_max = z[deeper], np.maximum(virgin.force[deeper], 0.0)
+    stiffness = np.maximum(history.stiffness[deeper], virgin.steepest[deeper])
     # A bottom that rounds to z_max would leave no place for the reaction there.
-    deepest = np.where(after.force_max > 0.0, np.nextafter(after.z_max, 0.0), after.z_max)
-    bottom = np.clip(after.z_max - after.force_max / _line_stiffness(after), 0.0, deepest)
-    after.z_p[deeper] = bottom[deeper]
+    deepest = np.where(force_max > 0.0, np.nextafter(z_max, 0.0), z_max)
+    bottom = np.clip(z_max - force_max / _line_stiffness(stiffness, z_max, force_max), 0.0, deepest)
+    after.stiffness[deeper], after.z_max[deeper] = stiffness, z_max
+    after.force_max[deeper], after.z_p[deeper] = force_max, bottom
     return after
 
 
-def _line_stiffness(history: UnloadingHistory) -> FloatArray:
+def _line_stiffness(stiffness: FloatArray, z_max: FloatArray, force_max: FloatArray) -> FloatArray:
     """Stiffness ku' of the line through the deepest point."""
-    secant = np.minimum(history.force_max / np.where(history.z_max > 0.0, history.z_max, 1.0), _LARGEST)
-    return np.maximum(history.stiffness, secant)
+    secant = np.minimum(force_max / np.where(z_max > 0.0, z_max, 1.0), _LARGEST)
+    return np.maximum(stiffness, secant)
 
 
 def steepest_slope(curve: ForceCurve, ratio: FloatArray) -> FloatArray:

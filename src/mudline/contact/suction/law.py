@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mudline.contact.arrays import BoolArray, FloatArray
+from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.contact.laws.spring import LawError
 
 FORCE_EXPONENT = 0.18
@@ -57,8 +57,8 @@ class SuctionLaw(NamedTuple):
     cyclic: FloatArray
     regularisation: FloatArray
 
-    def rows(self, rows: slice) -> SuctionLaw:
-        """Return the laws of some elements, as views."""
+    def rows(self, rows: slice | IndexArray) -> SuctionLaw:
+        """Return the laws of some elements, as views of a slice."""
         return SuctionLaw(*(values[rows] for values in self))
 
     def checked(self) -> SuctionLaw:

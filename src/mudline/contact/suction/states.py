@@ -8,7 +8,7 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import NDArray
 
-from mudline.contact.arrays import BoolArray, FloatArray
+from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
 
 
 class SuctionState(IntEnum):
@@ -47,6 +47,6 @@ class SuctionHistory:
         """Return the history of elements that never touched the bed."""
         return cls(np.zeros(elements, np.bool_), np.zeros(elements), np.full(elements, SuctionState.FREE, np.int8))
 
-    def rows(self, rows: slice) -> SuctionHistory:
-        """Return some elements, as views."""
+    def rows(self, rows: slice | IndexArray) -> SuctionHistory:
+        """Return some elements, as views of a slice."""
         return SuctionHistory(self.armed[rows], self.v_max[rows], self.state[rows])

@@ -1,0 +1,116 @@
+"""docs/images/full-cycle.svg: force against penetration in one cycle, as the evaluator gives it for the sample deck."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import BinaryIO, NamedTuple
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+import mudline
+from mudline.contact.suction.states import SuctionState
+from mudline.scene.positions import read_positions
+
+Floats = NDArray[np.float64]
+
+_COLOURS = {
+    SuctionState.FREE: "#7f7f7f",
+    SuctionState.COMPRESSION: "#1f4e9c",
+    SuctionState.SUCTION: "#d1495b",
+    SuctionState.HOLD: "#e8a33d",
+    SuctionState.BROKEN: "#3d8b5f",
+}
+_ELEMENT = 0
+
+
+class Cycle(NamedTuple):
+    """One element over the steps: penetration in mm, force in kN/m, states."""
+
+    penetration: Floats
+    force: Floats
+    state: NDArray[np.int8]
+
+
+class Note(NamedTuple):
+    """A text at a place of the text area, with an arrow to a point of the path."""
+
+    text: str
+    point: tuple[float, float]
+    at: tuple[float, float]
+
+
+NOTES = (
+    Note("1  penetration along\nthe force-embedment curve", (42.0, 2.87), (3.0, 3.6)),
+    Note("2  it turns: unloading\nalong the stiffness ku", (92.5, 1.87), (103.0, 1.3)),
+    Note("3  suction: rise,\nplateau, release", (72.0, -0.26), (80.0, -1.2)),
+    Note("4  the pipe stops:\nhold, no force", (40.0, 0.0), (14.0, 0.65)),
+    Note("5  breakout, at the\nuplift Delta_B above\nthe trench bottom", (-35.3, 0.0), (-51.0, 0.65)),
+    Note("6  down again: no force\nabove the trench bottom", (65.0, 0.0), (42.0, 1.4)),
+    Note("7  along ku to where\nit turned, then along\nthe curve", (106.0, 3.83), (107.0, 2.7)),
+)
+_FINER = 5
+"""Places evaluated for each step of the file."""
+_EVERY = 13 * _FINER
+"""Places between two arrow heads."""
+
+
+def cycle(samples: Path) -> Cycle:
+    """Evaluate the sample, with places between those of its file."""
+    scene = mudline.read(samples / "full-cycle.keyxm").scene()
+    given = read_positions(samples / "full-cycle.csv", scene.nodes)
+    assert given.time is not None
+    steps = np.arange(len(given.time))
+    fine = np.linspace(0.0, steps[-1], _FINER * steps[-1] + 1)
+    times = np.interp(fine, steps, given.time)
+    height = np.interp(fine, steps, given.values[:, 0, 0])  # all nodes move alike
+    positions = np.repeat(scene.coordinates[None], len(fine), axis=0)
+    positions[:, :, 0] = height[:, None]
+    result = scene.contact().evaluate(positions, times=times)
+    assert result.state is not None
+    return Cycle(1e3 * result.depth[:, _ELEMENT], 1e-3 * result.force[:, _ELEMENT], result.state[:, _ELEMENT])
+
+
+def draw(path: Cycle, form: str, stream: BinaryIO) -> None:
+    """Write the picture as "svg" or "png"."""
+    with mpl.rc_context({"svg.hashsalt": "mudline", "svg.fonttype": "path", "font.size": 10.0}):
+        figure = Figure(figsize=(9.0, 5.6), layout="constrained", dpi=110)
+        _panel(figure.add_subplot(), path)
+        figure.savefig(stream, format=form, metadata={"Date": None} if form == "svg" else None)
+
+
+def _panel(axes: Axes, path: Cycle) -> None:
+    axes.axhline(0.0, color="black", linewidth=0.6)
+    axes.axvline(0.0, color="black", linewidth=0.8, linestyle=":")
+    axes.text(-1.0, 4.95, "mudline", rotation=90.0, ha="right", va="top", fontsize=8.0)
+    for state, colour in _COLOURS.items():
+        _of_state(axes, path, state, colour)
+    line = {"arrowstyle": "-", "color": "#555555", "linewidth": 0.7}
+    for note in NOTES:
+        axes.annotate(note.text, note.point, note.at, arrowprops=line, fontsize=9.0)
+    axes.set_xlabel("penetration of the pipe [mm]")
+    axes.set_ylabel("force of the bed per unit length [kN/m]\nabove 0 it pushes the pipe out, below 0 it holds it back")
+    axes.set_title("One cycle of samples/full-cycle.keyxm: a pipe of 0.4064 m on soft clay, pulled out at 10 mm/s")
+    axes.set_xlim(-55.0, 140.0)
+    axes.set_ylim(-1.6, 5.0)
+    axes.grid(color="#dddddd", linewidth=0.5)
+    axes.legend(title="state", loc="lower left", ncols=3)
+
+
+def _of_state(axes: Axes, path: Cycle, state: SuctionState, colour: str) -> None:
+    """The way to each step of a state, from the step before; a stop is a point."""
+    here = np.flatnonzero(path.state == state)
+    back = np.maximum(here - 1, 0)
+    gap = np.full(len(here), np.nan)
+    ways = (np.column_stack([values[back], values[here], gap]).ravel() for values in (path.penetration, path.force))
+    stops = state is SuctionState.HOLD
+    axes.plot(*ways, color=colour, linewidth=2.2, marker="o" if stops else "", markevery=[-2], zorder=3 if stops else 2)
+    axes.plot([], [], color=colour, linewidth=2.2, marker="o" if stops else "", label=state.name.lower())
+    for at in here[1:-1]:
+        if at % _EVERY == 0 and path.penetration[at + 1] != path.penetration[at]:
+            ends = ((path.penetration[k], path.force[k]) for k in (at, at + 1))
+            start, end = ends
+            axes.annotate("", end, start, arrowprops={"arrowstyle": "-|>", "color": colour, "mutation_scale": 14.0})

@@ -1,0 +1,52 @@
+"""The pictures of the documentation show what they say, and are the same each time they are drawn."""
+
+from __future__ import annotations
+
+from io import BytesIO
+from itertools import groupby
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mudline.contact.suction.states import SuctionState
+from tests.docs.full_cycle import NOTES, Cycle, cycle, draw
+from tests.docs.pictures import IMAGES, ROOT, write
+
+
+@pytest.fixture(scope="module")
+def path() -> Cycle:
+    return cycle(ROOT / "samples")
+
+
+def test_the_cycle_goes_through_all_states_in_order(path: Cycle) -> None:
+    states = [SuctionState(state).name for state, _ in groupby(path.state.tolist())]
+    assert states == ["FREE", "COMPRESSION", "SUCTION", "HOLD", "SUCTION", "BROKEN", "FREE", "COMPRESSION"]
+
+
+def test_suction_begins_at_the_trench_bottom_and_ends_at_breakout(path: Cycle) -> None:
+    """z_p = z_max - F_max / ku; Delta_B = 0.98 D v^0.26; F_max = 1.12 D cu (v / D)^0.18."""
+    bottom = 100.0 - 3769.5276 / 250.0
+    pulled = path.penetration[path.state == SuctionState.SUCTION]
+    assert pulled.max() == pytest.approx(bottom, abs=0.5)
+    assert pulled.min() == pytest.approx(bottom - 980.0 * 0.4064 * 0.01**0.26, abs=0.5)
+    assert path.force.min() == pytest.approx(-1.12 * 0.4064 * 2.0 * (0.01 / 0.4064) ** 0.18, rel=1e-9)
+
+
+@pytest.mark.parametrize("note", NOTES, ids=lambda note: note.text[0])
+def test_notes_point_at_the_path(path: Cycle, note: tuple[str, tuple[float, float], tuple[float, float]]) -> None:
+    penetration, force = note[1]
+    assert np.hypot((path.penetration - penetration) / 200.0, (path.force - force) / 7.0).min() < 0.003
+
+
+def test_a_picture_is_the_same_each_time(path: Cycle) -> None:
+    first, second = BytesIO(), BytesIO()
+    for stream in (first, second):
+        draw(path, "svg", stream)
+    assert first.getvalue() == second.getvalue()
+
+
+def test_all_pictures_are_made_and_no_others(tmp_path: Path) -> None:
+    write(tmp_path)
+    made = {file.name for file in tmp_path.iterdir() if file.stat().st_size > 10_000}
+    assert made == {file.name for file in IMAGES.iterdir()}
