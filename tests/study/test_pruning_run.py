@@ -27,6 +27,7 @@ from tests.cli.runner import run
 from tests.contact.scenes import CLAY, everything
 
 SAMPLES = Path(__file__).parents[2] / "samples"
+ELEMENTS, LONGEST = growth.ELEMENTS, growth.LADDERS["sets"][-1]
 PIPE = Pipe(CLAY, 6.0e4, 0.3, 2.0)
 PLAIN = Variant(CURVE, lambda nodes: line(PIPE, nodes))
 
@@ -144,6 +145,10 @@ def test_decks_with_sets_share_out_the_elements(sets: int) -> None:
     inputs = scene.contact_input()
     assert len(scene.element_ids) == 16
     assert len(set(inputs.linear_stiffness)) == sets
+
+
+def test_the_longest_ladder_has_an_element_for_each_set() -> None:
+    assert 4 * LONGEST <= ELEMENTS
 
 
 def test_spread_curves_have_their_points() -> None:

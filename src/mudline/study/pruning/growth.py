@@ -24,7 +24,7 @@ from mudline.study.pruning.variants import Pipe, Variant, everything, line
 
 NODES = 10_001
 FEW_NODES = 1001
-ELEMENTS = 2000
+ELEMENTS = 2048
 LADDERS = {
     "points on the curve": (2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096),
     "curves": (1, 2, 4, 8, 16, 32, 64, 128, 256, 512),
