@@ -194,7 +194,7 @@ class LaidCentreline:
         current = np.where(nearer, other.element, one.element)
         settled = _Settled(found, current, share)
         self._walk(points, settled, distance)
-        alone = np.flatnonzero(current < 0)
+        (alone,) = (current < 0).nonzero()
         if alone.size:
             found[alone], share[alone] = points[alone], 0.0
         return settled
@@ -202,10 +202,10 @@ class LaidCentreline:
     def _walk(self, points: FloatArray, settled: _Settled, distance: FloatArray) -> None:
         """Go on beyond the ends of elements that the feet stand on."""
         found, current, shares = settled
-        held = np.flatnonzero((shares <= 0.0) | (shares >= 1.0))
+        (held,) = ((shares <= 0.0) | (shares >= 1.0)).nonzero()
         while held.size:
             following = self._beyond(current[held], shares[held])
-            ahead = np.flatnonzero(following >= 0)
+            (ahead,) = (following >= 0).nonzero()
             held, following = held[ahead], following[ahead]
             share, foot, away = _foot(gathered(points, held), self._pieces.rows(following))
             nearer = away < distance[held]
