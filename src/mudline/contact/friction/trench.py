@@ -145,9 +145,10 @@ class LaidCentreline:
 
     def __init__(self, laid: FloatArray, element_nodes: IndexArray, nodes: IndexArray | None = None) -> None:
         known = ~np.isnan(laid[:, 0])  # NaN stands for nodes without a position
-        self._ends = element_nodes[known[element_nodes].all(axis=1)]
-        start = np.asfortranarray(laid[self._ends[:, 0]])
-        span = np.asfortranarray(laid[self._ends[:, 1]] - start)
+        self._ends = element_nodes if known.all() else element_nodes[known[element_nodes].all(axis=1)]
+        places = np.asfortranarray(laid)
+        start, span = (gathered(places, end) for end in self._ends.T)
+        span -= start
         square = dot(span, span)
         square[~(square > 0.0)] = np.inf  # a piece without length has its foot at its start
         self._pieces = _Pieces(start, span, square, np.arange(len(start)))
@@ -202,7 +203,7 @@ class LaidCentreline:
     def _walk(self, points: FloatArray, settled: _Settled, distance: FloatArray) -> None:
         """Go on beyond the ends of elements that the feet stand on."""
         found, current, shares = settled
-        (held,) = ((shares <= 0.0) | (shares >= 1.0)).nonzero()
+        (held,) = (((shares <= 0.0) | (shares >= 1.0)) & (distance > 0.0)).nonzero()
         while held.size:
             following = self._beyond(current[held], shares[held])
             (ahead,) = (following >= 0).nonzero()
