@@ -26,7 +26,7 @@ def _example() -> tuple[object, ...]:
     memory = memory_of(ContactState())
     path = Path(_given(3), _given(3), np.zeros(1), _given(2), _given(2), _given(3))
     ground = Ground(1, two_of_each(flat.elements.ends, yes))
-    return path, ground, flat, (memory, blank_memory(memory)), work(0), out_of(part)
+    return path, ground, flat, (memory, blank_memory(memory)), work(0, 0), out_of(part)
 
 
 def _given(axes: int) -> FloatArray:

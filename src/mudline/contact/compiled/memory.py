@@ -46,11 +46,21 @@ class Memory(NamedTuple):
 
 
 class Work(NamedTuple):
-    """Sums at nodes: pull-out velocity (n,), tangents of elements (n, 3), forces of lateral springs (n, 3)."""
+    """What loops tell each other.
+
+    Attributes:
+        along: (n,) pull-out velocities.
+        tangent: (n, 3) sums of tangents of elements, then the directions u1 along the line.
+        sideways: (n, 3) forces of lateral springs.
+        height: (m,) uplift, from the trench bottom where there is one.
+        compressed: (m,) elements below it, or in contact.
+    """
 
     along: FloatArray
     tangent: FloatArray
     sideways: FloatArray
+    height: FloatArray
+    compressed: BoolArray
 
 
 def out_of(part: ContactResult) -> Out:
@@ -120,6 +130,7 @@ def blank_memory(memory: Memory) -> Memory:
     return Memory(*(np.empty_like(array) for array in memory))
 
 
-def work(nodes: int) -> Work:
-    """Work arrays for so many nodes."""
-    return Work(np.zeros(nodes), np.zeros((nodes, 3)), np.zeros((nodes, 3)))
+def work(nodes: int, elements: int) -> Work:
+    """Work arrays for so many nodes and elements."""
+    at_nodes = (np.zeros(nodes), np.zeros((nodes, 3)), np.zeros((nodes, 3)))
+    return Work(*at_nodes, np.zeros(elements), np.zeros(elements, np.bool_))

@@ -6,7 +6,6 @@ import math
 
 from mudline.contact.arrays import BoolArray, FloatArray
 from mudline.contact.compiled.jit import jitted
-from mudline.contact.compiled.memory import Work
 from mudline.contact.compiled.tables import Elements
 from mudline.contact.compiled.vectors import cross, dot, in_plane, unit_tangent
 
