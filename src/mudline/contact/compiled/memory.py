@@ -127,7 +127,9 @@ def state_of(memory: Memory, before: ContactState, positions: FloatArray, laid: 
 
 def blank_memory(memory: Memory) -> Memory:
     """Memory of the same sizes, not yet written."""
-    return Memory(*(np.empty_like(array) for array in memory))
+    blank = Memory(*(np.empty_like(array) for array in memory))
+    blank.touchdown.fill(np.nan)  # elements without a lateral spring are not written
+    return blank
 
 
 def work(nodes: int, elements: int) -> Work:

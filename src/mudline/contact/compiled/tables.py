@@ -39,8 +39,8 @@ class Elements(NamedTuple):
         numbers: (m, 8) half of the length, diameter, linear stiffness, beginning of contact, half width of the zone,
             stiffness and extent of the spring against uplift, stiffness of the lateral spring.
         one_sided: as in `Smoothing`.
-        on_curve, on_line, sprung, pulled, unloaded: the elements with a curve, a linear law, a spring against uplift,
-            suction, and an unloading line.
+        on_curve, on_line, sprung, pulled, unloaded, guided: the elements with a curve, a linear law, a spring against
+            uplift, suction, an unloading line, and a lateral spring.
     """
 
     ends: SmallIndexArray
@@ -53,6 +53,7 @@ class Elements(NamedTuple):
     sprung: SmallIndexArray
     pulled: SmallIndexArray
     unloaded: SmallIndexArray
+    guided: SmallIndexArray
 
 
 class Nodes(NamedTuple):
@@ -146,6 +147,7 @@ def _elements(inputs: ContactInput, onset: FloatArray) -> Elements:
         np.flatnonzero(uplift[0] > 0.0).astype(np.int32),
         held.astype(np.int32),
         np.flatnonzero(~np.isnan(unloading)).astype(np.int32),
+        np.flatnonzero(lateral > 0.0).astype(np.int32),
     )
 
 
