@@ -206,7 +206,7 @@ class ContactModel:
     def _blank(self, steps: int, evaluated: BoolArray, mask: BoolArray) -> ContactResult:
         return blank_result(steps, evaluated, mask, self.input.extras, self._stages.floor.same_normal, self._rigid)
 
-    def _evaluate_steps(
+    def _evaluate_steps(  # noqa: PLR0913, PLR0917 - what a few steps of a series are made of
         self,
         series: RealArray,
         motion: RealArray | None,

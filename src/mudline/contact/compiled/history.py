@@ -22,7 +22,8 @@ def steepest_at(curves: Curves, curve: int, ratio: float) -> float:
     """The steepest slope between the mudline and a ratio; at a point the segment to its right does not count yet."""
     first = curves.first[curve]
     i = passed(curves.ratios, first, curves.last[curve], ratio)
-    return curves.steepest[i - 1 if i > first and ratio == curves.ratios[i] else i]
+    steepest: float = curves.steepest[i - 1 if i > first and ratio == curves.ratios[i] else i]
+    return steepest
 
 
 @jitted

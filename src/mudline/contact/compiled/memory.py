@@ -103,7 +103,7 @@ def memory_of(state: ContactState) -> Memory:
         *((np.empty((0, 3)), np.empty((0, 2), np.int8)) if rubs is None else (rubs.anchors, rubs.states)),
         np.empty((0, 3)) if state.touchdown is None else state.touchdown,
     )
-    return Memory(*(np.require(array, requirements=("C", "W")) for array in found))
+    return Memory._make(np.require(array, requirements=("C", "W")) for array in found)
 
 
 def state_of(memory: Memory, before: ContactState, positions: FloatArray, laid: FloatArray) -> ContactState:
@@ -127,7 +127,7 @@ def state_of(memory: Memory, before: ContactState, positions: FloatArray, laid: 
 
 def blank_memory(memory: Memory) -> Memory:
     """Memory of the same sizes, not yet written."""
-    blank = Memory(*(np.empty_like(array) for array in memory))
+    blank = Memory._make(np.empty_like(array) for array in memory)
     blank.touchdown.fill(np.nan)  # elements without a lateral spring are not written
     return blank
 

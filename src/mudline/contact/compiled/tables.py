@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
+from mudline.contact.arrays import BoolArray, FloatArray
 from mudline.contact.friction.directions import senses
 from mudline.contact.inputs import ContactInput, LawKind
 from mudline.contact.suction.law import SuctionLaw, suction_depth
@@ -60,8 +61,8 @@ class Nodes(NamedTuple):
     """Nodes (n,).
 
     Attributes:
-        numbers: (n, 8) coefficients of friction along u1 and u2, springs, springs per normal force, cosine and sine of the
-            angle (NaN for none).
+        numbers: (n, 8) coefficients of friction along u1 and u2, springs, springs per normal force, cosine and sine of
+            the angle (NaN for none).
         springs: (n, 2) stiffness of the nodal spring, 0 for none, and half width of its zone.
         one_sided: as in `NodalSprings`.
         sprung: nodes that have one.
@@ -112,9 +113,7 @@ def tables(inputs: ContactInput, onset: FloatArray) -> Tables:
         friction=extras.friction is not None,
         lateral=extras.lateral is not None,
     )
-    elements = Elements(*map(np.ascontiguousarray, _elements(inputs, onset)))
-    nodes = Nodes(*map(np.ascontiguousarray, _nodes(inputs)))
-    return Tables(has, elements, nodes, _curves(inputs), np.ascontiguousarray(laws))
+    return Tables(has, _elements(inputs, onset), _nodes(inputs), _curves(inputs), laws)
 
 
 def _elements(inputs: ContactInput, onset: FloatArray) -> Elements:
@@ -140,7 +139,7 @@ def _elements(inputs: ContactInput, onset: FloatArray) -> Elements:
         inputs.element_nodes.astype(np.int32),
         senses(inputs.element_nodes, len(inputs.node_ids)),
         np.where(inputs.law == LawKind.CURVE, inputs.curve_index, -1).astype(np.int32),
-        np.column_stack(numbers),
+        _columns(numbers),
         np.zeros(count, np.bool_) if smooth is None else smooth.one_sided.copy(),
         inputs.with_law(LawKind.CURVE).astype(np.int32),
         inputs.with_law(LawKind.LINEAR).astype(np.int32),
@@ -153,7 +152,7 @@ def _elements(inputs: ContactInput, onset: FloatArray) -> Elements:
 
 def _suction_laws(law: SuctionLaw) -> FloatArray:
     slowest = np.maximum(law.regularisation * (law.force_exponent < 2.0), np.nextafter(0.0, 1.0))
-    return np.column_stack(
+    return _columns(
         [
             law.depth_factor,
             law.depth_exponent,
@@ -176,20 +175,20 @@ def _nodes(inputs: ContactInput) -> Nodes:
         with np.errstate(all="ignore"):
             rising = np.where(law.constant, 0.0, law.coefficients / law.mobilisation)
         constant = np.where(law.constant, law.stiffness, 0.0)
-        numbers = np.column_stack([law.coefficients, constant, rising, np.cos(turn), np.sin(turn)])
+        numbers = _columns([law.coefficients, constant, rising, np.cos(turn), np.sin(turn)])
         active, elliptic = law.active.copy(), law.ellipse.copy()
     nodal = extras.nodal
     springs = np.zeros((count, 2))
     if nodal is not None:
-        springs = np.column_stack([np.nan_to_num(nodal.stiffness), nodal.half_width])
+        springs = _columns([np.nan_to_num(nodal.stiffness), nodal.half_width])
     trench, line, lines = np.full((count, 3), np.nan), np.full(count, -1, np.int32), np.empty((0, 4))
     if extras.trench is not None:
         widths = extras.trench.law
-        trench = np.column_stack([0.5 * widths.bottom, 0.5 * widths.upper, widths.peak])
+        trench = _columns([0.5 * widths.bottom, 0.5 * widths.upper, widths.peak])
         straight = np.flatnonzero(~np.isnan(extras.trench.straight[:, 0]))
         ends, line[straight] = np.unique(extras.trench.straight[straight], axis=0, return_inverse=True)
         way = ends[:, 2:] - ends[:, :2]
-        lines = np.column_stack([ends[:, :2], way / np.hypot(*way.T)[:, None]])
+        lines = _columns([ends[:, :2], way / np.hypot(*way.T)[:, None]])
     one_sided = np.zeros(count, np.bool_) if nodal is None else nodal.one_sided.copy()
     sprung = np.flatnonzero(springs[:, 0] > 0.0).astype(np.int32)
     return Nodes(numbers, springs, one_sided, sprung, active, elliptic, trench, line, lines)
@@ -223,3 +222,8 @@ def two_of_each(ends: SmallIndexArray, known: BoolArray) -> SmallIndexArray:
     for place in range(2):
         found[node[rank == place], place] = element[rank == place]
     return found
+
+
+def _columns(arrays: Sequence[FloatArray]) -> FloatArray:
+    """The arrays beside each other, row by row in memory."""
+    return np.ascontiguousarray(np.column_stack(arrays))

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import NamedTuple
 
-
 from mudline.contact.arrays import FloatArray
 from mudline.contact.compiled.elements import embed, follow_curves, follow_lines, gather, hold_back
 from mudline.contact.compiled.floor import begin, gaps, velocities
@@ -65,7 +64,7 @@ def press(tables: Tables, step: int, memory: tuple[Memory, Memory], work: Work, 
 
 
 @jitted
-def react(
+def react(  # noqa: PLR0913, PLR0917 - all that a step is made of
     path: Path, ground: Ground, tables: Tables, step: int, memory: tuple[Memory, Memory], work: Work, out: Out
 ) -> bool:
     """Write the nodes of a step; return whether everything is finite."""
