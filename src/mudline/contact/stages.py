@@ -104,10 +104,13 @@ class Stages:
             self.assembly.apply(part, first_step)
         stiffness = None if self.nodal is None else self.nodal.apply(part)
         if self.assembly is not None or self.nodal is not None:
+            same = self.floor.same_normal
             for axis in range(3):
-                np.multiply(part.normal_force, part.normal[..., axis], out=part.reaction[..., axis])
-            # a negative force times a zero component is -0, which is no reaction of its own
-            np.add(part.reaction, 0.0, out=part.reaction)
+                if same is None or same[axis]:
+                    target = part.reaction[..., axis]
+                    np.multiply(part.normal_force, part.normal[..., axis], out=target)
+                    # a negative force times a zero component is -0, which is no reaction of its own
+                    np.add(target, 0.0, out=target)
         return stiffness
 
     def slide(
