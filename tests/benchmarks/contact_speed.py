@@ -3,11 +3,12 @@
 Each round times every scene and every peer once, so that a busy machine slows all of them alike. Printed are, of the
 times of the rounds, the medians, how many times the time of np.searchsorted (over the four points of a curve) and of a
 copy of the positions each scene takes, medians of the ratios within a round, and the least times: what the machine does
-when it is left alone..
+when it is left alone.
 
 The scenes: "curves" has neither history nor anything at nodes and takes steps together, "all" has every stage on
 (smoothing, nodal springs, unloading, both suctions, friction, lateral springs, trenches, curves) over a flat bed,
-"sloping" and "planes" are the same over those beds.
+"sloping" and "planes" are the same over those beds. Which node has which law is drawn at random, so compiled loops
+guess many branches wrong; in a deck they come in long stretches. "fast" behind a name: with compiled loops.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ sys.path.insert(0, str(Path(__file__).parents[2]))
 
 from mudline.contact import ContactInput, ContactModel
 from mudline.contact.arrays import FloatArray
+from mudline.contact.compiled.choice import Backend
 from mudline.contact.extras import Extras
 from mudline.contact.floors import Floor, PlanesFloor, SlopingFloor
 from tests.contact.scenes import CLAY, everything
@@ -60,9 +62,9 @@ def series(points: FloatArray, steps: int) -> FloatArray:
     return np.stack([points + moves[step % 4] for step in range(steps)])
 
 
-def streaming(inputs: ContactInput, positions: FloatArray) -> Timed:
+def streaming(inputs: ContactInput, positions: FloatArray, backend: Backend) -> Timed:
     """A run through the whole series."""
-    model, times = ContactModel(inputs), 0.1 * np.arange(float(len(positions)))
+    model, times = ContactModel(inputs, backend=backend), 0.1 * np.arange(float(len(positions)))
 
     def run() -> None:
         for _ in model.stream(positions, times=times):
@@ -78,7 +80,8 @@ def methods(nodes: int, steps: int) -> dict[str, Timed]:
     ratios = positions[..., 0].copy()
     target = np.zeros_like(positions)
     return {
-        **{name: streaming(scene, positions) for name, scene in inputs.items()},
+        **{name: streaming(scene, positions, "numpy") for name, scene in inputs.items()},
+        **{f"{name} fast": streaming(inputs[name], positions, "fast") for name in beds(nodes - 1)},
         "searchsorted": lambda: np.searchsorted(CLAY.ratios, ratios),
         "copy": lambda: np.copyto(target, positions),
     }

@@ -10,3 +10,14 @@ FloatArray = NDArray[np.float64]
 IdArray = NDArray[np.int64]
 IndexArray = NDArray[np.intp]
 StateArray = NDArray[np.int8]
+Picked = IndexArray | slice
+
+
+def as_range(indices: IndexArray) -> Picked:
+    """A slice where the indices follow each other one by one: what it picks is a view and no copy."""
+    if not len(indices):
+        return slice(0, 0)
+    first, last = int(indices[0]), int(indices[-1])
+    if last - first + 1 == len(indices) and (np.diff(indices) == 1).all():
+        return slice(first, last + 1)
+    return indices

@@ -55,7 +55,7 @@ class LateralStage:
 
         `along` are the directions of the line and across it at the nodes.
         """
-        touches = np.flatnonzero(part.contact[0][self._elements])
+        (touches,) = part.contact[0][self._elements].nonzero()
         elements = self._elements[touches]
         first, second = (end[touches] for end in self._ends)
         start, end = gathered(points, first), gathered(points, second)

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from mudline.contact.arrays import BoolArray, FloatArray
 from mudline.contact.compiled.choice import Backend, checked, compiles
+from mudline.contact.ends import Ends
 from mudline.contact.errors import refuse_elements, refuse_nodes
 from mudline.contact.inputs import ContactInput, LawKind
 from mudline.contact.plan import Plan, make_plan
@@ -62,6 +63,7 @@ class ContactModel:
         self.input = inputs
         self.plan: Plan = make_plan(inputs)
         self._stages = Stages(inputs)
+        self._ends = Ends(inputs.element_nodes, len(inputs.node_ids))
         self._first, self._second = inputs.element_nodes.T
         self._no_diameter = np.isnan(inputs.diameter)
         self._rigid = _rigid_nodes(inputs)
@@ -204,7 +206,7 @@ class ContactModel:
     def _blank(self, steps: int, evaluated: BoolArray, mask: BoolArray) -> ContactResult:
         return blank_result(steps, evaluated, mask, self.input.extras, self._stages.floor.same_normal, self._rigid)
 
-    def _evaluate_steps(
+    def _evaluate_steps(  # noqa: PLR0913, PLR0917 - what a few steps of a series are made of
         self,
         series: RealArray,
         motion: RealArray | None,
@@ -279,8 +281,9 @@ class ContactModel:
 
     def _embed(self, part: ContactResult, first_step: int) -> None:
         """Depth, ratio and contact of the elements from the gaps of the nodes; NaN where there is no seabed."""
-        part.depth[...] = 0.5 * part.gap[:, self._first]  # halves first: their sum cannot overflow
-        part.depth[...] += 0.5 * part.gap[:, self._second]
+        first, second = self._ends.at(part.gap)
+        np.multiply(0.5, first, out=part.depth)  # halves first: their sum cannot overflow
+        part.depth[...] += 0.5 * second
         np.subtract(0.0, part.depth, out=part.depth)
         np.divide(part.depth, self.input.diameter, out=part.ratio)
         np.greater(part.depth, self._stages.onset, out=part.contact)

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from mudline.contact.arrays import BoolArray, IndexArray
+from mudline.contact.arrays import IndexArray, Picked, as_range
 from mudline.contact.errors import ElementError
 from mudline.contact.inputs import ContactInput
-from mudline.contact.laws.spring import LawError, Springs
+from mudline.contact.laws.spring import LawError, Spring, Springs
 from mudline.contact.result import ContactResult
+
+_BLOCK = 16384
+"""Elements at a time: the work arrays stay in the second-level cache."""
 
 
 class NormalLaw:
@@ -18,7 +21,7 @@ class NormalLaw:
 
     def __init__(self, inputs: ContactInput, springs: Sequence[Springs]) -> None:
         self._ids = inputs.element_ids
-        self._groups = [(group, self._mask(group.elements)) for group in springs]
+        self._pieces = [(group, piece) for group in springs for piece in _pieces(group.elements)]
         self.elements = np.sort(np.concatenate([group.elements for group in springs]))
 
     def apply(self, part: ContactResult, first_step: int) -> None:
@@ -27,28 +30,49 @@ class NormalLaw:
         Raises:
             ElementError: a value overflows.
         """
-        for springs, mask in self._groups:
-            self._apply_group(springs, np.flatnonzero(part.contact & mask), part, first_step)
+        for springs, piece in self._pieces:
+            touches = part.contact[:, piece]
+            if not (isinstance(piece, slice) and touches.all() and _apply_all(springs, piece, part)):
+                self._apply_some(springs, piece, np.flatnonzero(touches), part, first_step)
 
-    def _apply_group(self, springs: Springs, where: IndexArray, part: ContactResult, first_step: int) -> None:
-        """Apply one law at the flat positions `where` of (steps, m)."""
+    def _apply_some(
+        self, springs: Springs, piece: Picked, where: IndexArray, part: ContactResult, first_step: int
+    ) -> None:
+        """Apply one law at the flat positions `where` of (steps, piece)."""
         if not where.size:
             return
-        element = where % len(self._ids)
-        depth, ratio = part.depth.reshape(-1)[where], part.ratio.reshape(-1)[where]
+        size = piece.stop - piece.start if isinstance(piece, slice) else len(piece)
+        rows, columns = (0, where) if len(part.force) == 1 else np.divmod(where, size)
+        element = columns + piece.start if isinstance(piece, slice) else piece[columns]
+        at = (rows, element)
         try:
-            spring = springs.spring(element, depth, ratio)
+            spring = springs.spring(element, part.depth[at], part.ratio[at])
         except LawError as error:
             culprit = int(self._ids[element[error.index]])
-            step = first_step + int(where[error.index]) // len(self._ids)
+            step = first_step + int(where[error.index]) // size
             raise ElementError(f"element {culprit} at step {step}: {error}", culprit, step) from error
-        part.force.reshape(-1)[where] = spring.force
-        part.slope.reshape(-1)[where] = spring.slope
-        part.stiffness.reshape(-1)[where] = spring.stiffness
-        if spring.cut is not None:
-            part.cut.reshape(-1)[where] = spring.cut
+        _put(spring, at, part)
 
-    def _mask(self, elements: IndexArray) -> BoolArray:
-        mask = np.zeros(len(self._ids), np.bool_)
-        mask[elements] = True
-        return mask
+
+def _apply_all(springs: Springs, piece: slice, part: ContactResult) -> bool:
+    """Apply one law to elements that all touch; False where something overflows, and who it is must be found."""
+    at = (slice(None), piece)
+    try:
+        spring = springs.spring(piece, part.depth[at], part.ratio[at])
+    except LawError:
+        return False
+    _put(spring, at, part)
+    return True
+
+
+def _put(spring: Spring, at: tuple[int | Picked, Picked], part: ContactResult) -> None:
+    part.force[at] = spring.force
+    part.slope[at] = spring.slope
+    part.stiffness[at] = spring.stiffness
+    if spring.cut is not None:
+        part.cut[at] = spring.cut
+
+
+def _pieces(elements: IndexArray) -> Iterator[Picked]:
+    for start in range(0, len(elements), _BLOCK):
+        yield as_range(elements[start : start + _BLOCK])

@@ -87,16 +87,16 @@ class Stages:
         self, part: ContactResult, points: FloatArray, moving: FloatArray, state: ContactState, number: int
     ) -> tuple[StepDetail, ContactState]:
         """Unloading and suction of the step `number`, and the state behind it as far as they are concerned."""
-        state = replace(state, positions=points, laid=points if state.laid is None else state.laid)
+        unloading, suction = state.unloading, state.suction
         unloaded: UnloadingReaction | None = None
         detail = StepDetail()
-        if self.unloading is not None and state.unloading is not None:
-            unloaded, after = self.unloading.apply(part, state.unloading)
-            state = replace(state, unloading=after)
-        if self.suction is not None and state.suction is not None:
-            suction, history = self.suction.apply(part, moving, state.suction, unloaded, number)
-            state, detail = replace(state, suction=history), StepDetail(suction=suction)
-        return detail, state
+        if self.unloading is not None and unloading is not None:
+            unloaded, unloading = self.unloading.apply(part, unloading)
+        if self.suction is not None and suction is not None:
+            pulls, suction = self.suction.apply(part, moving, suction, unloaded, number)
+            detail = StepDetail(suction=pulls)
+        laid = points if state.laid is None else state.laid
+        return detail, replace(state, positions=points, laid=laid, unloading=unloading, suction=suction)
 
     def gather(self, part: ContactResult, first_step: int) -> FloatArray | None:
         """Normal forces and reactions of nodes; the stiffness (steps, n) of nodal springs, if there are any."""
@@ -104,10 +104,13 @@ class Stages:
             self.assembly.apply(part, first_step)
         stiffness = None if self.nodal is None else self.nodal.apply(part)
         if self.assembly is not None or self.nodal is not None:
+            same = self.floor.same_normal
             for axis in range(3):
-                np.multiply(part.normal_force, part.normal[..., axis], out=part.reaction[..., axis])
-            # a negative force times a zero component is -0, which is no reaction of its own
-            np.add(part.reaction, 0.0, out=part.reaction)
+                if same is None or same[axis]:
+                    target = part.reaction[..., axis]
+                    np.multiply(part.normal_force, part.normal[..., axis], out=target)
+                    # a negative force times a zero component is -0, which is no reaction of its own
+                    np.add(target, 0.0, out=target)
         return stiffness
 
     def slide(
@@ -124,13 +127,14 @@ class Stages:
             return detail, state
         points = np.asfortranarray(points)
         along = self._line.axial(points, part.normal[0])
-        if self.friction is not None and state.friction is not None and state.laid is not None:
-            sliding, history = self.friction.apply(part, points, along, state.friction, state.laid, detailed=detailed)
-            detail, state = detail._replace(sliding=sliding), replace(state, friction=history)
-        if self.lateral is not None and state.touchdown is not None:
-            springs, touchdown = self.lateral.apply(part, points, along, state.touchdown)
-            detail, state = detail._replace(lateral=springs), replace(state, touchdown=touchdown)
-        return detail, state
+        friction, touchdown = state.friction, state.touchdown
+        if self.friction is not None and friction is not None and state.laid is not None:
+            sliding, friction = self.friction.apply(part, points, along, friction, state.laid, detailed=detailed)
+            detail = detail._replace(sliding=sliding)
+        if self.lateral is not None and touchdown is not None:
+            springs, touchdown = self.lateral.apply(part, points, along, touchdown)
+            detail = detail._replace(lateral=springs)
+        return detail, replace(state, friction=friction, touchdown=touchdown)
 
     def check(self, part: ContactResult, first_step: int) -> None:
         """Refuse what overflowed, of the stages that do not see to it themselves.

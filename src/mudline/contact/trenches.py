@@ -72,7 +72,7 @@ class TrenchStage:
     def _extra(self, offset: FloatArray) -> ExtraLimit:
         """What trenches add at offsets (n,): nothing but beside their walls."""
         distance = np.abs(offset)
-        walls = np.flatnonzero((distance > self._inner) & (distance < self._outer))
+        (walls,) = ((distance > self._inner) & (distance < self._outer)).nonzero()
         found = self._law.rows(walls).limit(offset[walls])
         extra = ExtraLimit(*np.zeros((3, len(offset))))
         extra.force[walls], extra.slope[walls], extra.outward[walls] = found.force, found.slope, found.outward
@@ -89,5 +89,5 @@ class TrenchStage:
 
 def _rows(wanted: BoolArray) -> IndexArray | None:
     """The rows to reckon where some are `wanted`; None for all of them, which takes no longer than most of them."""
-    rows = np.flatnonzero(wanted)
+    (rows,) = wanted.nonzero()
     return None if 2 * len(rows) > len(wanted) else rows

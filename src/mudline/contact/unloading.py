@@ -36,7 +36,7 @@ class Unloading:
         found = part.depth[0][self.elements]
         depth = np.fmax(found, 0.0)
         force, stiffness = part.force[0][self.elements], part.stiffness[0][self.elements]
-        deeper = np.flatnonzero(depth > history.z_max)
+        (deeper,) = (depth > history.z_max).nonzero()
         reaction, after = unloading.step(history, depth, VirginPath(force, stiffness, self._steepest(depth, deeper)))
         known = ~np.isnan(found)
         uplift = np.where(known, after.z_p - found, 0.0)

@@ -87,6 +87,13 @@ def test_a_node_without_elements_is_its_own_centreline() -> None:
     assert found[0].tolist() == [0.0, 1.0, 0.0]
 
 
+def test_nodes_of_a_line_without_elements_are_their_own_centrelines() -> None:
+    points = np.array([[0.0, 1.0, 2.0], [3.0, 4.0, 5.0]])
+    found, across = LaidCentreline(np.zeros((2, 3)), np.zeros((0, 2), np.intp)).nearest(points)
+    assert found.tolist() == points.tolist()
+    assert not across.any()
+
+
 @given(st.integers(2, 40), st.integers(0, 10_000))
 def test_nearest_point_of_a_gentle_line(count: int, seed: int) -> None:
     """As the search over all elements finds it."""

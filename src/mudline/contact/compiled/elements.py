@@ -1,113 +1,81 @@
-"""The second loop of a step: the forces of the elements, added up at their nodes."""
+"""Loops over the elements of a step: depth, normal laws, springs against uplift, and the sums at the nodes."""
 
 from __future__ import annotations
 
 import math
-from typing import Final
 
-from mudline.contact.arrays import FloatArray
 from mudline.contact.compiled.jit import jitted
-from mudline.contact.compiled.memory import Memory, Out
-from mudline.contact.compiled.pull import breakout, next_state, pull
+from mudline.contact.compiled.memory import Out, Work
 from mudline.contact.compiled.springs import passed, zone
-from mudline.contact.compiled.tables import Tables
-from mudline.contact.compiled.unload import deepened, on_line
-
-_CURVE: Final = 1
-_COMPRESSION: Final = 1
+from mudline.contact.compiled.tables import Curves, Elements
 
 
 @jitted
-def press(tables: Tables, step: int, along: FloatArray, before: Memory, after: Memory, out: Out) -> bool:
-    """Write the elements of a step, and what they remember; return whether everything is finite."""
-    numbers, one_sided = tables.elements.numbers, tables.elements.one_sided
-    ends, kind, curve = tables.elements.ends, tables.elements.kind, tables.elements.curve
-    pulled, unloaded, laws = tables.elements.pulled, tables.elements.unloaded, tables.laws
-    first_point, last_point = tables.curves.first, tables.curves.last
-    ratios, forces, tails, steepest = (
-        tables.curves.ratios,
-        tables.curves.forces,
-        tables.curves.tails,
-        tables.curves.steepest,
-    )
-    cuts = tables.has.cuts
-    gap, total = out.gap[step], out.normal_force[step]
-    fine = True
+def embed(elements: Elements, step: int, work: Work, out: Out) -> None:
+    """Write depth, ratio and contact, and no force."""
+    ends, numbers = elements.ends, elements.numbers
+    gap, depth, ratio, contact = out.gap[step], out.depth[step], out.ratio[step], out.contact[step]
+    force, slope, stiffness, height = out.force[step], out.slope[step], out.stiffness[step], work.height
     for e in range(len(ends)):
-        a, b = ends[e, 0], ends[e, 1]
-        half, diameter, linear, onset = numbers[e, 0], numbers[e, 1], numbers[e, 2], numbers[e, 3]
-        depth = 0.0 - (0.5 * gap[a] + 0.5 * gap[b])
-        ratio = depth / diameter
-        touches = depth > onset
-        force, stiffness, cut = 0.0, 0.0, False
-        reached = 0.0 if math.isnan(linear) else linear
-        slope = math.nan if math.isnan(diameter) else 0.0
-        if touches and kind[e] == _CURVE:
-            first = first_point[curve[e]]
-            i = passed(ratios, first, last_point[curve[e]], ratio)
-            force, slope = forces[i] + tails[i] * (ratio - ratios[i]), tails[i]
-            reached = steepest[i - 1 if i > first and ratio == ratios[i] else i] / diameter
-            cut = cuts and force < 0.0
-            if cut:
-                force, slope = 0.0, 0.0
-            stiffness = slope / diameter
-        elif touches and kind[e] > _CURVE:
-            force, stiffness = zone(depth, linear, numbers[e, 4], one_sided[e])
-            slope = stiffness * diameter
-        height = onset - depth
-        if 0.0 < height <= numbers[e, 6]:
-            force -= numbers[e, 5] * height
-            stiffness += numbers[e, 5]
-            slope += numbers[e, 5] * diameter
-        compressed = touches
-        u = unloaded[e]
-        if u >= 0:
-            line = (before.stiffness[u], before.z_max[u], before.force_max[u], before.z_p[u])
-            z = depth if depth > 0.0 else 0.0
-            if z > line[1]:
-                line = deepened(line[0], z, force, reached)
-            else:
-                force, stiffness = on_line(line, z)
-            after.stiffness[u], after.z_max[u], after.force_max[u], after.z_p[u] = line
-            slope = stiffness * diameter
-            compressed = z > line[3] and not math.isnan(depth)
-            height = line[3] - depth
-        k = pulled[e]
-        if k >= 0:
-            armed, v_max, state = before.armed[k], before.v_max[k], int(before.state[k])
-            if compressed:
-                armed, v_max, state = True, 0.0, _COMPRESSION
-            elif math.isnan(height) or not (armed or state > _COMPRESSION):
-                armed, v_max, state = False, 0.0, 0
-            else:
-                law = (
-                    laws[k, 0],
-                    laws[k, 1],
-                    laws[k, 2],
-                    laws[k, 3],
-                    laws[k, 4],
-                    laws[k, 5],
-                    laws[k, 6],
-                    laws[k, 7],
-                    laws[k, 8],
-                )
-                velocity = 0.5 * along[a] + 0.5 * along[b]
-                if armed:
-                    v_max = max(v_max, velocity)
-                uplift_at_breakout = breakout(law, v_max)
-                armed, v_max, state = next_state((armed, v_max, state), uplift_at_breakout, height, velocity)
-                if state == 2:
-                    suction, by_uplift = pull(law, uplift_at_breakout, height, velocity)
-                    force += suction
-                    stiffness -= by_uplift
-                    slope -= by_uplift * diameter
-            after.armed[k], after.v_max[k], after.state[k] = armed, v_max, state
-            out.state[step, e] = state
-        load = force * half
-        total[a] += load
-        total[b] += load
-        out.depth[step, e], out.ratio[step, e], out.contact[step, e] = depth, ratio, touches
-        out.force[step, e], out.slope[step, e], out.stiffness[step, e], out.cut[step, e] = force, slope, stiffness, cut
-        fine &= math.isfinite(load) and math.isfinite(force) and math.isfinite(stiffness)
-        fine &= not (math.isinf(slope) or math.isinf(depth) or math.isinf(ratio))
-    return fine
+        deep = 0.0 - (0.5 * gap[ends[e, 0]] + 0.5 * gap[ends[e, 1]])
+        diameter, onset = numbers[e, 1], numbers[e, 3]
+        depth[e], ratio[e], contact[e], height[e] = deep, deep / diameter, deep > onset, onset - deep
+        force[e] = stiffness[e] = 0.0
+        slope[e] = 0.0 * diameter  # NaN without a diameter
+    work.compressed[:] = contact
+
+
+@jitted
+def follow_curves(elements: Elements, curves: Curves, cuts: bool, step: int, out: Out) -> None:  # noqa: FBT001
+    """Write the forces of elements on curves."""
+    held, curve, numbers = elements.on_curve, elements.curve, elements.numbers
+    first, last, ratios, forces, tails = curves.first, curves.last, curves.ratios, curves.forces, curves.tails
+    ratio, contact, force = out.ratio[step], out.contact[step], out.force[step]
+    slope, stiffness, cut = out.slope[step], out.stiffness[step], out.cut[step]
+    for e in held:
+        if contact[e]:
+            i = passed(ratios, first[curve[e]], last[curve[e]], ratio[e])
+            value, rise = forces[i] + tails[i] * (ratio[e] - ratios[i]), tails[i]
+            cut[e] = cuts and value < 0.0
+            if cut[e]:
+                value, rise = 0.0, 0.0
+            force[e], slope[e], stiffness[e] = value, rise, rise / numbers[e, 1]
+
+
+@jitted
+def follow_lines(elements: Elements, step: int, out: Out) -> None:
+    """Write the forces of elements with linear laws."""
+    held, numbers, one_sided = elements.on_line, elements.numbers, elements.one_sided
+    depth, contact, force = out.depth[step], out.contact[step], out.force[step]
+    slope, stiffness = out.slope[step], out.stiffness[step]
+    for e in held:
+        if contact[e]:
+            force[e], stiffness[e] = zone(depth[e], numbers[e, 2], numbers[e, 4], one_sided[e])
+            slope[e] = stiffness[e] * numbers[e, 1]
+
+
+@jitted
+def hold_back(elements: Elements, step: int, work: Work, out: Out) -> None:
+    """Add the springs against uplift."""
+    held, numbers, height = elements.sprung, elements.numbers, work.height
+    force, slope, stiffness = out.force[step], out.slope[step], out.stiffness[step]
+    for e in held:
+        if 0.0 < height[e] <= numbers[e, 6]:
+            force[e] -= numbers[e, 5] * height[e]
+            stiffness[e] += numbers[e, 5]
+            slope[e] += numbers[e, 5] * numbers[e, 1]
+
+
+@jitted
+def gather(elements: Elements, step: int, out: Out) -> bool:
+    """Add the forces up at the nodes; return whether everything is finite."""
+    ends, numbers, total = elements.ends, elements.numbers, out.normal_force[step]
+    force, slope, stiffness, ratio = out.force[step], out.slope[step], out.stiffness[step], out.ratio[step]
+    depth, wrong = out.depth[step], 0
+    for e in range(len(ends)):
+        load = force[e] * numbers[e, 0]
+        total[ends[e, 0]] += load
+        total[ends[e, 1]] += load
+        wrong += not math.isfinite(load + stiffness[e])
+        wrong += (abs(slope[e]) == math.inf) | (abs(ratio[e]) == math.inf) | (abs(depth[e]) == math.inf)
+    return wrong == 0

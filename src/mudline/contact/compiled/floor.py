@@ -20,7 +20,7 @@ def gaps(points: FloatArray, normal: FloatArray, gap: FloatArray, plain: int) ->
     for i in range(len(gap)):
         if plain == 1:
             gap[i] = points[i, 0] + 0.0
-        elif plain == 2:  # noqa: PLR2004 - see above
+        elif plain == 2:
             gap[i] = 4.0 * (points[i, 0] * upward + points[i, 1] * along_y + points[i, 2] * along_z) + 0.0
         infinite += math.isinf(gap[i])
     return infinite == 0

@@ -17,16 +17,14 @@ from mudline.contact.state import ContactState
 
 def _example() -> tuple[object, ...]:
     """Arguments of the types that there are: of an input without elements and nodes."""
-    whole, real, yes = np.zeros(0, np.int64), np.zeros(0), np.zeros(0, np.bool_)
-    inputs = ContactInput(
-        whole, np.zeros((0, 3)), whole, np.zeros((0, 2), np.int64), real, real, whole, whole, (), real
-    )
+    whole, real, yes, law = np.zeros(0, np.int64), np.zeros(0), np.zeros(0, np.bool_), np.zeros(0, np.int8)
+    inputs = ContactInput(whole, np.zeros((0, 3)), whole, np.zeros((0, 2), np.int64), real, real, law, whole, (), real)
     flat = tables(inputs, real)
     part = blank_result(1, yes, yes, Extras(), np.zeros(3))
     memory = memory_of(ContactState())
     path = Path(_given(3), _given(3), np.zeros(1), _given(2), _given(2), _given(3))
     ground = Ground(1, two_of_each(flat.elements.ends, yes))
-    return path, ground, flat, (memory, blank_memory(memory)), work(0), out_of(part)
+    return path, ground, flat, (memory, blank_memory(memory)), work(0, 0), out_of(part)
 
 
 def _given(axes: int) -> FloatArray:

@@ -46,11 +46,21 @@ class Memory(NamedTuple):
 
 
 class Work(NamedTuple):
-    """Sums at nodes: pull-out velocity (n,), tangents of elements (n, 3), forces of lateral springs (n, 3)."""
+    """What loops tell each other.
+
+    Attributes:
+        along: (n,) pull-out velocities.
+        tangent: (n, 3) sums of tangents of elements, then the directions u1 along the line.
+        sideways: (n, 3) forces of lateral springs.
+        height: (m,) uplift, from the trench bottom where there is one.
+        compressed: (m,) elements below it, or in contact.
+    """
 
     along: FloatArray
     tangent: FloatArray
     sideways: FloatArray
+    height: FloatArray
+    compressed: BoolArray
 
 
 def out_of(part: ContactResult) -> Out:
@@ -93,7 +103,7 @@ def memory_of(state: ContactState) -> Memory:
         *((np.empty((0, 3)), np.empty((0, 2), np.int8)) if rubs is None else (rubs.anchors, rubs.states)),
         np.empty((0, 3)) if state.touchdown is None else state.touchdown,
     )
-    return Memory(*(np.require(array, requirements=("C", "W")) for array in found))
+    return Memory._make(np.require(array, requirements=("C", "W")) for array in found)
 
 
 def state_of(memory: Memory, before: ContactState, positions: FloatArray, laid: FloatArray) -> ContactState:
@@ -117,9 +127,12 @@ def state_of(memory: Memory, before: ContactState, positions: FloatArray, laid: 
 
 def blank_memory(memory: Memory) -> Memory:
     """Memory of the same sizes, not yet written."""
-    return Memory(*(np.empty_like(array) for array in memory))
+    blank = Memory._make(np.empty_like(array) for array in memory)
+    blank.touchdown.fill(np.nan)  # elements without a lateral spring are not written
+    return blank
 
 
-def work(nodes: int) -> Work:
-    """Work arrays for so many nodes."""
-    return Work(np.zeros(nodes), np.zeros((nodes, 3)), np.zeros((nodes, 3)))
+def work(nodes: int, elements: int) -> Work:
+    """Work arrays for so many nodes and elements."""
+    at_nodes = (np.zeros(nodes), np.zeros((nodes, 3)), np.zeros((nodes, 3)))
+    return Work(*at_nodes, np.zeros(elements), np.zeros(elements, np.bool_))

@@ -12,13 +12,15 @@ _SUCTION: Final = 2
 _HOLD: Final = 3
 _BROKEN: Final = 4
 
-Law = tuple[float, float, float, float, float, float, float, float, float]
-"""Depth factor and exponent, v_r, Delta_B at v_r, force factor times cyclic factor, force exponent, the slowest pace
-of the largest suction, and the corners."""
+Breakout = tuple[float, float, float, float]
+"""Depth factor and exponent, v_r, and Delta_B at v_r."""
+
+Law = tuple[float, float, float, float, float]
+"""Force factor times cyclic factor, force exponent, the slowest pace of the largest suction, and the corners."""
 
 
 @jitted
-def breakout(law: Law, v_max: float) -> float:
+def breakout(law: Breakout, v_max: float) -> float:
     """Delta_B, the uplift at breakout."""
     return law[0] * v_max ** law[1] if v_max > law[2] else law[3]
 
@@ -42,10 +44,10 @@ def next_state(
 @jitted
 def pull(law: Law, depth: float, uplift: float, velocity: float) -> tuple[float, float]:
     """Force per unit length of an element in suction, and its derivative by uplift."""
-    exponent, first, second = law[5], law[7], law[8]
-    pace = max(velocity, law[6])
+    exponent, first, second = law[1], law[3], law[4]
+    pace = max(velocity, law[2])
     share = velocity / pace
-    force = law[4] * pace**exponent * ((2.0 - exponent + (exponent - 1.0) * share) * share)
+    force = law[0] * pace**exponent * ((2.0 - exponent + (exponent - 1.0) * share) * share)
     share = max(uplift, 0.0) / depth
     part = min(max(min(share / first, (1.0 - share) / (1.0 - second)), 0.0), 1.0)
     slope = 0.0

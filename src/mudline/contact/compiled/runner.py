@@ -25,7 +25,7 @@ class Runner:
     def __init__(self, flat: Tables, floor: Floor, present: BoolArray) -> None:
         self._tables = flat
         self._floor = floor
-        self._work = work(len(present))
+        self._work = work(len(present), len(flat.elements.ends))
         self._spare: list[Memory] = []
         plain = 1 if isinstance(floor, FlatFloor) else 2 if isinstance(floor, SlopingFloor) else 0
         self._ground = Ground(plain, two_of_each(flat.elements.ends, present))

@@ -6,9 +6,8 @@ import math
 
 from mudline.contact.arrays import BoolArray, FloatArray
 from mudline.contact.compiled.jit import jitted
-from mudline.contact.compiled.memory import Work
 from mudline.contact.compiled.tables import Elements
-from mudline.contact.compiled.vectors import cross, dot, in_plane, unit_tangent
+from mudline.contact.compiled.vectors import along_line, cross, dot, unit_tangent
 
 
 @jitted
@@ -36,8 +35,8 @@ def spring_back(
     ends, numbers = elements.ends, elements.numbers
     before, after = touchdown
     stride = len(normals) > 1
-    for e in range(len(ends)):
-        if not (contact[e] and numbers[e, 7] > 0.0):
+    for e in elements.guided:
+        if not contact[e]:
             after[e, 0] = after[e, 1] = after[e, 2] = math.nan
             continue
         a, b = ends[e, 0], ends[e, 1]
@@ -50,9 +49,9 @@ def spring_back(
         after[e, 0], after[e, 1], after[e, 2] = held
         i, k = (a, b) if stride else (0, 0)
         mean = (normals[i, 0] + normals[k, 0], normals[i, 1] + normals[k, 1], normals[i, 2] + normals[k, 2])
-        size = math.sqrt(dot(mean, mean))
-        mean = (mean[0] / size, mean[1] / size, mean[2] / size)
-        across = cross(mean, in_plane((end[0] - start[0], end[1] - start[1], end[2] - start[2]), mean))
+        share = 1.0 / math.sqrt(dot(mean, mean))
+        mean = (mean[0] * share, mean[1] * share, mean[2] * share)
+        across = cross(mean, along_line(unit_tangent(start, end), mean))
         arm = (middle[0] - held[0], middle[1] - held[1], middle[2] - held[2])
         factor = -0.5 * numbers[e, 7] * dot(across, arm)
         for axis in range(3):

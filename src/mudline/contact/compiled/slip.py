@@ -53,6 +53,14 @@ def ellipse(first: float, second: float, first_limit: float, second_limit: float
 
 
 @jitted
+def returned(first: float, second: float, first_limit: float, second_limit: float, elliptic: bool) -> Mapped:  # noqa: FBT001
+    """Trial forces, drawn back to their limits."""
+    if elliptic:
+        return ellipse(first, second, first_limit, second_limit)
+    return box(first, second, first_limit, second_limit)
+
+
+@jitted
 def dragged(slips: bool, elongation: float, force: float, stiffness: float) -> float:  # noqa: FBT001
     """The way of the anchor to where the spring bears its force."""
     if not slips:

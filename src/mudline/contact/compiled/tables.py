@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mudline.contact.arrays import BoolArray, FloatArray, IndexArray, StateArray
+from mudline.contact.arrays import BoolArray, FloatArray
 from mudline.contact.friction.directions import senses
 from mudline.contact.inputs import ContactInput, LawKind
 from mudline.contact.suction.law import SuctionLaw, suction_depth
@@ -35,32 +36,36 @@ class Elements(NamedTuple):
     Attributes:
         ends: (m, 2) their nodes.
         senses: (m, 2) how their tangents count there.
-        kind: 0, or the law, `LawKind.CURVE` or `LawKind.LINEAR`.
         curve: curves of those that have one, else -1.
         numbers: (m, 8) half of the length, diameter, linear stiffness, beginning of contact, half width of the zone,
             stiffness and extent of the spring against uplift, stiffness of the lateral spring.
         one_sided: as in `Smoothing`.
-        pulled: row of its suction, -1 for none.
-        unloaded: row of its unloading, -1 for none.
+        on_curve, on_line, sprung, pulled, unloaded, guided: the elements with a curve, a linear law, a spring against
+            uplift, suction, an unloading line, and a lateral spring.
     """
 
     ends: SmallIndexArray
     senses: FloatArray
-    kind: StateArray
     curve: SmallIndexArray
     numbers: FloatArray
     one_sided: BoolArray
+    on_curve: SmallIndexArray
+    on_line: SmallIndexArray
+    sprung: SmallIndexArray
     pulled: SmallIndexArray
     unloaded: SmallIndexArray
+    guided: SmallIndexArray
 
 
 class Nodes(NamedTuple):
     """Nodes (n,).
 
     Attributes:
-        numbers: (n, 8) coefficients of friction along u1 and u2, springs, springs per normal force, cosine and sine of the angle (NaN for none).
+        numbers: (n, 8) coefficients of friction along u1 and u2, springs, springs per normal force, cosine and sine of
+            the angle (NaN for none).
         springs: (n, 2) stiffness of the nodal spring, 0 for none, and half width of its zone.
         one_sided: as in `NodalSprings`.
+        sprung: nodes that have one.
         active: nodes that have friction.
         elliptic: nodes whose limits are those of an ellipse.
         trench: (n, 3) half widths of the bottom and at the top, and peak force, NaN for none.
@@ -71,6 +76,7 @@ class Nodes(NamedTuple):
     numbers: FloatArray
     springs: FloatArray
     one_sided: BoolArray
+    sprung: SmallIndexArray
     active: BoolArray
     elliptic: BoolArray
     trench: FloatArray
@@ -88,7 +94,7 @@ class Has(NamedTuple):
 
 
 class Tables(NamedTuple):
-    """All of them; `laws` (k, 9) are `pull.Law` of each row of suction."""
+    """All of them; `laws` (k, 9) are `pull.Breakout` and `pull.Law` of the elements with suction."""
 
     has: Has
     elements: Elements
@@ -107,9 +113,7 @@ def tables(inputs: ContactInput, onset: FloatArray) -> Tables:
         friction=extras.friction is not None,
         lateral=extras.lateral is not None,
     )
-    elements = Elements(*map(np.ascontiguousarray, _elements(inputs, onset)))
-    nodes = Nodes(*map(np.ascontiguousarray, _nodes(inputs)))
-    return Tables(has, elements, nodes, _curves(inputs), np.ascontiguousarray(laws))
+    return Tables(has, _elements(inputs, onset), _nodes(inputs), _curves(inputs), laws)
 
 
 def _elements(inputs: ContactInput, onset: FloatArray) -> Elements:
@@ -129,28 +133,26 @@ def _elements(inputs: ContactInput, onset: FloatArray) -> Elements:
             uplift[1],
             np.where(lateral > 0.0, lateral * inputs.length, 0.0),
         )
+    unloading = np.full(count, np.nan) if extras.unloading is None else extras.unloading
     held = np.zeros(0, np.intp) if extras.suction is None else extras.suction.elements
     return Elements(
         inputs.element_nodes.astype(np.int32),
         senses(inputs.element_nodes, len(inputs.node_ids)),
-        np.where((inputs.law == LawKind.CURVE) | (inputs.law == LawKind.LINEAR), inputs.law, 0).astype(np.int8),
         np.where(inputs.law == LawKind.CURVE, inputs.curve_index, -1).astype(np.int32),
-        np.column_stack(numbers),
+        _columns(numbers),
         np.zeros(count, np.bool_) if smooth is None else smooth.one_sided.copy(),
-        _rows(held, count),
-        _rows(np.flatnonzero([] if extras.unloading is None else ~np.isnan(extras.unloading)), count),
+        inputs.with_law(LawKind.CURVE).astype(np.int32),
+        inputs.with_law(LawKind.LINEAR).astype(np.int32),
+        np.flatnonzero(uplift[0] > 0.0).astype(np.int32),
+        held.astype(np.int32),
+        np.flatnonzero(~np.isnan(unloading)).astype(np.int32),
+        np.flatnonzero(lateral > 0.0).astype(np.int32),
     )
-
-
-def _rows(held: IndexArray, count: int) -> SmallIndexArray:
-    rows = np.full(count, -1, np.int32)
-    rows[held] = np.arange(len(held))
-    return rows
 
 
 def _suction_laws(law: SuctionLaw) -> FloatArray:
     slowest = np.maximum(law.regularisation * (law.force_exponent < 2.0), np.nextafter(0.0, 1.0))
-    return np.column_stack(
+    return _columns(
         [
             law.depth_factor,
             law.depth_exponent,
@@ -173,22 +175,23 @@ def _nodes(inputs: ContactInput) -> Nodes:
         with np.errstate(all="ignore"):
             rising = np.where(law.constant, 0.0, law.coefficients / law.mobilisation)
         constant = np.where(law.constant, law.stiffness, 0.0)
-        numbers = np.column_stack([law.coefficients, constant, rising, np.cos(turn), np.sin(turn)])
+        numbers = _columns([law.coefficients, constant, rising, np.cos(turn), np.sin(turn)])
         active, elliptic = law.active.copy(), law.ellipse.copy()
     nodal = extras.nodal
     springs = np.zeros((count, 2))
     if nodal is not None:
-        springs = np.column_stack([np.nan_to_num(nodal.stiffness), nodal.half_width])
+        springs = _columns([np.nan_to_num(nodal.stiffness), nodal.half_width])
     trench, line, lines = np.full((count, 3), np.nan), np.full(count, -1, np.int32), np.empty((0, 4))
     if extras.trench is not None:
         widths = extras.trench.law
-        trench = np.column_stack([0.5 * widths.bottom, 0.5 * widths.upper, widths.peak])
+        trench = _columns([0.5 * widths.bottom, 0.5 * widths.upper, widths.peak])
         straight = np.flatnonzero(~np.isnan(extras.trench.straight[:, 0]))
         ends, line[straight] = np.unique(extras.trench.straight[straight], axis=0, return_inverse=True)
         way = ends[:, 2:] - ends[:, :2]
-        lines = np.column_stack([ends[:, :2], way / np.hypot(*way.T)[:, None]])
+        lines = _columns([ends[:, :2], way / np.hypot(*way.T)[:, None]])
     one_sided = np.zeros(count, np.bool_) if nodal is None else nodal.one_sided.copy()
-    return Nodes(numbers, springs, one_sided, active, elliptic, trench, line, lines)
+    sprung = np.flatnonzero(springs[:, 0] > 0.0).astype(np.int32)
+    return Nodes(numbers, springs, one_sided, sprung, active, elliptic, trench, line, lines)
 
 
 def _curves(inputs: ContactInput) -> Curves:
@@ -219,3 +222,8 @@ def two_of_each(ends: SmallIndexArray, known: BoolArray) -> SmallIndexArray:
     for place in range(2):
         found[node[rank == place], place] = element[rank == place]
     return found
+
+
+def _columns(arrays: Sequence[FloatArray]) -> FloatArray:
+    """The arrays beside each other, row by row in memory."""
+    return np.ascontiguousarray(np.column_stack(arrays))

@@ -26,11 +26,7 @@ def deepened(stiffness: float, z: float, force: float, steepest: float) -> Line:
     stiffness, force_max = max(stiffness, steepest), max(force, 0.0)
     deepest = np.nextafter(z, 0.0) if force_max > 0.0 else z
     bottom = z - force_max / line_stiffness(stiffness, z, force_max)
-    if bottom < 0.0:
-        bottom = 0.0
-    if bottom > deepest:
-        bottom = deepest
-    return stiffness, z, force_max, bottom
+    return stiffness, z, force_max, min(max(bottom, 0.0), deepest)
 
 
 @jitted

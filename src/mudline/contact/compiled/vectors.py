@@ -11,6 +11,8 @@ Vector = tuple[float, float, float]
 
 _STEEPEST: Final = 1.0e-9
 """As in `friction.directions`."""
+_SHORTEST: Final = 1.0e-300
+"""The inverse of a length above this is finite."""
 _CLEAR: Final = 1.0e-12
 """A sum of unit tangents whose square in the bed is above this has a projection on the bed, at some elements a node."""
 
@@ -58,9 +60,12 @@ def unit_tangent(start: Vector, end: Vector) -> Vector:
     """The direction of an element, 0 where it has none."""
     span = (end[0] - start[0], end[1] - start[1], end[2] - start[2])
     length = math.sqrt(dot(span, span))
-    if not 0.0 < length < math.inf:
-        return (0.0, 0.0, 0.0)
-    return (span[0] / length, span[1] / length, span[2] / length)
+    if not _SHORTEST < length < math.inf:
+        if not 0.0 < length < math.inf:
+            return (0.0, 0.0, 0.0)
+        return (span[0] / length, span[1] / length, span[2] / length)
+    share = 1.0 / length
+    return (span[0] * share, span[1] * share, span[2] * share)
 
 
 @jitted

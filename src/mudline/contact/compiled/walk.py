@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import NamedTuple
 
-
 from mudline.contact.arrays import FloatArray
-from mudline.contact.compiled.elements import press
+from mudline.contact.compiled.elements import embed, follow_curves, follow_lines, gather, hold_back
 from mudline.contact.compiled.floor import begin, gaps, velocities
+from mudline.contact.compiled.friction import rub
+from mudline.contact.compiled.history import suck, unload
+from mudline.contact.compiled.jit import jitted
 from mudline.contact.compiled.memory import Memory, Out, Work
-from mudline.contact.compiled.nodes import react
+from mudline.contact.compiled.nodes import bend, lift, point, sound
 from mudline.contact.compiled.sideways import add_tangents, spring_back
 from mudline.contact.compiled.tables import SmallIndexArray, Tables
 
@@ -47,6 +49,42 @@ class Path(NamedTuple):
 Walk = Callable[[Path, Ground, Tables, tuple[Memory, Memory], Work, Out], int]
 
 
+@jitted
+def press(tables: Tables, step: int, memory: tuple[Memory, Memory], work: Work, out: Out) -> bool:
+    """Write the elements of a step; return whether everything is finite."""
+    elements, curves = tables.elements, tables.curves
+    embed(elements, step, work, out)
+    follow_curves(elements, curves, tables.has.cuts, step, out)
+    follow_lines(elements, step, out)
+    hold_back(elements, step, work, out)
+    unload(elements, curves, step, memory, work, out)
+    if tables.has.suction:
+        suck(elements, tables.laws, step, memory, work, out)
+    return gather(elements, step, out)
+
+
+@jitted
+def react(  # noqa: PLR0913, PLR0917 - all that a step is made of
+    path: Path, ground: Ground, tables: Tables, step: int, memory: tuple[Memory, Memory], work: Work, out: Out
+) -> bool:
+    """Write the nodes of a step; return whether everything is finite."""
+    elements, nodes, has = tables.elements, tables.nodes, tables.has
+    points, normals = path.points[step], path.normals[step if len(path.normals) > 1 else 0]
+    fine = True
+    lift(nodes, normals, step, out)
+    if has.friction or has.lateral:
+        add_tangents(elements, points, work.tangent)
+        point(normals, work.tangent)
+    if has.friction:
+        line = (path.laid, elements.ends, ground.elements_at)
+        fine = rub(nodes, step, (points, normals, work.tangent), line, memory, out)
+    if has.lateral:
+        touchdown = (memory[0].touchdown, memory[1].touchdown)
+        spring_back(elements, points, normals, out.contact[step], touchdown, work.sideways)
+        bend(normals, step, work, out)
+    return fine and sound(out.reaction[step])
+
+
 def walk_for(edition: int) -> Walk:
     """Make the function; a new `edition` of what it calls makes a compiled one that was kept useless."""
 
@@ -55,24 +93,17 @@ def walk_for(edition: int) -> Walk:
 
         A new step's memory is written to the second one; only the first step looks into the first.
         """
-        steps = len(path.points)
-        has, elements = tables.has, tables.elements
         before, after = memory
         fine = edition >= 0
-        for step in range(steps):
-            points, normals = path.points[step], path.normals[step if len(path.normals) > 1 else 0]
-            fine &= gaps(points, normals, out.gap[step], ground.plain)
-            if has.suction:
+        for step in range(len(path.points)):
+            points, normals, gap = path.points[step], path.normals[step if len(path.normals) > 1 else 0], out.gap[step]
+            fine &= gaps(points, normals, gap, ground.plain)
+            if tables.has.suction:
                 earlier = path.earlier if step == 0 else path.points[step - 1]
-                fine &= velocities(path.rates[step], earlier, path.dt[step], normals, out.gap[step], work.along)
+                fine &= velocities(path.rates[step], earlier, path.dt[step], normals, gap, work.along)
             begin(work, out.normal_force[step])
-            fine &= press(tables, step, work.along, before, after, out)
-            if has.friction or has.lateral:
-                add_tangents(elements, points, work.tangent)
-            if has.lateral:
-                touchdown = (before.touchdown, after.touchdown)
-                spring_back(elements, points, normals, out.contact[step], touchdown, work.sideways)
-            fine &= react(tables, step, (points, normals, path.laid), ground.elements_at, (before, after), work, out)
+            fine &= press(tables, step, (before, after), work, out)
+            fine &= react(path, ground, tables, step, (before, after), work, out)
             if not fine:
                 return step
             before = after

@@ -47,12 +47,6 @@ class FrictionLaw:
         """Where (n, 2) the spring is constant."""
         return ~np.isnan(self.stiffness)
 
-    def springs(self, compression: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Spring stiffnesses (n, 2) under normal forces N >= 0 (n,), and their derivatives by N."""
-        rising = self.coefficients / self.mobilisation
-        stiffness = np.where(self.constant, self.stiffness, rising * compression[:, None])
-        return stiffness, np.where(self.constant, 0.0, rising)
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FrictionHistory:

@@ -171,7 +171,7 @@ def move(
 def _anchors(before: FloatArray, anchored: BoolArray, points: FloatArray) -> FloatArray:
     """Anchors (n, 3), which stand at the nodes where there were none."""
     anchors = np.array(before, order="F")
-    new = np.flatnonzero(~anchored)
+    (new,) = (~anchored).nonzero()
     for anchor, place in zip(anchors.T, points.T, strict=True):
         anchor[new] = place[new]
     return anchors
@@ -239,7 +239,7 @@ def _drag(
     """Drag the anchors of what slips to where the spring bears its force; return the ways (n, 2)."""
     moved = nothing(len(anchors), 2)
     for side, axis in enumerate(directions):
-        nodes = np.flatnonzero(slips[:, side])
+        (nodes,) = slips[:, side].nonzero()
         stiffness, elongation = springs.stiffness[:, side][nodes], springs.elongation[:, side][nodes]
         stretch = np.where(stiffness > 0.0, force[:, side][nodes] / stiffness, elongation)
         moved[:, side][nodes] = way = elongation - stretch
@@ -252,7 +252,7 @@ def _left_behind(held: PreparedLaw, closed: BoolArray, anchors: FloatArray, slip
     """The states; open nodes forget their anchors."""
     states = slips.astype(np.int8)
     states += np.int8(FrictionState.STICK)
-    open_ = np.flatnonzero(~closed)
+    (open_,) = (~closed).nonzero()
     for anchor in anchors.T:
         anchor[open_] = np.nan
     for state, idle in zip(states.T, held.idle.T, strict=True):

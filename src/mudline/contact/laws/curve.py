@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mudline.contact.arrays import FloatArray, IndexArray
+from mudline.contact.arrays import FloatArray, IndexArray, Picked
 from mudline.contact.inputs import ContactInput, LawKind
 from mudline.contact.laws.spring import LawError, Spring
 from mudline.curves import ForceCurve, QueryError
@@ -41,7 +41,7 @@ class CurveSprings:
     diameter: FloatArray
     cuts: bool
 
-    def spring(self, element: IndexArray, depth: FloatArray, ratio: FloatArray) -> Spring:
+    def spring(self, element: Picked, depth: FloatArray, ratio: FloatArray) -> Spring:
         """See `Springs`."""
         del depth  # the law is one of the ratio
         spring = curve_spring(self.curve, ratio, self.diameter[element])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mudline.contact.arrays import FloatArray, IndexArray
+from mudline.contact.arrays import FloatArray, IndexArray, Picked
 from mudline.contact.inputs import ContactInput, LawKind
 from mudline.contact.laws.spring import Spring, Springs
 
@@ -26,7 +26,7 @@ class LinearSprings:
     stiffness: FloatArray
     diameter: FloatArray
 
-    def spring(self, element: IndexArray, depth: FloatArray, ratio: FloatArray) -> Spring:
+    def spring(self, element: Picked, depth: FloatArray, ratio: FloatArray) -> Spring:
         """See `Springs`."""
         del ratio  # the law is one of penetration
         return linear_spring(self.stiffness[element], depth, self.diameter[element]).checked()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mudline.contact.arrays import FloatArray, IndexArray
+from mudline.contact.arrays import FloatArray, IndexArray, Picked
 from mudline.contact.extras import Smoothing
 from mudline.contact.laws.smoothing import force_and_slope
 from mudline.contact.laws.spring import Spring
@@ -19,7 +19,7 @@ class SmoothedSprings:
     diameter: FloatArray
     smoothing: Smoothing
 
-    def spring(self, element: IndexArray, depth: FloatArray, ratio: FloatArray) -> Spring:
+    def spring(self, element: Picked, depth: FloatArray, ratio: FloatArray) -> Spring:
         """See `Springs`."""
         del ratio  # the law is one of penetration
         width, one_sided = self.smoothing.half_width[element], self.smoothing.one_sided[element]

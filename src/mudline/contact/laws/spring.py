@@ -6,7 +6,7 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
+from mudline.contact.arrays import BoolArray, FloatArray, IndexArray, Picked
 
 
 class LawError(ValueError):
@@ -51,8 +51,10 @@ class Springs(Protocol):
     def elements(self) -> IndexArray:
         """Indices of the elements."""
 
-    def spring(self, element: IndexArray, depth: FloatArray, ratio: FloatArray) -> Spring:
+    def spring(self, element: Picked, depth: FloatArray, ratio: FloatArray) -> Spring:
         """Return the reaction of `element` (k,), each in contact at its depth and ratio (k,); an element may repeat.
+
+        A slice stands for elements that follow each other; depth and ratio may then have a leading (steps,).
 
         Raises:
             LawError: a value overflows.

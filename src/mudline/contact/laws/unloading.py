@@ -82,7 +82,7 @@ def step(history: UnloadingHistory, z: FloatArray, virgin: VirginPath) -> tuple[
 
     At z_max itself, after the step that reached it, the stiffness is that of unloading.
     """
-    deeper = np.flatnonzero(z > history.z_max)
+    (deeper,) = (z > history.z_max).nonzero()
     with np.errstate(all="ignore"):
         after = _deepened(history, z, virgin, deeper)
         stiffness = _line_stiffness(after.stiffness, after.z_max, after.force_max)
