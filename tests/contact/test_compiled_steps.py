@@ -280,12 +280,12 @@ def test_tangents_are_those_of_numpy() -> None:
 def test_the_backend_that_a_series_gets(monkeypatch: pytest.MonkeyPatch) -> None:
     assert choice.compiles("fast", 1)
     assert not choice.compiles("numpy", 10**9)
-    assert not choice.compiles("auto", 10**6)
-    assert choice.compiles("auto", 10**7)
+    assert not choice.compiles("auto", 10**7)
+    assert choice.compiles("auto", 10**8)
     choice._loads.cache_clear()
     monkeypatch.setitem(sys.modules, "numba", None)
     try:
-        assert not choice.compiles("auto", 10**7)
+        assert not choice.compiles("auto", 10**8)
         with pytest.raises(ImportError):
             ContactModel(chain([LINEAR]), backend="fast")
     finally:

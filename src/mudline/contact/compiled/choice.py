@@ -11,8 +11,8 @@ from typing import Literal
 
 Backend = Literal["auto", "numpy", "fast"]
 
-_WORTH_LOADING = 2**22
-"""Nodes times steps from which on numpy takes longer than loading the loops."""
+_WORTH_LOADING = 2**26
+"""Nodes times steps from which on the loops save some ten seconds: about what it takes to compile them, once."""
 
 
 def checked(backend: Backend) -> Backend:
