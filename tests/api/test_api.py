@@ -173,6 +173,19 @@ def test_contact(path: Path) -> None:
     )
 
 
+def test_both_backends_of_a_scene_with_history(path: Path) -> None:
+    unloading = "$MODEL\n*SEABED UNLOADING\n SET=ALL\n STIFFNESS=1.0E6\n"
+    scene = mudline.read(changed(path, path.read_text(encoding="utf-8") + unloading)).scene()
+    down = np.array([0.0, 0.2, 0.1, 0.15])[:, np.newaxis, np.newaxis] * [1.0, 0.0, 0.0]
+    moved = scene.coordinates - down
+    plain = scene.contact(backend="numpy").evaluate(moved)
+    fast = scene.contact(backend="fast").evaluate(moved)
+    assert plain.force[2, 0] == 0.0
+    np.testing.assert_allclose(fast.force, plain.force, rtol=1e-13)
+    with pytest.raises(ValueError, match="backend must be auto, numpy or fast"):
+        scene.contact(backend="quick")  # type: ignore[arg-type]  # that is what is tried
+
+
 def test_scene_of_a_deck_with_errors(path: Path) -> None:
     deck = mudline.read(changed(path, ILLEGAL))
     with pytest.raises(mudline.DeckError, match="REF001") as caught:

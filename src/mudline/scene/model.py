@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mudline.codes import REF007, RUN001
+from mudline.contact.compiled.choice import Backend
 from mudline.contact.errors import ElementError
 from mudline.contact.inputs import ContactInput, LawKind
 from mudline.contact.model import ContactModel
@@ -183,13 +184,16 @@ class Scene:
             raise DeckError(self.deck.diagnose(errors))
         return self
 
-    def contact(self, tension: Literal["keep", "cut"] = "keep") -> ContactModel:
+    def contact(self, tension: Literal["keep", "cut"] = "keep", *, backend: Backend = "auto") -> ContactModel:
         """The evaluator of this scene, with only the stages it needs.
 
-        Raises DeckError for errors on which a result depends, where a law, a node, a length or the bed is not known,
-        and for a law or a bed that is none.
+        `backend` "fast" steps through history with compiled loops (extra `mudline[fast]`), "numpy" never does, "auto"
+        does where a series is so long that compiling pays.
+
+        Raises ImportError where "fast" is not installed, and DeckError for errors on which a result depends, where a
+        law, a node, a length or the bed is not known, and for a law or a bed that is none.
         """
-        return ContactModel(self.contact_input(tension))
+        return ContactModel(self.contact_input(tension), backend=backend)
 
     def contact_input(self, tension: Literal["keep", "cut"] = "keep") -> ContactInput:
         """The arrays that the evaluator is made from; raises DeckError as `contact` does."""
