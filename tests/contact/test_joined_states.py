@@ -12,7 +12,7 @@ from mudline.contact import ContactModel, ContactResult
 from mudline.contact.extras import Extras
 from tests.contact.chains import CURVE, LINEAR, at_depths, chain
 from tests.contact.joined import heave, model, smoothing, suction, walk
-from tests.contact.suction.pulls import BROKEN, COMPRESSION, DEPTH, FORCE, FREE, HOLD, SUCTION, bridge_law
+from tests.contact.suction.pulls import BROKEN, COMPRESSION, DEPTH, FORCE, FREE, FULL_CYCLE, HOLD, SUCTION, bridge_law
 
 Moves = Sequence[tuple[float, float]]
 K, KU = 50000.0, 500000.0
@@ -91,22 +91,7 @@ def test_at_the_mudline_itself() -> None:
 
 
 def test_full_cycle_with_unloading_on_a_linear_bed() -> None:
-    bottom = 0.045  # of the trench behind a penetration of 0.05
-    moves = [
-        (-0.01, -0.1),
-        (0.05, -0.1),
-        (0.0475, 0.1),
-        (bottom - 0.1 * DEPTH, 0.1),
-        (bottom - 0.5 * DEPTH, 0.1),
-        (bottom - 0.4 * DEPTH, -0.1),
-        (bottom - 0.9 * DEPTH, 0.1),
-        (bottom - 1.1 * DEPTH, 0.1),
-        (0.04, -0.1),
-        (0.0475, -0.1),
-        (0.06, -0.1),
-        (0.0, 0.1),
-    ]
-    forces, states = life(pipe(unloading=True), moves)
+    forces, states = life(pipe(unloading=True), FULL_CYCLE)
     uplift = [-FORCE / 2, -FORCE, 0.0, -FORCE / 2, 0.0]
     assert forces == pytest.approx([0.0, 2500.0, 1250.0, *uplift, 0.0, 1250.0, 3000.0, -FORCE], rel=1e-9, abs=1e-9)
     lifting = [SUCTION, SUCTION, HOLD, SUCTION, BROKEN]

@@ -12,7 +12,7 @@ from mudline.contact import ContactInput, ContactModel, LawKind
 from mudline.deck.loading import load_bytes, load_path
 from mudline.diagnostics import DeckError
 from mudline.scene.build import resolve
-from mudline.scene.contact_parts.submerged_weight import submerged_weight
+from mudline.scene.section_weight import submerged_weight
 from tests.scene.contact_decks import METRIC, deck
 from tests.scene.decks import scene_of
 

@@ -14,9 +14,9 @@ import pytest
 from mudline.deck.loading import load_bytes
 from mudline.scene.build import resolve
 from mudline.scene.model import Scene
+from mudline.scene.section_weight import mass_per_length, submerged_weight, surroundings
 from mudline.study import precision
 from mudline.study.errors import StudyError
-from mudline.study.mass import mass_per_length, submerged_weight, surroundings
 from mudline.study.options import StudyOptions
 from mudline.study.precision import curves as curve_study
 from mudline.study.precision import running

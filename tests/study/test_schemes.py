@@ -12,11 +12,11 @@ from mudline.study.schemes.catalogue import SCHEMES
 from mudline.study.schemes.generalised_alpha import generalised_alpha
 from mudline.study.schemes.hht import hht
 from mudline.study.schemes.impact import ElasticBed, restitution
-from mudline.study.schemes.linear import Oscillators, spectral_radius
 from mudline.study.schemes.marching import march
 from mudline.study.schemes.newton import Newton
 from mudline.study.schemes.one_step import OneStep
 from mudline.study.schemes.system import Forces, History, Motion, Scheme
+from tests.study.oscillators import Oscillators, spectral_radius
 
 Floats = NDArray[np.float64]
 

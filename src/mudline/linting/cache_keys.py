@@ -41,7 +41,7 @@ def program() -> str:
     words = [f"{name} {_version(name)}" for name in _PACKAGES]
     for root in {Path(__file__).parents[1], grammar_file("deck.lark").parent}:
         for folder, _, names in os.walk(root):
-            words += (_state(os.path.join(folder, name)) for name in names if not name.endswith(".pyc"))  # noqa: PTH118
+            words += (_state(os.path.join(folder, name)) for name in names if not name.endswith(".pyc"))  # noqa: PTH118 - quicker than Path
     words.sort()
     return "\n".join(words)
 

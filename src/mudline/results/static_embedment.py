@@ -10,9 +10,9 @@ from mudline.contact.inputs import LawKind
 from mudline.results.numbers import finite
 from mudline.scene.contact_parts.nodal import nodal_stiffness
 from mudline.scene.contact_parts.picking import summed
-from mudline.scene.contact_parts.submerged_weight import submerged_weight
 from mudline.scene.model import LawArrays, Scene
 from mudline.scene.numbering import Floats, Indices
+from mudline.scene.section_weight import submerged_weight
 
 _SIDES = {-1: "below", 0: None, 1: "above"}
 _MOST = 100

@@ -16,6 +16,24 @@ FORCE = 1378.5656595
 DEPTH = 0.16156501691
 """Uplift at breakout at 0.1 m/s, m."""
 
+BOTTOM = 0.045
+"""Bottom of the trench behind a penetration of 0.05 m, with K = 50 kN/m2 and ten times that on the way back."""
+FULL_CYCLE = [
+    (-0.01, -0.1),
+    (0.05, -0.1),
+    (0.0475, 0.1),
+    (BOTTOM - 0.1 * DEPTH, 0.1),
+    (BOTTOM - 0.5 * DEPTH, 0.1),
+    (BOTTOM - 0.4 * DEPTH, -0.1),
+    (BOTTOM - 0.9 * DEPTH, 0.1),
+    (BOTTOM - 1.1 * DEPTH, 0.1),
+    (0.04, -0.1),
+    (0.0475, -0.1),
+    (0.06, -0.1),
+    (0.0, 0.1),
+]
+"""Penetration, unloading, suction, a stop, breakout, and down again: penetrations and pull-out velocities."""
+
 FREE, COMPRESSION, SUCTION, HOLD, BROKEN = SuctionState
 
 

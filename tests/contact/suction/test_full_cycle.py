@@ -9,7 +9,17 @@ from mudline.contact.laws.unloading import UnloadingHistory, VirginPath
 from mudline.contact.laws.unloading import step as unload
 from mudline.contact.suction import SuctionHistory, maximum_force, suction_depth
 from mudline.contact.suction import step as suck
-from tests.contact.suction.pulls import BROKEN, COMPRESSION, DEPTH, FORCE, FREE, HOLD, SUCTION, bridge_law, floats
+from tests.contact.suction.pulls import (
+    BROKEN,
+    COMPRESSION,
+    FORCE,
+    FREE,
+    FULL_CYCLE,
+    HOLD,
+    SUCTION,
+    bridge_law,
+    floats,
+)
 
 K, KU = 50000.0, 500000.0
 
@@ -31,22 +41,7 @@ def cycle(moves: list[tuple[float, float]]) -> Cycle:
 
 
 def test_full_cycle() -> None:
-    bottom = 0.045  # of the trench after a penetration of 0.05
-    moves = [
-        (-0.01, -0.1),
-        (0.05, -0.1),
-        (0.0475, 0.1),
-        (bottom - 0.1 * DEPTH, 0.1),
-        (bottom - 0.5 * DEPTH, 0.1),
-        (bottom - 0.4 * DEPTH, -0.1),
-        (bottom - 0.9 * DEPTH, 0.1),
-        (bottom - 1.1 * DEPTH, 0.1),
-        (0.04, -0.1),
-        (0.0475, -0.1),
-        (0.06, -0.1),
-        (0.0, 0.1),
-    ]
-    net, states = cycle(moves)
+    net, states = cycle(FULL_CYCLE)
     down = [0.0, 2500.0, 1250.0]
     up = [-FORCE / 2, -FORCE, 0.0, -FORCE / 2, 0.0]
     again = [0.0, 1250.0, 3000.0, -FORCE]

@@ -26,7 +26,7 @@ def embed(elements: Elements, step: int, work: Work, out: Out) -> None:
 
 
 @jitted
-def follow_curves(elements: Elements, curves: Curves, cuts: bool, step: int, out: Out) -> None:  # noqa: FBT001
+def follow_curves(elements: Elements, curves: Curves, cuts: bool, step: int, out: Out) -> None:  # noqa: FBT001 - compiled calls name no arguments
     """Write the forces of elements on curves."""
     held, curve, numbers = elements.on_curve, elements.curve, elements.numbers
     first, last, ratios, forces, tails = curves.first, curves.last, curves.ratios, curves.forces, curves.tails

@@ -28,7 +28,7 @@ def in_trench(nodes: Nodes, line: Line, i: int, place: Vector, across: Vector) -
 
 
 @jitted
-def leave(memory: Memory, i: int, active: bool) -> None:  # noqa: FBT001
+def leave(memory: Memory, i: int, active: bool) -> None:  # noqa: FBT001 - compiled calls name no arguments
     """An open node forgets its anchor."""
     memory.anchors[i, 0] = memory.anchors[i, 1] = memory.anchors[i, 2] = math.nan
     memory.rubbing[i, 0] = memory.rubbing[i, 1] = 0 if active else -1

@@ -14,7 +14,7 @@ _SURELY: Final = 1.0 - 1e-12
 
 
 @jitted
-def inside(first: float, second: float, first_limit: float, second_limit: float, elliptic: bool) -> bool:  # noqa: FBT001
+def inside(first: float, second: float, first_limit: float, second_limit: float, elliptic: bool) -> bool:  # noqa: FBT001 - compiled calls name no arguments
     """Whether trial forces are surely within their limits; not said of all that are within an ellipse."""
     within = (abs(first) <= first_limit) & (abs(second) <= second_limit)
     if not elliptic or not within:
@@ -53,7 +53,7 @@ def ellipse(first: float, second: float, first_limit: float, second_limit: float
 
 
 @jitted
-def returned(first: float, second: float, first_limit: float, second_limit: float, elliptic: bool) -> Mapped:  # noqa: FBT001
+def returned(first: float, second: float, first_limit: float, second_limit: float, elliptic: bool) -> Mapped:  # noqa: FBT001 - compiled calls name no arguments
     """Trial forces, drawn back to their limits."""
     if elliptic:
         return ellipse(first, second, first_limit, second_limit)
@@ -61,7 +61,7 @@ def returned(first: float, second: float, first_limit: float, second_limit: floa
 
 
 @jitted
-def dragged(slips: bool, elongation: float, force: float, stiffness: float) -> float:  # noqa: FBT001
+def dragged(slips: bool, elongation: float, force: float, stiffness: float) -> float:  # noqa: FBT001 - compiled calls name no arguments
     """The way of the anchor to where the spring bears its force."""
     if not slips:
         return 0.0

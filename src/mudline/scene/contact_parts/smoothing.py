@@ -8,9 +8,10 @@ import numpy as np
 
 from mudline.contact.extras import Smoothing
 from mudline.contact.inputs import LawKind
+from mudline.contact.laws.smoothing import automatic_half_width
 from mudline.scene.contact_parts.picking import marked, number, picked, summed
-from mudline.scene.contact_parts.submerged_weight import submerged_weight
 from mudline.scene.numbering import Floats, Indices, Mask
+from mudline.scene.section_weight import submerged_weight
 
 if TYPE_CHECKING:
     from mudline.scene.extensions import Extension
@@ -32,12 +33,11 @@ def one_sided(entry: object) -> bool:
 def half_width(extension: Extension, block: Indices, penetration: Floats, diameter: Floats) -> Floats:
     """Half widths h of the points that follow each `block` (-1: none), from static penetrations Z and diameters D.
 
-    The number that is given, else min(0.1 Z, 0.01 D); 0 where Z is not known or not above 0, and for NONE.
+    The number that is given, else that of AUTO, without a diameter from Z alone; 0 for NONE.
     """
     given = picked((number(entry, "smoothing", 0.0) for entry in extension.entries), block)
-    with np.errstate(all="ignore"):
-        reckoned = np.fmin(0.1 * penetration, 0.01 * diameter)
-    reckoned = np.where((penetration > 0.0) & np.isfinite(reckoned), reckoned, 0.0)
+    reckoned = automatic_half_width(penetration, np.where(np.isnan(diameter), np.inf, diameter))
+    reckoned = np.where(np.isfinite(reckoned), reckoned, 0.0)
     width: Floats = np.where(marked(map(is_auto, extension.entries), block), reckoned, given)
     return np.where(block >= 0, width, 0.0)
 

@@ -10,8 +10,9 @@ import numpy as np
 
 from mudline.contact import ContactInput, LawKind
 from mudline.contact.suction.law import from_cohesion
+from mudline.scene.contact_parts.units import DEFAULT_GRAVITY
 from mudline.scene.model import Scene
-from mudline.study.mass import mass_per_length, submerged_weight, surroundings
+from mudline.scene.section_weight import mass_per_length, submerged_weight, surroundings
 from mudline.study.precision.drag import Drag
 from mudline.study.precision.laws import CurveLaw, Law, LinearLaw
 from mudline.study.precision.pull import SuctionNumbers
@@ -79,7 +80,9 @@ def _bed(scene: Scene, inputs: ContactInput, given: tuple[float, float], element
         mass = _MASS
         notes.append(f"The mass of the pipe is not known: {_MASS:g} per unit length is taken.")
     if not weight > 0.0:
-        weight = 0.5 * mass * surroundings(scene).gravity
+        known = surroundings(scene).gravity
+        gravity = DEFAULT_GRAVITY.get(scene.units, DEFAULT_GRAVITY["metric"]) if math.isnan(known) else known
+        weight = 0.5 * mass * gravity
         notes.append("The pipe has no known weight in water that presses on the bed: half of its own weight is taken.")
     name = scene.law_names[element].removeprefix("curve:")
     law: Law

@@ -13,7 +13,7 @@ from mudline.curves import ForceCurve
 from mudline.scene.contact_parts.unloading import KEYWORD as UNLOADING
 from mudline.scene.contact_parts.unloading import given_stiffness
 from mudline.scene.model import Scene
-from mudline.study.mass import mass_per_length
+from mudline.scene.section_weight import mass_per_length
 from mudline.study.report import Omission
 
 

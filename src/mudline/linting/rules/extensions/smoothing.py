@@ -7,9 +7,9 @@ import numpy as np
 from mudline.contact.inputs import LawKind
 from mudline.scene.contact_parts.picking import marked, number
 from mudline.scene.contact_parts.smoothing import KEYWORD, is_auto
-from mudline.scene.contact_parts.submerged_weight import submerged_weight
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Mask
+from mudline.scene.section_weight import submerged_weight
 
 __all__ = ["nodal", "number", "smoothed"]
 

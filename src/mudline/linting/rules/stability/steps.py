@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import inf, pi
+from math import inf
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
@@ -26,9 +26,9 @@ from mudline.scene.contact_parts.unloading import KEYWORD as UNLOADING
 from mudline.scene.contact_parts.unloading import given_stiffness
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats
+from mudline.scene.section_weight import mass_per_length
 
 if TYPE_CHECKING:
-    from mudline.keywords.library.geometric_sets import GeometricSet, GeometricSets
     from mudline.keywords.library.time import TimeSpan
 
 STB002 = Code("STB002", "coarse-time-step", Severity.INFO)
@@ -105,7 +105,7 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
     blocks = list(scene.deck.blocks("TIME", "LOAD CASE"))
     if not blocks or not len(scene.element_ids):
         return
-    frequencies = omega(_stiffness(scene), _mass(scene))
+    frequencies = omega(_stiffness(scene), mass_per_length(scene))
     if np.isnan(frequencies).all():
         return
     stiffest = int(np.nanargmax(frequencies))
@@ -148,29 +148,3 @@ def _nodal(scene: Scene) -> Floats:
         spread = nodal_stiffness(scene, scene.extensions[KEYWORD]) / length
     found: Floats = np.fmax(*spread[nodes].T)
     return found
-
-
-def _mass(scene: Scene) -> Floats:
-    """Mass per unit length of each element, NaN where it is not known."""
-    table = scene.section_table
-    masses = [
-        _mass_of(cast("GeometricSets", scene.deck.sections[section.where.section].blocks[section.where.block]).sets[at])
-        for section in table.sections
-        for at in (cast("int", section.where.path[1]),)
-    ]
-    found: Floats = np.array([*masses, np.nan])[table.of_element]
-    return found
-
-
-def _mass_of(entry: GeometricSet) -> float:
-    section = entry.section
-    names = ("mass", "density", "area", "do", "di")
-    mass, density, area, outer, inner = (_number(getattr(section, name, None)) for name in names)
-    if np.isnan(area):
-        area = 0.25 * pi * (outer * outer - inner * inner)
-    value = density * area if np.isnan(mass) else mass
-    return value if value > 0.0 else float("nan")
-
-
-def _number(value: object) -> float:
-    return float(value) if isinstance(value, int | float) else float("nan")
