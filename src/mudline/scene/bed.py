@@ -10,6 +10,7 @@ import numpy as np
 
 from mudline.diagnostics import Where
 from mudline.scene.context import Context
+from mudline.scene.given import number
 from mudline.scene.laws import LawTable
 from mudline.scene.numbering import Floats, Indices
 
@@ -76,25 +77,19 @@ def read_bed(context: Context, laws: LawTable) -> Bed:
     return Bed(values, places, of_element)
 
 
-def _number(part: Part | None, name: str) -> float:
-    """A value that is given, could be read, and is a number; else NaN."""
-    value = getattr(part, name, None)
-    return float(value) if isinstance(value, float | int) else _UNKNOWN
-
-
 def _two(part: Part | None, name: str) -> tuple[float, float]:
-    return _number(part, f"longitudinal{name}"), _number(part, f"transverse{name}")
+    return number(part, f"longitudinal{name}"), number(part, f"transverse{name}")
 
 
 def _of_set(entry: SeabedSet) -> BedValues:
     return BedValues(
         friction=_two(entry.friction, ""),
         mobilisation=_two(entry.friction, "_mobilisation"),
-        constant=_number(entry.friction, "constant"),
+        constant=number(entry.friction, "constant"),
         friction_stiffness=_two(entry.friction, "_stiffness"),
-        lateral=_number(entry, "lateral"),
-        suction=_number(entry.suction, "stiffness"),
-        extent=_number(entry.suction, "extent"),
+        lateral=number(entry, "lateral"),
+        suction=number(entry.suction, "stiffness"),
+        extent=number(entry.suction, "extent"),
     )
 
 
@@ -108,9 +103,9 @@ def _surfaces(context: Context) -> Iterator[tuple[Where, BedValues]]:
                     friction=_two(properties, ""),
                     mobilisation=_two(properties, "_mobilisation"),
                     characteristic=_two(properties, "_length"),
-                    constant=_number(properties, "constant"),
-                    lateral=_number(properties, "lateral"),
-                    suction=_number(properties, "suction_stiffness"),
-                    extent=_number(properties, "suction_extent"),
+                    constant=number(properties, "constant"),
+                    lateral=number(properties, "lateral"),
+                    suction=number(properties, "suction_stiffness"),
+                    extent=number(properties, "suction_extent"),
                 ),
             )

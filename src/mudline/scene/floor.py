@@ -15,6 +15,7 @@ from mudline.diagnostics import Where
 from mudline.keywords.text import shown
 from mudline.scene.context import Context
 from mudline.scene.deck_files import file_name, find_file
+from mudline.scene.given import number
 from mudline.scene.numbering import Floats
 from mudline.scene.profile_file import COMPILED, ProfileError, read_profile
 
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
     from mudline.keywords.common import Surface
     from mudline.keywords.library.seabed_planes import Plane, SeabedPlanes
     from mudline.keywords.library.seabed_profile import SeabedProfile
-    from mudline.keywords.model import Part
 
 _NO_POINTS = np.zeros((0, 2))
 
@@ -95,24 +95,19 @@ def read_floor(context: Context) -> Floor:
     return found
 
 
-def _number(part: Part | None, name: str, default: float = math.nan) -> float:
-    value = getattr(part, name, None)
-    return float(value) if isinstance(value, float | int) else default
-
-
 def _surface(surface: Surface, where: Where, before: Floor) -> Floor:
     if surface.profile is not None:
         points = np.column_stack([surface.profile.column(0), surface.profile.column(1)])
         return Floor(FloorKind.PROFILE, points=points, where=where._replace(path=("profile",)))
     if surface.slope is not None:
-        return Floor(FloorKind.SLOPING, _number(surface, "slope"), where=where._replace(path=("slope",)))
+        return Floor(FloorKind.SLOPING, number(surface, "slope"), where=where._replace(path=("slope",)))
     return before
 
 
 def _profile(context: Context, block: SeabedProfile, where: Where) -> Floor:
-    direction = _number(block, "direction", 0.0)
+    direction = number(block, "direction", 0.0)
     if block.type_ == "SLOPING":
-        return Floor(FloorKind.SLOPING, _number(block, "slope"), direction, where=where)
+        return Floor(FloorKind.SLOPING, number(block, "slope"), direction, where=where)
     kind, columns = (FloorKind.SURFACE, 3) if block.type_ == "3D" else (FloorKind.PROFILE, 2)
     name = file_name(block.file or "")
     points, missing = _points(context, name, columns, where._replace(path=("file",)))
@@ -143,17 +138,17 @@ def _points(context: Context, name: str, columns: int, where: Where) -> tuple[Fl
 
 
 def _plane(plane: Plane) -> FloorPlane:
-    point = tuple(_number(plane.point, axis) for axis in ("x", "y", "z"))
+    point = tuple(number(plane.point, axis) for axis in ("x", "y", "z"))
     bounds = plane.bounds
     return FloorPlane(
         plane.name,
         cast("tuple[float, float, float]", point),
-        _number(plane, "slope"),
-        _number(plane, "direction", 0.0),
+        number(plane, "slope"),
+        number(plane, "direction", 0.0),
         (
-            _number(bounds, "y_min", -math.inf),
-            _number(bounds, "y_max", math.inf),
-            _number(bounds, "z_min", -math.inf),
-            _number(bounds, "z_max", math.inf),
+            number(bounds, "y_min", -math.inf),
+            number(bounds, "y_max", math.inf),
+            number(bounds, "z_min", -math.inf),
+            number(bounds, "z_max", math.inf),
         ),
     )

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
-from mudline.scene.contact_parts.picking import number, picked
+from mudline.scene.contact_parts.picking import picked
 from mudline.scene.contact_parts.units import DEFAULT_DENSITY, DEFAULT_GRAVITY
+from mudline.scene.given import number
 from mudline.scene.numbering import Floats
 
 if TYPE_CHECKING:

@@ -10,8 +10,9 @@ import numpy as np
 from mudline.contact.extras import NodeFriction
 from mudline.contact.friction.law import FrictionLaw
 from mudline.contact.inputs import LawKind
-from mudline.scene.contact_parts.picking import at_nodes, marked, number, picked, touched
+from mudline.scene.contact_parts.picking import at_nodes, marked, picked, touched
 from mudline.scene.contact_parts.units import LARGEST_MOBILISATION
+from mudline.scene.given import number
 from mudline.scene.numbering import Floats, Indices, Mask
 
 if TYPE_CHECKING:

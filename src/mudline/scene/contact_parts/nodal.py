@@ -8,8 +8,9 @@ import numpy as np
 
 from mudline.contact.extras import NodalSprings
 from mudline.contact.inputs import LawKind
-from mudline.scene.contact_parts.picking import at_nodes, marked, number, picked
+from mudline.scene.contact_parts.picking import at_nodes, marked, picked
 from mudline.scene.contact_parts.smoothing import KEYWORD, half_width, one_sided, static_nodal
+from mudline.scene.given import number
 from mudline.scene.numbering import Floats, Indices
 
 if TYPE_CHECKING:

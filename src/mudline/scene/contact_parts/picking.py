@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 
 import numpy as np
@@ -11,12 +10,6 @@ from mudline.diagnostics import Where
 from mudline.scene.contact_parts.refused import RefusedError
 from mudline.scene.extensions import Extension
 from mudline.scene.numbering import Floats, Ids, Indices, Mask
-
-
-def number(part: object, name: str, default: float = math.nan) -> float:
-    """A value that is given and is a number, else `default`."""
-    value = getattr(part, name, None)
-    return float(value) if isinstance(value, float | int) else default
 
 
 def picked(values: Iterable[float], index: Indices) -> Floats:

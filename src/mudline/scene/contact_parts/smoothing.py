@@ -9,7 +9,8 @@ import numpy as np
 from mudline.contact.extras import Smoothing
 from mudline.contact.inputs import LawKind
 from mudline.contact.laws.smoothing import automatic_half_width
-from mudline.scene.contact_parts.picking import marked, number, picked, summed
+from mudline.scene.contact_parts.picking import marked, picked, summed
+from mudline.scene.given import number
 from mudline.scene.numbering import Floats, Indices, Mask
 from mudline.scene.section_weight import submerged_weight
 

@@ -11,9 +11,10 @@ from mudline.contact.extras import ElementSuction
 from mudline.contact.inputs import LawKind
 from mudline.contact.laws.spring import LawError
 from mudline.contact.suction.law import SuctionFactors, SuctionLaw, from_cohesion
-from mudline.scene.contact_parts.picking import number, picked, refuse, refuse_entry
+from mudline.scene.contact_parts.picking import picked, refuse, refuse_entry
 from mudline.scene.contact_parts.refused import RefusedError
 from mudline.scene.contact_parts.units import FORCE_UNIT, LENGTH_UNIT
+from mudline.scene.given import number
 from mudline.scene.numbering import Floats, Indices, Mask
 
 if TYPE_CHECKING:
@@ -40,22 +41,30 @@ def element_suction(scene: Scene, *, keep: bool) -> ElementSuction | None:
     elements = np.flatnonzero(held)
     block = extension.of_element[elements]
     _check_complete(scene, extension, block)
-    length_unit = LENGTH_UNIT.get(scene.units, math.nan)
-    corners = [[number(getattr(e, "cutoff", None), n) for e in extension.entries] for n in ("first", "second")]
-    first, second = (picked(column, block) for column in corners)
-    factors = _factors(scene, extension, elements, block)
-    law = SuctionLaw(
-        *factors,
-        first_corner=np.where(np.isnan(first), _CORNERS[0], first),
-        second_corner=np.where(np.isnan(second), _CORNERS[1], second),
-        cyclic=picked((number(e, "cyclic", 1.0) for e in extension.entries), block),
-        regularisation=picked((number(e, "regularisation", _SLOWEST / length_unit) for e in extension.entries), block),
-    )
+    law = suction_law(scene, extension, elements)
+    unsized = np.zeros(len(scene.element_ids), dtype=np.bool_)
+    unsized[elements] = np.isnan(law.force_factor) | np.isnan(law.depth_factor)
+    refuse(extension, unsized, scene.element_ids, "COHESION= needs the external diameter, which is not known")
     try:
         return ElementSuction(elements, law.checked())
     except LawError as error:
         message = f"element {scene.element_ids[elements[error.index]]}: {error}; this cannot be evaluated"
         raise RefusedError(message, extension.places[int(block[error.index])]) from error
+
+
+def suction_law(scene: Scene, extension: Extension, elements: Indices) -> SuctionLaw:
+    """What the blocks that some elements (k,) follow say, as it is; NaN for what they leave open."""
+    block = extension.of_element[elements]
+    length_unit = LENGTH_UNIT.get(scene.units, math.nan)
+    corners = [[number(getattr(e, "cutoff", None), n) for e in extension.entries] for n in ("first", "second")]
+    first, second = (picked(column, block) for column in corners)
+    return SuctionLaw(
+        *_factors(scene, extension, elements, block),
+        first_corner=np.where(np.isnan(first), _CORNERS[0], first),
+        second_corner=np.where(np.isnan(second), _CORNERS[1], second),
+        cyclic=picked((number(e, "cyclic", 1.0) for e in extension.entries), block),
+        regularisation=picked((number(e, "regularisation", _SLOWEST / length_unit) for e in extension.entries), block),
+    )
 
 
 def _check_alone(scene: Scene, extension: Extension, held: Mask, *, keep: bool) -> None:
@@ -92,14 +101,10 @@ def _factors(scene: Scene, extension: Extension, elements: Indices, block: Indic
     diameter = scene.diameter[elements]
     cohesion = picked((number(entry, "cohesion") for entry in extension.entries), block)
     units = LENGTH_UNIT.get(scene.units, 1.0), FORCE_UNIT.get(scene.units, 1.0)
-    reckoned = from_cohesion(cohesion, diameter, *units)
+    computed = from_cohesion(cohesion, np.where(np.isnan(cohesion), np.nan, diameter), *units)
     given = [
         picked((number(getattr(entry, law, None), name) for entry in extension.entries), block)
         for law, name in (("force", "factor"), ("force", "exponent"), ("depth", "factor"), ("depth", "exponent"))
     ]
-    chosen: list[Floats] = [np.where(np.isnan(own), other, own) for own, other in zip(given, reckoned, strict=True)]
-    unsized = np.zeros(len(scene.element_ids), dtype=np.bool_)
-    unsized[elements] = np.isnan(chosen[0]) | np.isnan(chosen[2])
-    what = "COHESION= needs the external diameter, which is not known"
-    refuse(extension, unsized, scene.element_ids, what)
+    chosen: list[Floats] = [np.where(np.isnan(own), other, own) for own, other in zip(given, computed, strict=True)]
     return SuctionFactors(*chosen)

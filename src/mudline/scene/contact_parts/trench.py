@@ -8,7 +8,8 @@ import numpy as np
 
 from mudline.contact.extras import NodeFriction, NodeTrench
 from mudline.contact.friction.trench import TrenchLaw
-from mudline.scene.contact_parts.picking import at_nodes, number, picked, refuse, refuse_entry
+from mudline.scene.contact_parts.picking import at_nodes, picked, refuse, refuse_entry
+from mudline.scene.given import number
 from mudline.scene.numbering import Floats, Indices
 
 if TYPE_CHECKING:

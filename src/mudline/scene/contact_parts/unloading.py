@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mudline.contact.inputs import LawKind
-from mudline.scene.contact_parts.picking import number, picked, refuse, refuse_entry
+from mudline.scene.contact_parts.picking import picked, refuse, refuse_entry
+from mudline.scene.given import number
 from mudline.scene.numbering import Floats, Mask
 
 if TYPE_CHECKING:

@@ -1,22 +1,16 @@
-"""Which elements `*SEABED CONTACT` gives a stiffness of the nodes, and which ones a smoothed law."""
+"""Which elements `*SEABED CONTACT` gives a smoothed law."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from mudline.contact.inputs import LawKind
-from mudline.scene.contact_parts.picking import marked, number
+from mudline.scene.contact_parts.picking import marked
 from mudline.scene.contact_parts.smoothing import KEYWORD, is_auto
+from mudline.scene.given import number
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Mask
 from mudline.scene.section_weight import submerged_weight
-
-__all__ = ["nodal", "number", "smoothed"]
-
-
-def nodal(scene: Scene) -> Mask:
-    """Elements whose law is a stiffness of their nodes."""
-    return scene.nodal
 
 
 def smoothed(scene: Scene) -> Mask:

@@ -9,7 +9,6 @@ import numpy as np
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
-from mudline.linting.rules.extensions.smoothing import nodal
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Mask
 
@@ -190,4 +189,4 @@ def _pulled(context: LintContext) -> Mask:
             pulls[index] = bool((force < 0.0).any())
     curves = [*(grant.curve for grant in scene.laws.grants), -1]
     found: Mask = np.array([pulls[curve] for curve in curves])[scene.laws.of_element]
-    return found & ~nodal(scene)
+    return found & ~scene.nodal

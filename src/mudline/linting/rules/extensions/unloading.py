@@ -10,7 +10,8 @@ from mudline.contact.inputs import LawKind
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
-from mudline.linting.rules.extensions.smoothing import nodal, number, smoothed
+from mudline.linting.rules.extensions.smoothing import smoothed
+from mudline.scene.given import number
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats
 
@@ -67,7 +68,7 @@ def soft_unloading(context: LintContext) -> Iterator[Problem]:
     extension = scene.extensions.get(_KEYWORD)
     if extension is None:
         return
-    steepest = np.where(nodal(scene), np.nan, _steepest(scene))
+    steepest = np.where(scene.nodal, np.nan, _steepest(scene))
     for index, (entry, where) in enumerate(zip(extension.entries, extension.places, strict=True)):
         stiffness = number(entry, "stiffness")
         softer = np.flatnonzero((extension.of_element == index) & (steepest > stiffness))
