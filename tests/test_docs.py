@@ -22,6 +22,7 @@ from tests.docs.blocks import Page, agree
 from tests.docs.commands import output, run
 from tests.docs.make import BY_HAND, ROOT, documents, made_files, pages
 from tests.docs.refresh import copy_of_files
+from tests.processes import TIMEOUT
 
 JSON = {
     "lint": ("lint samples", "lint samples/flowline-gen.keyxm", "lint samples/missing.yaml"),
@@ -97,7 +98,9 @@ def test_programs_run_and_sessions_answer_what_the_page_shows(path: Path, checko
     for language, interpreter in (("python", [sys.executable]), ("pycon", [sys.executable, "-m", "doctest"])):
         program = checkout / f"{language}.txt"
         program.write_text("\n".join(block.text for block in Page.read(path).blocks if block.language == language))
-        ran = subprocess.run([*interpreter, program.name], cwd=checkout, check=False, capture_output=True, text=True)
+        ran = subprocess.run(
+            [*interpreter, program.name], cwd=checkout, capture_output=True, text=True, timeout=TIMEOUT, check=False
+        )
         assert (ran.returncode, ran.stdout + ran.stderr if ran.returncode else "") == (0, "")
 
 

@@ -14,6 +14,7 @@ import pytest
 
 import mudline
 from mudline.resources import grammar_file
+from tests.processes import TIMEOUT
 
 ROOT = Path(__file__).parents[1]
 GRAMMAR = sorted(path.name for path in (ROOT / "grammar").glob("*.lark"))
@@ -24,7 +25,7 @@ LONGEST_FILE = 450
 def wheel_names(tmp_path_factory: pytest.TempPathFactory) -> set[str]:
     folder = tmp_path_factory.mktemp("dist")
     build = [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", str(folder)]
-    subprocess.run(build, cwd=ROOT, check=True, capture_output=True)
+    subprocess.run(build, cwd=ROOT, capture_output=True, timeout=TIMEOUT, check=True)
     (wheel,) = folder.glob("*.whl")
     with zipfile.ZipFile(wheel) as archive:
         return set(archive.namelist())

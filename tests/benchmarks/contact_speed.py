@@ -29,7 +29,7 @@ from mudline.contact import ContactInput, ContactModel
 from mudline.contact.arrays import FloatArray
 from mudline.contact.compiled.choice import Backend
 from mudline.contact.extras import Extras
-from mudline.contact.floors import Floor, PlanesFloor, SlopingFloor
+from mudline.contact.seabed import PlanesSeabed, Seabed, SlopingSeabed
 from tests.contact.scenes import CLAY, everything
 
 Timed = Callable[[], object]
@@ -39,13 +39,13 @@ _ROUND = 200_000
 """Node-steps a round and method, at least."""
 
 
-def beds(elements: int) -> dict[str, Floor | None]:
+def beds(elements: int) -> dict[str, Seabed | None]:
     """The beds of the scenes with everything on."""
     middle = [0.0, 2.0 * elements, 0.0]
     return {
         "all": None,
-        "sloping": SlopingFloor(0.001, 30.0),
-        "planes": PlanesFloor([[0.0, 0.0, 0.0], middle], [0.0, 0.5]),
+        "sloping": SlopingSeabed(0.001, 30.0),
+        "planes": PlanesSeabed([[0.0, 0.0, 0.0], middle], [0.0, 0.5]),
     }
 
 

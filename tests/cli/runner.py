@@ -15,10 +15,10 @@ from unittest.mock import patch
 from jsonschema import Draft202012Validator
 
 from mudline.__main__ import main
+from tests.processes import TIMEOUT
 
 ROOT = Path(__file__).parents[2]
 SAMPLES = ROOT / "samples"
-TIMEOUT = 120
 
 Json: TypeAlias = Any
 """What a JSON text holds."""

@@ -13,6 +13,7 @@ from mudline.cli.inputs import collect
 from tests.cli.conftest import Place
 from tests.cli.decks import BAD_NUMBER, CLEAN
 from tests.cli.runner import run
+from tests.processes import TIMEOUT
 
 CONCISE = ("--output-format", "concise")
 
@@ -160,7 +161,7 @@ def test_gravity_tells_the_units_of_standard_input() -> None:
 @pytest.mark.parametrize("command", ["lint", "show"])
 def test_standard_input_that_is_closed(command: str) -> None:
     words = f"import sys; sys.stdin = None; from mudline.__main__ import main; sys.exit(main(['{command}', '-']))"
-    done = subprocess.run([sys.executable, "-c", words], capture_output=True, text=True, check=False)
+    done = subprocess.run([sys.executable, "-c", words], capture_output=True, text=True, timeout=TIMEOUT, check=False)
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr.endswith("standard input is closed\n")
 

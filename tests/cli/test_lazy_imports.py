@@ -10,7 +10,7 @@ import pytest
 
 from tests.cli.conftest import Place
 from tests.cli.decks import BAD_NUMBER, CLEAN, LINEAR
-from tests.cli.runner import TIMEOUT
+from tests.processes import TIMEOUT
 
 HEAVY = frozenset({"click", "lark", "matplotlib", "numpy", "pydantic", "rich", "yaml", "numba", "scipy", "pyarrow"})
 PROGRAM = """\

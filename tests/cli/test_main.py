@@ -18,7 +18,8 @@ from mudline.__main__ import main
 from mudline.cli.main import COMMANDS
 from tests.cli.conftest import Place
 from tests.cli.decks import BAD_NUMBER, CLEAN
-from tests.cli.runner import TIMEOUT, Stream, process, run
+from tests.cli.runner import Stream, process, run
+from tests.processes import TIMEOUT
 
 EVERY = sorted(COMMANDS)
 

@@ -13,7 +13,8 @@ import pytest
 from mudline.cli.inputs import collect
 from tests.cli.conftest import Place
 from tests.cli.decks import CLEAN
-from tests.cli.runner import TIMEOUT, run
+from tests.cli.runner import run
+from tests.processes import TIMEOUT
 
 
 def mode(path: Path) -> int:

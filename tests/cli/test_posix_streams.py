@@ -10,8 +10,10 @@ from pathlib import Path
 
 import pytest
 
+from tests.cli.conftest import Place
 from tests.cli.decks import BAD_NUMBER
-from tests.cli.runner import SAMPLES, TIMEOUT, process
+from tests.cli.runner import SAMPLES, process
+from tests.processes import TIMEOUT, started
 
 PIPED = {
     "lint": ["lint", str(SAMPLES), "--output-format", "concise"],
@@ -38,14 +40,11 @@ def test_closed_pipe_ends_quietly(arguments: list[str]) -> None:
 def test_pipe_that_is_closed_after_the_first_line(folder: Path) -> None:
     points = "".join(f" {i}.0, {i}.0\n" for i in range(40_000))
     (folder / "long.keyxm").write_text(f"$MODEL\n*SEABED STIFFNESS\n CURVE=A\n{points}", encoding="utf-8")
-    words = [sys.executable, "-m", "mudline", "convert", "long.keyxm", "--to", "json"]
-    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as running:
-        assert running.stdout is not None
-        assert running.stderr is not None
-        assert running.stdout.readline() == b"{\n"
-        running.stdout.close()
-        assert running.stderr.read() == b""
-        assert running.wait(TIMEOUT) == 141
+    with started("-m", "mudline", "convert", "long.keyxm", "--to", "json") as running:
+        assert running.out.readline() == b"{\n"
+        running.out.close()
+        assert running.err.read() == b""
+        assert running.process.wait(TIMEOUT) == 141
 
 
 def test_standard_error_that_is_closed(folder: Path) -> None:
@@ -65,27 +64,21 @@ def test_output_that_was_closed_before_the_start(arguments: list[str]) -> None:
     assert done.stderr == b""
 
 
-def heed_interrupts() -> None:
-    """What a shell's foreground job starts with."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
-
-
 def test_interruption(folder: Path) -> None:
     (folder / "deck.keyxm").write_text("$MODEL\n", encoding="utf-8")
-    words = [sys.executable, "-m", "mudline", "lint", "-v", "deck.keyxm", "-"]
-    with subprocess.Popen(
-        words,
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        preexec_fn=heed_interrupts,  # noqa: PLW1509 - no threads here, and a suite in the background ignores Ctrl-C
-    ) as running:
-        assert running.stderr is not None
-        assert running.stdout is not None
-        assert running.stderr.readline() == b"mudline: deck.keyxm: 0 findings\n"
-        running.send_signal(signal.SIGINT)
-        assert running.wait(TIMEOUT) == 130
-        assert (running.stdout.read(), running.stderr.read()) == (b"", b"")
+    with started("-m", "mudline", "lint", "-v", "deck.keyxm", "-") as running:
+        assert running.err.readline() == b"mudline: deck.keyxm: 0 findings\n"
+        running.process.send_signal(signal.SIGINT)
+        assert running.process.wait(TIMEOUT) == 130
+        assert (running.out.read(), running.err.read()) == (b"", b"")
+
+
+def test_ctrl_c_is_quiet(place: Place) -> None:
+    with started("-m", "mudline", "lint", place(), "--watch") as running:
+        assert b"waiting" in running.err.readline()
+        running.process.send_signal(signal.SIGINT)
+        assert running.err.read() == b""
+        assert running.process.wait(TIMEOUT) == 130
 
 
 def test_file_name_that_is_no_utf_8(folder: Path) -> None:

@@ -216,7 +216,7 @@ def test_no_bar_when_quiet_for_one_deck_or_between_lines_for_programs(decks: str
 
 def test_no_bar_in_a_short_run(decks: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("CI", raising=False)
-    monkeypatch.setattr(progress, "DELAY", 60.0)
+    monkeypatch.setattr(progress, "monotonic", lambda: 0.0)
     assert on_error_only("validate", decks).err == "mudline: decks/gone.keyxm: no such file or directory\n"
 
 

@@ -1,27 +1,24 @@
-"""Problems with closed solutions: masses that fall and slide on the bed, a block on a slope, a beam on springs."""
+"""Problems with closed solutions: masses that fall and slide on the seabed, a block on a slope, a beam on springs."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from mudline.contact import ContactModel
 from mudline.contact.arrays import FloatArray
-from mudline.contact.extras import Extras
-from mudline.contact.floors import SlopingFloor
-from mudline.contact.friction.law import FrictionState
-from tests.contact.chains import LINEAR, NONE, at_depths, chain
-from tests.contact.joined import friction, model, nodal
+from mudline.contact.laws.friction import FrictionState
+from mudline.contact.seabed import SlopingSeabed
+from tests.contact.builders import LINEAR, NONE, at_depths, chain, friction, on
 
 MASS, G, K = 500.0, 9.81, 5e4
 
 
 def fall(speed: float, gravity: float, dt: float) -> tuple[FloatArray, FloatArray]:
-    """Depths and forces of a mass that meets the bed at a speed, until it has left it."""
-    contact = model(chain([]), Extras(nodal=nodal([K])))
+    """Depths and forces of a mass that meets the seabed at a speed, until it has left it."""
+    contact = ContactModel(chain([], on("nodal", 1, stiffness=K)))
     z, v, force = 0.0, speed, 0.0
     depths, forces = [], []
     while z >= 0.0:
@@ -34,7 +31,7 @@ def fall(speed: float, gravity: float, dt: float) -> tuple[FloatArray, FloatArra
     return np.array(depths), np.array(forces)
 
 
-def test_a_mass_that_falls_on_the_bed() -> None:
+def test_a_mass_that_falls_on_the_seabed() -> None:
     depths, forces = fall(0.5, G, 5e-4)
     still = MASS * G / K
     assert depths.max() == pytest.approx(still + math.sqrt(still**2 + MASS * 0.5**2 / K), rel=1e-5)
@@ -50,7 +47,7 @@ def test_a_mass_without_weight_that_bounces() -> None:
 
 def test_a_sliding_block_stops() -> None:
     """A stiff spring, so that the elastic slip is small beside the way."""
-    contact = model(chain([]), Extras(nodal=nodal([K]), friction=friction(1, (0.5, 0.5), 1e8)))
+    contact = ContactModel(chain([], on("nodal", 1, stiffness=K), friction(1, (0.5, 0.5), 1e8)))
     place, state = np.array([[-MASS * G / K, 0.0, 0.0]]), contact.initial_state()
     _, state = contact.step(place, None, state)
     v, dt, time = 1.0, 1e-4, 0.0
@@ -66,8 +63,8 @@ def test_a_sliding_block_stops() -> None:
 def block_on_slope(degrees: float) -> tuple[ContactModel, FloatArray, FloatArray, float]:
     """A block pressed on a slope by its weight: model, place, unit vector downhill, and its weight along that."""
     angle = math.radians(degrees)
-    inputs = replace(chain([]), floor=SlopingFloor(degrees))
-    contact = model(inputs, Extras(nodal=nodal([K]), friction=friction(1, (0.5, 0.5), 1e5)))
+    laws = on("nodal", 1, stiffness=K), friction(1, (0.5, 0.5), 1e5)
+    contact = ContactModel(chain([], *laws, seabed=SlopingSeabed(degrees)))
     normal = np.array([math.cos(angle), -math.sin(angle), 0.0])
     place = (-MASS * G * math.cos(angle) / K * normal)[None]
     return contact, place, np.array([-math.sin(angle), -math.cos(angle), 0.0]), MASS * G * math.sin(angle)
@@ -93,7 +90,7 @@ def test_a_block_slides_from_the_angle_of_friction_on(degrees: float, slides: bo
     assert (pull + float(result.reaction[0] @ downhill) > 0.0) == slides
 
 
-EI, BED, LOAD = 2e7, 1e5, 1e4
+EI, SPRING, LOAD = 2e7, 1e5, 1e4
 
 
 def beam(elements: int, size: float) -> FloatArray:
@@ -114,13 +111,13 @@ def beam(elements: int, size: float) -> FloatArray:
 
 @pytest.mark.parametrize("kind", ["elements", "nodes"])
 def test_a_beam_on_springs(kind: str) -> None:
-    """Laid 0.02 m deep, so that no part of it leaves the bed under the load in its middle."""
+    """Laid 0.02 m deep, so that no part of it leaves the seabed under the load in its middle."""
     elements, size, laid = 320, 0.3, 0.02
-    inputs = replace(chain([LINEAR if kind == "elements" else NONE] * elements), length=np.full(elements, size))
-    share = np.full(elements + 1, BED * size)
+    share = np.full(elements + 1, SPRING * size)
     share[[0, -1]] *= 0.5
-    on_elements = replace(inputs, linear_stiffness=np.full(elements, BED if kind == "elements" else np.nan))
-    contact = model(on_elements, Extras(nodal=nodal(share)) if kind == "nodes" else Extras())
+    springs = on("nodal", elements + 1 if kind == "nodes" else [], stiffness=share if kind == "nodes" else 0.0)
+    laws = [LINEAR if kind == "elements" else NONE] * elements
+    contact = ContactModel(chain(laws, springs, length=size, stiffness=SPRING))
     points = at_depths(np.full(elements + 1, laid))
     points[:, 1] = size * np.arange(elements + 1)
     tangent = contact.tangent(points, None, contact.initial_state()).by_position.dense()[::3, ::3]
@@ -133,9 +130,9 @@ def test_a_beam_on_springs(kind: str) -> None:
     assert sunk[elements] == pytest.approx(0.0094015077327, rel=1e-3)
     curved = 6.0 * (sunk[elements + 2] - sunk[elements]) / size**2 - 2.0 * sunk[elements + 3] / size
     assert -EI * curved == pytest.approx(13295.739742, rel=1e-2)
-    # and the bed gives the load back, and what it had to carry before
+    # and the seabed gives the load back, and what it had to carry before
     points[:, 0] -= sunk[::2]
     given = contact.evaluate(points).normal_force
     assert given.min() > 0.0
-    assert given.sum() == pytest.approx(LOAD + BED * laid * size * elements, rel=1e-9)
+    assert given.sum() == pytest.approx(LOAD + SPRING * laid * size * elements, rel=1e-9)
     assert int(given[1:-1].argmax()) + 1 == middle

@@ -15,7 +15,7 @@ from mudline.contact.critical_step import (
     rounded_down,
     steepest_slope,
 )
-from mudline.contact.suction import SuctionLaw, from_cohesion
+from tests.contact.builders import bridge_law
 
 
 @pytest.mark.parametrize(
@@ -46,7 +46,7 @@ def test_frequencies_of_huge_and_tiny_numbers() -> None:
     assert found == pytest.approx([1e300, 1e-300, 2.0], rel=1e-14)
 
 
-def test_steps_are_told_with_three_digits_that_are_not_above_them() -> None:
+def test_steps_have_three_digits_that_are_not_above_them() -> None:
     assert [rounded_down(step) for step in (0.0042481, 0.021356, 1.0, 9.999, 1e-300)] == [
         0.00424,
         0.0213,
@@ -63,9 +63,6 @@ def test_the_steepest_slope_below_the_mudline() -> None:
 
 
 def test_published_release_of_suction() -> None:
-    count = 3
-    factors = from_cohesion(np.full(count, 5000.0), np.full(count, 0.3))
-    rest = (np.full(count, value) for value in (0.2, 0.8, 1.0, 1e-3))
-    found = release_stiffness(SuctionLaw(*factors, *rest), np.array([0.1, 1e-3, 1.0]))
+    found = release_stiffness(bridge_law(3), np.array([0.1, 1e-3, 1.0]))
     assert found == pytest.approx([42662.876092, 61666.617838, 35485.434704], rel=1e-10)
     assert 2.0 * found[0] == pytest.approx(85325.752184, rel=1e-10)

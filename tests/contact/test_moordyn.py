@@ -1,11 +1,10 @@
-"""The reactions of a linear bed beside those of MoorDyn, a public program for mooring lines, at the same positions.
+"""The reactions of a linear seabed beside those of MoorDyn, a public program for mooring lines, at the same positions.
 
 MoorDyn takes kbot d l z at a node: kbot in Pa/m, d the diameter, l half of the lengths of its segments. Its Z is up.
 """
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
@@ -14,14 +13,12 @@ import pytest
 
 from mudline.contact import ContactModel
 from mudline.contact.arrays import FloatArray
-from mudline.contact.extras import Extras
-from tests.contact.chains import LINEAR, NONE, chain
-from tests.contact.joined import model, nodal
+from tests.contact.builders import LINEAR, NONE, chain, on
 
 moordyn = pytest.importorskip("moordyn", reason="MoorDyn's Python package is not installed")
 
 DIAMETER, STIFFNESS, WATER, SEGMENTS, LENGTH = 0.1, 3.0e4, 50.0, 35, 70.0
-DECK = f"""A line from an anchor on the bed up to a fixed point
+DECK = f"""A line from an anchor on the seabed up to a fixed point
 --------- LINE TYPES
 Name  Diam  MassDen  EA  BA/-zeta  EI  Cd  Ca  CdAx  CaAx
 (-)   (m)   (kg/m)   (N) (N-s/-)  (N-m2) (-) (-) (-) (-)
@@ -51,7 +48,7 @@ ID  LineType AttachA AttachB UnstrLen NumSegs Outputs
 
 
 class Line(NamedTuple):
-    """Nodes (n, 3) and reactions (n,) of MoorDyn, X up from the bed."""
+    """Nodes (n, 3) and reactions (n,) of MoorDyn, X up from the seabed."""
 
     nodes: FloatArray
     reactions: FloatArray
@@ -78,7 +75,7 @@ def at_rest(tmp_path_factory: pytest.TempPathFactory) -> Line:
 def test_springs_of_nodes_are_those_of_moordyn(at_rest: Line) -> None:
     share = np.full(SEGMENTS + 1, STIFFNESS * DIAMETER * LENGTH / SEGMENTS)
     share[[0, -1]] *= 0.5
-    contact = model(chain([NONE] * SEGMENTS), Extras(nodal=nodal(share)))
+    contact = ContactModel(chain([NONE] * SEGMENTS, on("nodal", SEGMENTS + 1, stiffness=share)))
     result = contact.evaluate(at_rest.nodes)
     assert 5 < np.count_nonzero(at_rest.reactions) < SEGMENTS
     assert at_rest.reactions.max() > 1000.0
@@ -87,11 +84,7 @@ def test_springs_of_nodes_are_those_of_moordyn(at_rest: Line) -> None:
 
 def test_elements_share_the_same_load_in_another_way(at_rest: Line) -> None:
     """An element presses by its middle: where the line bends, a node gives some of its reaction to its neighbours."""
-    line = replace(
-        chain([LINEAR] * SEGMENTS, diameter=DIAMETER),
-        length=np.full(SEGMENTS, LENGTH / SEGMENTS),
-        linear_stiffness=np.full(SEGMENTS, STIFFNESS * DIAMETER),
-    )
+    line = chain([LINEAR] * SEGMENTS, diameter=DIAMETER, length=LENGTH / SEGMENTS, stiffness=STIFFNESS * DIAMETER)
     given = ContactModel(line).evaluate(at_rest.nodes).normal_force
     assert given.sum() == pytest.approx(at_rest.reactions.sum(), rel=0.02)
     flat = slice(6, 12)

@@ -7,15 +7,15 @@ import pytest
 
 from mudline.contact import ContactModel
 from mudline.contact.arrays import FloatArray
-from mudline.contact.floors import FlatFloor, Floor, PlanesFloor, SlopingFloor
 from mudline.contact.result import ContactResult
+from mudline.contact.seabed import FlatSeabed, PlanesSeabed, Seabed, SlopingSeabed
 from mudline.contact.state import ContactState
-from tests.contact.scenes import everything, line
+from tests.contact.builders import everything, line
 
-FLOORS: dict[str, Floor] = {
-    "flat": FlatFloor(),
-    "sloping": SlopingFloor(12.0, 30.0),
-    "planes": PlanesFloor(
+SEABEDS: dict[str, Seabed] = {
+    "flat": FlatSeabed(),
+    "sloping": SlopingSeabed(12.0, 30.0),
+    "planes": PlanesSeabed(
         np.array([[0.0, 0.0, 0.0], [0.0, 9.0, 0.0]]),
         np.array([-4.0, 5.0]),
         np.array([0.0, 20.0]),
@@ -25,17 +25,17 @@ FLOORS: dict[str, Floor] = {
 ELEMENTS = 8
 
 
-def on_bed(floor: Floor, points: FloatArray) -> FloatArray:
-    """The line moved so that it lies on the bed as it lay on X = 0."""
+def on_seabed(seabed: Seabed, points: FloatArray) -> FloatArray:
+    """The line moved so that it lies on the seabed as it lay on X = 0."""
     moved = points.copy()
-    moved[:, 0] += floor.elevation(points[:, 1], points[:, 2])
+    moved[:, 0] += seabed.elevation(points[:, 1], points[:, 2])
     return moved
 
 
-def after(contact: ContactModel, floor: Floor, seed: int) -> tuple[ContactState, FloatArray, FloatArray]:
+def after(contact: ContactModel, seabed: Seabed, seed: int) -> tuple[ContactState, FloatArray, FloatArray]:
     """A state with some history, and positions and velocities for a further step."""
     rng = np.random.default_rng(seed)
-    points = on_bed(floor, line(ELEMENTS, seed))
+    points = on_seabed(seabed, line(ELEMENTS, seed))
     state = contact.initial_state()
     for _ in range(4):
         moving = rng.normal(scale=0.1, size=points.shape)
@@ -69,17 +69,17 @@ def difference(
     return np.column_stack(columns), np.array(smooth)
 
 
-@pytest.mark.parametrize("name", FLOORS)
+@pytest.mark.parametrize("name", SEABEDS)
 @pytest.mark.parametrize("seed", range(6))
 def test_tangent_against_central_differences(name: str, seed: int) -> None:
-    floor = FLOORS[name]
-    contact = ContactModel(everything(ELEMENTS, seed, floor))
-    state, points, moving = after(contact, floor, seed)
-    _, _, detail = contact.step_in_detail(points, moving, state)
+    seabed = SEABEDS[name]
+    contact = ContactModel(everything(ELEMENTS, seed, seabed))
+    state, points, moving = after(contact, seabed, seed)
+    result, _ = contact.step(points, moving, state)
     tangent = contact.tangent(points, moving, state)
     for which, matrix in enumerate((tangent.by_position.dense(), tangent.by_velocity.dense())):
         expected, smooth = difference(contact, points, moving, state, which)
         assert smooth.mean() > 0.5
         scale = np.abs(expected[:, smooth]).max()
         np.testing.assert_allclose(matrix[:, smooth], expected[:, smooth], atol=1e-7 * max(scale, 1.0), rtol=0)
-    assert detail.sliding is not None
+    assert result.friction is not None

@@ -8,6 +8,7 @@ import sys
 import pytest
 
 from mudline.expression import DEEPEST, LONGEST, Expression, ExpressionError, NameSpan, parse
+from tests.processes import TIMEOUT
 
 
 def test_text_names_and_functions_are_kept_as_written() -> None:
@@ -141,5 +142,5 @@ def test_an_unclosed_tower_of_brackets_is_an_error_of_its_end() -> None:
 
 def test_importing_does_not_build_the_grammar() -> None:
     program = "from mudline.expression import parsing; print(parsing._grammar.cache_info().currsize)"
-    run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=TIMEOUT, check=True)
     assert run.stdout == "0\n"

@@ -10,7 +10,7 @@ from mudline.keywords.model import Block, Record, layout
 from tests.generated.arranged import ARRANGED
 from tests.generated.lines import Values, cell, line, table
 from tests.reading.spellings import comments as comment_lines
-from tests.reading.spellings import texts
+from tests.reading.spellings import no_head, texts
 
 Keyword = tuple[str, str]
 
@@ -84,11 +84,10 @@ def block(keyword: Keyword) -> st.SearchStrategy[Values]:
     return record(declared(keyword)).map(lambda values: {"keyword": keyword[1], **values})
 
 
-_raw = texts.map(lambda text: text if text.lstrip(" \t")[:1] not in ("$", "*") else f"x{text}")
 opaque: st.SearchStrategy[Values] = st.builds(
     lambda keyword, lines: {"keyword": keyword, "lines": lines},
     st.sampled_from(["HYDRODYNAMIC SETS", "WAVE-REGULAR", "TITLE", "NEW THING", "GEL\u00c4NDE", "A,B", ""]),
-    st.lists(_raw, max_size=4),
+    st.lists(texts.map(no_head), max_size=4),
 )
 """A block without a model."""
 
@@ -102,7 +101,7 @@ def section(draw: st.DrawFn, blocks: int = 3) -> Values:
     known = [block(keyword) for keyword in KEYWORDS if keyword[0] == name]
     made: Values = {"name": name, "blocks": draw(st.lists(st.one_of(*known, opaque), max_size=blocks))}
     if draw(st.integers(0, 3)) == 0:
-        made["lines"] = ["stray" + line for line in draw(st.lists(_raw, min_size=1, max_size=2))]
+        made["lines"] = ["stray" + line for line in draw(st.lists(texts, min_size=1, max_size=2))]
     told = draw(st.lists(remarks, max_size=2))
     return made | ({"comments": draw(comments(told, blocks + 1))} if told else {})
 

@@ -6,9 +6,10 @@ import os
 import subprocess
 
 from tests.integration.recipes import BASH
+from tests.processes import TIMEOUT
 
 collect_ignore = ["test_action.py", "test_action_steps.py", "test_ci_page.py", "test_completion_in_bash.py"]
 if os.name == "posix":
     asked = [BASH, "-c", "(( BASH_VERSINFO[0] * 10 + BASH_VERSINFO[1] >= 44 ))"]
-    completes = subprocess.run(asked, check=False).returncode == 0
+    completes = subprocess.run(asked, timeout=TIMEOUT, check=False).returncode == 0
     collect_ignore = [] if completes else ["test_completion_in_bash.py"]

@@ -13,9 +13,9 @@ from pathlib import Path
 import pytest
 
 from tests.integration.recipes import BASH, ROOT, SOURCE, checkout, shell
+from tests.processes import TIMEOUT, end
 
 SOURCED = 'eval "$(_MUDLINE_COMPLETE=bash_source mudline)"'
-SECONDS = 30
 
 
 class Terminal:
@@ -26,14 +26,16 @@ class Terminal:
         path = f"{folder.parent / 'programs'}{os.pathsep}{os.environ['PATH']}"
         env = {"PATH": path, "PYTHONPATH": str(SOURCE), "PS1": "> ", "TERM": "dumb", "HOME": str(folder)}
         command = [BASH, "--noprofile", "--norc", "-i"]
-        self.bash = subprocess.Popen(command, cwd=folder, env=env, stdin=inner, stdout=inner, stderr=inner)
+        self.bash = subprocess.Popen(
+            command, cwd=folder, env=env, stdin=inner, stdout=inner, stderr=inner, start_new_session=True
+        )
         os.close(inner)
 
     def type(self, keys: str, until: str) -> str:
         """Type keys; returns what the terminal shows from then until a text has come."""
         os.write(self.end, keys.encode())
         shown = ""
-        last = time.monotonic() + SECONDS
+        last = time.monotonic() + TIMEOUT
         while until not in shown:
             ready, _, _ = select.select([self.end], [], [], max(0.0, last - time.monotonic()))
             assert ready, f"{keys!r} gave {shown!r}"
@@ -41,18 +43,19 @@ class Terminal:
         return shown
 
     def close(self) -> None:
-        self.bash.kill()
-        self.bash.wait()
+        end(self.bash)
         os.close(self.end)
 
 
 @pytest.fixture
 def terminal(tmp_path: Path) -> Iterator[Terminal]:
     opened = Terminal(checkout(tmp_path))
-    opened.type("bind 'set enable-bracketed-paste off'; PS1='ready> '\n", "\nready> ")
-    opened.type(f"{SOURCED}; echo so''urced\n", "sourced\r\nready> ")
-    yield opened
-    opened.close()
+    try:
+        opened.type("bind 'set enable-bracketed-paste off'; PS1='ready> '\n", "\nready> ")
+        opened.type(f"{SOURCED}; echo so''urced\n", "sourced\r\nready> ")
+        yield opened
+    finally:
+        opened.close()
 
 
 def test_tab_completes_commands_options_words_and_paths(terminal: Terminal) -> None:

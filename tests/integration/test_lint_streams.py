@@ -16,7 +16,8 @@ import pytest
 
 from mudline.linting.output.formats import FORMS
 from tests.cli.decks import BAD_NUMBER, CLEAN
-from tests.cli.runner import TIMEOUT, run
+from tests.cli.runner import run
+from tests.processes import TIMEOUT
 
 BASH = shutil.which("bash")
 FAULTS = 1200

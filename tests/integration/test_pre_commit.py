@@ -12,6 +12,7 @@ import pytest
 import yaml
 
 from tests.integration.recipes import CLEAN, FAULTY, ROOT, SOURCE
+from tests.processes import TIMEOUT
 
 HOOKS = {hook["id"]: hook for hook in yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text(encoding="utf-8"))}
 PRE_COMMIT = [sys.executable, "-m", "pre_commit"]
@@ -28,7 +29,7 @@ def repository(tmp_path: Path) -> Path:
     folder.mkdir()
     config = {"repos": [{"repo": "local", "hooks": hooks}]}
     (folder / ".pre-commit-config.yaml").write_text(yaml.safe_dump(config))
-    subprocess.run(["git", "init", "-q", str(folder)], check=True)  # noqa: S607 - the git of the path
+    subprocess.run(["git", "init", "-q", str(folder)], timeout=TIMEOUT, check=True)  # noqa: S607 - the git of the path
     return folder
 
 
@@ -36,7 +37,7 @@ def run(folder: Path, hook: str, **files: str) -> subprocess.CompletedProcess[st
     """Add files, and run one hook over all that is added."""
     for name, text in files.items():
         (folder / name.replace("__", ".")).write_text(text)
-    subprocess.run(["git", "add", "-A"], cwd=folder, check=True)  # noqa: S607 - the git of the path
+    subprocess.run(["git", "add", "-A"], cwd=folder, timeout=TIMEOUT, check=True)  # noqa: S607 - the git of the path
     env = {**os.environ, "PYTHONPATH": str(SOURCE), "PRE_COMMIT_HOME": str(folder.parent / "home")}
     command = [*PRE_COMMIT, "run", hook, "--all-files", "--color", "never"]
     return subprocess.run(command, cwd=folder, env=env, capture_output=True, text=True, check=False, timeout=60)
@@ -68,11 +69,13 @@ def test_a_commit_is_held_up_by_a_finding_and_by_a_layout(repository: Path) -> N
 
     def git(*words: str) -> subprocess.CompletedProcess[str]:
         command = ["git", *name, *words]
-        return subprocess.run(command, cwd=repository, env=env, capture_output=True, text=True, check=False)
+        return subprocess.run(
+            command, cwd=repository, env=env, capture_output=True, text=True, timeout=TIMEOUT, check=False
+        )
 
     assert git("add", "-A").returncode == 0
     assert git("commit", "-q", "-m", "before the hooks").returncode == 0
-    subprocess.run([*PRE_COMMIT, "install"], cwd=repository, env=env, check=True, capture_output=True)
+    subprocess.run([*PRE_COMMIT, "install"], cwd=repository, env=env, capture_output=True, timeout=TIMEOUT, check=True)
     deck = repository / "a new#1.keyxm"
     deck.write_text(FAULTY)
     git("add", deck.name)

@@ -17,6 +17,7 @@ from mudline.linting.engine import lint_bytes
 from mudline.linting.plugins import Guarded, PluginError, load, origin
 from mudline.linting.registry import Rule, rules
 from mudline.plugins import LintContext
+from tests.processes import TIMEOUT
 
 ROOT = Path(__file__).parents[2]
 SOURCE = Path(mudline.__file__).parents[1]
@@ -85,7 +86,7 @@ def example(tmp_path_factory: pytest.TempPathFactory) -> Site:
     folder = tmp_path_factory.mktemp("site")
     options = ["--quiet", "--no-deps", "--no-index", "--no-build-isolation", "--disable-pip-version-check"]
     install = [sys.executable, "-m", "pip", "install", *options, "--target", str(folder)]
-    subprocess.run([*install, str(ROOT / "samples" / "plugin")], check=True, capture_output=True)
+    subprocess.run([*install, str(ROOT / "samples" / "plugin")], capture_output=True, timeout=TIMEOUT, check=True)
     return Site(folder)
 
 
@@ -111,7 +112,7 @@ def test_the_docstring_of_the_example_holds(example: Site, monkeypatch: pytest.M
         "lint_bytes(one.good_bytes, one.file, [one]))"
     )
     monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(SOURCE), str(example.folder)]))
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=TIMEOUT, check=True)
     assert done.stdout == "[True] []\n"
 
 

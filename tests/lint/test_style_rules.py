@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from time import perf_counter
 
 import pytest
 from hypothesis import given, settings
@@ -11,6 +10,7 @@ from hypothesis import strategies as st
 
 from mudline.deck.json_form import to_json
 from mudline.deck.loading import load_bytes
+from mudline.diagnostics import Problem
 from mudline.linting.context import LintContext
 from mudline.linting.engine import lint_bytes
 from mudline.linting.fixing import Fixed, fix_bytes
@@ -18,6 +18,7 @@ from mudline.linting.rules.style.lines import first_told
 from mudline.linting.selection import select
 from mudline.linting.settings import Fixing, LintSettings
 from mudline.scene.context import MOST_TOLD
+from tests.growth import FOURFOLD, TWOFOLD, call_growth, growth
 from tests.lint.findings import CLAY, CURVES, found, messages
 
 CODES = [f"STY00{number}" for number in range(1, 10)]
@@ -257,11 +258,16 @@ def test_numbers_behind_a_key_are_parted_by_blanks_too() -> None:
 
 
 def test_many_names_of_numbers_are_looked_at_in_no_time() -> None:
-    text = "$MODEL\n*ELEMENT SETS\n" + " SET=1 2\n 1, 2\n" * 5000
-    context = LintContext(load_bytes(text.encode(), "deck.keyxm"))
-    start = perf_counter()
-    assert [problem for rule in STYLE for problem in rule.check(context)] == []
-    assert perf_counter() - start < 1.0
+    def named(count: int) -> LintContext:
+        text = "$MODEL\n*ELEMENT SETS\n" + " SET=1 2\n 1, 2\n" * count
+        return LintContext(load_bytes(text.encode(), "deck.keyxm"))
+
+    def told(context: LintContext) -> list[Problem]:
+        return [problem for rule in STYLE for problem in rule.check(context)]
+
+    assert call_growth(told, named(250), named(500)) < TWOFOLD
+    assert growth(told, named(250), named(1000)) < FOURFOLD
+    assert told(named(5000)) == []
 
 
 def test_heads_are_mended_in_the_preamble_and_at_the_very_beginning() -> None:
@@ -287,11 +293,17 @@ def test_a_suppressed_line_stays_as_it_is() -> None:
 
 
 def test_of_many_findings_the_first_are_told_and_a_long_table_is_quick() -> None:
-    text = f"{CURVES} CURVE=a\n" + "".join(f" {row}.0, {row}.0D2\n" for row in range(100_000))
-    context = LintContext(load_bytes(text.encode(), "deck.keyxm"))
-    start = perf_counter()
-    told = [problem.message for rule in select(["STY003"]) for problem in rule.check(context)]
-    assert perf_counter() - start < 1.0
+    def table(rows: int) -> LintContext:
+        text = f"{CURVES} CURVE=a\n" + "".join(f" {row}.0, {row}.0D2\n" for row in range(rows))
+        return LintContext(load_bytes(text.encode(), "deck.keyxm"))
+
+    def exponents(context: LintContext) -> list[str]:
+        return [problem.message for rule in select(["STY003"]) for problem in rule.check(context)]
+
+    short, long = table(25_000), table(100_000)
+    assert call_growth(exponents, short, long) == 1.0
+    assert growth(exponents, short, long) < 2.5  # 4 where each finding looks at the whole table
+    told = exponents(long)
     assert len(told) == MOST_TOLD + 1
     assert "and more" in told[-1]
     assert list(first_told([])) == []

@@ -11,6 +11,7 @@ from tests.reading.spellings import (
     gaps,
     idents,
     names,
+    no_head,
     numbers,
     reals,
     rows,
@@ -208,8 +209,7 @@ _OPAQUE = {
 
 @st.composite
 def opaque(draw: st.DrawFn) -> Lines:
-    lines = draw(st.lists(texts, max_size=4))
-    return [line if line.lstrip(" \t")[:1] not in ("$", "*") else "x" + line for line in lines]
+    return [no_head(line) for line in draw(st.lists(texts, max_size=4))]
 
 
 MODELLED: dict[str, tuple[str, st.SearchStrategy[Lines]]] = {

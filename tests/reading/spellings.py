@@ -7,6 +7,7 @@ import math
 from hypothesis import strategies as st
 
 from mudline.syntax.rows import read_number
+from mudline.syntax.source import CONTROLS
 
 pads = st.sampled_from(["", "", "", " ", "  ", "\t"])
 """Blanks where they do not count."""
@@ -17,6 +18,11 @@ EXOTIC = "\u00e9\u00df\u00b0\u2013\u2028\x85\xa0\ufeff\U0001f30a\u0130"
 PLAIN = "abcXYZ019 .,;:=[]{}()/\"'%&@#!?<>|\\^~`+-_*$\t" + EXOTIC
 texts = st.text(PLAIN, max_size=12)
 """What may stand on a line that nobody reads."""
+
+
+def no_head(text: str) -> str:
+    """A text as a line that begins no section and no keyword, which characters that nobody sees would not prevent."""
+    return f"x{text}" if text.lstrip(f" \t{CONTROLS}")[:1] in ("$", "*") else text
 
 
 def _spelled(value: float, spelling: str) -> str:

@@ -17,6 +17,7 @@ from mudline.deck.loading import dump, load_bytes
 from mudline.deck.model import Deck
 from mudline.deck.schema import json_schema
 from mudline.diagnostics import DeckError, Diagnostic
+from tests.processes import TIMEOUT
 from tests.reading.decks import deck_texts, mutated
 
 VALIDATOR = Draft202012Validator(json_schema())
@@ -248,7 +249,7 @@ def test_deep_yaml_does_not_crash_the_process(level: str) -> None:
         "from mudline.deck.loading import load_bytes\nfrom mudline.diagnostics import DeckError\n"
         f"try:\n    load_bytes({level!r}.encode() * 100_000, 'a.yaml')\nexcept DeckError:\n    print('refused')\n"
     )
-    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=TIMEOUT, check=False)
     assert (run.returncode, run.stdout) == (0, "refused\n")
 
 

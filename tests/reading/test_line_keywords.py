@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from mudline.deck.loading import dump
 from mudline.deck.model import Opaque
 from mudline.keywords import catalogue
 from mudline.keywords.kept import Kept, Names
-from tests.reading.spellings import texts
+from tests.reading.spellings import no_head, texts
 from tests.reading.test_forms import held, read
 
 KEPT = [kept for kept in catalogue.kept() if kept.sections == ("MODEL",)]
@@ -171,10 +171,10 @@ def test_other_keywords_are_not_kept_with_a_module() -> None:
 
 
 @given(st.sampled_from([kept.names[0] for kept in KEPT]), st.lists(texts, max_size=5))
+@example("LINES", ["\ufeff$"])
 @settings(max_examples=100)
 def test_nothing_of_a_kept_block_is_lost(keyword: str, lines: list[str]) -> None:
-    lines = [line if line.lstrip(" \t")[:1] not in ("$", "*") else "x" + line for line in lines]
-    text = f"$MODEL\n*{keyword}\n" + "".join(f"{line}\n" for line in lines)
+    text = f"$MODEL\n*{keyword}\n" + "".join(f"{no_head(line)}\n" for line in lines)
     deck = read(text)
     assert {problem.code.code for problem in deck.problems} == ({"SYN012"} if "\ufeff" in text else set())
     held(deck)

@@ -10,6 +10,7 @@ import pytest
 from mudline.deck.loading import load_bytes
 from mudline.scene.build import resolve
 from mudline.scene.external import read_external
+from tests.growth import call_growth
 from tests.scene.decks import PIPE, Finding, all_told, messages, told
 
 HELD = "$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n"
@@ -79,6 +80,7 @@ def test_words() -> None:
 
 def test_a_long_range_takes_no_time() -> None:
     assert held("GEN=1, 9007199254740992, 1") == [("W", "REF006", 0, 2)]
+    assert call_growth(held, "GEN=1, 12, 1", "GEN=1, 9007199254740992, 1") == 1.0
 
 
 def test_what_could_not_be_read_is_told_by_the_reader_only() -> None:

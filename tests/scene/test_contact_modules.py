@@ -7,6 +7,7 @@ import sys
 
 import pytest
 
+from tests.processes import TIMEOUT
 from tests.scene.contact_decks import METRIC, deck
 
 CURVE = (
@@ -28,13 +29,13 @@ PARTS = ("planes", "profile", "scattered", "sloping")
 
 def imported(seabed: str) -> set[str]:
     run = [sys.executable, "-W", "error", "-c", PROGRAM, deck(METRIC, seabed)]
-    return set(subprocess.run(run, capture_output=True, text=True, check=True).stdout.split())
+    return set(subprocess.run(run, capture_output=True, text=True, timeout=TIMEOUT, check=True).stdout.split())
 
 
 def test_a_deck_of_curves_on_a_flat_bed_imports_no_other_feature() -> None:
     found = imported(CURVE)
     assert "mudline.curves" in found
-    assert not found & {f"mudline.contact.floors.{part}" for part in PARTS}
+    assert not found & {f"mudline.contact.seabed.{part}" for part in PARTS}
     assert not found & {"scipy", "mudline.contact.unloading", "mudline.contact.nodal", "mudline.contact.uplift"}
     assert not [name for name in found if name.startswith(("mudline.contact.suction", "mudline.contact.friction"))]
     parts = {name.rpartition(".")[2] for name in found if name.startswith("mudline.scene.contact_parts.")}
@@ -48,7 +49,7 @@ def test_a_deck_of_curves_on_a_flat_bed_imports_no_other_feature() -> None:
         (LINEAR + "*SEABED SUCTION\n SET=ALL\n COHESION=5000\n", "mudline.contact.suction", "mudline.contact.friction"),
         (
             LINEAR + "*SEABED PLANES\n PLANE=a\n POINT=0,0,0\n SLOPE=1\n",
-            "mudline.contact.floors.planes",
+            "mudline.contact.seabed.planes",
             "mudline.curves",
         ),
     ],

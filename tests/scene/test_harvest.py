@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import time
 from collections.abc import Iterator
 
 import pytest
@@ -18,12 +17,11 @@ from mudline.keywords.kept import LINE_SETS, Names
 from mudline.scene.build import resolve
 from mudline.scene.harvest import bare, definers, harvested_labels, harvested_sets, may_define
 from mudline.syntax.fields import read_line
+from tests.growth import FOURFOLD, TWOFOLD, call_growth, growth
 from tests.reading.spellings import names, pads, setting, texts
 from tests.scene.decks import PIPE, messages, told
 
 LINES = "*LINES\n LINE=SCR\n"
-AGES = 10.0
-"""Seconds: much more than anything here takes, much less than time that grows with the square of the text."""
 
 
 def deck_of(text: str) -> Deck:
@@ -129,19 +127,27 @@ def test_a_line_of_very_many_names() -> None:
 
 def test_a_hundred_thousand_lines() -> None:
     section = " SECTION=Joint {0}, 12.2, ADDITIONAL=Riser, Joints {0}\n"
-    deck = deck_of("*LINES\n LINE=SCR\n" + "".join(section.format(index) for index in range(100_000)))
-    start = time.process_time()
-    assert len(harvested_sets(deck)) == 200_002
-    assert time.process_time() - start < AGES
+
+    def lines(count: int) -> Deck:
+        return deck_of("*LINES\n LINE=SCR\n" + "".join(section.format(index) for index in range(count)))
+
+    assert call_growth(harvested_sets, lines(1_000), lines(2_000)) < TWOFOLD
+    assert growth(harvested_sets, lines(2_500), lines(10_000)) < FOURFOLD
+    assert len(harvested_sets(lines(100_000))) == 200_002
 
 
 @pytest.mark.parametrize("unit", ["a=", "a ", '"', "{", '{"', "= ", "LINE=", "[=", "=[", "a,"])
 def test_no_line_takes_long(unit: str) -> None:
-    deck = deck_of(f"*LINES\n LINE={unit * 200_000}\n LINE=SCR\n")
-    start = time.process_time()
-    assert "scr" in harvested_sets(deck)
-    assert "scr" in harvested_labels(deck)
-    assert time.process_time() - start < AGES
+    def line(count: int) -> Deck:
+        return deck_of(f"*LINES\n LINE={unit * count}\n LINE=SCR\n")
+
+    def harvested(deck: Deck) -> list[dict[str, str]]:
+        return [harvested_sets(deck), harvested_labels(deck)]
+
+    assert call_growth(harvested, line(2_500), line(5_000)) < TWOFOLD
+    assert growth(harvested, line(5_000), line(20_000)) < FOURFOLD
+    assert growth(harvested, line(100_000), line(400_000)) < FOURFOLD  # too many for the reader of fields
+    assert ["scr" in found for found in harvested(line(200_000))] == [True, True]
 
 
 # -------------------------------------------------------------------------------------------------- sets that are named

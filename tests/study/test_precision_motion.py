@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mudline.contact.extras import ElementSuction, Extras
-from mudline.contact.suction.law import SuctionLaw, from_cohesion
+from mudline.contact import LawAssignment
+from mudline.contact.laws.suction import SuctionHistory, SuctionLaw, from_cohesion, step
 from mudline.curves import ForceCurve
 from mudline.deck.loading import load_bytes
 from mudline.scene.build import resolve
@@ -21,13 +21,14 @@ from mudline.study.precision.cases import all_cases, reference_drop
 from mudline.study.precision.drag import Drag, drag_case
 from mudline.study.precision.drop import drop_case, drop_to
 from mudline.study.precision.integration import row
-from mudline.study.precision.laws import CurveLaw, LinearLaw
+from mudline.study.precision.laws import CurveLaw, LinearLaw, smoothed_spring
 from mudline.study.precision.pull import Pull, SuctionNumbers, breakout, pull_case
 from mudline.study.precision.reference import bounce, contact_time
 from mudline.study.precision.seabed import friction_of, seabed_of, suction_of
 from mudline.study.report import Omission
 from mudline.study.sample import TEXT, sample_scene
 from mudline.study.schemes.catalogue import SCHEMES
+from tests.contact.builders import changed
 
 CLAY = CurveLaw("clay", ForceCurve([(0.0, 0.0), (0.02, 640.0), (0.1, 1480.0), (0.5, 2450.0)]), 0.3)
 
@@ -49,6 +50,14 @@ def test_linear_law_and_its_work() -> None:
     assert kinked.spring(np.array([-1.0, 0.02]))[0].tolist() == [0.0, 1000.0]
     assert kinked.work(np.array([-1.0, 0.02])).tolist() == [0.0, 10.0]
     assert kinked.breaks().size == 0
+
+
+def test_zones_of_any_width_side_by_side() -> None:
+    z = np.array([-0.2, -0.1, 0.0, 0.0, 0.05, 0.1, 0.3])
+    h = np.array([0.1, 0.1, 0.1, 0.0, 0.0, 0.2, 0.2])
+    force, slope = smoothed_spring(z, 1000.0, h)
+    assert force == pytest.approx([0.0, 0.0, 25.0, 0.0, 50.0, 112.5, 300.0])
+    assert slope == pytest.approx([0.0, 0.0, 500.0, 0.0, 1000.0, 750.0, 1000.0])
 
 
 def test_curve_law_and_its_work() -> None:
@@ -109,6 +118,19 @@ def test_suction_numbers_are_those_of_the_law() -> None:
     assert law.force(0.01, 0.1) == pytest.approx(426.62876092, rel=1e-9)
     assert law.force(0.03, 5e-4) == pytest.approx(424.24484398, rel=1e-10)
     assert law.force(0.2, 0.1) == 0.0
+
+
+@pytest.mark.parametrize("floor", [math.nan, 0.3])
+def test_suction_is_that_of_the_evaluator(floor: float) -> None:
+    """In a first uplift a factor that is applied once per cycle has not been applied yet."""
+    numbers = suction()._replace(cyclic=0.7, cyclic_floor=floor)
+    armed = step(numbers.rows(1), SuctionHistory.initial(numbers.rows(1)), np.zeros(1), np.zeros(1), np.ones(1, bool))[
+        1
+    ]
+    for x, v in ((0.01, 0.1), (0.08, 0.1), (0.15, 0.1), (0.03, 5e-4)):
+        found, _ = step(numbers.rows(1), armed, np.array([x]), np.array([v]), np.zeros(1, bool))
+        assert -found.force[0] == pytest.approx(numbers.force(x, v), rel=1e-13)
+    assert numbers.force(0.08, 0.1) == pytest.approx(1378.5656595 * (0.7 if math.isnan(floor) else 1.0), rel=1e-10)
 
 
 def test_breakout(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -178,14 +200,15 @@ def test_endless_runs_are_not_begun(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_suction_of_a_deck_is_taken_from_it() -> None:
     found = sample_scene()
     inputs = found.contact_input()
-    law = SuctionLaw(*(np.array([low, 2.0 * low]) for low in (2000.0, 0.18, 0.3, 0.26, 0.2, 0.4, 1.0, 1e-3)))
-    given = replace(inputs, extras=Extras(suction=ElementSuction(np.array([5, 0]), law)))
+    law = SuctionLaw(*(np.array([low, 2.0 * low]) for low in (2000.0, 0.18, 0.3, 0.26, 0.2, 0.4, 1.0, 1e-3, 0.4)))
+    given = replace(inputs, laws=(LawAssignment("suction", np.array([5, 0]), law._asdict()),))
     bed = seabed_of(found).beds[0]
     notes: list[str] = []
-    assert suction_of(found, given, bed, notes) == tuple(float(values[1]) for values in law)
-    assert suction_of(found, given, bed._replace(element=9), notes).force_factor == 2000.0
+    for element, place in ((5, 0), (0, 1)):
+        assert suction_of(found, given, bed._replace(element=element), notes) == tuple(float(v[place]) for v in law)
+    assert suction_of(found, given, bed._replace(element=9), notes).force_factor == 4000.0
     assert not notes
-    assert suction_of(found, replace(inputs, extras=Extras()), bed, notes).force_factor == pytest.approx(2086.5435606)
+    assert suction_of(found, replace(inputs, laws=()), bed, notes).force_factor == pytest.approx(2086.5435606)
     assert "Bridge" in notes[0]
 
 
@@ -197,13 +220,10 @@ def test_friction_of_a_deck_is_taken_from_it() -> None:
     drag = friction_of(inputs, bed, notes)
     assert drag.limit == pytest.approx(0.35 * bed.weight)
     assert drag.stiffness == pytest.approx(drag.limit / 0.003)
-    assert inputs.extras.friction is not None
-    law = inputs.extras.friction.law
-    constant = replace(inputs.extras.friction, law=replace(law, stiffness=np.full(law.stiffness.shape, 4e4)))
-    stiff = friction_of(replace(inputs, extras=replace(inputs.extras, friction=constant)), bed, notes)
+    stiff = friction_of(changed(inputs, "friction", axial_stiffness=4e4), bed, notes)
     assert stiff.stiffness == pytest.approx(4e4 / 2.0)
     assert not notes
-    bare = friction_of(replace(inputs, extras=Extras()), bed, notes)
+    bare = friction_of(replace(inputs, laws=()), bed, notes)
     assert (bare.limit, bare.stiffness) == pytest.approx((0.5 * bed.weight, 0.5 * bed.weight / 0.003))
     assert "no friction along the line" in notes[0]
 

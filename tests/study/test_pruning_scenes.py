@@ -1,4 +1,4 @@
-"""The scenes of the pruning study: tiling, forced stages, beds, positions, bare numpy."""
+"""The scenes of the pruning study: tiling, forced laws, seabeds, positions, bare numpy."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mudline.contact import ContactInput, ContactModel
-from mudline.contact.extras import Extras
-from mudline.contact.floors import Floor
+from mudline.contact.seabed import Seabed
 from mudline.curves import ForceCurve
-from mudline.study.pruning import beds
+from mudline.study.pruning import seabeds
 from mudline.study.pruning.bare import bare_evaluation
 from mudline.study.pruning.motion import positions, series
+from mudline.study.pruning.pipe import Pipe, pipe_of
 from mudline.study.pruning.tiling import tiled
-from mudline.study.pruning.variants import AS_IT_IS, CURVE, EVERYTHING, Pipe, Variant, line, pipe_of, variants
+from mudline.study.pruning.variants import AS_IT_IS, CURVE, EVERYTHING, Variant, line, variants
 from mudline.study.sample import sample_scene
-from tests.contact.scenes import CLAY, everything
+from tests.contact.builders import CLAY, everything, only
 
 PIPE = Pipe(CLAY, 6.0e4, 0.3, 2.0)
 STAGES = {
@@ -83,6 +83,21 @@ def test_tiled_elements_keep_their_laws(nodes: int, own: int, seed: int) -> None
     assert set(made.length) <= set(inputs.length)
 
 
+def test_every_copy_has_the_parameters_of_its_origin() -> None:
+    inputs, copies = everything(12, 3), 3
+    made = tiled(inputs, 12 * copies + 1)
+    assert set(made.assigned) == set(inputs.assigned)
+    for name, law in made.assigned.items():
+        last = 12 * copies if law.law.acts_on == "nodes" else -1
+        origin = np.where(law.rows == last, 12, law.rows % 12)
+        for parameter, values in law.parameters.items():
+            own = inputs.assigned[name].spread(parameter, 13)
+            assert np.array_equal(values, own[origin], equal_nan=True)
+    assert made.weight is not None
+    assert inputs.weight is not None
+    assert np.array_equal(made.weight, np.tile(inputs.weight, copies))
+
+
 def test_tiling_needs_a_line() -> None:
     inputs = everything(3, 1)
     with pytest.raises(ValueError, match="two nodes"):
@@ -92,10 +107,10 @@ def test_tiling_needs_a_line() -> None:
         tiled(none, 10)
 
 
-def test_tiling_of_a_scene_without_extras() -> None:
-    made = tiled(replace(everything(5, 2), extras=Extras()), 17)
-    assert not made.extras.history
-    assert ContactModel(made).evaluate().contact.any()
+def test_tiling_of_a_scene_without_history() -> None:
+    model = ContactModel(tiled(only(everything(5, 2), "curve", "linear", "smoothed"), 17))
+    assert not model.plan.history
+    assert model.evaluate().contact.any()
 
 
 def test_the_pipe_is_that_of_the_deck() -> None:
@@ -104,7 +119,7 @@ def test_the_pipe_is_that_of_the_deck() -> None:
     assert pipe.curve is inputs.curves[0]
     assert (pipe.diameter, pipe.length) == (0.3, 2.0)
     assert pipe.stiffness == pytest.approx(45000.0 / 0.3)
-    bare = replace(line(PIPE, 3), law=np.zeros(2, np.int8), diameter=np.full(2, np.nan), length=np.zeros(2))
+    bare = replace(line(PIPE, 3), laws=(), diameter=np.full(2, np.nan), length=np.zeros(2))
     usual = pipe_of(bare, CLAY)
     assert (usual.curve, usual.diameter, usual.length) == (CLAY, 0.3, 1.0)
 
@@ -123,14 +138,14 @@ def test_bare_numpy_gives_what_the_evaluator_gives() -> None:
         assert mine == pytest.approx(getattr(result, name), rel=1e-13)
 
 
-@pytest.mark.parametrize("floor", [beds.planes(5, 100.0), beds.profile(20, 100.0), beds.scattered(30, 100.0)])
-def test_beds_are_there_all_along_the_line(floor: Floor) -> None:
-    level = floor.elevation(np.linspace(0.0, 100.0, 50), np.zeros(50))
+@pytest.mark.parametrize("seabed", [seabeds.planes(5, 100.0), seabeds.profile(20, 100.0), seabeds.scattered(30, 100.0)])
+def test_beds_are_there_all_along_the_line(seabed: Seabed) -> None:
+    level = seabed.elevation(np.linspace(0.0, 100.0, 50), np.zeros(50))
     assert np.isfinite(level).all()
     assert np.ptp(level) > 0.0
 
 
 def test_each_plane_of_a_valley_counts_somewhere() -> None:
-    level = beds.planes(4, 90.0).elevation(np.linspace(-30.0, 200.0, 2000), np.zeros(2000))
+    level = seabeds.planes(4, 90.0).elevation(np.linspace(-30.0, 200.0, 2000), np.zeros(2000))
     assert len(set(np.round(np.diff(level), 9))) >= 2
-    assert beds.planes(1, 10.0).same_normal is not None
+    assert seabeds.planes(1, 10.0).same_normal is not None

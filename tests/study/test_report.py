@@ -77,12 +77,15 @@ def test_package_that_is_not_there_is_not_listed(monkeypatch: pytest.MonkeyPatch
     assert "no-such-package" not in machine()
 
 
-def test_timing() -> None:
+def test_timing(monkeypatch: pytest.MonkeyPatch) -> None:
     calls: list[int] = []
     timing = timed(lambda: calls.append(1), runs=5)
     assert (timing.runs, len(calls)) == (5, 6)
     assert 0.0 <= timing.best <= timing.median
-    assert timed(lambda: calls.append(1), runs=1, at_least=0.001, warm=False).runs > 1
+    readings = iter([0.0, 0.5, 1.0, 1.25, 2.0, 2.75])
+    monkeypatch.setattr("mudline.study.timing.perf_counter", lambda: next(readings))
+    assert timed(lambda: calls.append(1), runs=1, at_least=1.0, warm=False) == (0.25, 0.5, 3)
+    assert len(calls) == 9
 
 
 def test_styles_differ() -> None:

@@ -11,7 +11,7 @@ import click
 
 from mudline.cli import options
 from mudline.cli.evaluate_files import read_against, read_elements, read_positions_of
-from mudline.cli.evaluate_notes import tell_before, tell_behind
+from mudline.cli.evaluate_notes import SlowSuction, tell_before, tell_behind
 from mudline.cli.evaluate_outputs import (
     PICTURES,
     RESULTS,
@@ -115,14 +115,15 @@ def command(
     drawing = PlotData(evaluation) if picture else None
     shown = "" if output else output_format
     digest = Digest(evaluation, None if view.verbose else MOST_ROWS) if shown == "text" else None
-    takers: list[Taker] = [taker for taker in (comparison, drawing, digest) if taker is not None]
+    slow = SlowSuction()
+    takers: list[Taker] = [taker for taker in (comparison, drawing, digest, slow) if taker is not None]
     with _sink(evaluation, comparison, output, shown, table, view) as sink:
         run(evaluation, [*takers, sink], view, bar=shown in {"", "text"})
         sink.finish({} if comparison is None else {"against": comparison.summary()})
     if picture and drawing is not None:
         draw(drawing, Path(picture), view)
     if not view.quiet:
-        tell_behind(evaluation, Path(output) if output else None)
+        tell_behind(evaluation, slow, Path(output) if output else None)
     if digest is not None:
         printing("evaluate").print_evaluation(digest, table, view)
     if comparison is not None and output_format == "text":

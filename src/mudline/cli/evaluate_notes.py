@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+import numpy as np
+
 from mudline.cli.evaluate_outputs import TABLES, beside
 from mudline.cli.terminal import tell
 from mudline.contact import LawKind
 from mudline.results.against import Comparison
-from mudline.results.evaluation import Evaluation
+from mudline.results.evaluation import Evaluation, Part
 
 _MOST_NAMED = 10
 
@@ -29,8 +31,29 @@ def tell_before(evaluation: Evaluation, comparison: Comparison | None) -> None:
         _tell_unmatched(comparison)
 
 
-def tell_behind(evaluation: Evaluation, written: Path | None) -> None:
-    """Which files were written."""
+class SlowSuction:
+    """Counts the steps at which suction is pulled at velocities below REGULARISATION."""
+
+    def __init__(self) -> None:
+        self.steps = 0
+        self.element: int | None = None
+
+    def take(self, part: Part) -> None:
+        """Look at some steps."""
+        slow = part.result.regularised
+        if slow is None or not slow.any():
+            return
+        self.steps += int(slow.any(axis=1).sum())
+        if self.element is None:
+            self.element = int(np.argwhere(slow)[0, 1])
+
+
+def tell_behind(evaluation: Evaluation, slow: SlowSuction, written: Path | None) -> None:
+    """Where suction is less than its power law gives, and which files were written."""
+    if slow.element is not None:
+        number = int(evaluation.scene.element_ids[slow.element])
+        when = f"at {slow.steps} of {_count(evaluation.steps, 'step')}, element {number} first"
+        tell(f"suction is pulled slower than REGULARISATION {when}: the force there is less than alpha v^n")
     if written is None:
         return
     if written.suffix.lower() in TABLES:

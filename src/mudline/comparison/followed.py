@@ -13,7 +13,7 @@ from mudline.comparison.flat import record_values
 from mudline.comparison.model import Difference, Tolerance, Value, plain, ranges
 from mudline.comparison.numbered import common
 from mudline.comparison.side import Side
-from mudline.contact.inputs import LawKind
+from mudline.contact.input import LawKind
 from mudline.diagnostics import Where
 from mudline.keywords.model import Record
 from mudline.scene.laws import Grant

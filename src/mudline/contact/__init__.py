@@ -1,4 +1,4 @@
-"""Contact of pipe elements with the sea floor: plain arrays in, depths, forces, stiffnesses and reactions out.
+"""Contact of pipe elements with the seabed: plain arrays in, depths, forces, stiffnesses and reactions out.
 
     model = ContactModel(ContactInput(...))
     print(model.plan)
@@ -10,16 +10,19 @@ Nothing here knows decks, sets or keywords. X is up, the units are those of the 
 from __future__ import annotations
 
 from mudline.contact.errors import ElementError, PositionError
-from mudline.contact.inputs import ContactInput, LawKind, Tension
+from mudline.contact.input import ContactInput, LawAssignment, LawKind, Tension
 from mudline.contact.model import ContactModel
 from mudline.contact.plan import Plan, Stage
 from mudline.contact.result import ContactResult
+from mudline.contact.state import ContactState
 
 __all__ = [
     "ContactInput",
     "ContactModel",
     "ContactResult",
+    "ContactState",
     "ElementError",
+    "LawAssignment",
     "LawKind",
     "Plan",
     "PositionError",

@@ -9,8 +9,14 @@ BoolArray = NDArray[np.bool_]
 FloatArray = NDArray[np.float64]
 IdArray = NDArray[np.int64]
 IndexArray = NDArray[np.intp]
+SmallIndexArray = NDArray[np.int32]
 StateArray = NDArray[np.int8]
 Picked = IndexArray | slice
+
+
+def taken(values: FloatArray, at: Picked) -> FloatArray:
+    """Return columns of values (steps, k); a view where they follow each other."""
+    return values[:, at] if isinstance(at, slice) else values.take(at, axis=1)
 
 
 def as_range(indices: IndexArray) -> Picked:

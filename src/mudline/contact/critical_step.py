@@ -8,7 +8,7 @@ from decimal import ROUND_DOWN, Context
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
-from mudline.contact.suction.law import SuctionLaw, maximum_force, suction_depth
+from mudline.contact.laws.suction import SuctionLaw, breakout_uplift, maximum_force
 
 _THREE_DIGITS = Context(prec=3, rounding=ROUND_DOWN)
 
@@ -67,7 +67,10 @@ def release_stiffness(law: SuctionLaw, velocity: FloatArray) -> FloatArray:
 
     F_max / ((1 - xc2) Delta_B): only a structure that is stiffer, per unit length, has one equilibrium there.
     """
-    force, _ = maximum_force(law, velocity)
     with np.errstate(all="ignore"):
-        slope: FloatArray = force / ((1.0 - law.second_corner) * suction_depth(law, velocity))
+        force, _ = maximum_force(
+            velocity, law.force_factor * law.largest_factor, law.force_exponent, law.regularisation
+        )
+        uplift = breakout_uplift(velocity, law.depth_factor, law.depth_exponent, law.regularisation)
+        slope: FloatArray = force / ((1.0 - law.second_corner) * uplift)
     return slope

@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
-from mudline.contact.arrays import BoolArray, IdArray
-
 
 class PositionError(ValueError):
     """A node's position or velocity is not finite, or what follows from it there overflows.
@@ -39,19 +35,3 @@ class ElementError(ValueError):
 
     def __reduce__(self) -> tuple[type[ElementError], tuple[str, int, int | None]]:
         return type(self), (str(self), self.element, self.step)
-
-
-def refuse_elements(wrong: BoolArray, ids: IdArray, first_step: int, what: str) -> None:
-    """Raise ElementError for the first of the elements (steps, m) that are `wrong`, if there is one."""
-    if wrong.any():
-        row, column = np.argwhere(wrong)[0].tolist()
-        element, step = int(ids[column]), first_step + row
-        raise ElementError(f"element {element} at step {step}: {what}", element, step)
-
-
-def refuse_nodes(wrong: BoolArray, ids: IdArray, first_step: int, what: str) -> None:
-    """Raise PositionError for the first of the nodes (steps, n) that are `wrong`, if there is one."""
-    if wrong.any():
-        row, column = np.argwhere(wrong)[0].tolist()
-        node, step = int(ids[column]), first_step + row
-        raise PositionError(f"node {node} at step {step}: {what}", node, step)

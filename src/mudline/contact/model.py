@@ -1,31 +1,30 @@
-"""The evaluator: from positions to contact forces, with only the stages that an input needs."""
+"""The evaluator: from positions to contact forces, with only the laws that an input has."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from mudline.contact.arrays import BoolArray, FloatArray
-from mudline.contact.compiled.choice import Backend, checked, compiles
-from mudline.contact.ends import Ends
-from mudline.contact.errors import refuse_elements, refuse_nodes
-from mudline.contact.inputs import ContactInput, LawKind
+from mudline.contact.checks import is_finite, refuse, refuse_pulling
+from mudline.contact.choice import Backend, Choice
+from mudline.contact.input import ContactInput
+from mudline.contact.numpy_driver import Batch, NumpyDriver
 from mudline.contact.plan import Plan, make_plan
-from mudline.contact.positions import RealArray, as_mask, as_series, as_times, as_velocities, read_steps
+from mudline.contact.positions import as_mask, as_series, as_times, as_velocities, read_steps
 from mudline.contact.result import ContactResult, blank_result
-from mudline.contact.stages import Stages, StepDetail
+from mudline.contact.seabed import FlatSeabed, Seabed
 from mudline.contact.state import ContactState
+from mudline.contact.tables import Tables
 
 if TYPE_CHECKING:
-    from mudline.contact.compiled.runner import Runner
-    from mudline.contact.compiled.tables import Tables
+    from mudline.contact.compiled_driver import CompiledDriver
+    from mudline.contact.stiffest import Stiffest
     from mudline.contact.tangent import Tangent
-
-_CHUNK = 16384
-"""Elements or nodes, times steps, evaluated at a time: the work arrays stay in the second-level cache."""
 
 
 class Stepped(NamedTuple):
@@ -36,37 +35,36 @@ class Stepped(NamedTuple):
 
 
 class ContactModel:
-    """Contact of the elements of an input with the sea floor. Holds no state; may be shared by threads.
+    """Contact of the elements of an input with the seabed. Holds no state; may be shared by threads.
 
     Laws per unit length act on an element: depth is the mean of its two nodes' depths, and each node takes half of the
     force. (So a line whose nodes lie alternately by the same distance above and below their mean feels no change.)
     Nodal springs, friction and trenches act on the node's own position.
 
     Attributes:
-        input: what the model was made from.
-        plan: the stages, active or not, and why.
+        input: what it was made from.
+        plan: which parts of the evaluation the input needs, which it does not, and why.
     """
 
-    def __init__(self, inputs: ContactInput, *, backend: Backend = "auto") -> None:
-        """Make the stages that an input needs.
+    def __init__(self, given: ContactInput, *, backend: Backend = "auto", threads: int | None = None) -> None:
+        """Prepare the laws of an input.
 
-        `backend` says how a scene with history goes through its steps: "numpy", "fast" (compiled loops; equal to
-        rounding) or "auto": "fast" for long series if the extra `mudline[fast]` is installed. Tangents and scenes
-        without history are always reckoned with numpy.
+        `backend` says how steps are evaluated: "numpy", "fast" (compiled loops) or "auto": "fast" for long series if
+        the extra `mudline[fast]` is installed. Both give the same bits. What the compiled loops do not cover runs with
+        numpy, and the plan says so. `threads` is the largest number of threads of compiled loops; None: one for each
+        processor.
 
         Raises:
             ImportError: `backend` is "fast", but the extra is not installed.
             ValueError: there is no such backend.
         """
-        self._backend = checked(backend)
-        self._tables: Tables | None = None
-        self.input = inputs
-        self.plan: Plan = make_plan(inputs)
-        self._stages = Stages(inputs)
-        self._ends = Ends(inputs.element_nodes, len(inputs.node_ids))
-        self._first, self._second = inputs.element_nodes.T
-        self._no_diameter = np.isnan(inputs.diameter)
-        self._rigid = _rigid_nodes(inputs)
+        self.input = given
+        self._seabed: Seabed = given.seabed or FlatSeabed()
+        self._tables = Tables(given)
+        self._choice = Choice(backend, threads, self._tables, flat=isinstance(self._seabed, FlatSeabed))
+        self.plan: Plan = make_plan(given, self._tables, self._choice)
+        self._numpy = NumpyDriver(self._tables, self._seabed)
+        self._compiled: CompiledDriver | None = None
 
     def evaluate(
         self,
@@ -113,26 +111,28 @@ class ContactModel:
         series, mask = as_series(positions, nodes), as_mask(present, nodes)
         motion = as_velocities(velocities, series.shape)
         clock = as_times(times, len(series))
-        if self._stages.suction is not None and motion is None and clock is None and len(series) > 1:
+        if self._tables.suction is not None and motion is None and clock is None and len(series) > 1:
             raise ValueError("a series with suction needs velocities, or the times of its steps")
-        evaluated = mask[self._first] & mask[self._second]
-        rows = max(1, _CHUNK // max(nodes, len(self.input.element_ids), 1))
-        whole = self._blank(len(series), evaluated, mask) if together else None
-        state = self.initial_state()
-        runner = self._runner(len(series), mask)
+        driver = self._driver(len(series))
+        rows = self._numpy.steps if driver is None else driver.steps
+        whole = self._blank(len(series), mask) if together else None
+        state = self._tables.initial_state()
         for start in range(0, len(series), rows):
             steps = range(start, min(start + rows, len(series)))
-            count = len(steps)
-            part = self._blank(count, evaluated, mask) if whole is None else whole.steps(steps.start, steps.stop)
-            state = self._evaluate_steps(series, motion, clock, steps, part, state, runner)
+            part = self._blank(len(steps), mask) if whole is None else whole.steps(steps.start, steps.stop)
+            with np.errstate(all="ignore"):  # everything that can overflow is checked
+                points = read_steps(series, steps, self.input.node_ids, mask)
+                rates = None if motion is None else np.asarray(motion[steps.start : steps.stop], np.float64)
+                spans = None if clock is None else np.diff(clock[max(start - 1, 0) : steps.stop])
+                state = self._advance(driver, points, rates, spans, part, state, start)
             if whole is None:
                 yield Stepped(start, part)
         if whole is not None:
             yield Stepped(0, whole)
 
     def initial_state(self) -> ContactState:
-        """Return the state before the first step: nothing has touched the bed."""
-        return self._stages.initial_state()
+        """Return the state before the first step: nothing has touched the seabed."""
+        return self._tables.initial_state()
 
     def step(
         self,
@@ -144,197 +144,154 @@ class ContactModel:
         """Evaluate one step (n, 3) behind `state`; return its result and the state behind it.
 
         Without velocities (n, 3) they are differences to the step before over `dt`, 0 at the first step.
+
+        Raises:
+            PositionError, ElementError: as `evaluate`.
+            ValueError: as `evaluate`, or `dt` is not finite and above 0, or is missing where it is needed.
         """
-        result, after, _ = self._step(positions, velocities, state, dt, detailed=False)
-        return result, after
-
-    def step_in_detail(
-        self,
-        positions: ArrayLike,
-        velocities: ArrayLike | None,
-        state: ContactState,
-        dt: float | None = None,
-    ) -> tuple[ContactResult, ContactState, StepDetail]:
-        """The same with the derivatives of its parts, which `tangent` assembles."""
-        return self._step(positions, velocities, state, dt, detailed=True)
-
-    def _step(
-        self,
-        positions: ArrayLike,
-        velocities: ArrayLike | None,
-        state: ContactState,
-        dt: float | None,
-        *,
-        detailed: bool,
-    ) -> tuple[ContactResult, ContactState, StepDetail]:
+        if dt is not None and not 0.0 < dt < np.inf:
+            raise ValueError(f"dt must be finite and above 0, not {dt!r}")
         nodes = len(self.input.node_ids)
         series = as_series(positions, nodes)
         if len(series) != 1:
             raise ValueError("a step takes the positions of one step")
         mask = as_mask(None, nodes)
-        part = self._blank(1, mask[self._first], mask)
+        motion = as_velocities(velocities, series.shape)
+        if self._tables.suction is not None and motion is None and state.positions is not None and dt is None:
+            raise ValueError("a step without velocities needs dt > 0")
+        part = self._blank(1, mask)
         with np.errstate(all="ignore"):
             # a copy: the state keeps it, and whoever steps may write the next positions into the same array
             points = read_steps(series, range(1), self.input.node_ids, mask).copy()
-            motion = as_velocities(velocities, series.shape)
-            moving = points[0] * 0.0 if motion is None else np.asarray(motion[0], np.float64)
-            if motion is None and state.positions is not None and self._stages.suction is not None:
-                if dt is None or not dt > 0.0:
-                    raise ValueError("a step without velocities needs dt > 0")
-                moving = (points[0] - state.positions) / dt
-            runner = None if detailed else self._runner(1, mask)
-            after = None if runner is None else runner.advance(points, moving[None], np.zeros(1), part, state)
-            if after is not None:
-                return part.step(0), after, StepDetail()
-            detail, after = self._one_step(points, moving, part, state, 0, detailed=detailed)
-        return part.step(0), after, detail
+            rates = None if motion is None else np.asarray(motion, np.float64)
+            spans = None if dt is None or state.positions is None else np.array([dt])
+            after = self._advance(self._driver(1), points, rates, spans, part, state, 0, kept=True)
+        return part.step(0), after
 
     def tangent(
         self, positions: ArrayLike, velocities: ArrayLike | None, state: ContactState, dt: float | None = None
     ) -> Tangent:
         """Return d reactions / d positions and d reactions / d velocities of one step behind `state`, as triples.
 
-        Over curved beds the normal is held.
+        Over curved seabeds the normal is held. Raises what `step` does.
         """
         from mudline.contact.tangent import assemble  # noqa: PLC0415 - forces alone do without it
 
-        result, _, detail = self.step_in_detail(positions, velocities, state, dt)
+        result, after = self.step(positions, velocities, state, dt)
         with np.errstate(all="ignore"):
-            points = np.asarray(positions, np.float64).reshape(-1, 3)
-            return assemble(self.input, points, result, detail)
+            points = np.array(positions, np.float64).reshape(1, -1, 3)
+            rates = None if velocities is None else np.asarray(velocities, np.float64).reshape(1, -1, 3)
+            spans = None if dt is None or state.positions is None else np.array([dt])
+            speed = self._speed(points, rates, spans, result.normal[None], state)
+            return assemble(self._tables, points[0], None if speed is None else speed[0], result, (state, after))
 
-    def _blank(self, steps: int, evaluated: BoolArray, mask: BoolArray) -> ContactResult:
-        return blank_result(steps, evaluated, mask, self.input.extras, self._stages.floor.same_normal, self._rigid)
+    def stiffest(self, positions: ArrayLike | None = None, velocities: ArrayLike | None = None) -> Stiffest:
+        """Return for each law and element the largest stiffness and the largest damping: what a time step resolves.
 
-    def _evaluate_steps(  # noqa: PLR0913, PLR0917 - what a few steps of a series are made of
+        Without positions those that the laws can reach under the static normal force (`input.weight`) and at the worst
+        velocity; with positions (n, 3) or (steps, n, 3), and velocities of their shape, those that occur there. See
+        `mudline.contact.stiffest`.
+        """
+        from mudline.contact.stiffest import stiffest  # noqa: PLC0415 - forces alone do without it
+
+        result = None if positions is None else self.evaluate(positions, velocities=velocities)
+        speed = None
+        if result is not None and velocities is not None:
+            rates = np.asarray(velocities, np.float64)
+            speed = (rates * result.normal).sum(axis=-1)
+        return stiffest(self._tables, result, speed)
+
+    def _driver(self, steps: int) -> CompiledDriver | None:
+        """The compiled loops, if they are to evaluate so many steps."""
+        if not self._choice.compiles(steps):
+            return None
+        if self._compiled is None:
+            from mudline.contact.compiled_driver import CompiledDriver  # noqa: PLC0415 - loads numba
+
+            self._compiled = CompiledDriver(self._tables, self._seabed, self._choice)
+        return None if self._compiled.broken else self._compiled
+
+    def _blank(self, steps: int, mask: BoolArray) -> ContactResult:
+        line = self._tables.line
+        evaluated = mask[line.first] & mask[line.second]
+        return blank_result(steps, evaluated, mask, self._tables, self._seabed.same_normal)
+
+    def _advance(  # noqa: PLR0913, PLR0917 - what a batch is made of
         self,
-        series: RealArray,
-        motion: RealArray | None,
-        clock: FloatArray | None,
-        steps: range,
+        driver: CompiledDriver | None,
+        points: FloatArray,
+        rates: FloatArray | None,
+        spans: FloatArray | None,
         part: ContactResult,
         state: ContactState,
-        runner: Runner | None,
+        first_step: int,
+        *,
+        kept: bool = False,
     ) -> ContactState:
-        """Evaluate some steps into `part`: at once where nothing looks back, else one after the other."""
-        with np.errstate(all="ignore"):  # everything that can overflow is checked
-            points = read_steps(series, steps, self.input.node_ids, part.present)
-            if not self.plan.history:
-                self._locate(points, part)
-                self._embed(part, steps.start)
-                self._stages.press(part, steps.start)
-                self._stages.gather(part, steps.start)
-                self._stages.check(part, steps.start)
-                self._blank_absent(part)
-                return state
-            if runner is not None:
-                rates, since = _rates(points, motion, clock, steps)
-                after = runner.advance(points, rates, since, part, state)
-                if after is not None:
-                    self._blank_absent(part)
-                    return after
-            for index, number in enumerate(steps):
-                moving = _velocity(points[index], motion, clock, number, state)
-                _, state = self._one_step(
-                    points[index : index + 1], moving, part.steps(index, index + 1), state, number
-                )
-        return state
+        """Evaluate a batch into `part`; return the state behind it, in the arrays of `state` unless that is `kept`."""
+        laid = points[0] if state.laid is None else state.laid
+        self._numpy.locate(points, part)
+        batch = Batch(points, self._speed(points, rates, spans, part.normal, state), laid)
+        after = None if driver is None else driver.run(batch, part, state)
+        if after is None:
+            after = state.copied() if kept else state
+            self._numpy.run(batch, part, after)
+            if not is_finite(part, batch.speed):
+                refuse(part, batch.speed, first_step, self._tables)
+        refuse_pulling(part, first_step, self._tables)
+        if not part.present.all():
+            _blank_absent(part)
+        if not self.plan.history:
+            return state
+        return replace(after, positions=points[-1], laid=laid)
 
-    def _one_step(
+    def _speed(
         self,
         points: FloatArray,
-        moving: FloatArray,
-        part: ContactResult,
+        rates: FloatArray | None,
+        spans: FloatArray | None,
+        normal: FloatArray,
         state: ContactState,
-        number: int,
-        *,
-        detailed: bool = False,
-    ) -> tuple[StepDetail, ContactState]:
-        self._locate(points, part)
-        self._embed(part, number)
-        self._stages.press(part, number)
-        detail, after = self._stages.look_back(part, points[0], moving, state, number)
-        stiffness = self._stages.gather(part, number)
-        detail, after = self._stages.slide(part, points[0], detail._replace(nodal=stiffness), after, detailed=detailed)
-        self._stages.check(part, number)
-        self._blank_absent(part)
-        return detail, after
+    ) -> FloatArray | None:
+        """Velocities (steps, n) along the normals, where suction asks for them.
 
-    def _runner(self, steps: int, mask: BoolArray) -> Runner | None:
-        """The compiled loops, if they are to go through so many steps."""
-        if not self.plan.history or not compiles(self._backend, steps * len(mask)):
+        Those given, else differences over `spans`, the times since the steps before: 0 at the first step of a series.
+        """
+        if self._tables.suction is None:
             return None
-        from mudline.contact.compiled.runner import Runner  # noqa: PLC0415 - loads numba
-        from mudline.contact.compiled.tables import tables  # noqa: PLC0415 - loads suction and friction
-
-        if self._tables is None:
-            self._tables = tables(self.input, self._stages.onset)
-        return Runner(self._tables, self._stages.floor, mask)
-
-    def _locate(self, points: FloatArray, part: ContactResult) -> None:
-        """Gaps and normals of the nodes."""
-        floor = self._stages.floor
-        if floor.same_normal is None:
-            floor.locate(points, part.gap, part.normal)
-        else:
-            floor.gaps(points, part.gap)
-
-    def _embed(self, part: ContactResult, first_step: int) -> None:
-        """Depth, ratio and contact of the elements from the gaps of the nodes; NaN where there is no seabed."""
-        first, second = self._ends.at(part.gap)
-        np.multiply(0.5, first, out=part.depth)  # halves first: their sum cannot overflow
-        part.depth[...] += 0.5 * second
-        np.subtract(0.0, part.depth, out=part.depth)
-        np.divide(part.depth, self.input.diameter, out=part.ratio)
-        np.greater(part.depth, self._stages.onset, out=part.contact)
-        part.slope[:, self._no_diameter] = np.nan
-        refuse_nodes(np.isinf(part.gap), self.input.node_ids, first_step, "its distance to the bed overflows")
-        infinite = np.isinf(part.ratio) | np.isinf(part.depth)
-        refuse_elements(infinite, self.input.element_ids, first_step, "its embedment ratio overflows")
-
-    @staticmethod
-    def _blank_absent(part: ContactResult) -> None:
-        """Leave no number where there was no position; depth, ratio and gap are NaN already."""
-        if part.present.all():
-            return
-        for on_elements in (part.force, part.slope, part.stiffness):
-            on_elements[:, ~part.evaluated] = np.nan
-        part.normal_force[:, ~part.present] = np.nan
-        part.reaction[:, ~part.present] = np.nan
-        if part.friction is not None:
-            part.friction[:, ~part.present] = np.nan
+        flat = isinstance(self._seabed, FlatSeabed)
+        if rates is None:
+            rates = _differences(points[..., :1] if flat else points, spans, state.positions)
+        if flat:
+            return np.ascontiguousarray(rates[..., 0])
+        return rates[..., 0] * normal[..., 0] + rates[..., 1] * normal[..., 1] + rates[..., 2] * normal[..., 2]
 
 
-def _rigid_nodes(inputs: ContactInput) -> BoolArray | None:
-    elements = inputs.with_law(LawKind.RIGID)
-    if not elements.size:
-        return None
-    found = np.zeros(len(inputs.node_ids), np.bool_)
-    found[inputs.element_nodes[elements]] = True
-    return found
+def _differences(points: FloatArray, spans: FloatArray | None, before: FloatArray | None) -> FloatArray:
+    """Velocities over the times since the steps before: 0 at the first step of a series.
+
+    `points` (steps, n, axes) may have fewer axes than `before` (n, 3).
+    """
+    rates = np.empty(points.shape)
+    first = 1
+    if before is not None and spans is not None and len(spans) == len(points):
+        first = 0
+        np.subtract(points[0], before[..., : points.shape[-1]], out=rates[0])
+    else:
+        rates[0] = 0.0
+    np.subtract(points[1:], points[:-1], out=rates[1:])
+    if spans is None:
+        rates[1:] = 0.0
+    else:
+        rates[first:] /= spans[len(spans) - len(points) + first :, None, None]
+    return rates
 
 
-def _velocity(
-    points: FloatArray, motion: RealArray | None, clock: FloatArray | None, number: int, state: ContactState
-) -> FloatArray:
-    """Velocities (n, 3) of a step: those given, else the difference to the step before, else none."""
-    if motion is not None:
-        return np.asarray(motion[number], np.float64)
-    if clock is None or state.positions is None:
-        return np.zeros_like(points)
-    velocity: FloatArray = (points - state.positions) / (clock[number] - clock[number - 1])
-    return velocity
-
-
-def _rates(
-    points: FloatArray, motion: RealArray | None, clock: FloatArray | None, steps: range
-) -> tuple[FloatArray, FloatArray]:
-    """Velocities (steps, n, 3) and zeros, or the points and the times (steps,) over which their differences count."""
-    since = np.zeros(len(steps))
-    if motion is not None:
-        return np.asarray(motion[steps.start : steps.stop], np.float64), since
-    if clock is None:
-        return np.zeros_like(points), since
-    first = max(steps.start, 1)
-    since[first - steps.start :] = np.diff(clock[first - 1 : steps.stop])
-    return points, since
+def _blank_absent(part: ContactResult) -> None:
+    """Leave no number where there was no position; depth, ratio and gap are NaN already."""
+    for on_elements in (part.force, part.slope, part.stiffness):
+        on_elements[:, ~part.evaluated] = np.nan
+    part.normal_force[:, ~part.present] = np.nan
+    part.reaction[:, ~part.present] = np.nan
+    if part.friction is not None:
+        part.friction[:, ~part.present] = np.nan

@@ -7,8 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mudline.contact.extras import Extras
-from mudline.contact.inputs import ContactInput, LawKind
+from mudline.contact.arrays import FloatArray
+from mudline.contact.choice import Choice
+from mudline.contact.input import ContactInput, LawKind
+from mudline.contact.tables import Tables
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,29 +54,25 @@ class Plan:
         return "\n".join([*lines, f"{'history':<10} {'yes' if self.history else 'no':<3} {self.steps}"])
 
 
-def make_plan(inputs: ContactInput) -> Plan:
-    """Return the stages that `inputs` needs and those it does not."""
-    extras = inputs.extras
-    springs = bool(np.isin(inputs.law, (LawKind.CURVE, LawKind.LINEAR)).any())
-    uplift = extras.suction is not None or extras.suction_springs is not None
-    nodal = extras.nodal is not None
-    forces = springs or uplift or nodal
-    slides = extras.friction is not None
+def make_plan(given: ContactInput, tables: Tables, choice: Choice) -> Plan:
+    """Return the stages that an input needs and those it does not."""
+    uplift = given.has("suction", "suction spring")
+    forces = bool(tables.normal or tables.nodal) or uplift
     stages = (
-        Stage("floor", active=True, why=_floor(inputs)),
-        Stage("normal law", springs or nodal, _normal_law(inputs)),
-        Stage("smoothing", *_smoothing(extras)),
-        Stage("unloading", *_unloading(extras)),
-        Stage("suction", uplift, _suction(extras)),
-        Stage("friction", slides, _friction(extras)),
-        Stage("lateral", *_lateral(extras)),
-        Stage("trench", *_trench(extras)),
+        Stage("floor", active=True, why=_seabed(given)),
+        Stage("normal law", bool(tables.normal or tables.nodal), _normal_law(given, tables, choice)),
+        Stage("smoothing", *_smoothing(tables)),
+        Stage("unloading", *_unloading(given)),
+        Stage("suction", uplift, _suction(given)),
+        Stage("friction", given.has("friction"), _friction(given)),
+        Stage("lateral", *_lateral(given)),
+        Stage("trench", *_trench(given, tables)),
         Stage("assembly", forces, _ASSEMBLED if forces else "there are no forces to assemble"),
     )
-    return Plan(tuple(_with_reason(stage, inputs.left_out.get(stage.stage)) for stage in stages), extras.history)
+    return Plan(tuple(_with_reason(stage, given.left_out.get(stage.stage)) for stage in stages), tables.history)
 
 
-_ASSEMBLED = "half of each element's force to each of its nodes, along the normal of the bed"
+_ASSEMBLED = "half of each element's force to each of its nodes, along the normal of the seabed"
 
 
 def _with_reason(stage: Stage, left_out: str | None) -> Stage:
@@ -83,89 +81,112 @@ def _with_reason(stage: Stage, left_out: str | None) -> Stage:
     return Stage(stage.stage, stage.active, f"{stage.why}; {left_out}" if stage.active else left_out)
 
 
-def _floor(inputs: ContactInput) -> str:
-    if inputs.floor is None:
-        return "one flat bed at X = 0"
-    held = "" if inputs.floor.facetted else "; tangents hold the normal"
-    return inputs.floor.describe() + held
+def _seabed(given: ContactInput) -> str:
+    if given.seabed is None:
+        return "one flat seabed at X = 0"
+    held = "" if given.seabed.faceted else "; tangents hold the normal"
+    return given.seabed.describe() + held
 
 
-def _normal_law(inputs: ContactInput) -> str:
-    on_curves = inputs.with_law(LawKind.CURVE)
+def _normal_law(given: ContactInput, tables: Tables, choice: Choice) -> str:
     parts = []
-    if on_curves.size:
-        used = np.unique(inputs.curve_index[on_curves]).size
-        cut = ", pulling forces cut to 0" if inputs.tension == "cut" else ""
-        parts.append(f"{_count(on_curves.size, 'element')} on {_count(used, 'force-embedment curve')}{cut}")
-    if linear := inputs.with_law(LawKind.LINEAR).size:
+    curves = [rows for rows in tables.normal if rows.curve >= 0]
+    if curves:
+        cut = ", pulling forces cut to 0" if given.tension == "cut" else ""
+        elements = _count(sum(len(rows.rows) for rows in curves), "element")
+        parts.append(f"{elements} on {_count(len(curves), 'force-embedment curve')}{cut}")
+    linear = sum(len(rows.rows) for rows in tables.normal if rows.law.name in {"linear", "smoothed"})
+    if linear:
         parts.append(f"{_count(linear, 'element')} with a linear stiffness")
-    if inputs.extras.nodal is not None:
-        springs = int((~np.isnan(inputs.extras.nodal.stiffness)).sum())
-        parts.append(f"{_count(springs, 'node')} with a stiffness of {'its' if springs == 1 else 'their'} own")
+    parts += [
+        f"{_count(len(rows.rows), 'element')} with the law {rows.law.name!r}: {rows.law.summary}"
+        for rows in tables.normal
+        if rows.curve < 0 and rows.law.name not in {"linear", "smoothed"}
+    ]
+    for rows in tables.nodal:
+        own = "its" if len(rows.rows) == 1 else "their"
+        what = f"a stiffness of {own} own" if rows.law.name == "nodal" else f"the law {rows.law.name!r}"
+        parts.append(f"{_count(len(rows.rows), 'node')} with {what}")
     if not parts:
         parts.append("no element has a curve or a linear stiffness")
-    if rigid := inputs.with_law(LawKind.RIGID).size:
-        parts.append(f"{_count(rigid, 'element')} on a rigid bed: a constraint, told as restrained nodes")
-    if none := inputs.with_law(LawKind.NONE).size:
+    if "rigid" in given.assigned:
+        rigid = len(given.assigned["rigid"].rows)
+        parts.append(f"{_count(rigid, 'element')} on a rigid seabed: a constraint, listed as restrained nodes")
+    if none := int((given.law == LawKind.NONE).sum()):
         parts.append(f"{_count(none, 'element')} without a law")
+    if choice.uncovered:
+        parts.append(f"evaluated with numpy: {choice.uncovered}")
     return "; ".join(parts)
 
 
-def _smoothing(extras: Extras) -> tuple[bool, str]:
-    widths = [part.half_width for part in (extras.smoothing, extras.nodal) if part is not None]
+def _smoothing(tables: Tables) -> tuple[bool, str]:
+    widths: list[FloatArray] = [
+        rows.columns[1] for rows in (*tables.normal, *tables.nodal) if rows.law.name in {"smoothed", "nodal"}
+    ]
     smooth = sum(int((width > 0.0).sum()) for width in widths)
     if smooth:
         return True, f"a quadratic zone about the mudline for {smooth} of the linear laws"
     return False, "no linear law has a quadratic zone"
 
 
-def _unloading(extras: Extras) -> tuple[bool, str]:
-    if extras.unloading is None:
+def _unloading(given: ContactInput) -> tuple[bool, str]:
+    if "unloading" not in given.assigned:
         return False, "no element has an unloading stiffness"
-    count = int((~np.isnan(extras.unloading)).sum())
+    count = len(given.assigned["unloading"].rows)
     return True, f"{_count(count, 'element')} on unloading lines, from the deepest point so far"
 
 
-def _suction(extras: Extras) -> str:
+def _suction(given: ContactInput) -> str:
     parts = []
-    if extras.suction is not None:
-        parts.append(f"{_count(len(extras.suction.elements), 'element')} after Bridge et al., with a state each")
-    if extras.suction_springs is not None:
-        count = int((extras.suction_springs.stiffness > 0.0).sum())
+    if "suction" in given.assigned:
+        law = given.assigned["suction"]
+        slow = sorted(set(law["regularisation"].tolist()))
+        span = f"{slow[0]:g}" if len(slow) == 1 else f"{slow[0]:g} to {slow[-1]:g}"
+        capped = f", less force than alpha v^n below v = {span}" if slow[-1] > 0.0 else ""
+        parts.append(f"{_count(len(law.rows), 'element')} after Bridge et al., with a state each{capped}")
+    if "suction spring" in given.assigned:
+        count = int((given.assigned["suction spring"]["stiffness"] > 0.0).sum())
         parts.append(f"{_count(count, 'element')} with a spring up to an extent, without history (inferred)")
     return "; ".join(parts) or "no element has a suction law"
 
 
-def _friction(extras: Extras) -> str:
-    if extras.friction is None:
+def _friction(given: ContactInput) -> str:
+    law = given.assigned.get("friction")
+    if law is None:
         return "no node has a friction law"
-    law = extras.friction.law
-    constant = law.active & law.constant.any(axis=1)
-    lengths = int((law.active & ~constant).sum())
+    constant = ~(np.isnan(law["axial_stiffness"]) & np.isnan(law["lateral_stiffness"]))
     parts = []
     if constant.any():
-        ellipses = int((constant & law.ellipse).sum())
+        ellipses = int((constant & (law["elliptic"] > 0.0)).sum())
         criterion = f", {ellipses} of them with an ellipse" if ellipses else ""
         parts.append(f"{_count(int(constant.sum()), 'node')} with a constant spring{criterion}")
-    if lengths:
+    if lengths := int((~constant).sum()):
         parts.append(f"{_count(lengths, 'node')} with a mobilisation length, Kt = mu N / length (inferred)")
     return "; ".join(parts)
 
 
-def _lateral(extras: Extras) -> tuple[bool, str]:
-    if extras.lateral is None:
+def _lateral(given: ContactInput) -> tuple[bool, str]:
+    if "lateral" not in given.assigned:
         return False, "no element has a lateral spring"
-    count = int((extras.lateral > 0.0).sum())
+    count = int((given.assigned["lateral"]["stiffness"] > 0.0).sum())
     return True, f"{_count(count, 'element')} with a spring to where it touched down (inferred), in place of friction"
 
 
-def _trench(extras: Extras) -> tuple[bool, str]:
-    if extras.trench is None:
+_TRENCHES = {
+    "trench peak": "with a peak resistance of the walls (inferred), where the depth has no effect (MODEL=WALL uses it)",
+    "trench table": "with a tabulated resistance of the walls (inferred), where depth and widths have no effect",
+    "trench wall": "with sloped walls (inferred)",
+}
+
+
+def _trench(given: ContactInput, tables: Tables) -> tuple[bool, str]:
+    found = {name: given.assigned[name] for name in _TRENCHES if name in given.assigned}
+    if not found:
         return False, "no node lies in a trench"
-    if extras.friction is None:
+    if tables.trench is None:
         return False, "a trench adds to the limits of friction, and no node has a friction law"
-    count = int((~np.isnan(extras.trench.law.peak)).sum())
-    return True, f"{_count(count, 'node')} with a peak resistance of the walls (inferred); the bed is not lowered"
+    parts = [f"{_count(len(law.rows), 'element')} {_TRENCHES[name]}" for name, law in found.items()]
+    return True, "; ".join([*parts, "the seabed is not lowered"])
 
 
 def _count(number: int, thing: str) -> str:

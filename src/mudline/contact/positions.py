@@ -49,8 +49,8 @@ def read_steps(series: RealArray, steps: range, node_ids: IdArray, present: Bool
         PositionError: a position of a node that is present is NaN, infinite or too large for a float64.
     """
     points = np.asarray(series[steps.start : steps.stop], dtype=np.float64)
-    finite = np.isfinite(points)
-    if not finite.all() and (bad := np.argwhere(~finite.all(axis=2) & present)).size:
+    # a finite sum has finite terms only, and is sooner had than a look at each of them
+    if not np.isfinite(points.sum()) and (bad := np.argwhere(~np.isfinite(points).all(axis=2) & present)).size:
         row, column = bad[0].tolist()
         step, node = steps.start + row, int(node_ids[column])
         place = tuple(points[row, column].tolist())

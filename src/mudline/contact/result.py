@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mudline.contact.arrays import BoolArray, FloatArray, StateArray
-from mudline.contact.extras import Extras
+from mudline.contact.tables import Tables
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -30,6 +32,8 @@ class ContactResult:
         reaction: (..., n, 3) total force of the bed on the node.
         normal_force: the reaction along the normal, positive pushing out of the bed.
         state: (..., m) `SuctionState` of the elements, -1 without suction; None where no element has it.
+        regularised: (..., m) suction at a velocity below v_r, where the force is less than the power law gives; None
+            without suction.
         friction: (..., n, 2) force of friction and lateral springs on the pipe along u1 and u2; None without any.
         friction_state: (..., n, 2) `FrictionState` of the nodes; None without friction.
         evaluated: (m,) elements whose two nodes have positions.
@@ -51,6 +55,7 @@ class ContactResult:
     evaluated: BoolArray
     present: BoolArray
     state: StateArray | None = None
+    regularised: BoolArray | None = None
     friction: FloatArray | None = None
     friction_state: StateArray | None = None
     rigid: BoolArray | None = None
@@ -59,6 +64,12 @@ class ContactResult:
     def restrained(self) -> BoolArray | None:
         """Nodes (..., n) that a rigid bed restrains along their `normal`: its own, at the bed or below it."""
         return None if self.rigid is None else self.rigid & (self.gap <= 0.0)
+
+    def friction_state_of(self, side: int) -> StateArray:
+        """Return the states (..., n) along u1 (0) or u2 (1); -1 without friction."""
+        if self.friction_state is None:
+            return np.full(self.gap.shape, -1, np.int8)
+        return self.friction_state[..., side]
 
     def step(self, index: int) -> ContactResult:
         """Return one step of a series, as views."""
@@ -84,6 +95,7 @@ class ContactResult:
             evaluated=self.evaluated,
             present=self.present,
             state=None if self.state is None else self.state[key],
+            regularised=None if self.regularised is None else self.regularised[key],
             friction=None if self.friction is None else self.friction[key],
             friction_state=None if self.friction_state is None else self.friction_state[key],
             rigid=self.rigid,
@@ -91,35 +103,40 @@ class ContactResult:
 
 
 def blank_result(
-    steps: int,
-    evaluated: BoolArray,
-    present: BoolArray,
-    extras: Extras,
-    same_normal: FloatArray | None,
-    rigid: BoolArray | None = None,
+    steps: int, evaluated: BoolArray, present: BoolArray, tables: Tables, same_normal: FloatArray | None
 ) -> ContactResult:
-    """Return a series of results to be filled in: no force anywhere, depths, ratios and gaps not yet set.
+    """Return a series of results to be filled in.
 
-    Arrays for `extras` that are not there are left out. Where all points of the bed share a normal, it is a view.
+    Arrays for laws that are not there are left out. Where all points of the seabed share a normal, it is a view, and so
+    is `cut` where nothing is ever cut.
     """
     on_elements, on_nodes = (steps, len(evaluated)), (steps, len(present))
-    slides = extras.friction is not None
+    slides = tables.friction is not None or tables.lateral is not None
+    cuts = tables.cuts and any(rows.curve >= 0 for rows in tables.normal)
     return ContactResult(
         depth=np.empty(on_elements),
         ratio=np.empty(on_elements),
-        contact=np.zeros(on_elements, np.bool_),
-        force=np.zeros(on_elements),
-        slope=np.zeros(on_elements),
-        stiffness=np.zeros(on_elements),
-        cut=np.zeros(on_elements, np.bool_),
+        contact=np.empty(on_elements, np.bool_),
+        force=np.empty(on_elements),
+        slope=np.empty(on_elements),
+        stiffness=np.empty(on_elements),
+        cut=np.zeros(on_elements, np.bool_) if cuts else _repeated(np.zeros((), np.bool_), on_elements),
         gap=np.empty(on_nodes),
-        normal=np.empty((*on_nodes, 3)) if same_normal is None else np.broadcast_to(same_normal, (*on_nodes, 3)),
-        reaction=np.zeros((*on_nodes, 3)),
-        normal_force=np.zeros(on_nodes),
+        normal=np.empty((*on_nodes, 3)) if same_normal is None else _repeated(same_normal, on_nodes),
+        reaction=np.empty((*on_nodes, 3)),
+        normal_force=np.empty(on_nodes),
         evaluated=evaluated,
         present=present,
-        state=None if extras.suction is None else np.full(on_elements, -1, np.int8),
-        friction=np.zeros((*on_nodes, 2)) if slides or extras.lateral is not None else None,
-        friction_state=np.full((*on_nodes, 2), -1, np.int8) if slides else None,
-        rigid=rigid,
+        state=None if tables.suction is None else np.full(on_elements, -1, np.int8),
+        regularised=None if tables.suction is None else np.zeros(on_elements, np.bool_),
+        friction=np.empty((*on_nodes, 2)) if slides else None,
+        friction_state=None if tables.friction is None else np.empty((*on_nodes, 2), np.int8),
+        rigid=tables.rigid,
     )
+
+
+def _repeated(values: NDArray[Any], shape: tuple[int, int]) -> NDArray[Any]:
+    """The same values everywhere, as a view that may not be written; what np.broadcast_to does, sooner."""
+    found: NDArray[Any] = np.ndarray((*shape, *values.shape), values.dtype, values.data, 0, (0, 0, *values.strides))
+    found.setflags(write=False)
+    return found

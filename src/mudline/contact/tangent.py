@@ -2,25 +2,21 @@
 
     d R = A d x + B d v,   R reactions, x positions, v velocities, each (n, 3) in the order of its rows.
 
-Inside a facet of the bed A is the exact derivative of the step with what it remembers held fixed; over a curved bed the
-normal is held too. Friction makes A unsymmetric. B holds the velocity of the suction law.
+Inside a facet of the seabed A is the exact derivative of the step with what it remembers held fixed; over a curved
+seabed the normal is held too. Friction makes A unsymmetric. B holds the velocity of the suction law.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from mudline.contact.arrays import FloatArray, IndexArray
-from mudline.contact.friction.directions import senses
-from mudline.contact.inputs import ContactInput
+from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
+from mudline.contact.directions import Directions, directions_of
 from mudline.contact.result import ContactResult
-from mudline.contact.stages import StepDetail
-
-if TYPE_CHECKING:
-    from mudline.contact.lateral import LateralSprings
-    from mudline.contact.sliding import Sliding
+from mudline.contact.state import ContactState
+from mudline.contact.tables import Tables
 
 
 class Triples(NamedTuple):
@@ -32,7 +28,7 @@ class Triples(NamedTuple):
     size: int
 
     def dense(self) -> FloatArray:
-        """The matrix as an array, for small ones."""
+        """Return the matrix as an array, for small ones."""
         matrix = np.zeros((self.size, self.size))
         np.add.at(matrix, (self.rows, self.columns), self.values)
         return matrix
@@ -55,7 +51,7 @@ class _Blocks:
         self._values: list[FloatArray] = []
 
     def add(self, at: IndexArray, by: IndexArray, blocks: FloatArray) -> None:
-        """Blocks (k, 3, 3) of the nodes `at` (k,) by the nodes `by` (k,)."""
+        """Add blocks (k, 3, 3) of the nodes `at` (k,) by the nodes `by` (k,)."""
         axes = np.arange(3)
         shape = blocks.shape
         self._rows.append(np.broadcast_to((3 * at[:, None] + axes)[:, :, None], shape).reshape(-1))
@@ -63,7 +59,7 @@ class _Blocks:
         self._values.append(blocks.reshape(-1))
 
     def triples(self) -> Triples:
-        """All of them."""
+        """Return all of them."""
         nothing: IndexArray = np.zeros(0, dtype=np.intp)
         return Triples(
             np.concatenate([nothing, *self._rows]),
@@ -73,67 +69,129 @@ class _Blocks:
         )
 
 
-class _Line(NamedTuple):
-    """What the parts of a tangent share: per node the normal (n, 3), per element its ends (m, 2) and L / 2 (m,)."""
+class _Step(NamedTuple):
+    """What the parts of a tangent share.
 
+    points, normal: (n, 3). ends: (m, 2) nodes of the elements. half: (m,) half lengths. before, after: the states.
+    """
+
+    tables: Tables
+    points: FloatArray
     normal: FloatArray
     ends: IndexArray
     half: FloatArray
+    result: ContactResult
+    before: ContactState
+    after: ContactState
 
 
-def assemble(inputs: ContactInput, points: FloatArray, result: ContactResult, detail: StepDetail) -> Tangent:
-    """The tangent of one step at `points` (n, 3), from its result and its details."""
-    nodes = len(inputs.node_ids)
-    line = _Line(np.asarray(result.normal), inputs.element_nodes, 0.5 * inputs.length)
-    stiffness = np.nan_to_num(result.stiffness)
-    own = np.zeros(nodes) if detail.nodal is None else detail.nodal[0]
+def assemble(
+    tables: Tables,
+    points: FloatArray,
+    speed: FloatArray | None,
+    result: ContactResult,
+    states: tuple[ContactState, ContactState],
+) -> Tangent:
+    """Return the tangent of one step at `points` (n, 3) with velocities (n,) along the normals.
+
+    `states` are those before and behind the step, `result` what it gave.
+    """
+    nodes = len(points)
+    step = _Step(tables, points, np.asarray(result.normal), tables.given.element_nodes, tables.half, result, *states)
+    stiffness, own = np.nan_to_num(result.stiffness), _nodal_stiffness(step)
     by_position, by_velocity = _Blocks(nodes), _Blocks(nodes)
-    _normal(line, stiffness, own, by_position)
+    _add_normal(step, stiffness, own, by_position)
     damping = np.zeros(len(stiffness))
-    if detail.suction is not None:
-        elements, suction = detail.suction
-        damping[elements] = 0.0 - suction.by_velocity
-        _normal(line, damping, np.zeros(nodes), by_velocity)
-    if detail.lateral is not None:
-        _lateral(line, points, detail.lateral, by_position)
-    if detail.sliding is not None:
-        sliding = detail.sliding
-        closed = np.flatnonzero((sliding.force.history.states[:, 0] > 0) & (result.normal_force > 0.0))
-        axes = np.stack(sliding.directions, axis=1)
-        push = np.einsum("nij,ni->nj", axes, sliding.force.by_compression)
-        _by_spring(axes, sliding, closed, by_position)
-        _by_turning(line, points, sliding, closed, by_position)
-        _by_compression(line, push, closed, (stiffness, own), by_position)
-        _by_compression(line, push, closed, (damping, np.zeros(nodes)), by_velocity)
+    if speed is not None and tables.suction is not None:
+        damping = _suction_damping(step, speed)
+        _add_normal(step, damping, np.zeros(nodes), by_velocity)
+    if tables.lateral is not None:
+        _add_lateral(step, by_position)
+    if tables.friction is not None:
+        sliding = _slide(step)
+        closed = np.flatnonzero((result.friction_state_of(0) > 0) & (result.normal_force > 0.0))
+        axes = np.stack(sliding.directions.axes, axis=1)
+        push = np.einsum("nij,ni->nj", axes, sliding.by_compression)
+        _add_springs(axes, sliding, closed, by_position)
+        _add_turning(step, sliding, closed, by_position)
+        _add_compression(step, push, closed, (stiffness, own), by_position)
+        _add_compression(step, push, closed, (damping, np.zeros(nodes)), by_velocity)
     return Tangent(by_position.triples(), by_velocity.triples())
 
 
-def _normal(line: _Line, stiffness: FloatArray, own: FloatArray, blocks: _Blocks) -> None:
+def _nodal_stiffness(step: _Step) -> FloatArray:
+    """Stiffness (n,) of the springs of nodes."""
+    found = np.zeros(len(step.points))
+    for rows in step.tables.nodal:
+        z = 0.0 - step.result.gap[rows.rows]
+        slope = rows.reaction(z, 0.0, *rows.columns)[1]
+        found[rows.rows] = np.where(z > rows.law.onset(*rows.columns), slope, 0.0)
+    return found
+
+
+def _suction_damping(step: _Step, speed: FloatArray) -> FloatArray:
+    """Minus d force / d pull-out velocity (m,) of suction."""
+    from mudline.contact.laws.suction import SUCTION, SuctionLaw, suction_damping  # noqa: PLC0415 - only now needed
+
+    tables, history = step.tables, step.before.suction
+    found = np.zeros(len(step.half))
+    if tables.suction is None or history is None or step.after.suction is None:
+        return found
+    elements = tables.suction.rows
+    uplift = (0.0 if tables.onset is None else tables.onset[elements]) - step.result.depth[elements]
+    if tables.unloading is not None and step.after.unloading is not None:
+        bottom = np.full(len(step.half), np.nan)
+        bottom[tables.unloading.rows] = step.after.unloading.bottom
+        unloads = ~np.isnan(bottom[elements])
+        uplift = np.where(unloads, bottom[elements] - step.result.depth[elements], uplift)
+    v = 0.5 * speed[step.ends[elements, 0]] + 0.5 * speed[step.ends[elements, 1]]
+    damping = suction_damping(uplift, v, history.v_max, SuctionLaw(*tables.suction.columns), history.factor)
+    found[elements] = np.where(step.after.suction.state == SUCTION, 0.0 - damping, 0.0)
+    return found
+
+
+def _add_normal(step: _Step, stiffness: FloatArray, own: FloatArray, blocks: _Blocks) -> None:
     """Normal forces along fixed normals: `stiffness` (m,) by depth of the elements, `own` (n,) by that of nodes."""
     used = np.flatnonzero(stiffness)
-    share = -0.5 * line.half[used] * stiffness[used]
-    for at in line.ends[used].T:
-        for by in line.ends[used].T:
-            blocks.add(at, by, share[:, None, None] * _outer(line.normal[at], line.normal[by]))
+    share = -0.5 * step.half[used] * stiffness[used]
+    for at in step.ends[used].T:
+        for by in step.ends[used].T:
+            blocks.add(at, by, share[:, None, None] * _outer(step.normal[at], step.normal[by]))
     nodes = np.flatnonzero(own)
-    blocks.add(nodes, nodes, -own[nodes, None, None] * _outer(line.normal[nodes], line.normal[nodes]))
+    blocks.add(nodes, nodes, -own[nodes, None, None] * _outer(step.normal[nodes], step.normal[nodes]))
 
 
-def _lateral(line: _Line, points: FloatArray, springs: LateralSprings, blocks: _Blocks) -> None:
+def _add_lateral(step: _Step, blocks: _Blocks) -> None:
     """Lateral springs: along their direction, which turns with the element."""
-    ends = line.ends[springs.elements]
-    first, second = ends.T
-    mean = line.normal[first] + line.normal[second]
+    lateral, before, after = step.tables.lateral, step.before.touchdown, step.after.touchdown
+    if lateral is None or before is None or after is None:
+        return
+    rows = np.flatnonzero(step.result.contact[lateral.rows])
+    new = np.isnan(before[rows, 0])
+    stiffness = np.where(new, 0.0, lateral.columns[0][rows])  # where it touches down there is no force yet
+    first, second = step.ends[lateral.rows[rows]].T
+    mean = step.normal[first] + step.normal[second]
     mean = mean / _size(mean)[:, None]
-    turn = _turning(points[second] - points[first], mean)  # of n x t by the second end, minus that by the first
-    force = -0.5 * springs.stiffness * springs.elongation
-    middle = springs.arm
+    span = step.points[second] - step.points[first]
+    across = np.cross(mean, _projected(span, mean))
+    arm = 0.5 * step.points[first] + 0.5 * step.points[second] - after[rows]
+    turn = _turning(span, mean)  # of n x t by the second end, minus that by the first
+    force = -0.5 * stiffness * np.einsum("ki,ki->k", across, arm)
     for by, sign in ((first, -1.0), (second, 1.0)):
-        by_place = 0.5 * springs.direction + sign * np.einsum("ki,kij->kj", middle, turn)
-        slope = (-0.5 * springs.stiffness)[:, None] * by_place
-        block = _outer(springs.direction, slope) + force[:, None, None] * sign * turn
+        by_place = 0.5 * across + sign * np.einsum("ki,kij->kj", arm, turn)
+        slope = (-0.5 * stiffness)[:, None] * by_place
+        block = _outer(across, slope) + force[:, None, None] * sign * turn
         for at in (first, second):
             blocks.add(at, by, block)
+
+
+def _projected(span: FloatArray, normal: FloatArray) -> FloatArray:
+    """Unit vectors (k, 3) along the projections of spans; the default direction for one along the normal."""
+    from mudline.contact.directions import in_plane  # noqa: PLC0415 - beside its only use
+
+    size = _size(span)
+    unit = np.divide(span, size[:, None], out=np.zeros_like(span), where=size[:, None] > 0.0)
+    return np.stack(in_plane(tuple(unit.T), tuple(normal.T)), axis=1)
 
 
 def _turning(span: FloatArray, normal: FloatArray) -> FloatArray:
@@ -142,68 +200,118 @@ def _turning(span: FloatArray, normal: FloatArray) -> FloatArray:
     size = _size(flat)
     able = size > 0.0  # an element without direction takes one that does not turn
     along = np.divide(flat, size[:, None], out=np.zeros_like(flat), where=able[:, None])
-    # d t = (I - t t - n n) d span / |flat|, and n x (that) = -t (n x t . d span) ... only n x t is left of the plane
+    # d t = (I - t t - n n) d span / |flat|, and of it only n x t is left in the plane: n x (that) = -t (n x t . d span)
     across = np.cross(normal, along)
     return 0.0 - _outer(along, across) / np.where(able, size, 1.0)[:, None, None]
 
 
-def _by_spring(axes: FloatArray, sliding: Sliding, closed: IndexArray, blocks: _Blocks) -> None:
+class _Sliding(NamedTuple):
+    """Friction of one step at nodes (n,): derivatives of its forces (n, 2) along u1 and u2.
+
+    directions: u1, u2 and how they turn. force: (n, 2). elongation: (n, 2) from the stick points.
+    by_position: (n, 2, 2) by the elongations. by_compression: (n, 2) by the normal force.
+    by_added: (n, 2) by what trenches add to the lateral limit. gradient: (n, 3) of that by the node's position, and
+    by_angle: (n,) by a turn of the directions; both None without trenches.
+    """
+
+    directions: Directions
+    force: FloatArray
+    elongation: FloatArray
+    by_position: FloatArray
+    by_compression: FloatArray
+    by_added: FloatArray
+    gradient: FloatArray | None
+    by_angle: FloatArray | None
+
+
+def _slide(step: _Step) -> _Sliding:
+    from mudline.contact.laws.friction import ExtraLimit, slide  # noqa: PLC0415 - only now is it needed
+
+    tables, history = step.tables, step.before.friction
+    law = tables.friction_law()
+    absent = np.isnan(step.result.gap)
+    places = np.where(absent[:, None], 0.0, step.points)
+    compression = np.where(absent, 0.0, step.result.normal_force)
+    directions = directions_of(tables, step.points, step.normal)
+    extra, gradient, by_angle = None, None, None
+    if history is None:
+        raise TypeError("the state has no friction: it belongs to another model")
+    if tables.trench is not None:
+        from mudline.contact.trenches import added_limit  # noqa: PLC0415 - most friction has no trench
+
+        laid = step.points if step.before.laid is None else step.before.laid
+        trial = slide(law, history, places, directions.axes, compression).trial[:, 1]
+        added = added_limit(tables, laid, places, directions.axes, np.maximum(compression, 0.0), trial > 0.0)
+        gradient, by_angle = added.gradient, added.by_angle
+        extra = ExtraLimit(added.force, np.ones(len(places)), added.by_normal_force, np.where(trial > 0.0, 1.0, -1.0))
+    found = slide(law, history, places, directions.axes, compression, extra)
+    return _Sliding(
+        directions,
+        found.force,
+        found.elongation,
+        found.by_position,
+        found.by_compression,
+        found.by_offset,
+        gradient,
+        by_angle,
+    )
+
+
+def _add_springs(axes: FloatArray, sliding: _Sliding, closed: IndexArray, blocks: _Blocks) -> None:
     """Springs, and limits that follow the offset in a trench, along u1 and u2."""
-    along = np.einsum("nij,njk->nik", sliding.force.by_position, axes)
-    if sliding.offset_gradient is not None:
-        along += sliding.force.by_offset[:, :, None] * sliding.offset_gradient[:, None, :]
+    along = np.einsum("nij,njk->nik", sliding.by_position, axes)
+    if sliding.gradient is not None:
+        along += sliding.by_added[:, :, None] * sliding.gradient[:, None, :]
     own = np.einsum("nij,nik->njk", axes, along)
     blocks.add(closed, closed, own[closed])
 
 
-def _by_compression(
-    line: _Line, push: FloatArray, closed: IndexArray, stiffness: tuple[FloatArray, FloatArray], blocks: _Blocks
+def _add_compression(
+    step: _Step, push: FloatArray, closed: IndexArray, stiffness: tuple[FloatArray, FloatArray], blocks: _Blocks
 ) -> None:
     """The limits follow the normal force: `push` (n, 3) is d friction / d N, `stiffness` that of elements and nodes."""
     elements, own = stiffness
-    blocks.add(closed, closed, -own[closed, None, None] * _outer(push[closed], line.normal[closed]))
-    held = np.zeros(len(own), np.bool_)
-    held[closed] = True
-    for at in line.ends.T:
+    blocks.add(closed, closed, -own[closed, None, None] * _outer(push[closed], step.normal[closed]))
+    held = _marked(closed, len(own))
+    for at in step.ends.T:
         used = np.flatnonzero((elements != 0.0) & held[at])
-        share = -0.5 * line.half[used] * elements[used]
-        for by in line.ends[used].T:
-            blocks.add(at[used], by, share[:, None, None] * _outer(push[at[used]], line.normal[by]))
+        share = -0.5 * step.half[used] * elements[used]
+        for by in step.ends[used].T:
+            blocks.add(at[used], by, share[:, None, None] * _outer(push[at[used]], step.normal[by]))
 
 
-def _by_turning(line: _Line, points: FloatArray, sliding: Sliding, closed: IndexArray, blocks: _Blocks) -> None:
+def _add_turning(step: _Step, sliding: _Sliding, closed: IndexArray, blocks: _Blocks) -> None:
     """What changes as u1 and u2 follow the line: the directions of the forces, elongations and offsets.
 
     A turn by an angle a about the normal makes d u1 = a u2, d u2 = -a u1.
     """
-    force, (first, second) = sliding.force, sliding.directions
-    by_angle = np.stack([force.elongation[:, 1], 0.0 - force.elongation[:, 0]], axis=1)
-    change = np.einsum("nij,nj->ni", force.by_position, by_angle)
-    if sliding.to_centreline is not None:
-        change += force.by_offset * (0.0 - np.einsum("ni,ni->n", first, sliding.to_centreline))[:, None]
+    first, second = sliding.directions.axes
+    by_angle = np.stack([sliding.elongation[:, 1], 0.0 - sliding.elongation[:, 0]], axis=1)
+    change = np.einsum("nij,nj->ni", sliding.by_position, by_angle)
+    if sliding.by_angle is not None:
+        change += sliding.by_added * sliding.by_angle[:, None]
     turned = change[:, 0, None] * first + change[:, 1, None] * second
-    turned += force.force[:, 0, None] * second - force.force[:, 1, None] * first
-    held = np.zeros(len(points), np.bool_)
-    held[closed] = True
-    held &= sliding.follows
-    start, end = line.ends.T
-    span = points[end] - points[start]
+    turned += sliding.force[:, 0, None] * second - sliding.force[:, 1, None] * first
+    held = _marked(closed, len(step.points)) & sliding.directions.follows
+    start, end = step.ends.T
+    span = step.points[end] - step.points[start]
     length = _size(span)
     unit = np.divide(span, length[:, None], out=np.zeros_like(span), where=length[:, None] > 0.0)
-    total = np.zeros_like(points)
-    sense = senses(line.ends, len(points))
-    for side, at in enumerate(line.ends.T):
-        np.add.at(total, at, unit * sense[:, side, None])
-    flat = total - np.einsum("ni,ni->n", total, line.normal)[:, None] * line.normal
-    size = _size(flat)
+    size = sliding.directions.size
     for side, at in enumerate((start, end)):
         used = np.flatnonzero(held[at] & (length > 0.0) & (size[at] > 0.0))
         node = at[used]
         sideways = second[node] - np.einsum("ni,ni->n", second[node], unit[used])[:, None] * unit[used]
-        angle = sideways * (sense[used, side] / (length[used] * size[node]))[:, None]
+        angle = sideways * (sliding.directions.senses[used, side] / (length[used] * size[node]))[:, None]
         block = _outer(turned[node], angle)
         blocks.add(node, end[used], block)
         blocks.add(node, start[used], 0.0 - block)
+
+
+def _marked(rows: IndexArray, count: int) -> BoolArray:
+    found = np.zeros(count, np.bool_)
+    found[rows] = True
+    return found
 
 
 def _outer(one: FloatArray, other: FloatArray) -> FloatArray:

@@ -1,4 +1,4 @@
-"""Stage `trench`: where the nodes are in their trenches, and what these add to the lateral limits of friction."""
+"""Where nodes are in their trenches, and what these add to the lateral limits of friction; see `laws.trench`."""
 
 from __future__ import annotations
 
@@ -7,87 +7,359 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
-from mudline.contact.extras import NodeTrench
-from mudline.contact.friction.return_mapping import ExtraLimit
-from mudline.contact.friction.trench import Centreline, LaidCentreline, StraightCentreline
-from mudline.contact.inputs import ContactInput
-from mudline.contact.vectors import dot, gathered, nothing
+from mudline.contact.input import AssignedLaw, ContactInput
+from mudline.contact.laws.trench import (
+    PEAK,
+    TABLE,
+    WALL,
+    in_table,
+    on_wall,
+    peak_share,
+    peak_slope,
+    share_of_piece,
+    table_row,
+    table_rows,
+    wall_coefficient,
+)
+from mudline.contact.line import Line
+from mudline.contact.tables import Tables, TrenchRows
+from mudline.contact.vectors import LEAST_SQUARE
+
+_ENDS = ("start_y", "start_z", "end_y", "end_z")
 
 
-class InTrench(NamedTuple):
-    """Nodes (n,) in their trenches.
+def trench_rows(given: ContactInput, friction: FloatArray) -> TrenchRows:
+    """The trenches of the nodes; `friction` (n,) are the lateral coefficients.
 
-    extra: what the trench adds to the lateral limit.
-    away: (n, 3) way from the centreline to the node.
-    gradient: (n, 3) derivative of the offset along u2 by the node's position. Both are 0 for nodes without a trench,
-        and None where no derivatives were asked for.
+    Each end of an element counts with half of its length; equal trenches of the elements at a node are one row.
+
+    Raises:
+        ValueError: the wall of a trench locks itself: mu2 tan(theta) >= 1.
+    """
+    columns = [_of_law(given, kind, friction) for kind in (PEAK, WALL, TABLE)]
+    nodes, keys, ends, amounts = (np.concatenate(parts) for parts in zip(*columns, strict=True))
+    straight = ~np.isnan(ends[:, 0])
+    lines, line = np.unique(ends[straight], axis=0, return_inverse=True)
+    of_line = np.full(len(ends), -1.0)
+    of_line[straight] = line.ravel()
+    rows, at = np.unique(np.column_stack([nodes, keys, of_line]), axis=0, return_inverse=True)
+    span = lines[:, 2:] - lines[:, :2]
+    with np.errstate(all="ignore"):
+        direction = span / np.hypot(span[:, 0], span[:, 1])[:, None]
+    node = rows[:, 0].astype(np.intp)
+    return TrenchRows(
+        node,
+        np.searchsorted(node, np.arange(len(given.node_ids) + 1)).astype(np.intp),
+        rows[:, 1].astype(np.int8),
+        rows[:, 2].copy(),
+        rows[:, 3].copy(),
+        2.0 / (rows[:, 3] - rows[:, 2]),
+        np.bincount(at.ravel(), amounts, len(rows)).astype(np.float64),
+        rows[:, 4].astype(np.int32),
+        rows[:, 5].astype(np.int32),
+        np.ascontiguousarray(np.column_stack([lines[:, :2], direction])),
+    )
+
+
+_NAMES = {PEAK: "trench peak", WALL: "trench wall", TABLE: "trench table"}
+
+
+def _of_law(
+    given: ContactInput, kind: int, friction: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Of both ends (2 k,) of the elements with one law: nodes, keys, centrelines (2 k, 4) and amounts.
+
+    Keys (2 k, 4) are the kind, the half widths, and the table.
+    """
+    law = given.assigned.get(_NAMES[kind])
+    if law is None:
+        return np.empty(0), np.empty((0, 4)), np.empty((0, 4)), np.empty(0)
+    ends = given.element_nodes[law.rows]
+    half = 0.5 * given.length[law.rows]
+    table = law["table"] if kind == TABLE else np.full(len(law.rows), -1.0)
+    keys = np.column_stack([np.full(len(law.rows), float(kind)), 0.5 * law["bottom"], 0.5 * law["upper"], table])
+    lines = np.column_stack([law[name] for name in _ENDS])
+    amounts = []
+    for end in ends.T:
+        if kind == PEAK:
+            amounts.append(half * law["peak"])
+        elif kind == TABLE:
+            amounts.append(half)
+        else:
+            amounts.append(_wall(given, law, end, friction) * half / _lengths(given)[end])
+    nodes = ends.T.reshape(-1).astype(np.float64)
+    return nodes, np.concatenate([keys, keys]), np.concatenate([lines, lines]), np.concatenate(amounts)
+
+
+def _wall(given: ContactInput, law: AssignedLaw, nodes: IndexArray, friction: FloatArray) -> FloatArray:
+    """What the wall adds to the coefficient of friction at nodes (k,) of elements."""
+    added = wall_coefficient(law["depth"], law["bottom"], law["upper"], friction[nodes])
+    locked = np.flatnonzero(~(np.isfinite(added) & (added >= 0.0)))
+    if locked.size:
+        node = int(given.node_ids[nodes[locked[0]]])
+        raise ValueError(f"node {node} lies in a trench whose wall locks itself: mu2 tan(theta) is 1 or more")
+    return added
+
+
+def _lengths(given: ContactInput) -> FloatArray:
+    """Half of the lengths of the elements at each node; 1 where they have none."""
+    total = np.zeros(len(given.node_ids))
+    for end in given.element_nodes.T:
+        np.add.at(total, end, 0.5 * given.length)
+    return np.where(total > 0.0, total, 1.0)
+
+
+class _Pieces(NamedTuple):
+    """Straight pieces of a centreline: start and span, three (k,) each, 1 over the square of the length, and shares of its ends.
+
+    A straight centreline is a piece with a span of length 1 in the plan that does not end.
     """
 
-    extra: ExtraLimit
-    away: FloatArray | None = None
-    gradient: FloatArray | None = None
+    start: list[FloatArray]
+    span: list[FloatArray]
+    inverse: FloatArray
+    first: FloatArray | float = 0.0
+    last: FloatArray | float = 1.0
 
 
-class TrenchStage:
-    """The trenches of an input."""
+class Beside(NamedTuple):
+    """The two pieces beside each of some nodes (k,), their elements, and the shares at the ends away from the node.
 
-    def __init__(self, inputs: ContactInput, trench: NodeTrench) -> None:
-        self._elements = inputs.element_nodes
-        self._law = trench.law
-        self._inner, self._outer = 0.5 * trench.law.bottom, 0.5 * trench.law.upper
-        self._laid: tuple[FloatArray, LaidCentreline] | None = None
-        straight, known = trench.straight, ~np.isnan(trench.law.peak)
-        self._along_line = np.flatnonzero(np.isnan(straight[:, 0]) & known)
-        self._straight: list[tuple[Centreline, IndexArray]] = [
-            (
-                StraightCentreline((y0, z0), (y1, z1)),
-                np.flatnonzero((straight == (y0, z0, y1, z1)).all(axis=1) & known),
-            )
-            for y0, z0, y1, z1 in np.unique(straight[~np.isnan(straight[:, 0])], axis=0).tolist()
-        ]
+    These are NaN where there is nothing beyond. `straight` marks nodes with a straight centreline, `alone` those
+    without any piece.
+    """
 
-    def locate(
-        self, points: FloatArray, lateral: FloatArray, laid: FloatArray, pressed: BoolArray, *, detailed: bool = True
-    ) -> InTrench:
-        """Where nodes at `points` (n, 3) are, whose u2 is `lateral` (n, 3); the line was `laid` (n, 3) first.
-
-        Only `pressed` nodes (n,) are looked for.
-        """
-        count = len(points)
-        offset = np.zeros(count)
-        away, gradient = (nothing(count), nothing(count)) if detailed else (None, None)
-        for line, nodes in [(self._laid_line(laid), self._along_line), *self._straight]:
-            rows = _rows(pressed[nodes])
-            held = nodes if rows is None else nodes[rows]
-            places, across = gathered(points, held), gathered(lateral, held)
-            if away is None or gradient is None:
-                places -= line.feet(places, rows)
-            else:
-                feet, gradient[held] = line.nearest_along(places, across, rows)
-                places -= feet
-                away[held] = places
-            offset[held] = dot(across, places)
-        return InTrench(self._extra(offset), away, gradient)
-
-    def _extra(self, offset: FloatArray) -> ExtraLimit:
-        """What trenches add at offsets (n,): nothing but beside their walls."""
-        distance = np.abs(offset)
-        (walls,) = ((distance > self._inner) & (distance < self._outer)).nonzero()
-        found = self._law.rows(walls).limit(offset[walls])
-        extra = ExtraLimit(*np.zeros((3, len(offset))))
-        extra.force[walls], extra.slope[walls], extra.outward[walls] = found.force, found.slope, found.outward
-        return extra
-
-    def _laid_line(self, laid: FloatArray) -> LaidCentreline:
-        """The line as it was `laid`, prepared once: the states of a run share that array."""
-        kept = self._laid
-        if kept is None or kept[0] is not laid:
-            # in one assignment, so that threads which share the stage see pairs that belong together
-            self._laid = kept = (laid, LaidCentreline(laid, self._elements, self._along_line))
-        return kept[1]
+    pieces: tuple[_Pieces, _Pieces]
+    elements: tuple[IndexArray, IndexArray]
+    far: tuple[FloatArray, FloatArray]
+    straight: BoolArray
+    alone: BoolArray
 
 
-def _rows(wanted: BoolArray) -> IndexArray | None:
-    """The rows to reckon where some are `wanted`; None for all of them, which takes no longer than most of them."""
-    (rows,) = wanted.nonzero()
-    return None if 2 * len(rows) > len(wanted) else rows
+class Away(NamedTuple):
+    """Nodes (steps, k) beside a centreline.
+
+    vector: three components, from the nearest point. element: that it is on, -1 for straight centrelines and nodes
+    without any. share: of the element.
+    """
+
+    vector: tuple[FloatArray, ...]
+    element: IndexArray
+    share: FloatArray
+
+
+class LaidCentreline:
+    """The line through the nodes as they were laid (n, 3): straight between the two nodes of an element.
+
+    A node looks for its nearest point from its own place along the line, so that a stretch of the line which happens to
+    pass nearby is not taken for its own trench. Elements with a node without a position (NaN) are no part of it.
+    """
+
+    def __init__(self, laid: FloatArray, line: Line) -> None:
+        known = ~np.isnan(laid[:, 0])
+        if not known.all():
+            line = Line(line.ends[known[line.ends].all(axis=1)], len(laid))
+        self.ends, self.elements_at = line.ends, line.beside
+        axes = np.ascontiguousarray(laid.T)
+        start, end = line.at(axes, 0, len(line.ends))
+        span = end - start
+        with np.errstate(all="ignore"):
+            square = span[0] * span[0] + span[1] * span[1] + span[2] * span[2]
+            inverse = np.where(square > LEAST_SQUARE, 1.0 / square, 0.0)
+        self.start, self.span, self.inverse = start, span, inverse
+        self._kept: dict[int, Beside] = {}
+
+    def beside(self, key: int, trench: TrenchRows) -> Beside:
+        """Return the pieces beside the nodes of some rows, kept by `key`."""
+        if key not in self._kept:
+            self._kept[key] = self.pieces_beside(trench)
+        return self._kept[key]
+
+    def pieces_beside(self, trench: TrenchRows) -> Beside:
+        """Return the pieces beside the nodes of some rows."""
+        nodes, straight = trench.nodes, trench.line >= 0
+        one, other = self.elements_at[nodes].T
+        alone = (one < 0) & ~straight
+        other = np.where(other < 0, one, other)
+        lines = trench.lines[np.maximum(trench.line, 0)] if len(trench.lines) else np.zeros((len(nodes), 4))
+        pieces, far = [], []
+        for element in (one, other):
+            piece, end = self._no_piece(len(nodes)), np.zeros(len(nodes))
+            if len(self.ends):
+                at = np.maximum(element, 0)
+                piece, end = self._piece(at), np.where(self.ends[at, 1] == nodes, 0.0, 1.0)
+            far.append(np.where(straight | alone, np.nan, end))
+            pieces.append(_with_lines(piece, lines, straight) if straight.any() else piece)
+        return Beside((pieces[0], pieces[1]), (one, other), (far[0], far[1]), straight, alone)
+
+    @staticmethod
+    def _no_piece(count: int) -> _Pieces:
+        return _Pieces([np.zeros(count)] * 3, [np.zeros(count)] * 3, np.ones(count))
+
+    def _piece(self, at: IndexArray) -> _Pieces:
+        return _Pieces([axis[at] for axis in self.start], [axis[at] for axis in self.span], self.inverse[at])
+
+    def away(self, beside: Beside, points: list[FloatArray]) -> Away:
+        """Return where `points`, three (steps, k), are from their nearest points of the centreline."""
+        share, away, square = _foot(points, beside.pieces[0])
+        second, other, distance = _foot(points, beside.pieces[1])
+        nearer = distance < square
+        share = np.where(nearer, second, share)
+        away = [np.where(nearer, new, old) for new, old in zip(other, away, strict=True)]
+        element = np.where(nearer, beside.elements[1], beside.elements[0])
+        ends = share == np.where(nearer, beside.far[1], beside.far[0])
+        if ends.any():
+            self._walk(points, (share, away, np.where(nearer, distance, square), element), np.flatnonzero(ends))
+        if beside.straight.any():
+            away[0][:, beside.straight] = 0.0  # at the point's own elevation
+        if beside.alone.any():
+            for axis in away:
+                axis[:, beside.alone] = 0.0
+        return Away(tuple(away), element, share)
+
+    def _walk(
+        self,
+        points: list[FloatArray],
+        found: tuple[FloatArray, list[FloatArray], FloatArray, IndexArray],
+        held: IndexArray,
+    ) -> None:
+        """Go on beyond the ends of pieces that the nearest points stand on, as long as it gets nearer."""
+        shares, away, squares, elements = found
+        held = held[squares.flat[held] > 0.0]
+        while held.size:
+            share, current = shares.flat[held], elements.flat[held]
+            node = np.where(share <= 0.0, self.ends[current, 0], self.ends[current, 1])
+            one, other = self.elements_at[node].T
+            following = np.where(one == current, other, one)
+            following[(share > 0.0) & (share < 1.0)] = -1
+            held, following = held[following >= 0], following[following >= 0]
+            share, vectors, square = _foot([axis.flat[held] for axis in points], self._piece(following))
+            nearer = square < squares.flat[held]
+            held = held[nearer]
+            shares.flat[held], squares.flat[held] = share[nearer], square[nearer]
+            elements.flat[held] = following[nearer]
+            for axis, values in zip(away, vectors, strict=True):
+                axis.flat[held] = values[nearer]
+
+
+def _with_lines(piece: _Pieces, lines: FloatArray, straight: BoolArray) -> _Pieces:
+    """Straight centrelines in the place of the pieces of some nodes."""
+    y, z, along_y, along_z = lines.T
+    start = [np.where(straight, new, old) for new, old in zip((0.0, y, z), piece.start, strict=True)]
+    span = [np.where(straight, new, old) for new, old in zip((0.0, along_y, along_z), piece.span, strict=True)]
+    ends = np.where(straight, -np.inf, 0.0), np.where(straight, np.inf, 1.0)
+    return _Pieces(start, span, np.where(straight, 1.0, piece.inverse), *ends)
+
+
+def _foot(points: list[FloatArray], piece: _Pieces) -> tuple[FloatArray, list[FloatArray], FloatArray]:
+    """Share of each piece, vector from its nearest point and the square of that."""
+    away = [axis - start for axis, start in zip(points, piece.start, strict=True)]
+    share = share_of_piece((away[0], away[1], away[2]), (piece.span[0], piece.span[1], piece.span[2]), piece.inverse)
+    np.maximum(share, piece.first, out=share)
+    np.minimum(share, piece.last, out=share)
+    for component, span in zip(away, piece.span, strict=True):
+        np.subtract(component, share * span, out=component)
+    square = away[0] * away[0]
+    square += away[1] * away[1]
+    square += away[2] * away[2]
+    return share, away, square
+
+
+def resistance(
+    trench: TrenchRows, tables: tuple[FloatArray, ...], offset: FloatArray, normal_force: FloatArray
+) -> FloatArray:
+    """What each row (steps, k) adds to the lateral limit at its offset under a normal force."""
+    distance = np.abs(offset)
+    found = trench.amount * peak_share(distance, trench.inner, trench.outer, trench.steepness)
+    if not trench.kind.any():
+        return np.asarray(found)
+    walls = trench.kind == WALL
+    on = on_wall(distance, trench.inner, trench.outer)
+    found = np.where(walls, trench.amount * normal_force * on, found)
+    for index in np.unique(trench.table[trench.kind == TABLE]).tolist():
+        here = (trench.kind == TABLE) & (trench.table == index)
+        found[:, here] = trench.amount[here] * tabulated(tables[index], distance[:, here])
+    return np.asarray(found)
+
+
+def tabulated(table: FloatArray, distance: FloatArray) -> FloatArray:
+    """Resistance per unit length of a table (rows, 2) at distances from the centreline."""
+    columns = table_rows(table)
+    row = table_row(columns, distance)
+    held = np.maximum(distance, columns[0][0])
+    return np.asarray(in_table(held, columns[0][row], columns[1][row], columns[2][row]))
+
+
+def slopes(trench: TrenchRows, tables: tuple[FloatArray, ...], offset: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Derivatives of `resistance` by the distance and by the normal force, (k,) each, for one step."""
+    distance = np.abs(offset)
+    kind, inner, outer, amount = trench.kind, trench.inner, trench.outer, trench.amount
+    by_distance = np.where(kind == PEAK, amount * peak_slope(distance, inner, outer), 0.0)
+    by_normal = np.where(kind == WALL, amount * on_wall(distance, inner, outer), 0.0)
+    for index in np.unique(trench.table[kind == TABLE]).tolist():
+        here: BoolArray = (kind == TABLE) & (trench.table == index)
+        columns = table_rows(tables[index])
+        slope = np.where(distance[here] < columns[0][0], 0.0, columns[2][table_row(columns, distance[here])])
+        by_distance[here] = amount[here] * slope
+    return by_distance, by_normal
+
+
+class AddedLimit(NamedTuple):
+    """What trenches add to the lateral limits of nodes (n,) on the side to which each is pulled, with derivatives.
+
+    force: added. by_normal_force: its derivative by N. gradient: (n, 3) by the node's position with u2 held.
+    by_angle: by a turn of u1 and u2 about the normal.
+    """
+
+    force: FloatArray
+    by_normal_force: FloatArray
+    gradient: FloatArray
+    by_angle: FloatArray
+
+
+def added_limit(
+    tables: Tables,
+    laid: FloatArray,
+    points: FloatArray,
+    axes: tuple[FloatArray, FloatArray],
+    normal_force: FloatArray,
+    forward: BoolArray,
+) -> AddedLimit:
+    """Return what trenches add at `points` (n, 3); `forward` (n,) marks nodes pulled along +u2."""
+    count, whole = len(points), tables.trench
+    found = AddedLimit(np.zeros(count), np.zeros(count), np.zeros((count, 3)), np.zeros(count))
+    if whole is None:
+        return found
+    line = LaidCentreline(laid, tables.line)
+    rank = np.arange(len(whole.nodes)) - np.searchsorted(whole.nodes, whole.nodes)
+    for place in range(int(rank.max(initial=-1)) + 1):
+        rows = whole.some(np.flatnonzero(rank == place))
+        at, beside = rows.nodes, line.pieces_beside(rows)
+        where = line.away(beside, [points[at, axis][None] for axis in range(3)])
+        away, lateral = np.stack([axis[0] for axis in where.vector], axis=1), axes[1][at]
+        offset = (away * lateral).sum(axis=1)
+        side = np.where((offset > 0.0) == forward[at], 1.0, 0.0) * (offset != 0.0)
+        by_distance, by_normal = slopes(rows, tables.given.tables, offset)
+        found.force[at] += side * resistance(rows, tables.given.tables, offset[None], normal_force[at][None])[0]
+        found.by_normal_force[at] += side * by_normal
+        slope = side * by_distance * np.sign(offset)
+        found.gradient[at] += slope[:, None] * _offset_gradient(line, rows, beside, where, lateral)
+        found.by_angle[at] -= slope * (axes[0][at] * away).sum(axis=1)
+    return found
+
+
+def _offset_gradient(
+    line: LaidCentreline, rows: TrenchRows, beside: Beside, where: Away, lateral: FloatArray
+) -> FloatArray:
+    """Derivative (k, 3) of the offset along u2 by the position of a node: nothing along the piece it is beside."""
+    along = np.zeros(lateral.shape)
+    share, element = where.share[0], where.element[0]
+    inside = np.flatnonzero(~beside.straight & (share > 0.0) & (share < 1.0) & (element >= 0))
+    if inside.size:
+        span = line.span[:, element[inside]].T
+        along[inside] = span * np.sqrt(line.inverse[element[inside]])[:, None]
+    along[beside.straight, 1:] = rows.lines[rows.line[beside.straight], 2:]
+    gradient: FloatArray = lateral - (lateral * along).sum(axis=1)[:, None] * along
+    gradient[beside.straight, 0] = 0.0  # at the point's own elevation
+    gradient[beside.alone] = 0.0
+    return gradient

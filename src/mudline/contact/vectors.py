@@ -1,60 +1,165 @@
-"""Products of rows of vectors (n, 3), column by column: sums over axes of three numbers take many times that.
+"""Directions in the plane of the seabed, as tuples of components: floats in loops, arrays in numpy.
 
-Arrays made here have the shape (n, 3) and each component in one piece of memory, so that columns are read in sequence.
+Over a horizontal seabed vectors in its plane have two components, (Y, Z); else three. All functions are expressions
+that give the same bits for floats and for arrays, see `laws.base`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from mudline.contact.arrays import FloatArray, IndexArray
+from mudline.contact.laws.base import Value, where
+
+Vector = tuple[Value, ...]
+
+LEAST_SQUARE, LARGEST_SQUARE = 1e-280, 1e280
+"""Squares of lengths between these are computed without under- or overflow."""
+_STEEPEST = 1e-18
+"""Square of the sine of the angle to the normal of the seabed below which a direction has no projection."""
 
 
-def blank(count: int, components: int = 3) -> FloatArray:
-    """Room for vectors (count, components)."""
-    return np.empty((components, count)).T
+def dot_2(one: Vector, other: Vector) -> Value:
+    """Return the scalar product in the plane of a horizontal seabed."""
+    return one[0] * other[0] + one[1] * other[1]
 
 
-def nothing(count: int, components: int = 3) -> FloatArray:
-    """Vectors (count, components) of zeros."""
-    return np.zeros((components, count)).T
+def dot_3(one: Vector, other: Vector) -> Value:
+    """Return the scalar product."""
+    return one[0] * other[0] + one[1] * other[1] + one[2] * other[2]
 
 
-def gathered(vectors: FloatArray, rows: IndexArray) -> FloatArray:
-    """The `rows` (k,) of vectors (n, components)."""
-    return vectors.T.take(rows, axis=1).T
+def across_2(along: Vector, _normal: Vector) -> Vector:
+    """Return n x u of a horizontal seabed."""
+    return 0.0 - along[1], along[0]
 
 
-def dot(one: FloatArray, other: FloatArray) -> FloatArray:
-    """Scalar products (n,) of vectors (n, 3)."""
-    product = np.multiply(one, other, order="F")
-    total: FloatArray = product[:, 0] + product[:, 1]
-    total += product[:, 2]
-    return total
+def across_3(along: Vector, normal: Vector) -> Vector:
+    """Return n x u."""
+    return (
+        normal[1] * along[2] - normal[2] * along[1],
+        normal[2] * along[0] - normal[0] * along[2],
+        normal[0] * along[1] - normal[1] * along[0],
+    )
 
 
-def cross(one: FloatArray, other: FloatArray) -> FloatArray:
-    """Vector products (n, 3) of vectors (n, 3)."""
-    product, term = blank(len(one)), np.empty(len(one))
-    for axis in range(3):
-        following, last = (axis + 1) % 3, (axis + 2) % 3
-        column = product[:, axis]
-        np.multiply(one[:, following], other[:, last], out=column)
-        column -= np.multiply(one[:, last], other[:, following], out=term)
-    return product
+def tangent_share(square: Value) -> Value:
+    """Return 1 / length of a span with this square, which lies between `LEAST_SQUARE` and `LARGEST_SQUARE`."""
+    return 1.0 / np.sqrt(square)
 
 
-def scaled(vectors: FloatArray, factors: FloatArray) -> FloatArray:
-    """Vectors (n, 3), each times its factor (n,)."""
-    return np.multiply(vectors, factors[:, np.newaxis], order="F")
+def span_scale(dx: Value, dy: Value, dz: Value) -> Value:
+    """Return a number by which any span may be divided before its square is taken; 1 for one without length."""
+    largest = np.maximum(np.maximum(np.abs(dx), np.abs(dy)), np.abs(dz))
+    return where((largest > 0.0) & (largest < np.inf), largest, 1.0)
 
 
-def added_at(rows: Sequence[IndexArray], vectors: FloatArray, count: int) -> FloatArray:
-    """Sums (count, 3) of vectors (k, 3) over each of the `rows`, arrays (k,) of where they go."""
-    total = blank(count)
-    for axis in range(3):
-        values = np.ascontiguousarray(vectors[:, axis])
-        total[:, axis] = sum(np.bincount(at, values, count) for at in rows)
-    return total
+def projected_2(wanted: Vector, _normal: Vector) -> tuple[Vector, Value]:
+    """Return the unit vector along `wanted`, which lies in the plane, and whether it has a length."""
+    square = wanted[0] * wanted[0] + wanted[1] * wanted[1]
+    able = square > _STEEPEST
+    share = 1.0 / np.sqrt(where(able, square, 1.0))
+    return (wanted[0] * share, wanted[1] * share), able
+
+
+def projected_3(wanted: Vector, normal: Vector) -> tuple[Vector, Value]:
+    """Return the unit vector along the projection of `wanted` on the plane of a normal, and whether there is one."""
+    along = wanted[0] * normal[0] + wanted[1] * normal[1] + wanted[2] * normal[2]
+    rest_x, rest_y = wanted[0] - normal[0] * along, wanted[1] - normal[1] * along
+    rest_z = wanted[2] - normal[2] * along
+    square = rest_x * rest_x + rest_y * rest_y + rest_z * rest_z
+    able = square > _STEEPEST
+    share = 1.0 / np.sqrt(where(able, square, 1.0))
+    return (rest_x * share, rest_y * share, rest_z * share), able
+
+
+def default_2(normal: Vector) -> Vector:
+    """Return the direction of what has none of its own: +Y."""
+    return 1.0 + 0.0 * normal[0], 0.0 * normal[0]
+
+
+def default_3(normal: Vector) -> Vector:
+    """Return the direction of what has none of its own: the projection of +Y, or of +Z where +Y is the normal."""
+    nothing, one = 0.0 * normal[0], 1.0 + 0.0 * normal[0]
+    along_y, able = projected_3((nothing, one, nothing), normal)
+    along_z, _ = projected_3((nothing, nothing, one), normal)
+    return (
+        where(able, along_y[0], along_z[0]),
+        where(able, along_y[1], along_z[1]),
+        where(able, along_y[2], along_z[2]),
+    )
+
+
+def turned_2(cosine: Value, sine: Value, _normal: Vector) -> Vector:
+    """Return u1 at an angle to +Y over a horizontal seabed."""
+    return cosine, sine
+
+
+def turned_3(cosine: Value, sine: Value, normal: Vector) -> Vector:
+    """Return u1 at an angle to the projection of +Y, about the normal."""
+    along = default_3(normal)
+    across = across_3(along, normal)
+    return (
+        cosine * along[0] + sine * across[0],
+        cosine * along[1] + sine * across[1],
+        cosine * along[2] + sine * across[2],
+    )
+
+
+def blend_2(one: Vector, other: Vector, f: Value, g: Value) -> Vector:
+    """Return f one + g other in the plane of a horizontal seabed."""
+    return one[0] * f + other[0] * g, one[1] * f + other[1] * g
+
+
+def blend_3(one: Vector, other: Vector, f: Value, g: Value) -> Vector:
+    """Return f one + g other."""
+    return one[0] * f + other[0] * g, one[1] * f + other[1] * g, one[2] * f + other[2] * g
+
+
+def added_2(one: Vector, other: Vector) -> Vector:
+    """Return the sum of two vectors in the plane of a horizontal seabed."""
+    return one[0] + other[0], one[1] + other[1]
+
+
+def added_3(one: Vector, other: Vector) -> Vector:
+    """Return the sum of two vectors."""
+    return one[0] + other[0], one[1] + other[1], one[2] + other[2]
+
+
+def reaction_2(normal_force: Value, normal: Vector, tangential: Vector) -> Vector:
+    """Return the reaction of a horizontal seabed, (X, Y, Z)."""
+    return normal_force * normal[0] + 0.0, tangential[0], tangential[1]
+
+
+def reaction_3(normal_force: Value, normal: Vector, tangential: Vector) -> Vector:
+    """Return the reaction of the seabed."""
+    return (
+        (normal_force * normal[0] + 0.0) + tangential[0],
+        (normal_force * normal[1] + 0.0) + tangential[1],
+        (normal_force * normal[2] + 0.0) + tangential[2],
+    )
+
+
+class Plane(NamedTuple):
+    """The functions above for one number of components.
+
+    project, default, across, dot, turned, blend, added, reaction: as the functions.
+    """
+
+    project: Callable[..., Any]
+    default: Callable[..., Any]
+    across: Callable[..., Any]
+    dot: Callable[..., Any]
+    turned: Callable[..., Any]
+    blend: Callable[..., Any]
+    added: Callable[..., Any]
+    reaction: Callable[..., Any]
+
+
+PLANES = {
+    2: Plane(projected_2, default_2, across_2, dot_2, turned_2, blend_2, added_2, reaction_2),
+    3: Plane(projected_3, default_3, across_3, dot_3, turned_3, blend_3, added_3, reaction_3),
+}
+"""By the number of components."""

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-BLOCK = 16384
+BLOCK = 32768
 """Numbers at a time, so that the work arrays and the tables of a curve stay in the second-level cache."""
 
 

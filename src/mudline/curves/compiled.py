@@ -12,7 +12,7 @@ from typing import Final, TypeVar, cast
 import numba
 import numpy as np
 
-from mudline.curves.arrays import FloatArray, read_only
+from mudline.curves.arrays import FloatArray
 from mudline.curves.buckets import BucketTable
 from mudline.curves.knots import Knots
 
@@ -28,15 +28,13 @@ Curve = tuple[FloatArray, FloatArray, FloatArray]
 Function = TypeVar("Function", bound=Callable[..., object])
 
 
-def _compiled(function: Function, *examples: tuple[object, ...]) -> Function:
-    """Compile for arguments like these, or load what an earlier process left in the cache."""
-    type_of = cast("Callable[[object], object]", numba.typeof)
-    signatures = [tuple(type_of(argument) for argument in example) for example in examples]
+def _compiled(function: Function) -> Function:
+    """Compile at the first call, or load what an earlier process left in the cache."""
     try:
-        compiled = numba.njit(signatures, cache=True, error_model="numpy", nogil=True)(function)
+        compiled = numba.njit(cache=True, error_model="numpy", nogil=True)(function)
     except RuntimeError:
         # There is no place where numba may write.
-        compiled = numba.njit(signatures, error_model="numpy", nogil=True)(function)
+        compiled = numba.njit(error_model="numpy", nogil=True)(function)
     return cast("Function", compiled)
 
 
@@ -98,41 +96,38 @@ def _fill_bucketing(curve: Curve, table: BucketTable, ratio: FloatArray, force: 
     return finite
 
 
-# The types to compile for are those of examples.
-_GIVEN: Final = read_only(np.empty(0))
-_FILLED: Final = np.empty(0)
-_CURVE: Final = (_GIVEN, _GIVEN, _GIVEN)
-_TABLES: Final = [
-    BucketTable(_GIVEN, read_only(np.empty(0, kind)), addend=0.0, shift=0, base=0, crowded=0)
-    for kind in (np.uint16, np.uint32)
-]
-
-passed = _compiled(_passed, (_GIVEN, 0.0))
-fill_counting = _compiled(_fill_counting, (_CURVE, _GIVEN, _FILLED, _FILLED))
-fill_bucketing = _compiled(_fill_bucketing, *((_CURVE, table, _GIVEN, _FILLED, _FILLED) for table in _TABLES))
+passed = _compiled(_passed)
+fill_counting = _compiled(_fill_counting)
+fill_bucketing = _compiled(_fill_bucketing)
 
 
 class CountingLaw:
     """Compares every ratio with every point."""
 
     def __init__(self, knots: Knots) -> None:
-        self._curve = (knots.ratios, knots.forces, knots.tails)
+        self.curve = (knots.ratios, knots.forces, knots.tails)
 
     def fill(self, ratio: FloatArray, force: FloatArray, slope: FloatArray) -> bool:
         """See `Law`."""
-        return bool(fill_counting(self._curve, ratio, force, slope))
+        return bool(fill_counting(self.curve, _given(ratio), force, slope))
 
 
 class BucketingLaw:
     """Looks into the table of buckets; bisects for ratios in a bucket of several points."""
 
     def __init__(self, knots: Knots) -> None:
-        self._curve = (knots.ratios, knots.forces, knots.tails)
-        self._table = knots.prepare()
+        self.curve = ((knots.ratios, knots.forces, knots.tails), knots.prepare())
 
     def fill(self, ratio: FloatArray, force: FloatArray, slope: FloatArray) -> bool:
         """See `Law`."""
-        return bool(fill_bucketing(self._curve, self._table, ratio, force, slope))
+        return bool(fill_bucketing(*self.curve, _given(ratio), force, slope))
+
+
+def _given(ratio: FloatArray) -> FloatArray:
+    """The ratios as an array that may not be written: one type to compile for."""
+    view = ratio.view()
+    view.setflags(write=False)
+    return view
 
 
 def compiled_law(knots: Knots) -> CountingLaw | BucketingLaw:

@@ -19,9 +19,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from mudline.curves.arrays import FloatArray, IndexArray, read_only, real_numbers
 from mudline.curves.backends import Backend, law_for
-from mudline.curves.blocks import blocks
+from mudline.curves.blocks import BLOCK, blocks
 from mudline.curves.knots import Knots
-from mudline.curves.law import mend, refuse_infinite
+from mudline.curves.law import NumpyLaw, mend, mended, refuse_infinite
 from mudline.curves.points import checked_points, difference_quotient
 from mudline.curves.search import search_for
 from mudline.curves.work import lent
@@ -101,6 +101,19 @@ class ForceCurve:
                     mend(self._knots, ratio, block_force, done)
                 done += len(ratio)
         return force, slope
+
+    def fill(self, ratios: FloatArray, force: FloatArray, slope: FloatArray) -> None:
+        """Write force and slope at `ratios` (k,), for callers that check the force themselves.
+
+        Where a ratio is not finite or the force overflows, the force is not finite. All three arrays are float64 and
+        each in one piece of memory.
+        """
+        with lent() as work:
+            law = NumpyLaw(self._knots, search_for(self._knots, len(ratios), work), work)
+            for start in range(0, len(ratios), BLOCK):
+                piece = slice(start, start + BLOCK)
+                if not law.fill(ratios[piece], force[piece], slope[piece]):
+                    mended(self._knots, ratios[piece], force[piece])
 
     def segment(self, ratios: ArrayLike) -> IndexArray:
         """Return which segment holds at `ratios`, from 0: the first also below, the last also beyond the points.

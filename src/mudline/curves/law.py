@@ -6,7 +6,7 @@ from typing import NoReturn, Protocol
 
 import numpy as np
 
-from mudline.curves.arrays import FloatArray
+from mudline.curves.arrays import FloatArray, IndexArray
 from mudline.curves.errors import QueryError
 from mudline.curves.knots import Knots
 from mudline.curves.search import Search
@@ -47,20 +47,27 @@ class NumpyLaw:
 
 
 def mend(knots: Knots, ratio: FloatArray, force: FloatArray, start: int) -> None:
-    """Evaluate again where `force` is not finite: only an intermediate value may have overflowed.
-
-    Added in two halves the force may well be finite.
+    """Evaluate again where `force` is not finite.
 
     Raises:
-        QueryError: it is not; `start` is the index of the first ratio in the query.
+        QueryError: it still is not; `start` is the index of the first ratio in the query.
+    """
+    bad = mended(knots, ratio, force)
+    if bad.size:
+        _refuse(ratio, int(bad[0]), start)
+
+
+def mended(knots: Knots, ratio: FloatArray, force: FloatArray) -> IndexArray:
+    """Evaluate again where `force` is not finite; return where it still is not.
+
+    Only an intermediate value may have overflowed: added in two halves the force may well be finite.
     """
     where = np.flatnonzero(~np.isfinite(force))
     at = np.minimum(np.searchsorted(knots.inner, ratio[where], side="right"), len(knots.inner))
     half = knots.tails[at] * (0.5 * ratio[where] - 0.5 * knots.ratios[at])
     force[where] = knots.forces[at] + half + half
-    bad = where[~np.isfinite(force[where])]
-    if bad.size:
-        _refuse(ratio, int(bad[0]), start)
+    found: IndexArray = where[~np.isfinite(force[where])]
+    return found
 
 
 def refuse_infinite(ratio: FloatArray, start: int) -> None:

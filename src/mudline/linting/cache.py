@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from mudline.cache_folder import cache_folder
 from mudline.linting.cache_entries import packed, unpacked
-from mudline.linting.cache_files import cache_folder, file_of, read_entries, write_entries
+from mudline.linting.cache_files import file_of, read_entries, write_entries
 from mudline.linting.cache_keys import key, of_settings, program, stands_alone
 from mudline.linting.lint_file import FileReport
 from mudline.linting.settings import LintSettings

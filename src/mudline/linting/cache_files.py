@@ -6,7 +6,6 @@ A file is a head line with a digest of the rest, then a line for each deck: its 
 from __future__ import annotations
 
 import os
-import sys
 from collections.abc import Mapping
 from contextlib import suppress
 from hashlib import blake2b
@@ -15,30 +14,10 @@ from pathlib import Path
 from mudline.files import write_atomically
 from mudline.linting.cache_keys import KEY
 
-PLACE = "MUDLINE_CACHE_DIR"
-"""The variable that says where the cache stands."""
-
 MOST_FILES = 40
 MOST_ENTRIES = 50_000
 MOST_BYTES = 64_000_000
 _MAGIC = b"mudline-lint-cache/1 "
-
-
-def cache_folder() -> Path | None:
-    """The folder of the cache: as the variable says, or the user's folder for caches on this system."""
-    if given := os.environ.get(PLACE):
-        return Path(given)
-    given = os.environ.get("XDG_CACHE_HOME", "")
-    if os.path.isabs(given):  # noqa: PTH117 - a text that may be empty
-        return Path(given, "mudline")
-    if sys.platform == "win32":
-        local = os.environ.get("LOCALAPPDATA")
-        return Path(local, "mudline", "Cache") if local else None
-    try:
-        home = Path.home()
-    except RuntimeError:
-        return None
-    return home / ("Library/Caches" if sys.platform == "darwin" else ".cache") / "mudline"
 
 
 def file_of(folder: Path, place: Path) -> Path:

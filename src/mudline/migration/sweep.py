@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mudline.contact.inputs import ContactInput, LawKind
+from mudline.contact.input import ContactInput
 from mudline.curves import ForceCurve
 from mudline.scene.numbering import Floats
 
@@ -18,20 +18,16 @@ def depths_of(inputs: Sequence[ContactInput]) -> Floats:
     """Depths (steps, elements) for inputs with the same elements, in their unit of length.
 
     For an element with a curve: every point of its curves and the floats beside it, three places within each segment,
-    and places far beyond both ends; for every element the bed itself, just above and below it, and some depths.
+    and places far beyond both ends; for every element the seabed itself, just above and below it, and some depths.
     """
     curves: dict[tuple[int, ...], Floats] = {}
     columns: list[Floats] = []
-    for element in range(len(inputs[0].law)):
-        mine = tuple(int(given.curve_index[element]) for given in inputs)
-        if mine not in curves:
-            found = [
-                ratios_of(given.curves[index])
-                for given, index in zip(inputs, mine, strict=True)
-                if given.law[element] == LawKind.CURVE
-            ]
-            curves[mine] = np.unique(np.concatenate(found)) if found else np.zeros(0)
-        columns.append(np.concatenate([_PLAIN, curves[mine] * inputs[0].diameter[element]]))
+    of_element = np.column_stack([given.curve_index for given in inputs]).tolist()
+    for diameter, indices in zip(inputs[0].diameter.tolist(), map(tuple, of_element), strict=True):
+        if indices not in curves:
+            found = [ratios_of(given.curves[index]) for given, index in zip(inputs, indices, strict=True) if index >= 0]
+            curves[indices] = np.unique(np.concatenate(found)) if found else np.zeros(0)
+        columns.append(np.concatenate([_PLAIN, curves[indices] * diameter]))
     steps = max((len(column) for column in columns), default=0)
     return np.column_stack(
         [np.pad(column, (0, steps - len(column)), mode="edge") for column in columns] or [_PLAIN[:0]]

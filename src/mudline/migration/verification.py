@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mudline.contact.inputs import ContactInput
+from mudline.contact.input import ContactInput, LawAssignment, LawKind
 from mudline.contact.model import ContactModel
 from mudline.deck.parameters import folded
 from mudline.migration.migrating import Migration
@@ -121,6 +121,7 @@ def _part(scene: Scene, chosen: Indices) -> ContactInput:
     """
     count = len(chosen)
     arrays = scene.law_arrays()
+    (on_curve,), (linear,) = (np.nonzero(arrays.law[chosen] == kind) for kind in (LawKind.CURVE, LawKind.LINEAR))
     diameter = scene.diameter[chosen]
     return ContactInput(
         node_ids=np.arange(1, 2 * count + 1),
@@ -129,10 +130,11 @@ def _part(scene: Scene, chosen: Indices) -> ContactInput:
         element_nodes=np.arange(2 * count, dtype=np.intp).reshape(count, 2),
         length=np.ones(count),
         diameter=np.where(np.isnan(diameter), 1.0, diameter),
-        law=arrays.law[chosen],
-        curve_index=arrays.curve_index[chosen],
+        laws=(
+            LawAssignment("curve", on_curve, {"curve": arrays.curve_index[chosen[on_curve]]}),
+            LawAssignment("linear", linear, {"stiffness": arrays.linear_stiffness[chosen[linear]]}),
+        ),
         curves=arrays.curves,
-        linear_stiffness=arrays.linear_stiffness[chosen],
     )
 
 

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from mudline.codes import RUN001
 from mudline.contact import ContactModel, ContactResult, ElementError, PositionError
 from mudline.diagnostics import DeckError, Problem, Where
+from mudline.scene.elements import distances
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices, Mask
 from mudline.scene.positions import Positions
@@ -94,7 +95,7 @@ class Evaluation:
 
         Raises DeckError: a position that is not finite, a value that overflows.
         """
-        clock = self.time if self.model.input.extras.suction is not None else None
+        clock = self.time if self.model.input.has("suction") else None
         with _told(self.scene):
             for start, result in self.model.stream(
                 self.positions, present=self.present, velocities=self.velocities, times=clock
@@ -125,7 +126,7 @@ def evaluate_scene(scene: Scene, positions: Positions | None = None, tension: Te
         return Evaluation(
             ready.scene, ready.model, places, present, lengths_from_positions=ready.lengths_from_positions
         )
-    if ready.model.input.extras.suction is not None and positions.velocities is None:
+    if ready.model.input.has("suction") and positions.velocities is None:
         _require_clock(ready.scene, positions)
     return Evaluation(
         ready.scene,
@@ -180,8 +181,7 @@ def _with_lengths(scene: Scene, positions: Positions | None) -> tuple[Scene, int
         return scene, 0
     given = scene.coordinates if positions is None else np.asarray(positions.values[0], dtype=np.float64)
     ends = given[scene.element_nodes[unknown]]
-    with np.errstate(over="ignore", invalid="ignore"):
-        between = np.sqrt(((ends[:, 1] - ends[:, 0]) ** 2).sum(axis=1))
+    between = distances(ends[:, 0], ends[:, 1])
     length = scene.length.copy()
     length[unknown] = np.where(np.isnan(between), 0.0, between)
     return replace(scene, table=replace(scene.table, length=length)), int((~np.isnan(between)).sum())

@@ -6,10 +6,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mudline.contact.inputs import LawKind
+from mudline.contact.input import LawAssignment, LawKind
+from mudline.contact.laws.linear import penetration_under, smoothed_reaction
 from mudline.results.numbers import finite
-from mudline.scene.contact_parts.nodal import nodal_stiffness
+from mudline.scene.contact_parts.nodal import nodal_springs
 from mudline.scene.contact_parts.picking import summed
+from mudline.scene.contact_parts.smoothing import element_smoothing
 from mudline.scene.model import LawArrays, Scene
 from mudline.scene.numbering import Floats, Indices
 from mudline.scene.section_weight import submerged_weight
@@ -31,34 +33,60 @@ class _Case(NamedTuple):
 def static_embedment(scene: Scene) -> list[dict[str, Any]]:
     """A row for each set, law, weight per length and diameter of elements whose weight is known, up to 100 rows.
 
-    `penetration` is where the law carries the weight, `stiffness` that of the law there. Of a curve that does so at
+    `penetration` is where the law, smoothed as it is evaluated, carries the weight, `stiffness` that of the law there.
+    Of a curve that does so at
     several ratios it is the smallest that is not negative. For nodal laws there is a row for the node that carries
     least and one for the node that carries most; `stiffness` is then Kn, force per length.
     """
     weight = submerged_weight(scene)
     known = np.flatnonzero((weight > 0.0) & np.isin(scene.law, (LawKind.CURVE, LawKind.LINEAR)))
-    arrays = scene.law_arrays()
-    rows = [_of_element(scene, arrays, case) for case in _cases(scene, weight, known)]
+    arrays, zones = scene.law_arrays(), _Zones.of_elements(scene)
+    rows = [_of_element(scene, arrays, zones, case) for case in _cases(scene, weight, zones, known)]
     return [*rows, *_of_nodes(scene, weight)][:_MOST]
 
 
-def _cases(scene: Scene, weight: Floats, elements: Indices) -> list[_Case]:
+class _Zones(NamedTuple):
+    """Quadratic zones of all elements, or of all nodes: half widths, and which lie below the mudline only."""
+
+    half_width: Floats
+    one_sided: Floats
+
+    @classmethod
+    def of(cls, law: LawAssignment | None, count: int) -> _Zones:
+        """Return the zones that a law gives its rows."""
+        half_width, one_sided = np.zeros(count), np.zeros(count)
+        if law is not None:
+            half_width[law.rows] = law.parameters["half_width"]
+            one_sided[law.rows] = law.parameters["one_sided"]
+        return cls(half_width, one_sided)
+
+    @classmethod
+    def of_elements(cls, scene: Scene) -> _Zones:
+        """Return the zones of linear laws."""
+        smoothing = element_smoothing(scene) if "SEABED CONTACT" in scene.extensions else None
+        return cls.of(smoothing, len(scene.element_ids))
+
+
+def _cases(scene: Scene, weight: Floats, zones: _Zones, elements: Indices) -> list[_Case]:
     if not elements.size:
         return []
     sizes = np.nan_to_num(scene.diameter[elements])
-    keys = np.column_stack([scene.laws.of_element[elements], weight[elements], sizes])
+    width, side = zones.half_width[elements], zones.one_sided[elements]
+    keys = np.column_stack([scene.laws.of_element[elements], weight[elements], sizes, width, side])
     firsts = np.sort(np.unique(keys, axis=0, return_index=True)[1])[:_MOST]
     found = elements[firsts].tolist()
     return [_Case(scene.law_sets[at], scene.law_names[at], float(weight[at]), at) for at in found]
 
 
-def _of_element(scene: Scene, arrays: LawArrays, case: _Case) -> dict[str, Any]:
+def _of_element(scene: Scene, arrays: LawArrays, zones: _Zones, case: _Case) -> dict[str, Any]:
     diameter = float(scene.diameter[case.element])
     with np.errstate(all="ignore"):
         if scene.law[case.element] == LawKind.LINEAR:
             stiffness = float(arrays.linear_stiffness[case.element])
-            depth = float(np.divide(case.weight, stiffness))
-            return _row(case, float(np.divide(depth, diameter)), depth, stiffness, None)
+            law = stiffness, zones.half_width[case.element], zones.one_sided[case.element]
+            depth = float(penetration_under(case.weight, *law))
+            slope = float(smoothed_reaction(depth, diameter, *law)[1])
+            return _row(case, float(np.divide(depth, diameter)), depth, slope, None)
         curve_index = int(arrays.curve_index[case.element])
         found = arrays.curves[curve_index].ratios_at_force(case.weight) if curve_index >= 0 else ()
         ratio = next((each for each in found if each >= 0.0), None)
@@ -76,10 +104,13 @@ def _of_nodes(scene: Scene, weight: Floats) -> list[dict[str, Any]]:
         return []
     extension = scene.extensions["SEABED CONTACT"]
     ends, count = scene.element_nodes, len(scene.node_ids)
-    stiffness = nodal_stiffness(scene, extension)
+    springs = nodal_springs(scene)
+    stiffness, zones = np.full(count, np.nan), _Zones.of(springs, count)
+    stiffness[springs.rows] = springs.parameters["stiffness"]
     with np.errstate(all="ignore"):
         carried = summed(0.5 * weight * scene.length, ends, count)
-        depth = carried / stiffness
+        depth = penetration_under(carried, stiffness, *zones)
+        slope = smoothed_reaction(depth, 0.0, stiffness, *zones)[1]
     rows = []
     for block in np.unique(extension.of_element[scene.nodal]).tolist():
         elements = np.flatnonzero(scene.nodal & (extension.of_element == block))
@@ -90,7 +121,7 @@ def _of_nodes(scene: Scene, weight: Floats) -> list[dict[str, Any]]:
             at = int(elements[(ends[elements] == node).any(axis=1)][0])
             case = _Case(scene.law_sets[at], "nodal", float(weight[at]), at)
             ratio = float(np.divide(depth[node], scene.diameter[at]))
-            rows.append(_row(case, ratio, float(depth[node]), float(stiffness[node]), None))
+            rows.append(_row(case, ratio, float(depth[node]), float(slope[node]), None))
     return rows
 
 

@@ -145,7 +145,21 @@ def _lengths(ends: Indices, coordinates: Floats) -> Floats:
     """Distances between the nodes, NaN where one is not known."""
     length = np.full(len(ends), np.nan)
     known = (ends >= 0).all(axis=1)
-    with np.errstate(over="ignore", invalid="ignore"):
-        span = np.subtract(coordinates[ends[known, 1]], coordinates[ends[known, 0]])
-        length[known] = np.sqrt((span**2).sum(axis=1))
+    length[known] = distances(coordinates[ends[known, 0]], coordinates[ends[known, 1]])
     return length
+
+
+_SMALLEST_SQUARE, _LARGEST_SQUARE = 1e-280, 1e280
+
+
+def distances(points: Floats, others: Floats) -> Floats:
+    """Return the distances (m,) between points (m, 3); infinite only where a float64 cannot hold them."""
+    with np.errstate(all="ignore"):
+        span = np.subtract(others, points)
+        square = (span**2).sum(axis=1)
+        found: Floats = np.sqrt(square)
+        odd = np.flatnonzero((square < _SMALLEST_SQUARE) | (square > _LARGEST_SQUARE))
+        largest = np.abs(span[odd]).max(axis=1, initial=0.0)
+        scale = np.where((largest > 0.0) & (largest < np.inf), largest, 1.0)
+        found[odd] = scale * np.sqrt(((span[odd] / scale[:, None]) ** 2).sum(axis=1))
+    return found

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from mudline.codes import SBD001, SBD002, SBD004, SBD005, SBD009
-from mudline.contact.inputs import LawKind
+from mudline.contact.input import LawKind
 from mudline.diagnostics import Severity, Where
 from mudline.keywords.text import shown
 from mudline.scene.context import Context

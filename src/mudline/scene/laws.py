@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from mudline.codes import REF002
-from mudline.contact.inputs import LawKind
+from mudline.contact.input import LawKind
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Where
 from mudline.keywords.remarks import advice_on

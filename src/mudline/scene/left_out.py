@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mudline.contact.extras import Extras
-from mudline.contact.inputs import LawKind
+from mudline.contact.input import LawKind
 
 if TYPE_CHECKING:
     from mudline.scene.model import Scene
 
 
-def left_out(scene: Scene, extras: Extras) -> dict[str, str]:
+def left_out(scene: Scene, laws: Sequence[str]) -> dict[str, str]:
     """By stage of the plan, what is asked for and not evaluated, or not as it is written; nothing for other stages."""
     told = {
         "smoothing": _smoothing(scene),
         "suction": _suction(scene),
-        "friction": "; ".join(_friction(scene, extras)),
+        "friction": "; ".join(_friction(scene, laws)),
     }
     return {stage: why for stage, why in told.items() if why}
 
@@ -41,14 +41,14 @@ def _suction(scene: Scene) -> str:
     return f"SUCTION= without an extent of its zone holds nothing: {_elements(count)}" if count else ""
 
 
-def _friction(scene: Scene, extras: Extras) -> list[str]:
+def _friction(scene: Scene, laws: Sequence[str]) -> list[str]:
     told = []
     coefficients = _given(scene, "friction").any(axis=1)
     extension = scene.extensions.get("SEABED FRICTION")
     asked = coefficients if extension is None else coefficients | (extension.of_element >= 0)
     if count := int((asked & (scene.law == LawKind.RIGID)).sum()):
         told.append(f"none on a rigid bed, whose reaction is that of a constraint: {_elements(count)}")
-    if extras.lateral is not None and asked.any():
+    if "lateral" in laws and asked.any():
         told.append("LATERAL= replaces the transverse coefficient")
     if _given(scene, "constant").any():
         told.append("the constant friction force coefficient is not evaluated: the manual does not say what it means")

@@ -10,15 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mudline.codes import REF007, RUN001
-from mudline.contact.compiled.choice import Backend
+from mudline.contact.choice import Backend
 from mudline.contact.errors import ElementError
-from mudline.contact.inputs import ContactInput, LawKind
+from mudline.contact.input import ContactInput, LawKind
 from mudline.contact.model import ContactModel
 from mudline.deck.model import Deck
 from mudline.deck.parameters import folded
 from mudline.diagnostics import DeckError, Problem, Severity, Where
 from mudline.scene.bed import Bed
-from mudline.scene.contact_parts.build import extras_of, floor_of
+from mudline.scene.contact_parts.build import laws_of, seabed_of, table_of
 from mudline.scene.contact_parts.refused import RefusedError
 from mudline.scene.context import Context
 from mudline.scene.elements import ElementTable
@@ -29,6 +29,7 @@ from mudline.scene.laws import Grant, LawTable
 from mudline.scene.left_out import left_out
 from mudline.scene.numbering import Floats, Ids, Indices, Mask, Numbered
 from mudline.scene.refusals import refusals
+from mudline.scene.section_weight import submerged_weight
 from mudline.scene.sections import SectionTable
 from mudline.scene.sets import Sets
 
@@ -213,7 +214,7 @@ class Scene:
 
     def _contact_input(self, tension: Literal["keep", "cut"]) -> ContactInput:
         arrays = self.law_arrays()
-        extras = extras_of(self, keep=tension == "keep")
+        laws = laws_of(self, arrays, keep=tension == "keep")
         return ContactInput(
             node_ids=self.node_ids,
             coordinates=self.coordinates,
@@ -221,14 +222,13 @@ class Scene:
             element_nodes=self.element_nodes,
             length=np.where(np.isfinite(self.length), self.length, 0.0),  # what is not finite has no spring
             diameter=self.diameter,
-            law=arrays.law,
-            curve_index=arrays.curve_index,
+            laws=tuple(laws),
             curves=arrays.curves,
-            linear_stiffness=arrays.linear_stiffness,
+            tables=tuple(table_of(self)),
             tension=tension,
-            floor=floor_of(self),
-            extras=extras,
-            left_out=left_out(self, extras),
+            seabed=seabed_of(self),
+            weight=submerged_weight(self),
+            left_out=left_out(self, [law.law for law in laws]),
         )
 
     def law_arrays(self) -> LawArrays:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mudline.codes import RUN001
-from mudline.contact.inputs import LawKind
+from mudline.contact.input import LawKind
 from mudline.diagnostics import Problem, Where
 from mudline.scene.numbering import Mask
 

@@ -7,9 +7,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mudline.contact.laws.spring import LawError
-from mudline.contact.suction import SuctionFactors, from_cohesion, maximum_force, suction_depth
-from tests.contact.suction.pulls import DEPTH, FORCE, bridge_law, floats, pull
+from mudline.contact import ElementError
+from mudline.contact.laws.suction import SuctionFactors, from_cohesion
+from tests.contact.builders import LINEAR, bridge_law, chain, floats, suction
+from tests.contact.single import DEPTH, FORCE, breakout, largest, pull
 
 # D, cu, v, alpha_f, alpha_D, F_max, Delta_B, dF/dv
 WORKED = [
@@ -44,19 +45,19 @@ def test_worked_table_of_constants() -> None:
     law = bridge_law(len(v), cohesion, diameter)
     assert law.force_factor == pytest.approx(alpha_f, rel=1e-10)
     assert law.depth_factor == pytest.approx(alpha_d, rel=1e-10)
-    assert maximum_force(law, v)[0] == pytest.approx(force, rel=1e-10)
-    assert maximum_force(law, v)[1] == pytest.approx(slope, rel=1e-9)
-    assert suction_depth(law, v) == pytest.approx(depth, rel=1e-10)
+    assert largest(law, v)[0] == pytest.approx(force, rel=1e-10)
+    assert largest(law, v)[1] == pytest.approx(slope, rel=1e-9)
+    assert breakout(law, v) == pytest.approx(depth, rel=1e-10)
 
 
 def test_table_of_small_velocities_without_a_cap() -> None:
     v, force, depth, rise, slope = np.array(SLOW).T
     law = bridge_law(len(v), regularisation=0.0)
-    assert maximum_force(law, v)[0] == pytest.approx(force, rel=1e-10)
-    assert maximum_force(law, v)[1] == pytest.approx(slope, rel=1e-9)
-    suction = pull(law, 0.1 * depth, v)
-    assert suction.depth == pytest.approx(depth, rel=1e-10)
-    assert -suction.by_uplift == pytest.approx(rise, rel=1e-10)
+    assert largest(law, v)[0] == pytest.approx(force, rel=1e-10)
+    assert largest(law, v)[1] == pytest.approx(slope, rel=1e-9)
+    found = pull(law, 0.1 * depth, v)
+    assert found.depth == pytest.approx(depth, rel=1e-10)
+    assert -found.by_uplift == pytest.approx(rise, rel=1e-10)
 
 
 @pytest.mark.parametrize(
@@ -64,7 +65,7 @@ def test_table_of_small_velocities_without_a_cap() -> None:
     [(0.0, 0.0, 1095213.6398), (5e-4, 424.24484398, None), (1e-3, 601.76573615, 108317.83251)],
 )
 def test_cap_below_the_regularisation_velocity(v: float, force: float, slope: float | None) -> None:
-    values = maximum_force(bridge_law(), floats(v))
+    values = largest(bridge_law(), floats(v))
     assert values[0].item() == pytest.approx(force, rel=1e-10)
     if slope is not None:
         assert values[1].item() == pytest.approx(slope, rel=1e-10)
@@ -72,21 +73,20 @@ def test_cap_below_the_regularisation_velocity(v: float, force: float, slope: fl
 
 def test_cap_meets_the_power_with_one_value_and_one_slope() -> None:
     law = bridge_law(2)
-    below, above = (
-        np.array(values) for values in zip(*maximum_force(law, np.array([1e-3 * (1 - 1e-12), 1e-3])), strict=True)
-    )
+    values = zip(*largest(law, np.array([1e-3 * (1 - 1e-12), 1e-3])), strict=True)
+    below, above = (np.array(pair) for pair in values)
     assert below == pytest.approx(above, rel=1e-10)
 
 
 def test_cap_is_on_the_force_only() -> None:
-    assert suction_depth(bridge_law(), floats(1e-9)).item() == pytest.approx(0.048791855079, rel=1e-10)
-    assert suction_depth(bridge_law(), floats(0.0)).item() == pytest.approx(0.048791855079, rel=1e-10)
+    assert breakout(bridge_law(), floats(1e-9)).item() == pytest.approx(0.048791855079, rel=1e-10)
+    assert breakout(bridge_law(), floats(0.0)).item() == pytest.approx(0.048791855079, rel=1e-10)
 
 
 @pytest.mark.parametrize("exponent", [0.0, 0.18, 1.0, 1.5, 2.0, 3.0])
 def test_capped_force_never_falls_below_zero(exponent: float) -> None:
     law = bridge_law(41)._replace(force_exponent=floats(exponent, 41), force_factor=floats(1.0, 41))
-    force, slope = maximum_force(law, np.linspace(0.0, 2e-3, 41))
+    force, slope = largest(law, np.linspace(0.0, 2e-3, 41))
     assert (force >= 0.0).all()
     assert (np.diff(force) >= -1e-15).all()
     assert (slope >= -1e-12).all()
@@ -95,14 +95,14 @@ def test_capped_force_never_falls_below_zero(exponent: float) -> None:
 @given(v=speeds)
 def test_doubling_the_velocity(v: float) -> None:
     law = bridge_law(2)
-    force, depth = maximum_force(law, np.array([v, 2 * v]))[0], suction_depth(law, np.array([v, 2 * v]))
+    force, depth = largest(law, np.array([v, 2 * v]))[0], breakout(law, np.array([v, 2 * v]))
     assert force[1] / force[0] == pytest.approx(1.1328838853, rel=1e-10)
     assert depth[1] / depth[0] == pytest.approx(1.1974787046, rel=1e-10)
 
 
 @given(v=speeds, diameter=st.floats(0.01, 10.0))
 def test_relative_depth_depends_on_the_velocity_alone(v: float, diameter: float) -> None:
-    ratio = suction_depth(bridge_law(diameter=diameter), floats(v)) / diameter
+    ratio = breakout(bridge_law(diameter=diameter), floats(v)) / diameter
     assert ratio.item() == pytest.approx(0.98 * v**0.26, rel=1e-13)
 
 
@@ -117,12 +117,12 @@ def test_cyclic_factor_scales_the_force_and_nothing_else() -> None:
 
 def test_millimetres_would_be_wrong_without_conversion() -> None:
     naive = bridge_law(cohesion=0.005, diameter=300.0, regularisation=1.0)
-    assert maximum_force(naive, floats(100.0))[0].item() == pytest.approx(1.3785656595, rel=1e-10)
-    assert suction_depth(naive, floats(100.0)).item() == pytest.approx(973.52549716, rel=1e-10)
-    assert suction_depth(naive, floats(100.0)).item() / (1000.0 * DEPTH) == pytest.approx(6.0255958607, rel=1e-10)
+    assert largest(naive, floats(100.0))[0].item() == pytest.approx(1.3785656595, rel=1e-10)
+    assert breakout(naive, floats(100.0)).item() == pytest.approx(973.52549716, rel=1e-10)
+    assert breakout(naive, floats(100.0)).item() / (1000.0 * DEPTH) == pytest.approx(6.0255958607, rel=1e-10)
     right = naive._replace(**from_cohesion(floats(0.005), floats(300.0), 1e-3, 1.0)._asdict())
-    assert maximum_force(right, floats(100.0))[0].item() == pytest.approx(FORCE / 1000.0, rel=1e-10)
-    assert suction_depth(right, floats(100.0)).item() == pytest.approx(DEPTH * 1000.0, rel=1e-10)
+    assert largest(right, floats(100.0))[0].item() == pytest.approx(FORCE / 1000.0, rel=1e-10)
+    assert breakout(right, floats(100.0)).item() == pytest.approx(DEPTH * 1000.0, rel=1e-10)
 
 
 @pytest.mark.parametrize(("length", "force"), [(FOOT, POUND), (1e-3, 1.0), (1.0, 1000.0), (1.0, 1.0)])
@@ -132,10 +132,10 @@ def test_a_deck_in_other_units_describes_the_same_soil(length: float, force: flo
     factors = from_cohesion(cohesion / (force / length**2), diameter / length, length, force)
     own = si._replace(**factors._asdict(), regularisation=si.regularisation / length)
     for speed in (v, 0.3 * si.regularisation):
-        expected, got = maximum_force(si, speed), maximum_force(own, speed / length)
+        expected, got = largest(si, speed), largest(own, speed / length)
         assert got[0] * (force / length) == pytest.approx(expected[0], rel=1e-13)
         assert got[1] * (force / length**2) == pytest.approx(expected[1], rel=1e-13)
-        assert suction_depth(own, speed / length) * length == pytest.approx(suction_depth(si, speed), rel=1e-13)
+        assert breakout(own, speed / length) * length == pytest.approx(breakout(si, speed), rel=1e-13)
 
 
 def test_factors_name_their_values() -> None:
@@ -148,21 +148,22 @@ def test_factors_name_their_values() -> None:
 @pytest.mark.parametrize(
     ("field", "value", "what"),
     [
-        ("force_factor", -1.0, "force factor"),
-        ("force_factor", np.inf, "force factor"),
-        ("force_exponent", -0.1, "force exponent"),
-        ("depth_factor", 0.0, "depth factor"),
-        ("depth_exponent", np.nan, "depth exponent"),
-        ("cyclic", -1.0, "cyclic"),
-        ("regularisation", -1e-3, "regularisation"),
-        ("first_corner", 0.0, "corners"),
-        ("first_corner", 0.9, "corners"),
-        ("second_corner", 1.0, "corners"),
+        ("force_factor", -1.0, "force factor is -1.0; expected >= 0"),
+        ("force_factor", np.inf, "force factor is inf; expected >= 0"),
+        ("force_exponent", -0.1, "force exponent is -0.1; expected >= 0"),
+        ("depth_factor", 0.0, "depth factor is 0.0; expected > 0"),
+        ("depth_exponent", np.nan, "depth exponent is nan; expected >= 0"),
+        ("cyclic", -1.0, "cyclic is -1.0; expected >= 0"),
+        ("cyclic_floor", -0.5, "cyclic floor is -0.5; expected >= 0"),
+        ("regularisation", -1e-3, "regularisation is -0.001; expected >= 0"),
+        ("first_corner", 0.0, "first corner is 0.0; expected > 0 and < 1"),
+        ("first_corner", 0.9, "its first corner is above its second"),
+        ("second_corner", 1.0, "second corner is 1.0; expected > 0 and < 1"),
     ],
 )
-def test_a_value_out_of_range_is_refused_and_the_row_named(field: str, value: float, what: str) -> None:
+def test_a_value_out_of_range_is_refused_and_the_element_named(field: str, value: float, what: str) -> None:
     law = bridge_law(3)
     getattr(law, field)[1] = value
-    with pytest.raises(LawError, match=what) as caught:
-        law.checked()
-    assert caught.value.index == 1
+    with pytest.raises(ElementError, match=f"element 12 has a suction law.*{what}") as caught:
+        chain([LINEAR] * 3, suction(law))
+    assert caught.value.element == 12

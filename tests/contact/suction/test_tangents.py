@@ -7,8 +7,9 @@ from itertools import product
 import numpy as np
 import pytest
 
-from mudline.contact.suction import Suction, step
-from tests.contact.suction.pulls import BROKEN, DEPTH, HOLD, bridge_law, lifted, pull
+from mudline.contact.laws.suction import Suction, step
+from tests.contact.builders import bridge_law
+from tests.contact.single import BROKEN, DEPTH, HOLD, lifted, pull
 
 V_MAX = 0.1
 BRANCHES = {"rise": 0.1, "plateau": 0.5, "release": 0.9}
@@ -72,7 +73,7 @@ def test_extremes_are_finite_and_quiet() -> None:
     cap, v, x, v_max = np.array(list(product(caps, velocities, uplifts, latched))).T
     law = bridge_law(len(v), regularisation=cap)
     with np.errstate(all="raise"):
-        suction, after = step(law, lifted(len(v), v_max), x, v, np.zeros(len(v), np.bool_))
+        suction, after = step(law, lifted(law, v_max), x, v, np.zeros(len(v), np.bool_))
     for values in (*suction, after.v_max):
         assert np.isfinite(values).all()
     assert (suction.force <= 0.0).all()

@@ -1,58 +1,53 @@
-"""Force-embedment law of `*EMBEDMENT` and `*SEABED STIFFNESS`."""
+"""Force-embedment law of `*EMBEDMENT` and `*SEABED STIFFNESS`: a curve over the ratio of penetration to diameter.
+
+    F = F_i + s_i (z / D - r_i),  dF/dz = s_i / D
+
+in the segment i that holds z / D; see `mudline.curves`. Where a curve pulls (F < 0) it is kept, or cut to 0.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mudline.contact.arrays import FloatArray, IndexArray, Picked
-from mudline.contact.inputs import ContactInput, LawKind
-from mudline.contact.laws.spring import LawError, Spring
-from mudline.curves import ForceCurve, QueryError
+from mudline.contact.arrays import FloatArray
+from mudline.contact.laws.base import NormalLaw, Parameter, Value
+
+if TYPE_CHECKING:
+    from mudline.curves import ForceCurve
 
 
-def curve_spring(curve: ForceCurve, ratio: FloatArray, diameter: FloatArray) -> Spring:
-    """Force and slope of the curve at the embedment ratio; stiffness = slope / diameter.
+def on_segment(ratio: Value, start: Value, force: Value, slope: Value) -> Value:
+    """Return the force at a ratio of the segment that begins at `start` with this force and slope."""
+    return force + slope * (ratio - start)
 
-    Raises:
-        LawError: the force overflows.
+
+def steepest_slopes(curve: ForceCurve) -> FloatArray:
+    """Return for each segment (n - 1,) the steepest slope between the mudline and its end."""
+    first = int(curve.segment(np.zeros(1))[0])
+    found: FloatArray = np.concatenate(
+        [np.full(first, curve.slopes[first]), np.maximum.accumulate(curve.slopes[first:])]
+    )
+    return found
+
+
+def steepest_slope(curve: ForceCurve, ratio: FloatArray) -> FloatArray:
+    """Return the steepest slope (d force / d ratio) of the curve between the mudline and each embedment ratio > 0.
+
+    At a point of the curve the segment to its right does not count yet; an infinite ratio asks for the whole curve.
     """
-    try:
-        force, slope = curve.evaluate(ratio)
-    except QueryError as error:
-        raise LawError(str(error), error.index) from error
-    return Spring(force, slope, stiffness=slope / diameter)
+    found: FloatArray = steepest_slopes(curve)[np.searchsorted(curve.ratios[1:-1], ratio)]
+    return found
 
 
-def cut_tension(spring: Spring) -> Spring:
-    """Return the spring with force, slope and stiffness 0 where its force is negative."""
-    pulls = spring.force < 0.0
-    force, slope, stiffness = (np.where(pulls, 0.0, values) for values in spring[:3])
-    return Spring(force, slope, stiffness, cut=pulls)
-
-
-@dataclass(frozen=True, slots=True)
-class CurveSprings:
-    """The elements on one curve."""
-
-    elements: IndexArray
-    curve: ForceCurve
-    diameter: FloatArray
-    cuts: bool
-
-    def spring(self, element: Picked, depth: FloatArray, ratio: FloatArray) -> Spring:
-        """See `Springs`."""
-        del depth  # the law is one of the ratio
-        spring = curve_spring(self.curve, ratio, self.diameter[element])
-        return (cut_tension(spring) if self.cuts else spring).checked()
-
-
-def curve_springs(inputs: ContactInput) -> list[CurveSprings]:
-    """Return a group for each curve that an element has."""
-    on_curve = inputs.with_law(LawKind.CURVE)
-    index = inputs.curve_index[on_curve]
-    cuts = inputs.tension == "cut"
-    return [
-        CurveSprings(on_curve[index == used], inputs.curves[used], inputs.diameter, cuts) for used in np.unique(index)
-    ]
+CURVE = NormalLaw(
+    name="curve",
+    summary="force-embedment curve",
+    acts_on="elements",
+    parameters=(Parameter("curve", "1", "index of the curve"),),
+    needs_diameter=True,
+    tables=True,
+    equation="F = F_i + s_i (z / D - r_i)",
+    source="definition of *EMBEDMENT and *SEABED STIFFNESS",
+)

@@ -1,42 +1,124 @@
-"""Linear normal law of `*ELASTIC SURFACE` and of STIFFNESS=number of `*SEABED PROPERTIES`."""
+"""Linear normal laws, kinked at the mudline or with a quadratic zone around it.
+
+`STIFFNESS=number` of `*SEABED PROPERTIES` and of `*ELASTIC SURFACE`; `NODAL STIFFNESS=`, `SMOOTHING=` and `FORM=` of
+`*SEABED CONTACT`. With the stiffness K and the half width h of the zone, over the penetration z:
+
+* h = 0:      the kinked law F = K max(z, 0);
+* CENTRED:    F = K (z + h)^2 / (4 h) on -h < z < h, exactly K z beyond it, 0 below;
+* ONE-SIDED:  F = K z^2 / (4 h) on 0 < z < 2 h, K (z - h) beyond it, 0 below.
+
+Force and slope dF/dz are continuous for h > 0.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import numpy as np
 
-from mudline.contact.arrays import FloatArray, IndexArray, Picked
-from mudline.contact.inputs import ContactInput, LawKind
-from mudline.contact.laws.spring import Spring, Springs
+from mudline.contact.arrays import FloatArray
+from mudline.contact.laws.base import NormalLaw, Parameter, Value, where
+
+_WIDEST = 0.25 * float(np.finfo(np.float64).max)
+"""Half widths above this are halved in the sums, which would overflow."""
+_SMALL_SHARE = 2.0**-960
+_LIFT = 2.0**60
 
 
-def linear_spring(stiffness: FloatArray, depth: FloatArray, diameter: FloatArray) -> Spring:
-    """Force = stiffness * depth, per unit length, for depth > 0.
+def linear_reaction(z: Value, diameter: Value, stiffness: Value) -> tuple[Value, Value]:
+    """Return F = K z, and K."""
+    return stiffness * z, stiffness
 
-    `stiffness` is force per unit length and length of penetration. The slope over the embedment ratio depth / diameter
-    is stiffness * diameter, NaN where the diameter is.
+
+def linear_steepest(z: Value, diameter: Value, stiffness: Value) -> Value:
+    """Return K."""
+    return stiffness
+
+
+def smoothed_reaction(
+    z: Value, diameter: Value, stiffness: Value, half_width: Value, one_sided: Value
+) -> tuple[Value, Value]:
+    """Return force and dF/dz; in the zone K w s / 2 and K s, w the distance into the zone and s = w / (2 h).
+
+    The share s multiplies the larger of K and w first, so that no intermediate value overflows or vanishes before the
+    force does.
     """
-    return Spring(force=stiffness * depth, slope=stiffness * diameter, stiffness=stiffness)
+    scale, rest = where(half_width > _WIDEST, 0.5, 1.0), where(half_width > _WIDEST, 1.0, 0.5)
+    width = scale * half_width
+    into = scale * z + where(one_sided > 0.0, 0.0, width)
+    # a share too small for all of its digits is computed larger by a power of two
+    lift = where(into < _SMALL_SHARE * width, _LIFT, 1.0)
+    drop = 1.0 / lift
+    share = lift * into / where(half_width > 0.0, 2.0 * width, 1.0)
+    in_zone = np.maximum(stiffness, into) * drop * (share * rest) * np.minimum(stiffness, into)
+    shift = where(one_sided > 0.0, half_width, 0.0)
+    inside = z < half_width + shift
+    return where(inside, in_zone, stiffness * (z - shift)), where(inside, stiffness * drop * share, stiffness)
 
 
-@dataclass(frozen=True, slots=True)
-class LinearSprings:
-    """The elements with a linear law."""
-
-    elements: IndexArray
-    stiffness: FloatArray
-    diameter: FloatArray
-
-    def spring(self, element: Picked, depth: FloatArray, ratio: FloatArray) -> Spring:
-        """See `Springs`."""
-        del ratio  # the law is one of penetration
-        return linear_spring(self.stiffness[element], depth, self.diameter[element]).checked()
+def smoothed_steepest(z: Value, diameter: Value, stiffness: Value, half_width: Value, one_sided: Value) -> Value:
+    """Return K."""
+    return stiffness
 
 
-def linear_springs(inputs: ContactInput) -> list[Springs]:
-    """Return the group of all elements with a linear law."""
-    on_linear = inputs.with_law(LawKind.LINEAR)
-    if inputs.extras.smoothing is None:
-        return [LinearSprings(on_linear, inputs.linear_stiffness, inputs.diameter)]
-    from mudline.contact.laws.smoothed import SmoothedSprings  # noqa: PLC0415 - only now is it needed
+def zone_onset(stiffness: Value, half_width: Value, one_sided: Value) -> Value:
+    """Return the penetration at which contact begins: -h for CENTRED smoothing, else 0."""
+    return where(one_sided > 0.0, 0.0, 0.0 - half_width)
 
-    return [SmoothedSprings(on_linear, inputs.linear_stiffness, inputs.diameter, inputs.extras.smoothing)]
+
+def penetration_under(force: Value, stiffness: Value, half_width: Value, one_sided: Value) -> Value:
+    """Return the penetration at which the smoothed law has a force > 0."""
+    beyond = force / stiffness
+    shift = where(one_sided > 0.0, half_width, 0.0)
+    # K w^2 / (4 h) = F, as long as w < 2 h
+    into = 2.0 * np.sqrt(half_width) * np.sqrt(beyond)
+    return where(beyond < half_width, into - (half_width - shift), beyond + shift)
+
+
+def automatic_half_width(static_penetration: FloatArray, diameter: FloatArray) -> FloatArray:
+    """Return h of SMOOTHING=AUTO, min(0.1 Z, 0.01 D), from the static penetration Z and the diameter D of each point.
+
+    It is 0, no smoothing, where one of them is NaN (unknown) or not positive.
+    """
+    with np.errstate(all="ignore"):
+        width = np.minimum(0.1 * static_penetration, 0.01 * diameter)
+    return np.where(width > 0.0, width, 0.0)
+
+
+_HALF_WIDTH = Parameter("half_width", "L", "half width h of the quadratic zone; 0 for a kinked law", default=0.0)
+_ONE_SIDED = Parameter("one_sided", "1", "1 for a zone below the mudline only", high=1.0, default=0.0)
+
+LINEAR = NormalLaw(
+    name="linear",
+    summary="linear stiffness",
+    acts_on="elements",
+    parameters=(Parameter("stiffness", "F/L2", "force per unit length and length of penetration"),),
+    reaction=linear_reaction,
+    steepest=linear_steepest,
+    equation="F = K z",
+    source="definition of STIFFNESS=",
+)
+SMOOTHED = NormalLaw(
+    name="smoothed",
+    summary="linear stiffness with a quadratic zone",
+    acts_on="elements",
+    parameters=(
+        Parameter("stiffness", "F/L2", "force per unit length and length of penetration"),
+        _HALF_WIDTH,
+        _ONE_SIDED,
+    ),
+    reaction=smoothed_reaction,
+    steepest=smoothed_steepest,
+    onset=zone_onset,
+    equation="F = K (z + h)^2 / (4 h) in the zone, K z beyond (CENTRED); K z^2 / (4 h), K (z - h) (ONE-SIDED)",
+    source="definition of SMOOTHING= and FORM=",
+)
+NODAL = NormalLaw(
+    name="nodal",
+    summary="stiffness of a node",
+    acts_on="nodes",
+    parameters=(Parameter("stiffness", "F/L", "force per length of penetration of the node"), _HALF_WIDTH, _ONE_SIDED),
+    reaction=smoothed_reaction,
+    steepest=smoothed_steepest,
+    onset=zone_onset,
+    equation="as `smoothed`, at the node's own penetration",
+    source="definition of NODAL STIFFNESS=",
+)

@@ -1,127 +1,101 @@
-"""Unloading and reloading of `*SEABED UNLOADING`, beside the virgin loading path of a curve or a linear law.
+"""Unloading and reloading of `*SEABED UNLOADING`, beside the virgin loading path of a normal law.
 
-At a new largest penetration the reaction is that of the virgin path. Elsewhere it is that of a straight line through
-the deepest point (z_max, F_max) with the stiffness ku', down to 0 at the trench bottom z_p and 0 above it:
+At a new largest penetration z_max the reaction is that of the virgin path. Elsewhere it is that of a straight line
+through the deepest point (z_max, F_max) with the stiffness ku', down to 0 at the trench bottom z_p and 0 above it:
 
     F = max(0, F_max - ku' (z_max - z)),  z_p = z_max - F_max / ku'.
 
 ku' is the largest of the unloading stiffness that was given, the steepest slope that the virgin path reached, and the
 secant F_max / z_max. So the line lies nowhere above the virgin path, no closed loop gives work, and the trench bottom
-is never above the mudline (the secant counts only where the virgin path jumps at the mudline).
+is never above the mudline. The secant counts only where the virgin path has a force F(0) > 0 at the mudline: the line
+is then steeper than the stiffness that was given, as a softer one would end above the mudline.
+
+All of it is a function of z_max alone.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
-
-if TYPE_CHECKING:  # a linear law does not load the curves
-    from mudline.curves import ForceCurve
-
-_LARGEST = np.finfo(np.float64).max
-
-
-class VirginPath(NamedTuple):
-    """The virgin path at the penetrations of a step, arrays (m,), per unit length.
-
-    force: F(z).
-    slope: dF/dz.
-    steepest: the steepest slope between the mudline and z: the slope itself for a linear law, `steepest_slope` for a
-        curve. So a step that passes several segments finds the same path as many small ones.
-    """
-
-    force: FloatArray
-    slope: FloatArray
-    steepest: FloatArray
+from mudline.contact.arrays import FloatArray
+from mudline.contact.laws.base import Law, Parameter, Value, where
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class UnloadingHistory:
-    """What the elements (m,) remember. A step gives a new one and leaves the old one as it is.
+    """What the elements (k,) remember. A step gives a new one and leaves the old one as it is.
 
     Attributes:
-        stiffness: ku, raised to the steepest slope of the virgin path so far.
-        z_max: the largest penetration so far, 0 before the first contact.
-        force_max: the virgin force there, F_max; 0 where the path pulls.
-        z_p: penetration of the trench bottom, where the reaction vanishes.
+        numbers: (4, k), the rows of which are the properties.
     """
 
-    stiffness: FloatArray
-    z_max: FloatArray
-    force_max: FloatArray
-    z_p: FloatArray
+    numbers: FloatArray
+
+    @property
+    def z_max(self) -> FloatArray:
+        """The largest penetration so far, 0 before the first contact."""
+        z_max: FloatArray = self.numbers[0]
+        return z_max
+
+    @property
+    def force_max(self) -> FloatArray:
+        """The virgin force there, F_max; 0 where the path pulls."""
+        force_max: FloatArray = self.numbers[1]
+        return force_max
+
+    @property
+    def line(self) -> FloatArray:
+        """Stiffness ku' of the line."""
+        line: FloatArray = self.numbers[2]
+        return line
+
+    @property
+    def bottom(self) -> FloatArray:
+        """Penetration z_p of the trench bottom, where the reaction vanishes."""
+        bottom: FloatArray = self.numbers[3]
+        return bottom
 
     @classmethod
     def initial(cls, stiffness: FloatArray) -> UnloadingHistory:
-        """Return the history of elements that never touched the bed, of unloading stiffness `stiffness` > 0."""
-        shape = stiffness.shape
-        return cls(stiffness.copy(), np.zeros(shape), np.zeros(shape), np.zeros(shape))
+        """Return the history of elements that never touched the seabed, of unloading stiffness `stiffness` > 0."""
+        numbers = np.zeros((4, len(stiffness)))
+        numbers[2] = stiffness
+        return cls(numbers)
 
 
-class UnloadingReaction(NamedTuple):
-    """Reaction of elements, arrays (m,).
-
-    force: per unit length, positive pushing out of the bed.
-    stiffness: d force / d penetration, per unit length and length of penetration.
-    compressed: the element is below the trench bottom.
-    uplift: z_p - z, the way up from the trench bottom, from which suction counts.
-    """
-
-    force: FloatArray
-    stiffness: FloatArray
-    compressed: BoolArray
-    uplift: FloatArray
+_ROUNDING = 2.0**-50
+_LARGEST = float(np.finfo(np.float64).max)
 
 
-def step(history: UnloadingHistory, z: FloatArray, virgin: VirginPath) -> tuple[UnloadingReaction, UnloadingHistory]:
-    """Return the reaction and the next history of elements (m,) at the penetrations `z`.
-
-    At z_max itself, after the step that reached it, the stiffness is that of unloading.
-    """
-    (deeper,) = (z > history.z_max).nonzero()
-    with np.errstate(all="ignore"):
-        after = _deepened(history, z, virgin, deeper)
-        stiffness = _line_stiffness(after.stiffness, after.z_max, after.force_max)
-        compressed = z > after.z_p
-        on_line = after.force_max - stiffness * (after.z_max - z)
-        force = np.where(compressed, np.maximum(on_line, 0.0, out=on_line), 0.0)
-        stiffness = np.where(compressed, stiffness, 0.0)
-        force[deeper], stiffness[deeper] = virgin.force[deeper], virgin.slope[deeper]
-    return UnloadingReaction(force, stiffness, compressed, after.z_p - z), after
-
-
-def _deepened(history: UnloadingHistory, z: FloatArray, virgin: VirginPath, deeper: IndexArray) -> UnloadingHistory:
-    """The history with the deepest point where it is now, of the elements that are `deeper` than ever."""
-    kept = (history.stiffness, history.z_max, history.force_max, history.z_p)
-    after = UnloadingHistory(*(values.copy() for values in kept))
-    if not deeper.size:
-        return after
-    z_max, force_max = z[deeper], np.maximum(virgin.force[deeper], 0.0)
-    stiffness = np.maximum(history.stiffness[deeper], virgin.steepest[deeper])
-    # A bottom that rounds to z_max would leave no place for the reaction there.
-    deepest = np.where(force_max > 0.0, np.nextafter(z_max, 0.0), z_max)
-    bottom = np.clip(z_max - force_max / _line_stiffness(stiffness, z_max, force_max), 0.0, deepest)
-    after.stiffness[deeper], after.z_max[deeper] = stiffness, z_max
-    after.force_max[deeper], after.z_p[deeper] = force_max, bottom
-    return after
-
-
-def _line_stiffness(stiffness: FloatArray, z_max: FloatArray, force_max: FloatArray) -> FloatArray:
-    """Stiffness ku' of the line through the deepest point."""
-    secant = np.minimum(force_max / np.where(z_max > 0.0, z_max, 1.0), _LARGEST)
+def line_stiffness(stiffness: Value, z_max: Value, force_max: Value) -> Value:
+    """Return ku' of the line through the deepest point; `stiffness` is already as steep as the virgin path."""
+    secant = np.minimum(force_max / where(z_max > 0.0, z_max, 1.0), _LARGEST)
     return np.maximum(stiffness, secant)
 
 
-def steepest_slope(curve: ForceCurve, ratio: FloatArray) -> FloatArray:
-    """Return the steepest slope (d force / d ratio) of the curve between the mudline and each embedment ratio > 0.
+def trench_bottom(line: Value, z_max: Value, force_max: Value) -> Value:
+    """Return z_p, between 0 and z_max; strictly below z_max where there is a force."""
+    # a bottom that rounds to z_max would leave no place for the reaction there
+    deepest = where(force_max > 0.0, np.nextafter(z_max, 0.0), z_max)
+    bottom = np.minimum(z_max - force_max / line, deepest)
+    # a line to the mudline ends there, whatever its quotient rounds to
+    return where(bottom > _ROUNDING * z_max, bottom, 0.0)
 
-    At a point of the curve the segment to its right does not count yet.
-    """
-    first, last = curve.segment(np.zeros(1))[0], np.searchsorted(curve.ratios[1:-1], ratio)
-    so_far = np.maximum.accumulate(curve.slopes[first:])
-    steepest: FloatArray = so_far[np.maximum(last - first, 0)]
-    return steepest
+
+def on_line(z: Value, z_max: Value, force_max: Value, line: Value, bottom: Value) -> tuple[Value, Value]:
+    """Return force and stiffness at a penetration that is not the largest so far."""
+    below = z > bottom
+    return where(below, np.maximum(force_max - line * (z_max - z), 0.0), 0.0), where(below, line, 0.0)
+
+
+UNLOADING = Law(
+    name="unloading",
+    summary="unloading line from the deepest point so far",
+    acts_on="elements",
+    parameters=(Parameter("stiffness", "F/L2", "unloading stiffness ku", above=True),),
+    history=True,
+    equation="F = max(0, F_max - ku' (z_max - z)) below z_max",
+    source="linear unloading and reloading as in the full cycle of pipe-soil interaction models",
+)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from mudline.contact.inputs import LawKind
+from mudline.contact.input import LawKind
 from mudline.deck.model import Deck
 from mudline.deck.units import GRAVITIES
 from mudline.diagnostics import Code, Problem, Severity, Where

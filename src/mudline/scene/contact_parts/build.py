@@ -1,86 +1,111 @@
-"""Puts the parts together that a scene needs; what it does not need is not imported."""
+"""Puts the laws together that a scene gives its elements and nodes; what it does not need is not imported."""
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mudline.contact.extras import Extras
-from mudline.contact.inputs import LawKind
+from mudline.contact.input import LawAssignment, LawKind
+from mudline.scene.contact_parts.refused import RefusedError
 from mudline.scene.floor import FloorKind
 
 if TYPE_CHECKING:
-    from mudline.contact.floors.base import Floor as ContactFloor
-    from mudline.scene.model import Scene
+    from mudline.contact.seabed.base import Seabed
+    from mudline.scene.model import LawArrays, Scene
 
 
-def floor_of(scene: Scene) -> ContactFloor | None:
-    """The bed; None for a flat one. Raises RefusedError."""
+def seabed_of(scene: Scene) -> Seabed | None:
+    """The shape of the seabed; None for a flat one. Raises RefusedError."""
     if scene.floor.kind is FloorKind.FLAT:
         return None
-    from mudline.scene.contact_parts.floor import contact_floor  # noqa: PLC0415 - only now is it needed
+    from mudline.scene.contact_parts.floor import contact_seabed  # noqa: PLC0415 - only now is it needed
 
-    return contact_floor(scene.floor)
-
-
-def extras_of(scene: Scene, *, keep: bool) -> Extras:
-    """Everything else that the deck asks for; `keep`: pulling curves are kept. Raises RefusedError."""
-    return _sideways(scene, _suction(scene, _normal(scene, Extras()), keep=keep))
+    return contact_seabed(scene.floor)
 
 
-def _normal(scene: Scene, extras: Extras) -> Extras:
-    """Nodal laws, smoothing, unloading."""
-    smooth = np.zeros(len(scene.element_ids), dtype=np.bool_)
+def laws_of(scene: Scene, arrays: LawArrays, *, keep: bool) -> list[LawAssignment]:
+    """Everything that the deck gives elements and nodes; `keep`: pulling curves are kept. Raises RefusedError."""
+    laws = [*_normal(scene, arrays), *_suction(scene, keep=keep), *_sideways(scene)]
+    return [law for law in laws if len(law.rows)]
+
+
+def table_of(scene: Scene) -> list[np.ndarray[tuple[int, ...], np.dtype[np.float64]]]:
+    """The tables that trenches point to."""
+    if "SEABED TRENCH" not in scene.extensions:
+        return []
+    from mudline.scene.contact_parts.trench import resistance_tables  # noqa: PLC0415 - only now is it needed
+
+    return resistance_tables(scene)
+
+
+def _normal(scene: Scene, arrays: LawArrays) -> list[LawAssignment]:
+    """Curves, linear laws, nodal laws, unloading."""
+    (on_curve,), (linear,) = (np.nonzero(scene.law == kind) for kind in (LawKind.CURVE, LawKind.LINEAR))
+    laws = [
+        LawAssignment("rigid", np.flatnonzero(scene.law == LawKind.RIGID)),
+        LawAssignment("curve", on_curve, {"curve": arrays.curve_index[on_curve]}),
+    ]
+    smoothed = np.zeros(len(scene.element_ids), dtype=np.bool_)
     if "SEABED CONTACT" in scene.extensions:
         from mudline.scene.contact_parts.smoothing import element_smoothing  # noqa: PLC0415 - only now is it needed
 
-        extras = replace(extras, smoothing=element_smoothing(scene))
-        if extras.smoothing is not None:
-            smooth = extras.smoothing.half_width > 0.0
+        smoothing = element_smoothing(scene)
+        smoothed[smoothing.rows] = True
+        laws.append(smoothing)
+    plain = linear[~smoothed[linear]]
+    stiffness = arrays.linear_stiffness[plain]
+    if np.isnan(stiffness).any():
+        index = int(plain[np.isnan(stiffness)][0])
+        message = f"element {scene.element_ids[index]} has a linear law and no finite stiffness"
+        raise RefusedError(f"{message}; this cannot be evaluated", scene.table.numbered.where(index))
+    laws.append(LawAssignment("linear", plain, {"stiffness": stiffness}))
     if (scene.law == LawKind.NODAL).any():
         from mudline.scene.contact_parts.nodal import nodal_springs  # noqa: PLC0415 - only now is it needed
 
-        extras = replace(extras, nodal=nodal_springs(scene))
+        laws.append(nodal_springs(scene))
     if "SEABED UNLOADING" in scene.extensions:
-        from mudline.scene.contact_parts.unloading import unloading_stiffness  # noqa: PLC0415 - only now is it needed
+        from mudline.scene.contact_parts.unloading import unloading_lines  # noqa: PLC0415 - only now is it needed
 
-        extras = replace(extras, unloading=unloading_stiffness(scene, smooth))
-    return extras
+        laws.append(unloading_lines(scene, smoothed))
+    return laws
 
 
-def _suction(scene: Scene, extras: Extras, *, keep: bool) -> Extras:
-    if _given(scene, "suction"):
-        from mudline.scene.contact_parts.suction_springs import suction_springs  # noqa: PLC0415 - only now is it needed
-
-        springs = suction_springs(scene)
-        extras = replace(extras, suction_springs=springs if springs.stiffness.any() else None)
+def _suction(scene: Scene, *, keep: bool) -> list[LawAssignment]:
+    laws = []
+    if given(scene, "suction"):
+        stiffness, extent = scene.bed.column("suction"), scene.bed.column("extent")
+        # a spring without an extent of its zone holds nothing
+        rows = np.flatnonzero((stiffness > 0.0) & (extent > 0.0) & (scene.law != LawKind.RIGID))
+        laws.append(LawAssignment("suction spring", rows, {"stiffness": stiffness[rows], "extent": extent[rows]}))
     if "SEABED SUCTION" in scene.extensions:
         from mudline.scene.contact_parts.suction import element_suction  # noqa: PLC0415 - only now is it needed
 
-        extras = replace(extras, suction=element_suction(scene, keep=keep))
-    return extras
+        laws.append(element_suction(scene, keep=keep))
+    return laws
 
 
-def _sideways(scene: Scene, extras: Extras) -> Extras:
+def _sideways(scene: Scene) -> list[LawAssignment]:
     """Lateral springs, friction, trenches."""
-    if _given(scene, "lateral"):
-        from mudline.scene.contact_parts.lateral import lateral_stiffness  # noqa: PLC0415 - only now is it needed
-
-        lateral = lateral_stiffness(scene)
-        extras = replace(extras, lateral=None if np.isnan(lateral).all() else lateral)
-    if "SEABED FRICTION" in scene.extensions or _given(scene, "friction"):
+    laws = []
+    lateral = np.zeros(0, dtype=np.intp)
+    if given(scene, "lateral"):
+        stiffness = scene.bed.column("lateral")
+        lateral = np.flatnonzero((stiffness > 0.0) & (scene.law != LawKind.RIGID))
+        laws.append(LawAssignment("lateral", lateral, {"stiffness": stiffness[lateral]}))
+    friction = None
+    if "SEABED FRICTION" in scene.extensions or given(scene, "friction"):
         from mudline.scene.contact_parts.friction import node_friction  # noqa: PLC0415 - only now is it needed
 
-        extras = replace(extras, friction=node_friction(scene, extras.lateral))
+        friction = node_friction(scene, lateral)
+        laws.append(friction)
     if "SEABED TRENCH" in scene.extensions:
-        from mudline.scene.contact_parts.trench import node_trench  # noqa: PLC0415 - only now is it needed
+        from mudline.scene.contact_parts.trench import trenches  # noqa: PLC0415 - only now is it needed
 
-        extras = replace(extras, trench=node_trench(scene, extras.friction))
-    return extras
+        laws += trenches(scene, friction)
+    return laws
 
 
-def _given(scene: Scene, name: str) -> bool:
-    """Whether some block of the bed gives a value above 0."""
+def given(scene: Scene, name: str) -> bool:
+    """Whether some block of the seabed gives a value above 0."""
     return any(np.greater(getattr(values, name), 0.0).any() for values in scene.bed.values)

@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from mudline.contact.floors.errors import FloorError
+from mudline.contact.seabed.base import SeabedError
 from mudline.scene.contact_parts.refused import RefusedError
 from mudline.scene.floor import Floor, FloorKind
 
 if TYPE_CHECKING:
     from typing import Literal
 
-    from mudline.contact.floors.base import Floor as ContactFloor
-    from mudline.contact.floors.profile import Interpolation
+    from mudline.contact.seabed.base import Seabed
+    from mudline.contact.seabed.profile import Interpolation
 
 
-def contact_floor(floor: Floor) -> ContactFloor | None:
+def contact_seabed(floor: Floor) -> Seabed | None:
     """The bed; None for a flat one at elevation 0.
 
     Raises RefusedError: points that are not known, a bed that is none, or one that needs a package that is missing.
@@ -29,35 +29,35 @@ def contact_floor(floor: Floor) -> ContactFloor | None:
         raise RefusedError(f"the bed is not known: {floor.missing}; this cannot be evaluated", floor.where)
     try:
         return _made(floor)
-    except FloorError as error:
+    except SeabedError as error:
         raise RefusedError(f"{error}; this cannot be evaluated", floor.where) from error
 
 
-def _made(floor: Floor) -> ContactFloor:
+def _made(floor: Floor) -> Seabed:
     """Only the module of the kind that there is gets imported."""
     if floor.kind is FloorKind.SLOPING:
-        from mudline.contact.floors.sloping import SlopingFloor  # noqa: PLC0415 - only now is it needed
+        from mudline.contact.seabed.base import SlopingSeabed  # noqa: PLC0415 - only now is it needed
 
-        return SlopingFloor(floor.slope, floor.direction)
+        return SlopingSeabed(floor.slope, floor.direction)
     if floor.kind is FloorKind.PROFILE:
-        from mudline.contact.floors.profile import ProfileFloor  # noqa: PLC0415 - only now is it needed
+        from mudline.contact.seabed.profile import ProfileSeabed  # noqa: PLC0415 - only now is it needed
 
         how = cast("Interpolation", floor.interpolation)
-        return ProfileFloor(floor.points[:, 0], floor.points[:, 1], how, floor.direction)
+        return ProfileSeabed(floor.points[:, 0], floor.points[:, 1], how, floor.direction)
     if floor.kind is FloorKind.PLANES:
         return _planes(floor)
     if find_spec("scipy") is None:
         what = "a 3D surface needs scipy, which is not installed: pip install 'mudline[study]'"
         raise RefusedError(what, floor.where)
-    from mudline.contact.floors.scattered import ScatteredFloor  # noqa: PLC0415 - only now is it needed
+    from mudline.contact.seabed.scattered import ScatteredSeabed  # noqa: PLC0415 - only now is it needed
 
-    return ScatteredFloor(floor.points, cast("Literal['LINEAR', 'CUBIC']", floor.interpolation))
+    return ScatteredSeabed(floor.points, cast("Literal['LINEAR', 'CUBIC']", floor.interpolation))
 
 
-def _planes(floor: Floor) -> ContactFloor:
-    from mudline.contact.floors.planes import PlanesFloor  # noqa: PLC0415 - only now is it needed
+def _planes(floor: Floor) -> Seabed:
+    from mudline.contact.seabed.planes import PlanesSeabed  # noqa: PLC0415 - only now is it needed
 
-    return PlanesFloor(
+    return PlanesSeabed(
         np.array([plane.point for plane in floor.planes]),
         np.array([plane.slope for plane in floor.planes]),
         np.array([plane.direction for plane in floor.planes]),

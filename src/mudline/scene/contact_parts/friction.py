@@ -7,9 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mudline.contact.extras import NodeFriction
-from mudline.contact.friction.law import FrictionLaw
-from mudline.contact.inputs import LawKind
+from mudline.contact.input import LawAssignment, LawKind
 from mudline.scene.contact_parts.picking import at_nodes, marked, picked, touched
 from mudline.scene.contact_parts.units import LARGEST_MOBILISATION
 from mudline.scene.given import number
@@ -32,11 +30,11 @@ class _Springs:
     mobilisation: Floats
 
 
-def node_friction(scene: Scene, lateral: Floats | None) -> NodeFriction | None:
-    """The friction of the nodes; None where no node has any.
+def node_friction(scene: Scene, lateral: Indices) -> LawAssignment:
+    """The friction of the nodes that have any.
 
-    Nodes of elements with a lateral spring (`lateral` (m,), not NaN) have no transverse coefficient; nodes of a rigid
-    bed have no friction, as their normal reaction is that of a constraint.
+    Nodes of elements with a lateral spring (`lateral` (k,)) have no transverse coefficient; nodes of a rigid seabed
+    have no friction, as their normal reaction is that of a constraint.
     """
     ends, count = scene.element_nodes, len(scene.node_ids)
     springs = _of_properties(scene)
@@ -50,14 +48,14 @@ def node_friction(scene: Scene, lateral: Floats | None) -> NodeFriction | None:
         active = active | here
         ellipse = marked((getattr(entry, "criterion", None) == "ELLIPSE" for entry in extension.entries), block)
         angle = picked((number(entry, "directions") for entry in extension.entries), block)
-    if lateral is not None:
-        springs.coefficients[touched(~np.isnan(lateral), ends, count), 1] = 0.0
-    active = active & ~touched(scene.law == LawKind.RIGID, ends, count)
-    if not active.any():
-        return None
-    coefficients = np.where(active[:, None], np.nan_to_num(springs.coefficients), 0.0)
-    law = FrictionLaw(coefficients, springs.stiffness, springs.mobilisation, ellipse, active)
-    return NodeFriction(law, angle)
+    springs.coefficients[np.unique(ends[lateral]), 1] = 0.0
+    rows = np.flatnonzero(active & ~touched(scene.law == LawKind.RIGID, ends, count))
+    parameters = {"elliptic": ellipse[rows], "angle": angle[rows]}
+    for side, name in enumerate(("axial", "lateral")):
+        parameters[f"{name}_coefficient"] = np.nan_to_num(springs.coefficients[rows, side])
+        parameters[f"{name}_stiffness"] = springs.stiffness[rows, side]
+        parameters[f"{name}_mobilisation"] = springs.mobilisation[rows, side]
+    return LawAssignment("friction", rows, parameters)
 
 
 def _of_properties(scene: Scene) -> _Springs:

@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mudline.contact.extras import NodalSprings
-from mudline.contact.inputs import LawKind
+from mudline.contact.input import LawAssignment, LawKind
 from mudline.scene.contact_parts.picking import at_nodes, marked, picked
 from mudline.scene.contact_parts.smoothing import KEYWORD, half_width, one_sided, static_nodal
 from mudline.scene.given import number
@@ -30,11 +29,15 @@ def nodal_stiffness(scene: Scene, extension: Extension) -> Floats:
     return picked(stiffness, nodal_blocks(scene, extension))
 
 
-def nodal_springs(scene: Scene) -> NodalSprings:
-    """The springs of all nodes, with their quadratic zones."""
+def nodal_springs(scene: Scene) -> LawAssignment:
+    """The springs of the nodes, with their quadratic zones."""
     extension = scene.extensions[KEYWORD]
     block = nodal_blocks(scene, extension)
     stiffness = nodal_stiffness(scene, extension)
     penetration, diameter = static_nodal(scene, stiffness)
     width = half_width(extension, block, penetration, diameter)
-    return NodalSprings(stiffness, width, marked(map(one_sided, extension.entries), block))
+    rows = np.flatnonzero(~np.isnan(stiffness))
+    sides = marked(map(one_sided, extension.entries), block)
+    return LawAssignment(
+        "nodal", rows, {"stiffness": stiffness[rows], "half_width": width[rows], "one_sided": sides[rows]}
+    )

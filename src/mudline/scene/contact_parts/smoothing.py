@@ -6,9 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mudline.contact.extras import Smoothing
-from mudline.contact.inputs import LawKind
-from mudline.contact.laws.smoothing import automatic_half_width
+from mudline.contact.input import LawAssignment, LawKind
+from mudline.contact.laws.linear import automatic_half_width
 from mudline.scene.contact_parts.picking import marked, picked, summed
 from mudline.scene.given import number
 from mudline.scene.numbering import Floats, Indices, Mask
@@ -63,14 +62,18 @@ def static_nodal(scene: Scene, stiffness: Floats) -> tuple[Floats, Floats]:
         return carried / stiffness, sizes / summed(known.astype(np.float64), ends, count)
 
 
-def element_smoothing(scene: Scene) -> Smoothing | None:
-    """The zones of the elements with a linear law; None where none of them is smoothed."""
+def element_smoothing(scene: Scene) -> LawAssignment:
+    """The elements with a linear law that have a quadratic zone."""
     extension = scene.extensions[KEYWORD]
     block = np.where(scene.law == LawKind.LINEAR, extension.of_element, -1)
-    if not (block >= 0).any():
-        return None
     width = half_width(extension, block, static_linear(scene), scene.diameter)
-    return Smoothing(width, marked(map(one_sided, extension.entries), block)) if width.any() else None
+    rows = np.flatnonzero(width > 0.0)
+    parameters = {
+        "stiffness": scene.law_arrays().linear_stiffness[rows],
+        "half_width": width[rows],
+        "one_sided": marked(map(one_sided, extension.entries), block)[rows],
+    }
+    return LawAssignment("smoothed", rows, parameters)
 
 
 def weightless(scene: Scene) -> int:

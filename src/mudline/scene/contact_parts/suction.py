@@ -7,12 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mudline.contact.extras import ElementSuction
-from mudline.contact.inputs import LawKind
-from mudline.contact.laws.spring import LawError
-from mudline.contact.suction.law import SuctionFactors, SuctionLaw, from_cohesion
+from mudline.contact.input import LawAssignment, LawKind
+from mudline.contact.laws.suction import SuctionFactors, SuctionLaw, from_cohesion
 from mudline.scene.contact_parts.picking import picked, refuse, refuse_entry
-from mudline.scene.contact_parts.refused import RefusedError
 from mudline.scene.contact_parts.units import FORCE_UNIT, LENGTH_UNIT
 from mudline.scene.given import number
 from mudline.scene.numbering import Floats, Indices, Mask
@@ -27,29 +24,34 @@ _SLOWEST = 1e-3
 """Default of REGULARISATION=, m/s."""
 
 
-def element_suction(scene: Scene, *, keep: bool) -> ElementSuction | None:
-    """The laws of the elements on an elastic bed; None where no element has one.
+def element_suction(scene: Scene, *, keep: bool) -> LawAssignment:
+    """The laws of the elements on an elastic seabed.
 
     `keep` says that curves which pull are kept. Raises RefusedError: a law that is incomplete, or needs metric or
-    imperial units, or has a value out of range, and an element that something else holds down too.
+    imperial units, or has corners out of their range, and an element that something else holds down too.
     """
     extension = scene.extensions[KEYWORD]
     held = (extension.of_element >= 0) & (scene.law != LawKind.RIGID)
-    if not held.any():
-        return None
-    _check_alone(scene, extension, held, keep=keep)
     elements = np.flatnonzero(held)
+    if not elements.size:
+        return LawAssignment("suction", elements, dict.fromkeys(SuctionLaw._fields, 0.0))
+    _check_alone(scene, extension, held, keep=keep)
     block = extension.of_element[elements]
     _check_complete(scene, extension, block)
     law = suction_law(scene, extension, elements)
     unsized = np.zeros(len(scene.element_ids), dtype=np.bool_)
     unsized[elements] = np.isnan(law.force_factor) | np.isnan(law.depth_factor)
     refuse(extension, unsized, scene.element_ids, "COHESION= needs the external diameter, which is not known")
-    try:
-        return ElementSuction(elements, law.checked())
-    except LawError as error:
-        message = f"element {scene.element_ids[elements[error.index]]}: {error}; this cannot be evaluated"
-        raise RefusedError(message, extension.places[int(block[error.index])]) from error
+    _check_corners(extension, block, law)
+    return LawAssignment("suction", elements, law._asdict())
+
+
+def _check_corners(extension: Extension, block: Indices, law: SuctionLaw) -> None:
+    first, second = law.first_corner, law.second_corner
+    wrong = np.flatnonzero(~((first > 0.0) & (first <= second) & (second < 1.0)))
+    if wrong.size:
+        where = extension.places[int(block[wrong[0]])]
+        refuse_entry(where, "cutoff", "the corners of CUTOFF= must be 0 < first <= second < 1")
 
 
 def suction_law(scene: Scene, extension: Extension, elements: Indices) -> SuctionLaw:
@@ -62,9 +64,16 @@ def suction_law(scene: Scene, extension: Extension, elements: Indices) -> Suctio
         *_factors(scene, extension, elements, block),
         first_corner=np.where(np.isnan(first), _CORNERS[0], first),
         second_corner=np.where(np.isnan(second), _CORNERS[1], second),
-        cyclic=picked((number(e, "cyclic", 1.0) for e in extension.entries), block),
+        cyclic=picked((_cyclic(e)[0] for e in extension.entries), block),
         regularisation=picked((number(e, "regularisation", _SLOWEST / length_unit) for e in extension.entries), block),
+        cyclic_floor=picked((_cyclic(e)[1] for e in extension.entries), block),
     )
+
+
+def _cyclic(entry: object) -> tuple[float, float]:
+    """Factor and floor of CYCLIC=; the floor is NaN where there is none."""
+    both = getattr(entry, "cyclic", None)
+    return number(both, "factor", number(entry, "cyclic", 1.0)), number(both, "floor")
 
 
 def _check_alone(scene: Scene, extension: Extension, held: Mask, *, keep: bool) -> None:
@@ -73,10 +82,7 @@ def _check_alone(scene: Scene, extension: Extension, held: Mask, *, keep: bool) 
     refuse(extension, springs, ids, "SUCTION= of *SEABED PROPERTIES holds the element too")
     if keep:
         arrays = scene.law_arrays()
-        pulls = [
-            bool((curve.evaluate(np.append(curve.ratios[curve.ratios > 0.0], 0.0))[0] < 0).any())
-            for curve in arrays.curves
-        ]
+        pulls = [bool((curve.forces[curve.ratios > 0.0] < 0.0).any()) for curve in arrays.curves]
         on_curve = np.array([*pulls, False])[arrays.curve_index]
         pulled = held & on_curve & (arrays.law == LawKind.CURVE)
         refuse(extension, pulled, ids, "the curve pulls too, unless it is cut with tension cut")

@@ -1,4 +1,4 @@
-"""`*SEABED TRENCH`: the trenches of the nodes."""
+"""`*SEABED TRENCH`: the trenches that elements lie in."""
 
 from __future__ import annotations
 
@@ -6,70 +6,99 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mudline.contact.extras import NodeFriction, NodeTrench
-from mudline.contact.friction.trench import TrenchLaw
-from mudline.scene.contact_parts.picking import at_nodes, picked, refuse, refuse_entry
+from mudline.contact.input import LawAssignment
+from mudline.diagnostics import Where
+from mudline.scene.contact_parts.picking import picked, refuse, refuse_entry
 from mudline.scene.given import number
-from mudline.scene.numbering import Floats, Indices
+from mudline.scene.numbering import Floats, Mask
 
 if TYPE_CHECKING:
-    from mudline.scene.extensions import Extension
     from mudline.scene.model import Scene
 
 KEYWORD = "SEABED TRENCH"
+_LINE = (("start_y", "y0"), ("start_z", "z0"), ("end_y", "y1"), ("end_z", "z1"))
 
 
-def node_trench(scene: Scene, friction: NodeFriction | None) -> NodeTrench | None:
-    """Widths and peak forces of the nodes; None where no element lies in a trench.
+def trenches(scene: Scene, friction: LawAssignment | None) -> list[LawAssignment]:
+    """The elements in trenches with a peak resistance, a tabulated one, or sloped walls.
 
-    A node's peak counts half of the lengths of those of its elements that follow the node's own block.
-
-    Raises RefusedError: a geometry that is none, or elements without a lateral friction spring.
+    Raises RefusedError: an impossible geometry, a missing resistance, or elements without a lateral friction spring.
     """
     extension = scene.extensions[KEYWORD]
-    _check_geometry(extension)
-    if not (extension.of_element >= 0).any():
-        return None
-    ends, count = scene.element_nodes, len(scene.node_ids)
-    block = at_nodes(extension.of_element, ends, count)
-    _check_springs(scene, extension, block, friction)
-    geometry = [getattr(entry, "geometry", None) for entry in extension.entries]
-    peak = picked((number(entry, "peak") for entry in extension.entries), block)
-    law = TrenchLaw(
-        picked((number(each, "bottom_width") for each in geometry), block),
-        picked((number(each, "upper_width") for each in geometry), block),
-        peak * _lengths(scene, extension, block),
-    )
-    lines = [getattr(entry, "centreline", None) for entry in extension.entries]
-    straight = [picked((number(line, name) for line in lines), block) for name in ("y0", "z0", "y1", "z1")]
-    return NodeTrench(law, np.column_stack(straight))
-
-
-def _check_geometry(extension: Extension) -> None:
     for entry, where in zip(extension.entries, extension.places, strict=True):
-        geometry, line = getattr(entry, "geometry", None), getattr(entry, "centreline", None)
-        bottom, upper = number(geometry, "bottom_width"), number(geometry, "upper_width")
-        if not 0.0 < bottom < upper:
-            refuse_entry(where, "geometry", "the widths of the trench must be above 0, the upper one larger")
-        if all(number(line, f"{axis}0") == number(line, f"{axis}1") for axis in "yz"):
-            refuse_entry(where, "centreline", "the two points of the centreline are one")
+        _check_entry(entry, where)
+    if not (extension.of_element >= 0).any():
+        return []
+    bare = (extension.of_element >= 0) & ~_sprung(scene, friction)
+    refuse(extension, bare, scene.element_ids, "a trench needs a lateral friction spring: give *SEABED FRICTION")
+    walls = np.array([_is_wall(entry) for entry in extension.entries])
+    tabled = np.array([_table(entry) is not None for entry in extension.entries]) & ~walls
+    tables = np.cumsum(tabled) - 1
+    of_element = extension.of_element
+    found = []
+    for law, blocks, name in (
+        ("trench peak", ~walls & ~tabled, "peak"),
+        ("trench table", tabled, "table"),
+        ("trench wall", walls, "depth"),
+    ):
+        rows = np.flatnonzero((of_element >= 0) & blocks[of_element])
+        block = of_element[rows]
+        geometry = [getattr(entry, "geometry", None) for entry in extension.entries]
+        lines = [getattr(entry, "centreline", None) for entry in extension.entries]
+        values = {
+            "peak": (number(entry, "peak") for entry in extension.entries),
+            "table": map(float, tables.tolist()),
+            "depth": (number(each, "depth") for each in geometry),
+        }
+        parameters = {
+            "bottom": picked((number(each, "bottom_width") for each in geometry), block),
+            "upper": picked((number(each, "upper_width") for each in geometry), block),
+            name: picked(values[name], block),
+            **{ours: picked((number(line, theirs) for line in lines), block) for ours, theirs in _LINE},
+        }
+        found.append(LawAssignment(law, rows, parameters))
+    return found
 
 
-def _check_springs(scene: Scene, extension: Extension, block: Indices, friction: NodeFriction | None) -> None:
-    """A trench raises the limit of a lateral spring, so there must be one."""
-    bare = block >= 0
+def resistance_tables(scene: Scene) -> list[Floats]:
+    """The tables (k, 2) of the blocks that have one, in their order."""
+    tables = (_table(entry) for entry in scene.extensions[KEYWORD].entries if not _is_wall(entry))
+    return [table for table in tables if table is not None]
+
+
+def _is_wall(entry: object) -> bool:
+    return getattr(entry, "model", None) == "WALL"
+
+
+def _table(entry: object) -> Floats | None:
+    """Offsets and resistances (k, 2) of a block, None where it has no table."""
+    table = getattr(entry, "table", None)
+    return None if table is None else table.values
+
+
+def _check_entry(entry: object, where: Where) -> None:
+    geometry, line = getattr(entry, "geometry", None), getattr(entry, "centreline", None)
+    bottom, upper = number(geometry, "bottom_width"), number(geometry, "upper_width")
+    if not 0.0 < bottom < upper:
+        refuse_entry(where, "geometry", "the widths of the trench must be above 0, the upper one larger")
+    if all(number(line, f"{axis}0") == number(line, f"{axis}1") for axis in "yz"):
+        refuse_entry(where, "centreline", "the two points of the centreline are one")
+    if _is_wall(entry):
+        return
+    table = _table(entry)
+    if table is not None:
+        if len(table) < 2 or not (np.diff(table[:, 0]) > 0.0).all() or not np.isfinite(table).all():
+            refuse_entry(where, "peak", "PEAK=TABLE needs two rows or more, with offsets that ascend")
+    elif np.isnan(number(entry, "peak")):
+        refuse_entry(where, "set", "MODEL=PEAK needs a resistance: give PEAK=")
+
+
+def _sprung(scene: Scene, friction: LawAssignment | None) -> Mask:
+    """Elements (m,) whose two nodes have a lateral friction spring."""
+    sprung = np.zeros(len(scene.node_ids), dtype=np.bool_)
     if friction is not None:
-        law = friction.law
-        bare = bare & ~(law.active & (law.constant[:, 1] | (law.coefficients[:, 1] > 0.0)))
-    elements = (extension.of_element >= 0) & bare[scene.element_nodes].any(axis=1)
-    refuse(extension, elements, scene.element_ids, "a trench needs a lateral friction spring: give *SEABED FRICTION")
-
-
-def _lengths(scene: Scene, extension: Extension, block: Indices) -> Floats:
-    """Half of the lengths of a node's elements that follow its block."""
-    total = np.zeros(len(block))
-    half = 0.5 * np.where(np.isfinite(scene.length), scene.length, 0.0)
-    for end in scene.element_nodes.T:
-        same = extension.of_element == block[end]
-        np.add.at(total, end[same], half[same])
-    return total
+        stiffness = np.asarray(friction.parameters["lateral_stiffness"])
+        coefficient = np.asarray(friction.parameters["lateral_coefficient"])
+        sprung[friction.rows] = ~np.isnan(stiffness) | (coefficient > 0.0)
+    found: Mask = np.logical_and(*sprung[scene.element_nodes].T)
+    return found

@@ -1,4 +1,4 @@
-"""A motion of a mass per unit length on the bed, whose outcome is known: what the schemes are tried on."""
+"""A motion of a mass per unit length on the seabed, whose outcome is known: what the schemes are tried on."""
 
 from __future__ import annotations
 

@@ -36,7 +36,7 @@ def reference_drop() -> Drop:
 
 
 def all_cases(scene: Scene, seabed: Seabed, omissions: list[Omission], notes: list[str]) -> list[Case]:
-    """The reference, then for each bed a drop, and for the first a pull and a drag."""
+    """The reference, then for each seabed a drop, and for the first a pull and a drag."""
     cases = [drop_case("drop-reference", "dropped, published case", reference_drop())]
     for bed in seabed.beds:
         _add(cases, omissions, f"drop on {bed.law.name}", partial(_drop, bed))

@@ -1,4 +1,4 @@
-"""A mass dragged along the bed: it comes with some speed, slides against Coulomb friction, and swings back.
+"""A mass dragged along the seabed: it comes with some speed, slides against Coulomb friction, and swings back.
 
 Below the limit mu N friction is a spring Kt. With omega = sqrt(Kt / m) and the threshold displacement Th = mu N / Kt:
 it sticks up to Th, where the speed is v1 = sqrt(v^2 - omega^2 Th^2); slips v1^2 m / (2 mu N) farther; and swings about
@@ -14,8 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
-from mudline.contact.friction.law import FrictionHistory, FrictionLaw
-from mudline.contact.friction.return_mapping import slide
+from mudline.contact.laws.friction import FrictionHistory, FrictionLaw, slide
 from mudline.study.precision.case import RUNS, Case, Start, uneven
 from mudline.study.schemes.marching import Trajectory
 from mudline.study.schemes.system import Forces, History, Motion
@@ -69,13 +68,13 @@ def drag_case(drag: Drag) -> Case:
     system = _Sliding(np.full(RUNS, drag.mass), law, np.full(RUNS, drag.limit))
 
     def start(dt: float) -> Start:
-        memory = _Memory(FrictionHistory.start(law), np.zeros(RUNS))
+        memory = _Memory(FrictionHistory.initial(law.active), np.zeros(RUNS))
         motion = Motion.start(system, np.zeros(RUNS), np.full(RUNS, speed), memory)
         return Start(motion, uneven(dt))
 
     def errors(run: Trajectory) -> FloatArray:
         memory: _Memory = run.end.history
-        stretch = run.end.position - memory.friction.anchors[:, 1]
+        stretch = run.end.position - memory.friction.stick_points[:, 1]
         back = np.sqrt(run.end.velocity**2 + (omega * stretch) ** 2)
         energy = 0.5 * drag.mass * back**2 + memory.dissipated
         found = np.array(

@@ -1,4 +1,4 @@
-"""A mass dropped on an elastic bed: it comes with some speed, sinks in, and leaves with the same speed.
+"""A mass dropped on an elastic seabed: it comes with some speed, sinks in, and leaves with the same speed.
 
 The deepest penetration z follows from the energies, m v^2 / 2 + w z = U(z), with the stored work U of the law.
 """
@@ -26,10 +26,10 @@ class Drop:
     """What falls on what: SI or the deck's units, per unit length.
 
     Attributes:
-        law: of the bed.
+        law: of the seabed.
         mass: > 0.
         weight: in water.
-        speed: with which the mass reaches the bed.
+        speed: with which the mass reaches the seabed.
         deepest: exact deepest penetration.
     """
 
@@ -55,7 +55,7 @@ def drop_to(law: Law, mass: float, weight: float, depth: float) -> Drop:
     """The drop that reaches this penetration, or a multiple of it where the weight alone reaches deeper.
 
     Raises:
-        StudyError: the bed never carries the weight.
+        StudyError: the seabed never carries the weight.
     """
     for doubling in range(_DOUBLINGS):
         deepest = depth * 2.0**doubling
@@ -86,7 +86,7 @@ def drop_case(name: str, title: str, drop: Drop) -> Case:
 
 
 def _start(drop: Drop, dt: float) -> Start:
-    """A share of a step above the bed, on the path that reaches it with the given speed."""
+    """A share of a step above the seabed, on the path that reaches it with the given speed."""
     fall = max(drop.weight, 0.0) / drop.mass
     before = (np.arange(RUNS) + 0.5) / RUNS * min(dt, 0.9 * drop.speed / fall if fall else dt)
     height = drop.law.top + drop.speed * before - 0.5 * fall * before**2
@@ -114,7 +114,7 @@ def _errors(drop: Drop, run: Trajectory) -> FloatArray:
 
 
 def _exit(position: FloatArray, top: float) -> tuple[IndexArray, BoolArray]:
-    """The first step that ends off the bed after it was touched, for each run; and whether there is one."""
+    """The first step that ends off the seabed after it was touched, for each run; and whether there is one."""
     touched = np.maximum.accumulate(position < top, axis=0)
     away = touched & (position >= top)
     left: BoolArray = np.any(away, axis=0)

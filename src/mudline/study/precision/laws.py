@@ -1,4 +1,4 @@
-"""Elastic normal laws of a mass on the bed, with the work they store: what the reference of a drop needs."""
+"""Elastic normal laws of a mass on the seabed, with the work they store: what the reference of a drop needs."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from typing import Protocol
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
-from mudline.contact.laws.smoothing import force_and_slope
+from mudline.contact.laws.linear import smoothed_reaction, zone_onset
 from mudline.curves import ForceCurve
 
 
 class Law(Protocol):
-    """Force per unit length over penetration z > 0; nothing above the bed."""
+    """Force per unit length over penetration z > 0; nothing above the seabed."""
 
     @property
     def name(self) -> str:
@@ -25,12 +25,12 @@ class Law(Protocol):
         ...
 
     def work(self, z: FloatArray) -> FloatArray:
-        """Work from the mudline to z, exactly; 0 above the bed."""
+        """Work from the mudline to z, exactly; 0 above the seabed."""
         ...
 
     @property
     def top(self) -> float:
-        """Height above the mudline at which the bed begins: the half width of the quadratic zone."""
+        """Height above the mudline at which the seabed begins: the half width of the quadratic zone."""
         ...
 
     def breaks(self) -> FloatArray:
@@ -40,6 +40,14 @@ class Law(Protocol):
     def steepest(self, z: float) -> float:
         """The largest slope between the mudline and z."""
         ...
+
+
+def smoothed_spring(z: FloatArray, stiffness: float, half_width: float | FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Force and d force / d z of centred zones at penetrations (k,) of any sign; 0 above the zone."""
+    with np.errstate(all="ignore"):
+        touches = z > zone_onset(stiffness, half_width, 0.0)
+        force, slope = smoothed_reaction(z, np.nan, stiffness, half_width, 0.0)
+        return np.where(touches, force, 0.0), np.where(touches, slope, 0.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,11 +60,10 @@ class LinearLaw:
 
     def spring(self, z: FloatArray) -> tuple[FloatArray, FloatArray]:
         """See `Law`."""
-        same = np.full(z.shape, self.stiffness)
         if self.top == 0.0:
             below = z > 0.0
-            return np.where(below, self.stiffness * z, 0.0), np.where(below, same, 0.0)
-        return force_and_slope(z, same, np.full(z.shape, self.top), np.zeros(z.shape, np.bool_))
+            return np.where(below, self.stiffness * z, 0.0), np.where(below, self.stiffness, 0.0)
+        return smoothed_spring(z, self.stiffness, self.top)
 
     def work(self, z: FloatArray) -> FloatArray:
         """See `Law`; of a smoothed law from the begin of its zone."""

@@ -1,4 +1,4 @@
-"""A mass pulled off the bed with a constant force, against suction, from its static penetration to beyond breakout.
+"""A mass pulled off the seabed with a constant force, against suction, from its static penetration to beyond breakout.
 
 The suction depends on the velocity, so there is no closed form: the exact values come from an integration that stops
 at the corners of the trapezoid, with the law written anew for it.
@@ -13,9 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
-from mudline.contact.suction.law import SuctionLaw
-from mudline.contact.suction.states import SuctionHistory, SuctionState
-from mudline.contact.suction.stepping import step
+from mudline.contact.laws.suction import SuctionHistory, SuctionLaw, SuctionState, step
 from mudline.study.errors import StudyError
 from mudline.study.precision.case import RUNS, Case, Start, uneven
 from mudline.study.precision.laws import Law
@@ -39,10 +37,16 @@ class SuctionNumbers(NamedTuple):
     second_corner: float
     cyclic: float
     regularisation: float
+    cyclic_floor: float = math.nan
 
     def rows(self, count: int) -> SuctionLaw:
         """The law of so many elements."""
         return SuctionLaw(*(np.full(count, value) for value in self))
+
+    @property
+    def largest(self) -> float:
+        """The factor of the largest suction before an uplift cycle is completed."""
+        return self.force_factor * (self.cyclic if math.isnan(self.cyclic_floor) else 1.0)
 
     def depth(self, v: float) -> float:
         """Uplift at breakout at a velocity that never fell."""
@@ -52,7 +56,7 @@ class SuctionNumbers(NamedTuple):
         """Suction at an uplift and a velocity > 0 that never fell."""
         n, share = self.force_exponent, x / self.depth(v)
         slow = v / self.regularisation if self.regularisation > v and n < 2.0 else 1.0
-        most = self.force_factor * self.cyclic * math.pow(v / slow, n) * slow * (2.0 - n + (n - 1.0) * slow)
+        most = self.largest * math.pow(v / slow, n) * slow * (2.0 - n + (n - 1.0) * slow)
         return most * max(0.0, min(share / self.first_corner, 1.0, (1.0 - share) / (1.0 - self.second_corner)))
 
 
@@ -76,7 +80,7 @@ class Pull:
     def pull(self) -> float:
         """Force upwards, besides what carries the weight."""
         usual = math.pow(self.velocity, self.suction.force_exponent)
-        return _MARGIN * self.suction.force_factor * self.suction.cyclic * usual
+        return _MARGIN * self.suction.largest * usual
 
     def passing(self) -> float:
         """Speed when the mass passes the mudline, from the energies."""
@@ -156,7 +160,7 @@ def pull_case(pull: Pull) -> Case:
     rest = pull.passing() * pull.mass / pull.pull
 
     def start(dt: float) -> Start:
-        memory = _Memory(SuctionHistory.initial(RUNS), np.zeros(RUNS))
+        memory = _Memory(SuctionHistory.initial(system.suction), np.zeros(RUNS))
         sunk = np.full(RUNS, -pull.sunk)
         return Start(Motion.start(system, sunk, np.zeros(RUNS), memory), uneven(dt))
 
@@ -184,6 +188,6 @@ def _errors(pull: Pull, exact: Breakout, run: Trajectory) -> FloatArray:
     found = np.array(
         [memory.largest / exact.suction, np.sqrt(np.maximum(squared, 0.0)) / exact.speed, work / exact.work]
     )
-    # Broken out, or so far away since that the bed has forgotten it.
+    # Broken out, or so far away since that the seabed has forgotten it.
     out = ~memory.suction.armed & (memory.suction.state != SuctionState.COMPRESSION) & (x > 0.5 * exact.uplift)
     return np.where(out, np.abs(found - 1.0), np.nan)

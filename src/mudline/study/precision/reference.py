@@ -78,7 +78,7 @@ class Flight(NamedTuple):
 
 
 def bounce(law: Law, mass: float, weight: float, speed: float) -> Flight:
-    """The whole contact of a mass that reaches the bed with a speed, stopping at every break of the law."""
+    """The whole contact of a mass that reaches the seabed with a speed, stopping at every break of the law."""
 
     def rate(_: float, state: FloatArray) -> list[float]:
         force = float(law.spring(state[:1])[0][0])
@@ -101,5 +101,5 @@ def bounce(law: Law, mass: float, weight: float, speed: float) -> Flight:
 
 
 def contact_time(law: Law, mass: float, weight: float, speed: float) -> float:
-    """Seconds from touchdown to leaving the bed."""
+    """Seconds from touchdown to leaving the seabed."""
     return bounce(law, mass, weight, speed).time

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 
 from mudline.contact import ContactInput, LawKind
-from mudline.contact.suction.law import from_cohesion
+from mudline.contact.arrays import FloatArray
+from mudline.contact.laws.suction import from_cohesion
 from mudline.scene.contact_parts.units import DEFAULT_GRAVITY
-from mudline.scene.model import Scene
+from mudline.scene.model import LawArrays, Scene
 from mudline.scene.section_weight import mass_per_length, submerged_weight, surroundings
 from mudline.study.precision.drag import Drag
 from mudline.study.precision.laws import CurveLaw, Law, LinearLaw
@@ -51,29 +51,31 @@ class Seabed(NamedTuple):
 
 def seabed_of(scene: Scene) -> Seabed:
     """The stiffest curve and the stiffest linear law of a scene; raises DeckError where it cannot be evaluated."""
-    inputs = scene.contact_input()
+    inputs, arrays = scene.contact_input(), scene.law_arrays()
     notes: list[str] = []
     mass, weight = mass_per_length(scene), submerged_weight(scene)
     beds = []
     for kind in (LawKind.CURVE, LawKind.LINEAR):
-        found = [_bed(scene, inputs, (float(mass[i]), float(weight[i])), i, notes) for i in _distinct(inputs, kind)]
+        elements = _distinct(arrays, scene.diameter, kind)
+        found = [_bed(scene, arrays, (float(mass[i]), float(weight[i])), i, notes) for i in elements]
         beds += sorted((bed for bed in found if bed.stiffness > 0.0), key=lambda bed: -bed.stiffness)[:1]
     if not beds:
         notes.append("The deck has no curve and no linear law to fall on: only the reference case was run.")
     return Seabed(beds, inputs, list(dict.fromkeys(notes)))
 
 
-def _distinct(inputs: ContactInput, kind: LawKind) -> Iterator[int]:
+def _distinct(arrays: LawArrays, diameter: FloatArray, kind: LawKind) -> list[int]:
     """One element of each law and diameter."""
-    elements = inputs.with_law(kind)
-    what = inputs.curve_index if kind is LawKind.CURVE else inputs.linear_stiffness
-    keys = np.column_stack([what[elements], np.nan_to_num(inputs.diameter[elements])])
-    yield from elements[np.unique(keys, axis=0, return_index=True)[1]].tolist() if len(elements) else []
+    elements = np.flatnonzero(arrays.law == kind)
+    what = arrays.curve_index if kind is LawKind.CURVE else arrays.linear_stiffness
+    keys = np.column_stack([what[elements], np.nan_to_num(diameter[elements])])
+    found: list[int] = elements[np.unique(keys, axis=0, return_index=True)[1]].tolist()
+    return found
 
 
-def _bed(scene: Scene, inputs: ContactInput, given: tuple[float, float], element: int, notes: list[str]) -> Bed:
+def _bed(scene: Scene, arrays: LawArrays, given: tuple[float, float], element: int, notes: list[str]) -> Bed:
     mass, weight = given
-    diameter = float(inputs.diameter[element])
+    diameter = float(scene.diameter[element])
     if math.isnan(diameter):
         diameter = _DIAMETER
     if math.isnan(mass):
@@ -86,10 +88,10 @@ def _bed(scene: Scene, inputs: ContactInput, given: tuple[float, float], element
         notes.append("The pipe has no known weight in water that presses on the bed: half of its own weight is taken.")
     name = scene.law_names[element].removeprefix("curve:")
     law: Law
-    if inputs.law[element] == LawKind.CURVE:
-        law = CurveLaw(name, inputs.curves[int(inputs.curve_index[element])], diameter)
+    if arrays.law[element] == LawKind.CURVE:
+        law = CurveLaw(name, arrays.curves[int(arrays.curve_index[element])], diameter)
     else:
-        law = LinearLaw(name, float(inputs.linear_stiffness[element]))
+        law = LinearLaw(name, float(arrays.linear_stiffness[element]))
     return Bed(law, diameter, mass, weight, element)
 
 
@@ -103,11 +105,10 @@ def static_depth(bed: Bed) -> float:
 
 def suction_of(scene: Scene, inputs: ContactInput, bed: Bed, notes: list[str]) -> SuctionNumbers:
     """The suction law of the bed's element, else of another, else of Bridge et al. with 5 kPa."""
-    given = inputs.extras.suction
+    given = inputs.assigned.get("suction")
     if given is not None:
-        at = np.flatnonzero(given.elements == bed.element)
-        index = int(at[0]) if at.size else 0
-        return SuctionNumbers(**{name: float(values[index]) for name, values in given.law._asdict().items()})
+        index = int((given.rows == bed.element).argmax())  # the first where it has none
+        return SuctionNumbers(**{name: float(values[index]) for name, values in given.parameters.items()})
     length, force = _UNITS.get(scene.units, (1.0, 1.0))
     notes.append("The deck has no suction with a history: that of Bridge et al. (2004) with 5 kPa is taken.")
     cohesion = np.array([_COHESION / force * length**2])
@@ -123,15 +124,15 @@ def usual_velocity(scene: Scene) -> float:
 
 def friction_of(inputs: ContactInput, bed: Bed, notes: list[str]) -> Drag:
     """Friction along the line at the bed's element, else of 0.5, mobilised over a hundredth of the diameter."""
-    given = inputs.extras.friction
-    node, length = int(inputs.element_nodes[bed.element, 0]), float(inputs.length[bed.element])
-    if given is None or not (given.law.active[node] and given.law.coefficients[node, 0] > 0.0 and length > 0.0):
+    given = inputs.assigned.get("friction")
+    length = float(inputs.length[bed.element])
+    at = np.zeros(0, np.intp) if given is None else np.flatnonzero(given.rows == inputs.element_nodes[bed.element, 0])
+    if given is None or not (at.size and given["axial_coefficient"][at[0]] > 0.0 and length > 0.0):
         notes.append("The bed has no friction along the line: 0.5, mobilised over a hundredth of D, is taken.")
         limit = _FRICTION * bed.weight
         return Drag(bed.law.name, bed.mass, limit, limit / (_MOBILISATION * bed.diameter))
-    limit = float(given.law.coefficients[node, 0]) * bed.weight
-    if given.law.constant[node, 0]:
-        stiffness = float(given.law.stiffness[node, 0]) / length
-    else:
-        stiffness = limit / float(given.law.mobilisation[node, 0])
+    names = ("axial_coefficient", "axial_stiffness", "axial_mobilisation")
+    coefficient, constant, mobilisation = (float(given[name][at[0]]) for name in names)
+    limit = coefficient * bed.weight
+    stiffness = limit / mobilisation if math.isnan(constant) else constant / length
     return Drag(bed.law.name, bed.mass, limit, stiffness)

@@ -9,11 +9,10 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
-from mudline.contact.laws.smoothing import force_and_slope
 from mudline.study.precision.case import Case
 from mudline.study.precision.drop import Drop, drop_case
 from mudline.study.precision.integration import StepRow, row
-from mudline.study.precision.laws import LinearLaw
+from mudline.study.precision.laws import LinearLaw, smoothed_spring
 from mudline.study.schemes.catalogue import SCHEMES
 from mudline.study.schemes.newton import Newton
 
@@ -27,7 +26,7 @@ _IMPACT_STEPS = (0.1, 0.5)
 
 
 class Rest(NamedTuple):
-    """A node at rest between a structural spring, a load and a linear bed: k_b z + F(z) = load."""
+    """A node at rest between a structural spring, a load and a linear seabed: k_b z + F(z) = load."""
 
     name: str
     stiffness: float
@@ -57,7 +56,7 @@ class RestRow(NamedTuple):
 
 
 class ImpactRow(NamedTuple):
-    """A drop on a smoothed bed: half width over the penetration of the kinked law, and the errors of a scheme."""
+    """A drop on a smoothed seabed: half width over the penetration of the kinked law, and the errors of a scheme."""
 
     scheme: str
     omega_dt: float
@@ -69,12 +68,12 @@ class ImpactRow(NamedTuple):
 
 
 def at_rest(rest: Rest, widths: FloatArray) -> Iterator[RestRow]:
-    """Solve for every half width, from above the bed and from below."""
+    """Solve for every half width, from above the seabed and from below."""
     count = len(widths)
-    stiffness, both = np.full(2 * count, rest.stiffness), np.concatenate([widths, widths])
+    both = np.concatenate([widths, widths])
 
     def residual(z: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        force, slope = force_and_slope(z, stiffness, both, np.zeros(len(z), np.bool_))
+        force, slope = smoothed_spring(z, rest.stiffness, both)
         return rest.spring * z + force - rest.load, rest.spring + slope, np.abs(force) + rest.load
 
     start = np.concatenate([np.full(count, -rest.start), np.full(count, rest.start)])
@@ -87,7 +86,7 @@ def at_rest(rest: Rest, widths: FloatArray) -> Iterator[RestRow]:
 
 
 def impacts(drop: Drop) -> Iterator[ImpactRow]:
-    """The same fall on beds of growing zones: how fast the mass leaves, and how many iterations a step takes."""
+    """The same fall on seabeds of growing zones: how fast the mass leaves, and how many iterations a step takes."""
     stiffness = drop.law.steepest(0.0)
     for share in _IMPACT_SHARES:
         width = share * drop.deepest

@@ -6,13 +6,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mudline.contact.arrays import FloatArray
-from mudline.contact.inputs import ContactInput
+from mudline.contact.input import ContactInput
 
 
 def bare_evaluation(inputs: ContactInput, points: FloatArray) -> tuple[NDArray[np.float64 | np.bool_], ...]:
-    """Depth, ratio, contact, force, slope, stiffness, and reactions, of a chain of elements on one curve, flat bed.
+    """Depth, ratio, contact, force, slope, stiffness, and reactions, of a chain of elements on one curve, flat seabed.
 
-    All elements are taken to touch the bed; nothing is checked, no history, no other law or bed.
+    All elements are taken to touch the seabed; nothing is checked, no history, no other law or seabed.
     """
     gap = points[:, 0] + 0.0
     depth = -0.5 * (gap[:-1] + gap[1:])

@@ -14,7 +14,8 @@ from mudline.study.options import StudyOptions
 from mudline.study.pruning.bare import bare_evaluation
 from mudline.study.pruning.clock import spent
 from mudline.study.pruning.motion import STEPS, positions, series
-from mudline.study.pruning.variants import Pipe, Variant, line
+from mudline.study.pruning.pipe import Pipe
+from mudline.study.pruning.variants import Variant, line
 from mudline.study.timing import Timing
 
 

@@ -1,72 +1,47 @@
-"""Stages that are switched on whether the deck has them or not, with usual numbers for its pipe."""
+"""Laws on every element or node, whether the deck has them or not, with usual numbers for its pipe."""
 
 from __future__ import annotations
 
-import numpy as np
+from collections.abc import Mapping
 
-from mudline.contact.arrays import FloatArray
-from mudline.contact.extras import (
-    ElementSuction,
-    NodalSprings,
-    NodeFriction,
-    NodeTrench,
-    Smoothing,
-    SuctionSprings,
-)
-from mudline.contact.friction.law import FrictionLaw
-from mudline.contact.friction.trench import TrenchLaw
-from mudline.contact.suction import SuctionLaw, from_cohesion
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mudline.contact.input import LawAssignment
+from mudline.contact.laws import law_named
+from mudline.contact.laws.suction import from_cohesion
+from mudline.study.pruning.pipe import Pipe
 
 COHESION = 5000.0
 
 
-def smoothing(elements: int, diameter: float) -> Smoothing:
-    """Centred zones of a hundredth of the diameter."""
-    return Smoothing(np.full(elements, 0.01 * diameter), np.zeros(elements, np.bool_))
+def forced(law: str, pipe: Pipe, nodes: int) -> LawAssignment:
+    """A law of this name on a chain of so many nodes."""
+    rows = np.arange(nodes if law_named(law).acts_on == "nodes" else nodes - 1)
+    parameters = _numbers(pipe)[law]
+    if law == "friction":
+        parameters = {**parameters, "elliptic": rows % 2 == 0}
+    return LawAssignment(law, rows, parameters)
 
 
-def nodal(nodes: int, diameter: float, stiffness: float) -> NodalSprings:
-    """A spring at every node."""
-    return NodalSprings(np.full(nodes, stiffness), np.full(nodes, 0.01 * diameter), np.zeros(nodes, np.bool_))
-
-
-def unloading(elements: int, stiffness: float) -> FloatArray:
-    """Lines twice as steep as the law."""
-    return np.full(elements, 2.0 * stiffness)
-
-
-def suction(elements: int, diameter: float) -> ElementSuction:
-    """The law with a history."""
-    row = np.ones(elements)
-    factors = from_cohesion(COHESION * row, diameter * row)
-    return ElementSuction(np.arange(elements), SuctionLaw(*factors, 0.2 * row, 0.8 * row, row, 1e-3 * row))
-
-
-def suction_springs(elements: int, diameter: float, stiffness: float) -> SuctionSprings:
-    """The law without one."""
-    return SuctionSprings(np.full(elements, 0.1 * stiffness), np.full(elements, 0.2 * diameter))
-
-
-def friction(nodes: int, diameter: float) -> NodeFriction:
-    """Springs by mobilisation length; an ellipse at every second node."""
-    both = np.ones((nodes, 2))
-    law = FrictionLaw(
-        coefficients=both * (0.35, 0.6),
-        stiffness=np.nan * both,
-        mobilisation=both * (0.01 * diameter, 0.1 * diameter),
-        ellipse=np.arange(nodes) % 2 == 0,
-        active=np.ones(nodes, np.bool_),
-    )
-    return NodeFriction(law, np.full(nodes, np.nan))
-
-
-def lateral(elements: int, stiffness: float) -> FloatArray:
-    """A tenth of the stiffness of the law."""
-    return np.full(elements, 0.1 * stiffness)
-
-
-def trench(nodes: int, diameter: float, stiffness: float) -> NodeTrench:
-    """Along the line as it was laid."""
-    row = np.ones(nodes)
-    law = TrenchLaw(2.0 * diameter * row, 4.0 * diameter * row, 0.1 * stiffness * diameter * row)
-    return NodeTrench(law, np.full((nodes, 4), np.nan))
+def _numbers(pipe: Pipe) -> dict[str, Mapping[str, ArrayLike]]:
+    """Parameters by law; zones of a hundredth of the diameter, a peak of a tenth of the stiffness at each node."""
+    size, stiffness = pipe.diameter, pipe.stiffness
+    zone = {"stiffness": stiffness, "half_width": 0.01 * size}
+    return {
+        "curve": {"curve": 0},
+        "linear": {"stiffness": stiffness},
+        "smoothed": zone,
+        "nodal": zone,
+        "unloading": {"stiffness": 2.0 * stiffness},
+        "suction spring": {"stiffness": 0.1 * stiffness, "extent": 0.2 * size},
+        "suction": from_cohesion(np.array(COHESION), np.array(size))._asdict(),
+        "friction": {
+            "axial_coefficient": 0.35,
+            "lateral_coefficient": 0.6,
+            "axial_mobilisation": 0.01 * size,
+            "lateral_mobilisation": 0.1 * size,
+        },
+        "lateral": {"stiffness": 0.1 * stiffness},
+        "trench peak": {"bottom": 2.0 * size, "upper": 4.0 * size, "peak": 0.1 * stiffness * size / pipe.length},
+    }

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 
 def deck_with_sets(sets: int, elements: int) -> str:
-    """The text of a straight line on linear beds; the elements are shared out among the sets."""
+    """The text of a straight line on linear seabeds; the elements are shared out among the sets."""
     edges = [number * elements // sets for number in range(sets + 1)]
     ranges = [(f"Part {number + 1}", first + 1, last) for number, (first, last) in enumerate(pairwise(edges))]
     return "\n".join(

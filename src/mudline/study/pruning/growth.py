@@ -8,19 +8,20 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mudline.contact.inputs import ContactInput
+from mudline.contact.input import ContactInput, LawAssignment
 from mudline.contact.model import ContactModel
 from mudline.curves import ForceCurve
 from mudline.deck.loading import load_bytes
 from mudline.scene.build import resolve
 from mudline.study.options import StudyOptions
-from mudline.study.pruning.beds import planes
 from mudline.study.pruning.clock import spent
 from mudline.study.pruning.cost import stepping
 from mudline.study.pruning.fitting import exponent, per_unit, upper_half
 from mudline.study.pruning.growing_deck import deck_with_sets
 from mudline.study.pruning.motion import positions, series
-from mudline.study.pruning.variants import Pipe, Variant, everything, line
+from mudline.study.pruning.pipe import Pipe
+from mudline.study.pruning.seabeds import planes
+from mudline.study.pruning.variants import Variant, everything, line
 
 NODES = 10_001
 FEW_NODES = 1001
@@ -92,9 +93,10 @@ def _points(pipe: Pipe, size: int) -> float:
 
 def _curves(pipe: Pipe, size: int) -> float:
     """Curves in stretches of the line, as sets have them."""
-    index = np.arange(NODES - 1) * size // (NODES - 1)
+    elements = np.arange(NODES - 1)
+    law = LawAssignment("curve", elements, {"curve": elements * size // (NODES - 1)})
     made = tuple(spread(10, 1000.0 + number) for number in range(size))
-    return _pressed(pipe, replace(line(pipe, NODES), curves=made, curve_index=index))
+    return _pressed(pipe, replace(line(pipe, NODES), laws=(law,), curves=made))
 
 
 def _sets(pipe: Pipe, size: int) -> float:
@@ -105,8 +107,7 @@ def _sets(pipe: Pipe, size: int) -> float:
 
 
 def _planes(pipe: Pipe, size: int) -> float:
-    inputs = line(pipe, NODES)
-    return _pressed(pipe, replace(inputs, floor=planes(size, pipe.length * NODES)))
+    return _pressed(pipe, replace(line(pipe, NODES), seabed=planes(size, pipe.length * NODES)))
 
 
 def _pressed(pipe: Pipe, inputs: ContactInput) -> float:

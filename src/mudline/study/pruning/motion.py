@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
-from mudline.contact.inputs import ContactInput
-from mudline.study.pruning.variants import Pipe, Variant
+from mudline.contact.input import ContactInput
+from mudline.study.pruning.pipe import Pipe
+from mudline.study.pruning.variants import Variant
 
 STEPS = 3
 """Of a series: laid, then lifted in waves, then dragged."""
@@ -15,12 +16,12 @@ _DEEPEST = 0.25
 
 
 def positions(variant: Variant, inputs: ContactInput, pipe: Pipe) -> FloatArray:
-    """Positions (n, 3): those of the deck, or from the bed down to a quarter of the diameter, at random."""
+    """Positions (n, 3): those of the deck, or from the seabed down to a quarter of the diameter, at random."""
     points = inputs.coordinates.copy()
     if not variant.lies:
         y, z = points[:, 1].copy(), points[:, 2].copy()
-        bed = np.zeros(len(points)) if inputs.floor is None else inputs.floor.elevation(y, z)
-        points[:, 0] = bed - np.random.default_rng(3).uniform(0.01, _DEEPEST, len(points)) * pipe.diameter
+        level = np.zeros(len(points)) if inputs.seabed is None else inputs.seabed.elevation(y, z)
+        points[:, 0] = level - np.random.default_rng(3).uniform(0.01, _DEEPEST, len(points)) * pipe.diameter
     return points
 
 

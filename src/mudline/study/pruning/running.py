@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from mudline.contact.inputs import LawKind
 from mudline.scene.model import Scene
 from mudline.study.options import StudyOptions
 from mudline.study.pruning.cost import costs, curve_alone
 from mudline.study.pruning.growth import fits, growth
 from mudline.study.pruning.imports import imports
 from mudline.study.pruning.pictures import growth_picture, node_picture, stage_picture
+from mudline.study.pruning.pipe import pipe_of
 from mudline.study.pruning.tables import (
     cost_table,
     curve_table,
@@ -20,7 +20,7 @@ from mudline.study.pruning.tables import (
     module_table,
     stage_table,
 )
-from mudline.study.pruning.variants import CURVE, pipe_of, variants
+from mudline.study.pruning.variants import CURVE, variants
 from mudline.study.report import Omission, StudyReport
 from mudline.study.sample import sample_scene
 
@@ -57,7 +57,7 @@ def _studied(scene: Scene, options: StudyOptions) -> StudyReport:
     inputs = scene.contact_input()
     notes = [" ".join(note.split()) for note in _NOTES]
     pipe = pipe_of(inputs, next(iter(sample_scene().curves.values())))
-    if not inputs.with_law(LawKind.CURVE).size:
+    if not inputs.has("curve"):
         notes.append("The deck's elements have no curve: that of the built-in sample stands for one.")
     found = variants(inputs, pipe)
     ladder = (*LADDER, MOST) if options.full else LADDER

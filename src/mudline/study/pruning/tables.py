@@ -114,4 +114,5 @@ def module_table(rows: Sequence[ImportRow]) -> StudyTable:
 
 
 def _room(module: str) -> str:
-    return module.partition(".")[0]
+    """The name of a law, else of the package that a module is of."""
+    return module.removeprefix("laws.").partition(".")[0]

@@ -2,19 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import fields, replace
-from typing import TYPE_CHECKING, TypeVar
+from dataclasses import replace
 
 import numpy as np
 
 from mudline.contact.arrays import IndexArray
-from mudline.contact.extras import ElementSuction, Extras, NodeFriction, NodeTrench
-from mudline.contact.inputs import ContactInput
-
-if TYPE_CHECKING:
-    from _typeshed import DataclassInstance
-
-Part = TypeVar("Part", bound="DataclassInstance")
+from mudline.contact.input import AssignedLaw, ContactInput, LawAssignment
 
 
 def tiled(inputs: ContactInput, nodes: int) -> ContactInput:
@@ -37,10 +30,10 @@ def tiled(inputs: ContactInput, nodes: int) -> ContactInput:
         element_nodes=chain(nodes),
         length=inputs.length[picked],
         diameter=inputs.diameter[picked],
-        law=inputs.law[picked],
-        curve_index=inputs.curve_index[picked],
-        linear_stiffness=inputs.linear_stiffness[picked],
-        extras=_extras(inputs.extras, picked, origin, own),
+        laws=tuple(
+            _tiled(given, origin if given.law.acts_on == "nodes" else picked) for given in inputs.assigned.values()
+        ),
+        weight=None if inputs.weight is None else inputs.weight[picked],
     )
 
 
@@ -50,28 +43,9 @@ def chain(nodes: int) -> IndexArray:
     return found
 
 
-def _extras(extras: Extras, picked: IndexArray, origin: IndexArray, own: int) -> Extras:
-    friction, trench = extras.friction, extras.trench
-    return Extras(
-        smoothing=None if extras.smoothing is None else _rows(extras.smoothing, picked),
-        nodal=None if extras.nodal is None else _rows(extras.nodal, origin),
-        unloading=None if extras.unloading is None else extras.unloading[picked],
-        suction_springs=None if extras.suction_springs is None else _rows(extras.suction_springs, picked),
-        suction=None if extras.suction is None else _suction(extras.suction, picked, own),
-        friction=None if friction is None else NodeFriction(_rows(friction.law, origin), friction.angle[origin]),
-        lateral=None if extras.lateral is None else extras.lateral[picked],
-        trench=None if trench is None else NodeTrench(_rows(trench.law, origin), trench.straight[origin]),
-    )
-
-
-def _suction(suction: ElementSuction, picked: IndexArray, own: int) -> ElementSuction:
-    row = np.full(own, -1, np.intp)
-    row[suction.elements] = np.arange(len(suction.elements))
-    held: IndexArray = np.flatnonzero(row[picked] >= 0)
-    rows = row[picked[held]]
-    return ElementSuction(held, type(suction.law)(*(values[rows] for values in suction.law)))
-
-
-def _rows(part: Part, rows: IndexArray) -> Part:
-    """Those rows of all arrays of a dataclass."""
-    return type(part)(*(getattr(part, field.name)[rows] for field in fields(part)))
+def _tiled(given: AssignedLaw, origin: IndexArray) -> LawAssignment:
+    """A law on copies of elements or nodes, whose origins are given."""
+    place = np.minimum(np.searchsorted(given.rows, origin), len(given.rows) - 1)
+    held: IndexArray = np.flatnonzero(given.rows[place] == origin)
+    parameters = {name: values[place[held]] for name, values in given.parameters.items()}
+    return LawAssignment(given.law.name, held, parameters)

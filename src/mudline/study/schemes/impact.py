@@ -1,7 +1,7 @@
-"""A mass that hits an elastic bed, without gravity or damping: how fast it leaves, over how fast it came.
+"""A mass that hits an elastic seabed, without gravity or damping: how fast it leaves, over how fast it came.
 
 Exactly it is 1. What a scheme makes of it depends on omega dt and on the landing phase alone: the share of a step that
-is left when the bed is reached.
+is left when the seabed is reached.
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ from mudline.study.schemes.marching import march
 from mudline.study.schemes.system import Forces, History, Motion, Scheme
 
 _SETTLING = 64
-"""Steps besides those of the contact: backward Euler creeps out of the bed at large steps, and the acceleration that
+"""Steps besides those of the contact: backward Euler creeps out of the seabed at large steps, and the acceleration that
 the generalised-alpha scheme carries along dies away by the half in each."""
 
 
 @dataclass(frozen=True, slots=True)
 class ElasticBed:
-    """m a = k max(-x, 0): a bed below x = 0."""
+    """m a = k max(-x, 0): a seabed below x = 0."""
 
     mass: FloatArray
     stiffness: FloatArray
@@ -34,7 +34,7 @@ class ElasticBed:
 
 
 def restitution(scheme: Scheme, omega_dt: float, phases: FloatArray) -> FloatArray:
-    """Speed after over speed before contact for landing phases (k,) in (0, 1); NaN where the mass never left the bed.
+    """Speed after over speed before contact for landing phases (k,) in (0, 1); NaN where the mass never left again.
 
     The speed after is that of the free flight, when the acceleration that a scheme carries along has died away.
     """

@@ -8,7 +8,7 @@ import numpy as np
 
 from mudline.contact.arrays import FloatArray, IndexArray
 from mudline.contact.critical_step import omega, steepest_slope
-from mudline.contact.inputs import LawKind
+from mudline.contact.input import LawKind
 from mudline.curves import ForceCurve
 from mudline.scene.contact_parts.unloading import KEYWORD as UNLOADING
 from mudline.scene.contact_parts.unloading import given_stiffness
@@ -28,7 +28,7 @@ class Contact(NamedTuple):
     omega: root of stiffness over mass, radians per unit of time.
     depth: a penetration in the middle of where the law has this stiffness.
     reach: how far to both sides it has it.
-    scale: the largest distance that the law reckons with there: a swing below its rounding is lost.
+    scale: the largest distance that the law computes with there: a swing below its rounding is lost.
     unloading: whether the stiffness is that of the way back.
     """
 
@@ -82,18 +82,19 @@ def find_contacts(scene: Scene) -> tuple[list[Contact], list[Omission]]:
 
 def _nodal(scene: Scene, masses: FloatArray) -> tuple[list[Contact], list[Omission]]:
     """Nodes with a stiffness of their own: of each stiffness the node that swings fastest, per unit of its length."""
-    springs = scene.contact_input().extras.nodal
+    springs = scene.contact_input().assigned.get("nodal")
     if springs is None:
         return [], []
+    stiffness_of = springs.spread("stiffness", len(scene.node_ids))
     length, mass = np.zeros(len(scene.node_ids)), np.zeros(len(scene.node_ids))
     for end in scene.element_nodes.T:
         np.add.at(length, end, 0.5 * scene.length)
         np.add.at(mass, end, 0.5 * scene.length * masses)
-    frequency = omega(springs.stiffness, mass)
+    frequency = omega(stiffness_of, mass)
     found: list[Contact] = []
     left_out: list[Omission] = []
-    for stiffness in np.unique(springs.stiffness[springs.stiffness > 0.0]).tolist():
-        nodes = np.flatnonzero(springs.stiffness == stiffness)
+    for stiffness in np.unique(stiffness_of[stiffness_of > 0.0]).tolist():
+        nodes = np.flatnonzero(stiffness_of == stiffness)
         if np.isnan(frequency[nodes]).all():
             what = f"nodal stiffness {stiffness:.6g}"
             left_out.append(Omission(what, "no frequency: the mass of its nodes is not known"))

@@ -17,8 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.contact.arrays import FloatArray, IndexArray
-from mudline.contact.friction.law import FrictionHistory, FrictionLaw
-from mudline.contact.friction.return_mapping import slide
+from mudline.contact.laws.friction import FrictionHistory, FrictionLaw, slide
 from mudline.study.schemes.newton import ROUND_OFF, TOLERANCE, Newton
 
 STARTS = np.linspace(-20.0, 20.0, 101)
@@ -101,11 +100,11 @@ def residual(pulled: Pulled, u: FloatArray) -> tuple[FloatArray, FloatArray, Flo
         np.zeros(count, np.bool_),
         np.ones(count, np.bool_),
     )
-    anchored = FrictionHistory(np.zeros((count, 3)), np.ones((count, 2), np.int8))
+    stuck = FrictionHistory(np.zeros((count, 3)), np.ones((count, 2), np.int8))
     points = np.zeros((count, 3))
     points[:, 1] = u
     along, across = np.tile([0.0, 1.0, 0.0], (count, 1)), np.tile([0.0, 0.0, 1.0], (count, 1))
-    held = slide(law, anchored, points, (along, across), np.full(count, pulled.limit))
+    held = slide(law, stuck, points, (along, across), np.full(count, pulled.limit))
     friction, own = held.force[:, 0], pulled.structure * u
     size = np.maximum(np.maximum(np.abs(own), np.abs(friction)), abs(pulled.force))
     return own - friction - pulled.force, pulled.structure - held.by_position[:, 0, 0], size

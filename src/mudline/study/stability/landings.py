@@ -1,6 +1,6 @@
-"""Energy at touchdown: a mass lands on an elastic bed at every phase of a step, and should leave as fast as it came.
+"""Energy at touchdown: a mass lands on an elastic seabed at every phase of a step, and should leave as fast as it came.
 
-The figures to compare with were reckoned once, apart from this program, with the same 400 phases, and rounded to the
+The figures to compare with were computed once, apart from this program, with the same 400 phases, and rounded to the
 digits that stand here. HHT and generalised-alpha average the forces of both ends of a step.
 """
 

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from mudline.contact import ContactInput, ContactModel
+from mudline.contact import ContactInput, ContactModel, LawAssignment, LawKind
 from mudline.contact.arrays import FloatArray
-from mudline.contact.inputs import LawKind
 from mudline.scene.model import Scene
 from mudline.study.schemes.system import Forces, History
 from mudline.study.stability.contacts import Contact
@@ -50,7 +49,9 @@ def _copies(scene: Scene, contact: Contact, runs: int) -> ContactInput:
     A small swing on an unloading line is one on a spring.
     """
     arrays, element = scene.law_arrays(), contact.element
-    on_curve = arrays.law[element] == LawKind.CURVE and not contact.unloading
+    law = LawAssignment("linear", np.arange(runs), {"stiffness": contact.stiffness})
+    if arrays.law[element] == LawKind.CURVE and not contact.unloading:
+        law = LawAssignment("curve", np.arange(runs), {"curve": arrays.curve_index[element]})
     return ContactInput(
         node_ids=np.arange(1, 2 * runs + 1),
         coordinates=np.zeros((2 * runs, 3)),
@@ -58,8 +59,6 @@ def _copies(scene: Scene, contact: Contact, runs: int) -> ContactInput:
         element_nodes=np.arange(2 * runs).reshape(runs, 2),
         length=np.ones(runs),
         diameter=np.full(runs, scene.diameter[element]),
-        law=np.full(runs, LawKind.CURVE if on_curve else LawKind.LINEAR, dtype=np.int8),
-        curve_index=np.full(runs, arrays.curve_index[element] if on_curve else -1),
+        laws=(law,),
         curves=arrays.curves,
-        linear_stiffness=np.full(runs, contact.stiffness),
     )

@@ -13,10 +13,8 @@ import numpy as np
 
 from mudline.contact.arrays import FloatArray
 from mudline.contact.critical_step import release_stiffness
-from mudline.contact.extras import ElementSuction
-from mudline.contact.suction.law import SuctionLaw, maximum_force, suction_depth
-from mudline.contact.suction.states import SuctionHistory, SuctionState
-from mudline.contact.suction.stepping import step
+from mudline.contact.input import AssignedLaw
+from mudline.contact.laws.suction import SuctionHistory, SuctionLaw, breakout_uplift, maximum_force, step
 from mudline.scene.model import Scene
 
 VELOCITIES = (1e-3, 1e-2, 1e-1, 1.0)
@@ -43,17 +41,21 @@ class Release(NamedTuple):
     equilibria: tuple[int, ...]
 
 
-def releases(scene: Scene, suction: ElementSuction) -> list[Release]:
-    """The release of each law of a scene, at the velocity of its regularisation and at `VELOCITIES` above it."""
-    table = np.column_stack(suction.law)
-    _, first = np.unique(table, axis=0, return_index=True)
+def releases(scene: Scene, suction: AssignedLaw) -> list[Release]:
+    """The release of each law of a scene, at the velocity of its regularisation and at `VELOCITIES` above it.
+
+    It is that of a first uplift: where the cyclic factor is applied once per cycle, none is completed yet.
+    """
+    laws = SuctionLaw(*suction.columns)
+    laws = laws._replace(cyclic=laws.initial_factor, cyclic_floor=np.full(len(suction.rows), np.nan))
+    _, first = np.unique(np.column_stack(laws[:-1]), axis=0, return_index=True)
     found = []
     for row in np.sort(first).tolist():
-        law = suction.law.rows(slice(row, row + 1))
+        law = laws.rows(slice(row, row + 1))
         if law.force_factor[0] * law.cyclic[0] == 0.0:
             continue
         slowest = float(law.regularisation[0])
-        element = int(scene.element_ids[suction.elements[row]])
+        element = int(scene.element_ids[suction.rows[row]])
         velocities = sorted({slowest, *(v for v in VELOCITIES if v > slowest)} - {0.0})
         found += [_release(element, law, velocity) for velocity in velocities]
     return found
@@ -63,9 +65,9 @@ def _release(element: int, law: SuctionLaw, velocity: float) -> Release:
     v = np.array([velocity])
     needed = float(release_stiffness(law, v)[0])
     counts = tuple(equilibria(law, velocity, share * needed) for share in SHARES)
-    return Release(
-        element, velocity, float(maximum_force(law, v)[0][0]), float(suction_depth(law, v)[0]), needed, counts
-    )
+    with np.errstate(all="ignore"):
+        force, _ = maximum_force(v, law.force_factor * law.cyclic, law.force_exponent, law.regularisation)
+    return Release(element, velocity, float(force[0]), _breakout(law, velocity), needed, counts)
 
 
 def equilibria(law: SuctionLaw, velocity: float, structure: float) -> int:
@@ -73,7 +75,7 @@ def equilibria(law: SuctionLaw, velocity: float, structure: float) -> int:
 
     At uplift x the end stands at x + suction / ks: where that falls as x grows, a height belongs to several uplifts.
     """
-    uplift = np.linspace(0.0, 1.5 * float(suction_depth(law, np.array([velocity]))[0]), _POINTS)[1:]
+    uplift = np.linspace(0.0, 1.5 * _breakout(law, velocity), _POINTS)[1:]
     height = uplift + pull(law, velocity, uplift) / structure
     levels = 0.5 * (np.sort(height)[1:] + np.sort(height)[:-1])
     low, high = np.minimum(height[1:], height[:-1]), np.maximum(height[1:], height[:-1])
@@ -81,10 +83,17 @@ def equilibria(law: SuctionLaw, velocity: float, structure: float) -> int:
     return int((starts - ends).max())
 
 
+def _breakout(law: SuctionLaw, velocity: float) -> float:
+    """Uplift at breakout of an element."""
+    with np.errstate(all="ignore"):
+        return float(breakout_uplift(velocity, law.depth_factor, law.depth_exponent, law.regularisation)[0])
+
+
 def pull(law: SuctionLaw, velocity: float, uplift: FloatArray) -> FloatArray:
     """Amount of the suction at uplifts (k,) of an armed element that rises with a steady velocity."""
     count = len(uplift)
     rows = SuctionLaw(*(np.repeat(values, count) for values in law))
-    armed = SuctionHistory(np.ones(count, np.bool_), np.zeros(count), np.full(count, SuctionState.COMPRESSION, np.int8))
+    none = np.zeros(count)
+    _, armed = step(rows, SuctionHistory.initial(rows), none, none, np.ones(count, np.bool_))
     suction, _ = step(rows, armed, uplift, np.full(count, velocity), np.zeros(count, np.bool_))
     return -suction.force

@@ -85,7 +85,7 @@ def _measured(scene: Scene, contacts: Sequence[Contact], options: StudyOptions) 
 
 
 def _released(scene: Scene, omissions: list[Omission]) -> list[Release]:
-    suction = scene.contact_input().extras.suction
+    suction = scene.contact_input().assigned.get("suction")
     if suction is None:
         omissions.append(Omission("release of suction", "no element has *SEABED SUCTION"))
         return []

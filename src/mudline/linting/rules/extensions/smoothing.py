@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mudline.contact.inputs import LawKind
+from mudline.contact.input import LawKind
 from mudline.scene.contact_parts.picking import marked
 from mudline.scene.contact_parts.smoothing import KEYWORD, is_auto
 from mudline.scene.given import number

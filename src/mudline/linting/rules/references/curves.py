@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, cast
 
 from mudline.codes import REF002
-from mudline.contact.inputs import LawKind
+from mudline.contact.input import LawKind
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.text import shown

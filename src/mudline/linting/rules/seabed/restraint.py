@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from mudline.codes import SBD004
-from mudline.contact.inputs import LawKind
+from mudline.contact.input import LawKind
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule

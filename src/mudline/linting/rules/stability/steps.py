@@ -16,7 +16,7 @@ from mudline.contact.critical_step import (
     rounded_down,
     steepest_slope,
 )
-from mudline.contact.inputs import LawKind
+from mudline.contact.input import LawKind
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule

@@ -1,4 +1,4 @@
-"""The decks of the ladder: one element of 2 m on a bed."""
+"""The decks of the ladder: one element of 2 m on a seabed."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _SUCTION = """\
 
 
 def linear_deck(stiffness: str, diameter: str = DIAMETER) -> str:
-    """A linear bed."""
+    """A linear seabed."""
     return _line(diameter) + _on(stiffness)
 
 
@@ -40,7 +40,7 @@ def curve_deck(points: Pairs, diameter: str = DIAMETER) -> str:
 
 
 def suction_deck(cohesion: str) -> str:
-    """A linear bed with suction."""
+    """A linear seabed with suction."""
     return linear_deck("50000.0") + _SUCTION.format(cohesion=cohesion)
 
 

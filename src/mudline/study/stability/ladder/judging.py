@@ -86,7 +86,7 @@ def _judged(cell: Cell) -> Judgement:
 
 
 def _heights(law: ExactLaw) -> list[float]:
-    """Of the nodes: above the bed, on it, and where the ratio is one that matters."""
+    """Of the nodes: above the seabed, on it, and where the ratio is one that matters."""
     depths = [ratio * law.diameter for ratio in law.ratios() if isfinite(ratio) and ratio > 0.0]
     return [*_ABOVE, *(-depth for depth in depths if isfinite(depth))]
 
@@ -136,7 +136,7 @@ def _evaluated(scene: Scene, heights: list[float]) -> ContactResult:
 
 
 def _compare_curve(tally: Tally, scene: Scene, law: ExactCurve) -> None:
-    """The curve itself, also above the bed where no element asks for it."""
+    """The curve itself, also above the seabed where no element asks for it."""
     curve = next(iter(scene.curves.values()))
     for ratio in law.ratios():
         spring = law.spring(Fraction(0), Fraction(ratio))

@@ -50,7 +50,7 @@ def judge_suction(cell: SuctionCell) -> Judgement:
 def _judged(cell: SuctionCell) -> Judgement:
     scene = scene_of(suction_deck(cell.cohesion))
     model = scene.contact()
-    if model.input.extras.suction is None:
+    if not model.input.has("suction"):
         return Judgement(cell.family, cell.value, Verdict.WRONG, told="the deck's suction is not there")
     velocity = float(cell.velocity)
     heights, exact, largest = _expected(float(cell.cohesion), velocity, _SHARES)

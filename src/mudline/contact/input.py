@@ -1,0 +1,305 @@
+"""What the evaluator is given: nodes, elements, and the laws of each, as plain arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import IntEnum
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mudline.contact.arrays import BoolArray, FloatArray, IdArray, IndexArray
+from mudline.contact.errors import ElementError
+from mudline.contact.laws import Law, NormalLaw, law_named
+
+if TYPE_CHECKING:  # a scene without curves does not load them, nor does a flat seabed load other shapes
+    from mudline.contact.seabed import Seabed
+    from mudline.curves import ForceCurve
+
+Tension = Literal["keep", "cut"]
+
+
+class LawKind(IntEnum):
+    """The normal law of an element, as results name it."""
+
+    NONE = 0
+    """No restraint."""
+    CURVE = 1
+    """Force per unit length over embedment ratio."""
+    LINEAR = 2
+    """Force per unit length proportional to penetration, maybe with a quadratic zone."""
+    RIGID = 3
+    """A constraint, not a spring."""
+    NODAL = 4
+    """Springs of its nodes; no force per unit length of its own."""
+    OTHER = 5
+    """A law that was registered."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LawAssignment:
+    """A law of some elements or nodes.
+
+    Attributes:
+        law: name of the law, see `mudline.contact.laws`.
+        rows: (k,) indices of elements, or of nodes for a law of nodes.
+        parameters: value of each parameter, a number or an array (k,); those left out have their defaults.
+    """
+
+    law: str
+    rows: IndexArray
+    parameters: Mapping[str, ArrayLike] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class AssignedLaw:
+    """All rows of an input that have a law, ascending, with every parameter as an array (k,) of floats."""
+
+    law: Law
+    rows: IndexArray
+    parameters: dict[str, FloatArray]
+
+    def __getitem__(self, name: str) -> FloatArray:
+        return self.parameters[name]
+
+    @property
+    def columns(self) -> tuple[FloatArray, ...]:
+        """The parameters in the order in which the law declares them."""
+        return tuple(self.parameters[parameter.name] for parameter in self.law.parameters)
+
+    def spread(self, name: str, count: int, otherwise: float = np.nan) -> FloatArray:
+        """Return a parameter for all of `count` elements or nodes, `otherwise` where there is no such law."""
+        found = np.full(count, otherwise)
+        found[self.rows] = self.parameters[name]
+        return found
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ContactInput:
+    """Nodes (n), elements (m) and their laws. The arrays are not copied; do not change them.
+
+    Attributes:
+        node_ids: (n,) numbers of the nodes, for messages.
+        coordinates: (n, 3) positions evaluated when no others are given, X up.
+        element_ids: (m,) numbers of the elements, for messages.
+        element_nodes: (m, 2) indices of each element's nodes in `node_ids`.
+        length: (m,) unstretched lengths, >= 0.
+        diameter: (m,) external diameters, > 0, or NaN where there is none.
+        laws: which elements and nodes have which laws, with which parameters; an element has one normal law at most.
+        curves: what the parameter of the law "curve" points to.
+        tables: what that of the law "trench table" points to: (rows, 2) distance from the centreline, ascending, and
+            lateral resistance per unit length.
+        tension: what happens where a curve pulls: "keep" its negative force, or "cut" force and stiffness to 0.
+        seabed: its shape; None for a flat one at X = 0.
+        weight: (m,) submerged weights per unit length, NaN where unknown; None when none is. Forces do without them.
+        left_out: reasons, by stage of the plan, why something the scene asks for is not evaluated.
+
+    Raises:
+        ValueError: an array has the wrong shape or kind, an index points nowhere, or there is no law of a name.
+        ElementError: an element's law lacks what it needs, or has a parameter out of its range.
+    """
+
+    node_ids: IdArray
+    coordinates: FloatArray
+    element_ids: IdArray
+    element_nodes: IndexArray
+    length: FloatArray
+    diameter: FloatArray
+    laws: tuple[LawAssignment, ...] = ()
+    curves: tuple[ForceCurve, ...] = ()
+    tables: tuple[FloatArray, ...] = ()
+    tension: Tension = "keep"
+    seabed: Seabed | None = None
+    weight: FloatArray | None = None
+    left_out: Mapping[str, str] = field(default_factory=dict)
+    assigned: dict[str, AssignedLaw] = field(init=False, repr=False)
+    """The laws that some element or node has, by name."""
+
+    def __post_init__(self) -> None:
+        nodes, elements = len(self.node_ids), len(self.element_ids)
+        _expect(self.node_ids, "node_ids", "iu", (nodes,))
+        _expect(self.coordinates, "coordinates", "f", (nodes, 3))
+        _expect(self.element_ids, "element_ids", "iu", (elements,))
+        _expect(self.element_nodes, "element_nodes", "iu", (elements, 2))
+        for name in ("length", "diameter"):
+            _expect(getattr(self, name), name, "f", (elements,))
+        if self.weight is not None:
+            _expect(self.weight, "weight", "f", (elements,))
+        if self.tension not in {"keep", "cut"}:
+            raise ValueError(f"tension must be 'keep' or 'cut', not {self.tension!r}")
+        self._check_elements(nodes)
+        names = dict.fromkeys(assignment.law for assignment in self.laws)
+        found = {name: self._assigned(name) for name in names}
+        object.__setattr__(self, "assigned", {name: given for name, given in found.items() if len(given.rows)})
+        self._check_normal()
+
+    def has(self, *names: str) -> bool:
+        """Whether some element or node has one of these laws."""
+        return any(name in self.assigned for name in names)
+
+    @property
+    def normal_laws(self) -> list[AssignedLaw]:
+        """The normal laws of elements that are there, a rigid seabed left out."""
+        return [given for given in self.assigned.values() if _is_normal(given, "elements")]
+
+    @property
+    def _restrained(self) -> list[AssignedLaw]:
+        """Normal laws of elements, a rigid seabed included."""
+        return [*self.normal_laws, *(given for name, given in self.assigned.items() if name == "rigid")]
+
+    @property
+    def nodal_laws(self) -> list[AssignedLaw]:
+        """The normal laws of nodes that are there."""
+        return [given for given in self.assigned.values() if _is_normal(given, "nodes")]
+
+    @property
+    def law(self) -> NDArray[np.int8]:
+        """`LawKind` of each element (m,)."""
+        found = np.zeros(len(self.element_ids), np.int8)
+        found[self._nodal_elements()] = LawKind.NODAL
+        for given in self._restrained:
+            found[given.rows] = _KINDS.get(given.law.name, LawKind.OTHER)
+        return found
+
+    @property
+    def curve_index(self) -> IndexArray:
+        """Curve of each element (m,), -1 for those that have none."""
+        found = np.full(len(self.element_ids), -1, np.intp)
+        if (given := self.assigned.get("curve")) is not None:
+            found[given.rows] = given["curve"].astype(np.intp)
+        return found
+
+    def onset(self) -> FloatArray:
+        """Return the penetration (m,) from which on each element is in contact: 0, or where its zone begins.
+
+        An element whose law is that of its nodes begins where the first of their zones does.
+        """
+        found = np.zeros(len(self.element_ids))
+        at_nodes = np.zeros(len(self.node_ids))
+        for given in self.nodal_laws:
+            at_nodes[given.rows] = _onset(given)
+        nodal = self._nodal_elements()
+        found[nodal] = at_nodes[self.element_nodes[nodal]].min(axis=1, initial=0.0)
+        for given in self.normal_laws:
+            found[given.rows] = _onset(given)
+        return found
+
+    def _nodal_elements(self) -> IndexArray:
+        """Elements without a normal law of their own whose two nodes have one."""
+        sprung = np.zeros(len(self.node_ids), np.bool_)
+        for given in self.nodal_laws:
+            sprung[given.rows] = True
+        held = np.logical_and(*sprung[self.element_nodes].T)
+        for given in self._restrained:
+            held[given.rows] = False
+        return np.flatnonzero(held)
+
+    def _assigned(self, name: str) -> AssignedLaw:
+        """All rows of a law, checked."""
+        law = law_named(name)
+        parts = [assignment for assignment in self.laws if assignment.law == name]
+        count = len(self.element_ids if law.acts_on == "elements" else self.node_ids)
+        rows = np.concatenate([_rows(part, count) for part in parts])
+        order = np.argsort(rows, kind="stable")
+        rows = rows[order]
+        twice = np.flatnonzero(rows[1:] == rows[:-1])
+        if twice.size:
+            self._refuse(law, int(rows[twice[0]]), f"has two {name} laws")
+        columns = [_columns(law, part) for part in parts]
+        found = {each.name: np.concatenate([part[each.name] for part in columns])[order] for each in law.parameters}
+        for each in law.parameters:
+            wrong = np.flatnonzero(each.invalid(found[each.name]))
+            if wrong.size:
+                value = float(found[each.name][wrong[0]])
+                what = f"has a {name} law whose {each.name.replace('_', ' ')} is {value!r}; expected {each.valid_range}"
+                self._refuse(law, int(rows[wrong[0]]), what)
+        if law.check is not None:
+            bad, what = law.check(found)
+            if bad.any():
+                self._refuse(law, int(rows[np.flatnonzero(bad)[0]]), f"has a {name} law: {what}")
+        if law.tables:
+            index, held = ("curve", len(self.curves)) if isinstance(law, NormalLaw) else ("table", len(self.tables))
+            missing = np.flatnonzero((found[index] >= held) | (found[index] % 1.0 != 0.0))
+            if missing.size:
+                self._refuse(law, int(rows[missing[0]]), f"has a {index} that is not there")
+        if law.needs_diameter and (bare := np.flatnonzero(np.isnan(self.diameter[rows]))).size:
+            self._refuse(law, int(rows[bare[0]]), f"has a {name} law and no diameter")
+        return AssignedLaw(law, rows, found)
+
+    def _check_elements(self, nodes: int) -> None:
+        first, second = ((ends >= 0) & (ends < nodes) for ends in self.element_nodes.T)
+        self._require(first & second, "has a node that is not there")
+        self._require(np.isfinite(self.length) & (self.length >= 0.0), "has no usable length")
+        usable = np.isfinite(self.diameter) & (self.diameter > 0.0)
+        self._require(usable | np.isnan(self.diameter), "has a diameter that is not positive and finite")
+
+    def _check_normal(self) -> None:
+        for laws in (self._restrained, self.nodal_laws):
+            if len(laws) > 1:
+                rows = np.sort(np.concatenate([given.rows for given in laws]))
+                twice = np.flatnonzero(rows[1:] == rows[:-1])
+                if twice.size:
+                    self._refuse(laws[0].law, int(rows[twice[0]]), "has two normal laws")
+
+    def _require(self, holds: BoolArray, otherwise: str) -> None:
+        broken = np.flatnonzero(~holds)
+        if broken.size:
+            element = int(self.element_ids[broken[0]])
+            raise ElementError(f"element {element} {otherwise}", element)
+
+    def _refuse(self, law: Law, row: int, what: str) -> None:
+        if law.acts_on == "nodes":
+            raise ValueError(f"node {self.node_ids[row]} {what}")
+        element = int(self.element_ids[row])
+        raise ElementError(f"element {element} {what}", element)
+
+
+_KINDS = {
+    "curve": LawKind.CURVE,
+    "linear": LawKind.LINEAR,
+    "smoothed": LawKind.LINEAR,
+    "rigid": LawKind.RIGID,
+}
+
+
+def _is_normal(given: AssignedLaw, acts_on: str) -> bool:
+    return isinstance(given.law, NormalLaw) and given.law.acts_on == acts_on
+
+
+def _onset(given: AssignedLaw) -> FloatArray:
+    law = given.law
+    return np.asarray(law.onset(*given.columns)) if isinstance(law, NormalLaw) else np.zeros(len(given.rows))
+
+
+def _rows(assignment: LawAssignment, count: int) -> IndexArray:
+    rows = np.asarray(assignment.rows)
+    if rows.ndim != 1 or (rows.dtype.kind not in "iu" and rows.size) or ((rows < 0) | (rows >= count)).any():
+        raise ValueError(f"the rows of the law {assignment.law!r} must be indices from 0 to {count - 1}")
+    return rows.astype(np.intp)
+
+
+def _columns(law: Law, assignment: LawAssignment) -> dict[str, FloatArray]:
+    """The parameters of an assignment as arrays (k,); a value of -0.0 is 0.0."""
+    unknown = set(assignment.parameters) - {each.name for each in law.parameters}
+    if unknown:
+        expected = ", ".join(each.name for each in law.parameters) or "none"
+        raise ValueError(f"the law {law.name!r} has no parameter {min(unknown)!r}; it has {expected}")
+    found = {}
+    for each in law.parameters:
+        value = assignment.parameters.get(each.name, each.default)
+        if value is None:
+            raise ValueError(f"the law {law.name!r} needs the parameter {each.name!r}")
+        given = np.asarray(value)
+        if given.dtype.kind not in "biuf" or given.shape not in ((), (len(assignment.rows),)):
+            shape = f"({len(assignment.rows)},)"
+            raise ValueError(f"{each.name} of the law {law.name!r} must be numbers of shape {shape}, not {given.shape}")
+        found[each.name] = np.broadcast_to(given, (len(assignment.rows),)) + 0.0
+    return found
+
+
+def _expect(array: NDArray[np.generic], name: str, kinds: str, shape: tuple[int, ...]) -> None:
+    if array.shape != shape or array.dtype.kind not in kinds:
+        what = {"f": "floats", "b": "booleans"}.get(kinds, "integers")
+        raise ValueError(f"{name} must be {what} of shape {shape}, not {array.dtype} of shape {array.shape}")

@@ -1,0 +1,408 @@
+"""A range of elements driven by numpy: depth, normal laws, unloading, suction, directions, lateral springs."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from mudline.contact import vectors
+from mudline.contact.arrays import BoolArray, FloatArray, IndexArray, Picked, StateArray, as_range, taken
+from mudline.contact.directions import in_plane, units
+from mudline.contact.result import ContactResult
+from mudline.contact.state import ContactState
+from mudline.contact.tables import ElementRows, NormalRows, Tables, rows_within
+
+if TYPE_CHECKING:
+    from mudline.contact.laws.suction import SuctionHistory, SuctionLaw
+    from mudline.contact.laws.unloading import UnloadingHistory
+    from mudline.contact.numpy_driver import Batch, Work
+
+Values = tuple[FloatArray, FloatArray, FloatArray]
+"""Force, slope and stiffness (steps, k)."""
+
+
+_Pulled = tuple[IndexArray, IndexArray, FloatArray, FloatArray]
+"""Where there is suction: steps, columns, uplifts at breakout and cyclic factors."""
+
+
+class _Group(NamedTuple):
+    """Elements of a range with one normal law: their columns there, parameters and diameters."""
+
+    rows: NormalRows
+    at: IndexArray
+    columns: tuple[FloatArray, ...]
+    diameter: FloatArray
+
+
+class _Some(NamedTuple):
+    """Elements of a range with another law: rows in the law's own arrays, columns in the range, parameters."""
+
+    rows: slice
+    at: Picked
+    columns: tuple[FloatArray, ...]
+    onset: FloatArray | float
+
+
+class _Trench(NamedTuple):
+    """Where elements that unload are over their trench bottom: uplift from it, and whether they are below it."""
+
+    uplift: FloatArray
+    below: BoolArray
+
+
+class Elements:
+    """Elements begin <= e < end."""
+
+    def __init__(self, tables: Tables, begin: int, end: int, *, flat: bool) -> None:
+        self._tables, self.begin, self.end, self._flat = tables, begin, end, flat
+        here = slice(begin, end)
+        self._here, self._inner = here, slice(begin + 1, end + 1)
+        self._diameter, self._half = tables.diameter[here], tables.half[here]
+        self._unsized = np.flatnonzero(np.isnan(self._diameter))
+        self._onset: FloatArray | float = 0.0 if tables.onset is None else tables.onset[here]
+        self._groups = [group for rows in tables.normal if (group := self._group(rows)) is not None]
+        held = [np.empty(0, np.intp), *(group.at for group in self._groups)]
+        bare = np.setdiff1d(np.arange(end - begin), np.concatenate(held))
+        self._order, self._bare = np.concatenate([*held, bare]), len(bare)
+        self._back = np.argsort(self._order) if (np.diff(self._order) != 1).any() else None
+        self._unloading = self._some(tables.unloading)
+        self._steeper = [] if self._unloading is None else self._may_steepen(self._unloading)
+        self._springs, self._suction = self._some(tables.springs), self._some(tables.suction)
+        self._lateral = self._some(tables.lateral)
+        self._law: SuctionLaw | None = None
+        if self._suction is not None:
+            from mudline.contact.laws.suction import SuctionLaw  # noqa: PLC0415 - only now is it needed
+
+            self._law = SuctionLaw(*self._suction.columns)
+        self._in_trench: tuple[IndexArray, IndexArray] | None = None
+        if self._suction is not None and self._unloading is not None:
+            pulls, unloads = (np.arange(end - begin)[some.at] for some in (self._suction, self._unloading))
+            _, one, other = np.intersect1d(pulls, unloads, assume_unique=True, return_indices=True)
+            self._in_trench = one, other
+
+    def _group(self, rows: NormalRows) -> _Group | None:
+        cut = rows_within(rows.rows, self.begin, self.end)
+        at = rows.rows[cut]
+        columns = tuple(column[cut] for column in rows.columns)
+        return _Group(rows, at - self.begin, columns, self._tables.diameter[at]) if len(at) else None
+
+    def _some(self, given: ElementRows | None) -> _Some | None:
+        if given is None:
+            return None
+        rows = rows_within(given.rows, self.begin, self.end)
+        if rows.start == rows.stop:
+            return None
+        at = as_range(given.rows[rows] - self.begin)
+        onset = self._onset[at] if isinstance(self._onset, np.ndarray) else self._onset
+        return _Some(rows, at, tuple(column[rows] for column in given.columns), onset)
+
+    def run(self, batch: Batch, part: ContactResult, state: ContactState, work: Work) -> None:
+        """Write the elements of a batch, and what they leave for nodes."""
+        depth, contact = self._embed(part)
+        values = part.force[:, self._here], part.slope[:, self._here], part.stiffness[:, self._here]
+        trench = None
+        if self._unloading is not None and state.unloading is not None:
+            trench = self._unload(self._unloading, depth, values, part, state.unloading)
+        else:
+            self._follow(depth, part.ratio[:, self._here], contact, values, part)
+        if self._unsized.size:
+            values[1][:, self._unsized] = np.nan
+        if self._springs is not None:
+            self._hold_back(self._springs, depth, values)
+        if self._suction is not None and batch.speed is not None and state.suction is not None:
+            self._pull(self._suction, batch.speed, (depth, contact, trench), values, part, state.suction)
+        np.multiply(values[0], self._half, out=work.load[:, self._inner])
+        if not work.tangent:
+            return
+        along = self._point(work)
+        for axis in work.lateral:
+            axis[:, self._inner] = 0.0
+        if self._lateral is not None and state.touchdown is not None:
+            self._spring_back(self._lateral, along, contact, part, state.touchdown, work)
+
+    def _embed(self, part: ContactResult) -> tuple[FloatArray, BoolArray]:
+        """Write depth, ratio and contact from the gaps of the nodes; NaN where there is no seabed."""
+        depth, contact = part.depth[:, self._here], part.contact[:, self._here]
+        first, second = self._tables.line.at(part.gap, self.begin, self.end)
+        np.multiply(first, 0.5, out=depth)  # halves first: their sum cannot overflow
+        np.add(depth, 0.5 * second, out=depth)
+        np.subtract(0.0, depth, out=depth)
+        np.divide(depth, self._diameter, out=part.ratio[:, self._here])
+        np.greater(depth, self._onset, out=contact)
+        return depth, contact
+
+    def _follow(
+        self, depth: FloatArray, ratio: FloatArray | None, touches: BoolArray, values: Values, part: ContactResult
+    ) -> None:
+        """Write what the normal laws give at a depth, 0 where an element does not touch.
+
+        Elements are put in the order of their laws and back, so that each law has its own in one piece. `ratio` is
+        depth / diameter where that is at hand already.
+        """
+        if self._back is None and len(self._groups) == 1 and not self._bare:
+            self._apply(self._groups[0], depth, ratio, touches, values, part)
+            return
+        z, on = depth.take(self._order, axis=1), touches.take(self._order, axis=1)
+        found = [np.empty(depth.shape) for _ in values]
+        start = 0
+        for group in self._groups:
+            some = slice(start, start + len(group.at))
+            ours = found[0][:, some], found[1][:, some], found[2][:, some]
+            self._apply(group, z[:, some], None, on[:, some], ours, part)
+            start = some.stop
+        for target, source in zip(values, found, strict=True):
+            source[:, start:] = 0.0
+            if self._back is None:
+                target[...] = source
+            else:
+                np.take(source, self._back, axis=1, out=target, mode="clip")
+
+    def _apply(
+        self,
+        group: _Group,
+        depth: FloatArray,
+        ratio: FloatArray | None,
+        touches: BoolArray,
+        values: Values,
+        part: ContactResult,
+    ) -> None:
+        """Write what one law gives on its elements."""
+        force, slope, stiffness = values
+        if group.rows.curve >= 0:
+            curve = self._tables.given.curves[group.rows.curve]
+            at = depth / group.diameter if ratio is None else ratio
+            if all(array.flags.c_contiguous for array in (at, force, slope)):
+                curve.fill(at.reshape(-1), force.reshape(-1), slope.reshape(-1))
+            else:
+                found = np.empty((2, at.size))
+                curve.fill(np.ascontiguousarray(at).reshape(-1), found[0], found[1])
+                force[...], slope[...] = found.reshape(2, *at.shape)
+            np.divide(slope, group.diameter, out=stiffness)
+        else:
+            force[...], stiffness[...] = group.rows.reaction(depth, group.diameter, *group.columns)
+            np.multiply(stiffness, group.diameter, out=slope)
+        if not touches.all():
+            _zero_outside(touches, values)
+        if self._tables.cuts and group.rows.curve >= 0:
+            pulls = force < 0.0
+            if pulls.any():
+                _zero_outside(~pulls, values)
+                part.cut[:, self.begin + group.at] = pulls
+
+    def _unload(
+        self, some: _Some, depth: FloatArray, values: Values, part: ContactResult, history: UnloadingHistory
+    ) -> _Trench:
+        """Write the virgin path at the largest penetrations so far, or the lines to there."""
+        from mudline.contact.laws.unloading import line_stiffness, on_line, trench_bottom  # noqa: PLC0415 - only now
+
+        z = np.fmax(taken(depth, some.at), 0.0)
+        so_far = np.maximum.accumulate(np.concatenate([history.z_max[None, some.rows], z]), axis=0)
+        fresh, deepest = so_far[1:] > so_far[:-1], so_far[1:]
+        reached = depth.copy()
+        reached[:, some.at] = deepest
+        self._follow(reached, None, reached > self._onset, values, part)
+        force, slope, stiffness = (taken(each, some.at) for each in values)
+        force_max, steepest = np.maximum(force, 0.0), some.columns[0]
+        if self._steeper:
+            steepest = np.broadcast_to(steepest, deepest.shape).copy()
+            for group, mine, theirs in self._steeper:
+                steepest[:, mine] = np.maximum(steepest[:, mine], self._slope(group, deepest[:, mine], theirs))
+        line = line_stiffness(steepest, deepest, force_max)
+        bottom = trench_bottom(line, deepest, force_max)
+        back, rise = on_line(z, deepest, force_max, line, bottom)
+        values[0][:, some.at] = np.where(fresh, force, back)
+        values[1][:, some.at] = np.where(fresh, slope, rise * self._diameter[some.at])
+        values[2][:, some.at] = np.where(fresh, stiffness, rise)
+        for kept, moved in zip(history.numbers, (deepest, force_max, line, bottom), strict=True):
+            kept[some.rows] = moved[-1]
+        return _Trench(bottom - taken(depth, some.at), z > bottom)
+
+    def _may_steepen(self, some: _Some) -> list[tuple[_Group, IndexArray, IndexArray]]:
+        """Elements whose normal law may be steeper than their line: group, places among those that unload and in it."""
+        at = np.arange(self.end - self.begin)[some.at]
+        found = []
+        for group in self._groups:
+            _, mine, theirs = np.intersect1d(at, group.at, assume_unique=True, return_indices=True)
+            steepest = self._slope(group, np.full((1, len(theirs)), np.inf), theirs)
+            (steeper,) = (steepest[0] > some.columns[0][mine]).nonzero()
+            if steeper.size:
+                found.append((group, mine[steeper], theirs[steeper]))
+        return found
+
+    def _slope(self, group: _Group, z: FloatArray, rows: IndexArray) -> FloatArray:
+        """The steepest slope of a normal law between the mudline and penetrations (steps, k) of some elements."""
+        diameter = group.diameter[rows]
+        if group.rows.curve >= 0:
+            from mudline.contact.laws.curve import steepest_slope  # noqa: PLC0415 - only now is it needed
+
+            return steepest_slope(self._tables.given.curves[group.rows.curve], z / diameter) / diameter
+        columns = [column[rows] for column in group.columns]
+        return np.broadcast_to(group.rows.steepest(z, diameter, *columns), z.shape)
+
+    def _hold_back(self, some: _Some, depth: FloatArray, values: Values) -> None:
+        """Add springs against uplift."""
+        from mudline.contact.laws.suction_spring import spring_suction  # noqa: PLC0415 - only now is it needed
+
+        force, stiffness = spring_suction(some.onset - taken(depth, some.at), *some.columns)
+        values[0][:, some.at] += force
+        values[1][:, some.at] += stiffness * self._diameter[some.at]
+        values[2][:, some.at] += stiffness
+
+    def _pull(
+        self,
+        some: _Some,
+        speed: FloatArray,
+        where: tuple[FloatArray, BoolArray, _Trench | None],
+        values: Values,
+        part: ContactResult,
+        history: SuctionHistory,
+    ) -> None:
+        """Add suction with a history."""
+        from mudline.contact.laws import suction as law  # noqa: PLC0415 - only now is it needed
+
+        columns = self._law
+        if columns is None:
+            return
+        depth, contact, trench = where
+        uplift, pressed = some.onset - taken(depth, some.at), contact[:, some.at]
+        if trench is not None and self._in_trench is not None:
+            here, there = self._in_trench
+            pressed = pressed.copy()
+            uplift[:, here], pressed[:, here] = trench.uplift[:, there], trench.below[:, there]
+        first, second = self._tables.line.at(speed, self.begin, self.end)
+        v = 0.5 * taken(first, some.at) + 0.5 * taken(second, some.at)
+        states, pulls = self._suction_states(some.rows, columns, (uplift, v, pressed), history)
+        if part.state is not None:
+            part.state[:, self._here][:, some.at] = states
+        if pulls is None:
+            return
+        steps, held, reach, factor = pulls
+        uplift, v = uplift[steps, held], v[steps, held]
+        rows = columns.rows(held)
+        shape = (rows.force_factor * factor, rows.force_exponent, rows.regularisation)
+        force, stiffness = law.suction_force(uplift, v, reach, (*shape, rows.first_corner, rows.second_corner))
+        at = held + some.at.start if isinstance(some.at, slice) else some.at[held]
+        values[0][steps, at] += force
+        values[1][steps, at] += stiffness * self._diameter[at]
+        values[2][steps, at] += stiffness
+        if part.regularised is not None:
+            part.regularised[steps, self.begin + at] = (v < rows.regularisation) & (rows.force_exponent < 2.0)
+
+    @staticmethod
+    def _suction_states(
+        rows: slice, law: SuctionLaw, motion: tuple[FloatArray, FloatArray, BoolArray], history: SuctionHistory
+    ) -> tuple[StateArray, _Pulled | None]:
+        """States (steps, k) by uplift, velocity and compression, step by step; and where there is suction.
+
+        Only elements that are off the seabed and not at rest need more than a look.
+        """
+        from mudline.contact.laws.suction import BROKEN, SUCTION, after_cycle, breakout_uplift, next_state  # noqa: PLC0415
+
+        uplift, v, pressed = motion
+        armed, v_max, depth = history.armed[rows], history.v_max[rows], history.depth[rows]
+        states, factor = history.state[rows], history.factor[rows]
+        counts = bool(law.counts_cycles.any())
+        off = uplift > -np.inf  # False for NaN
+        off &= ~pressed
+        every, least = pressed.view(np.int8).copy(), law.least_depth
+        pulled: list[_Pulled] = []
+        for step, down in enumerate(pressed):
+            (loose,) = ((armed | (states == BROKEN)) & off[step]).nonzero()
+            completed = armed & down & (v_max > 0.0) if counts else down
+            after_armed, after_max, after_depth, before, states = down, np.zeros(len(down)), least, states, every[step]
+            if loose.size:
+                was, rates, known, reach = armed[loose], v[step][loose], v_max[loose], depth[loose]
+                largest = np.where(was, np.maximum(known, rates), known)
+                (grown,) = (largest > known).nonzero()
+                if grown.size:
+                    some = law.rows(loose[grown])
+                    reach[grown] = breakout_uplift(
+                        largest[grown], some.depth_factor, some.depth_exponent, some.regularisation
+                    )
+                now, largest, after = next_state(was, largest, before[loose], reach, uplift[step][loose], rates)
+                if counts:
+                    completed[loose] = was & (after == BROKEN)
+                (pulls,) = (after == SUCTION).nonzero()
+                if pulls.size:
+                    held = loose[pulls]
+                    pulled.append((np.full(len(held), step), held, reach[pulls], factor[held]))
+                after_armed, after_depth = down.copy(), least.copy()
+                after_armed[loose], after_max[loose], states[loose] = now, largest, after
+                after_depth[loose] = np.where(after > 0, reach, least[loose])
+            if counts and completed.any():
+                cycled = after_cycle(factor, law.factor_per_cycle, np.nan_to_num(law.cyclic_floor))
+                factor = np.where(completed, cycled, factor)
+            armed, v_max, depth = after_armed, after_max, after_depth
+        history.armed[rows], history.v_max[rows], history.factor[rows] = armed, v_max, factor
+        history.depth[rows], history.state[rows] = depth, states
+        if not pulled:
+            return every, None
+        steps, columns, reaches, factors = (np.concatenate(parts) for parts in zip(*pulled, strict=True))
+        return every, (steps, columns, reaches, factors)
+
+    def _point(self, work: Work) -> list[FloatArray]:
+        """Write the unit directions of the elements; return those components that `work` has."""
+        spans = []
+        for plane in work.planes:
+            first, second = self._tables.line.at(plane, self.begin, self.end)
+            spans.append(second - first)
+        found = units(spans)[3 - len(work.tangent) :]
+        for target, unit in zip(work.tangent, found, strict=True):
+            target[:, self._inner] = unit
+        return found
+
+    def _spring_back(
+        self,
+        some: _Some,
+        along: list[FloatArray],
+        contact: BoolArray,
+        part: ContactResult,
+        touchdown: FloatArray,
+        work: Work,
+    ) -> None:
+        """Write the forces of lateral springs; their touchdown points go from step to step."""
+        from mudline.contact.laws.lateral import lateral_force  # noqa: PLC0415 - only now is it needed
+
+        plane = vectors.PLANES[len(along)]
+        normal = self._mean_normal(some, part)
+        across = plane.across(in_plane(tuple(taken(axis, some.at) for axis in along), normal), normal)
+        touches = contact[:, some.at]
+        middle = []
+        for coordinate in work.planes:
+            one, other = self._tables.line.at(coordinate, self.begin, self.end)
+            middle.append(0.5 * taken(one, some.at) + 0.5 * taken(other, some.at))
+        held = [np.empty(touches.shape) for _ in range(3)]
+        kept = [touchdown[some.rows, axis].copy() for axis in range(3)]
+        down = ~np.isnan(kept[0])
+        for step, touch in enumerate(touches):
+            new, down = touch & ~down, touch
+            for axis in range(3):
+                np.copyto(kept[axis], middle[axis][step], where=new)
+                held[axis][step] = kept[axis]
+        for axis in range(3):
+            touchdown[some.rows, axis] = np.where(down, kept[axis], np.nan)
+        first = 3 - len(along)
+        arm = tuple(place - point for place, point in zip(middle[first:], held[first:], strict=True))
+        force = np.where(touches, lateral_force(some.columns[0], plane.dot(across, arm)), 0.0)
+        for target, axis in zip(work.lateral, across, strict=True):
+            target[:, self._inner][:, some.at] = axis * force
+
+    def _mean_normal(self, some: _Some, part: ContactResult) -> tuple[FloatArray, ...]:
+        """Components of the mean of the unit normals at both ends of elements."""
+        if part.normal.strides[1] == 0:  # one for all nodes
+            return tuple(part.normal[:1, :1, axis] for axis in range(3))
+        line, elements = self._tables.line, np.arange(self.begin, self.end)[some.at]
+        one, other = (part.normal[:, side[elements]] for side in (line.first, line.second))
+        total = tuple(one[..., axis] + other[..., axis] for axis in range(3))
+        size = np.sqrt(vectors.dot_3(total, total))
+        return tuple(axis / size for axis in total)
+
+
+def _zero_outside(inside: BoolArray, values: tuple[FloatArray, ...]) -> None:
+    """Set values to 0 but for those inside, whatever they are."""
+    mask = inside.astype(np.int64)
+    np.negative(mask, out=mask)
+    for array in values:
+        bits = array.view(np.int64)
+        np.bitwise_and(bits, mask, out=bits)

@@ -1,0 +1,203 @@
+"""What every seabed shape offers, and the two simplest shapes: a flat seabed and a uniform slope."""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mudline.contact.arrays import FloatArray
+
+LARGEST = 1e150
+"""Largest magnitude of a coordinate of a floor: differences and squares stay finite."""
+
+
+class SeabedError(ValueError):
+    """A sea floor cannot be made from the numbers given."""
+
+
+def checked(what: str, values: ArrayLike, *shape: int | None) -> FloatArray:
+    """Return a copy of `values` as finite floats of `shape` (None: any length), or raise SeabedError."""
+    array = np.array(values, np.float64)
+    if array.ndim != len(shape) or any(n not in (None, m) for n, m in zip(shape, array.shape, strict=True)):
+        wanted = ", ".join("n" if n is None else str(n) for n in shape)
+        raise SeabedError(f"{what} has shape {array.shape}; expected ({wanted})")
+    wrong = np.argwhere(~(np.abs(array) <= LARGEST))
+    if len(wrong):
+        index = tuple(wrong[0].tolist())
+        place = f" of point {index[0] + 1}" if index else ""
+        raise SeabedError(f"{what}{place} is {array[index]}; expected a finite number of magnitude up to {LARGEST:g}")
+    return array
+
+
+def checked_slope(what: str, degrees: float) -> None:
+    """Raise SeabedError when a slope in degrees is not between -90 and 90, both excluded."""
+    if not abs(degrees) < 90.0:
+        raise SeabedError(f"{what} is {degrees:g} degrees; expected more than -90 and less than 90: a bed has no walls")
+
+
+_CHUNK = 8192
+"""Points worked on at a time: the work arrays stay in the cache."""
+STEEPEST = 1e150
+"""Largest slope of a surface: its square is finite."""
+_QUARTERS = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))
+
+
+class Seabed(ABC):
+    """A bed given as an elevation over the horizontal plane. Holds no state; may be shared by threads.
+
+    Attributes:
+        faceted: the bed is made of planes, so inside one the gradient of the gap is exactly the normal. False for
+            curved beds, whose gap is measured to the tangent plane above or below the point: the true gradient has a
+            term of curvature times gap, which a tangent with the normal held leaves out.
+        same_normal: the unit normal (3,), read-only, where all points share it; None where they do not.
+    """
+
+    faceted: bool = True
+    same_normal: FloatArray | None = None
+
+    @abstractmethod
+    def locate(self, points: FloatArray, gap: FloatArray, normal: FloatArray) -> None:
+        """Write gaps (...) and unit normals out of the soil (..., 3) of `points` (..., 3), which are finite.
+
+        The gap is (x - elevation) n_x, in the points' unit: the distance to the local tangent plane, positive above
+        it. Where there is no seabed the gap is NaN and the normal (1, 0, 0).
+        """
+
+    def gaps(self, points: FloatArray, gap: FloatArray) -> None:
+        """Write the gaps alone."""
+        self.locate(points, gap, np.empty(points.shape))
+
+    @abstractmethod
+    def elevation(self, y: FloatArray, z: FloatArray) -> FloatArray:
+        """Return the elevation X of the bed at `y` and `z`, arrays of one shape; NaN where there is no seabed."""
+
+    @abstractmethod
+    def describe(self) -> str:
+        """Say in a line what the bed is, and what holds outside of it."""
+
+
+class SurfaceSeabed(Seabed):
+    """A floor that knows its elevation and gradient at points in a row."""
+
+    chunk: ClassVar[int] = _CHUNK
+
+    @abstractmethod
+    def surface(self, y: FloatArray, z: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return elevation and its derivatives to Y and Z at `y` (n,) and `z` (n,); elevation is NaN without bed.
+
+        The derivatives have magnitudes up to `STEEPEST`.
+        """
+
+    def locate(self, points: FloatArray, gap: FloatArray, normal: FloatArray) -> None:
+        """Write gaps and normals, see `Seabed`."""
+        rows = points.reshape(-1, 3)
+        flat_gap, flat_normal = gap.reshape(-1), normal.reshape(-1, 3)  # views where the arrays allow it, else copies
+        for start in range(0, len(rows), self.chunk):
+            part = slice(start, start + self.chunk)
+            x, y, z = np.ascontiguousarray(rows[part].T)
+            with np.errstate(over="ignore"):  # an elevation beyond the largest number makes an infinite gap
+                level, along_y, along_z = self.surface(y, z)
+                upward = 1.0 / np.sqrt(1.0 + along_y * along_y + along_z * along_z)
+                flat_gap[part] = (x - level) * upward + 0.0
+            unit = flat_normal[part]
+            unit[:, 0] = upward
+            unit[:, 1] = 0.0 - along_y * upward
+            unit[:, 2] = 0.0 - along_z * upward
+            void = np.isnan(level)
+            if void.any():
+                unit[void] = (1.0, 0.0, 0.0)
+        if not np.may_share_memory(flat_gap, gap):
+            gap[...] = flat_gap.reshape(gap.shape)
+        if not np.may_share_memory(flat_normal, normal):
+            normal[...] = flat_normal.reshape(normal.shape)
+
+    def elevation(self, y: FloatArray, z: FloatArray) -> FloatArray:
+        """Return elevations, see `Seabed`."""
+        with np.errstate(over="ignore"):
+            level = self.surface(np.ravel(y), np.ravel(z))[0] + 0.0
+        return level.reshape(np.shape(y))
+
+
+def heading(degrees: float) -> tuple[float, float]:
+    """Return cosine and sine of an angle in degrees, exact at the multiples of 90."""
+    quarters, rest = divmod(math.fmod(degrees, 360.0), 90.0)
+    if rest == 0.0:
+        return _QUARTERS[int(quarters) % 4]
+    angle = math.radians(math.fmod(degrees, 360.0))
+    return math.cos(angle), math.sin(angle)
+
+
+_UP = np.array([1.0, 0.0, 0.0])
+_UP.setflags(write=False)
+
+
+class FlatSeabed(Seabed):
+    """The bed X = 0, everywhere."""
+
+    same_normal = _UP
+
+    def locate(self, points: FloatArray, gap: FloatArray, normal: FloatArray) -> None:
+        """Write gaps and normals, see `Seabed`."""
+        self.gaps(points, gap)
+        normal[...] = _UP
+
+    def gaps(self, points: FloatArray, gap: FloatArray) -> None:
+        """Write the heights."""
+        np.add(points[..., 0], 0.0, out=gap)  # a sum with 0 knows no -0
+
+    def elevation(self, y: FloatArray, z: FloatArray) -> FloatArray:
+        """Return elevations, see `Seabed`."""
+        return np.zeros(np.broadcast_shapes(np.shape(y), np.shape(z)))
+
+    def describe(self) -> str:
+        """Say what the bed is."""
+        return "one flat bed at X = 0"
+
+
+class SlopingSeabed(Seabed):
+    """A plane through the origin, without end.
+
+    Args:
+        slope_degrees: steepest slope, above -90 and below 90; positive rises towards the direction.
+        direction_degrees: direction from +Y, counter-clockwise about X (Y turns to Z).
+
+    Raises:
+        SeabedError: the slope is 90 degrees or more, or a value is not finite.
+    """
+
+    same_normal: FloatArray
+
+    def __init__(self, slope_degrees: float, direction_degrees: float = 0.0) -> None:
+        self._slope = float(checked("slope of the bed", slope_degrees))
+        self._direction = float(checked("direction of the slope", direction_degrees))
+        checked_slope("slope of the bed", self._slope)
+        angle = math.radians(self._slope)
+        cosine, sine = heading(self._direction)
+        self._rise = 2.0 * math.tan(angle)
+        self._half = 0.5 * cosine, 0.5 * sine
+        steep = math.sin(angle)
+        self.same_normal = np.array([math.cos(angle), 0.0 - steep * cosine, 0.0 - steep * sine])
+        self.same_normal.setflags(write=False)
+
+    def locate(self, points: FloatArray, gap: FloatArray, normal: FloatArray) -> None:
+        """Write gaps and normals, see `Seabed`."""
+        # As a product with the normal, not by the elevation: near a wall that is a large number times a small one.
+        upward, along_y, along_z = 0.25 * self.same_normal  # quarters first: their sum cannot overflow
+        with np.errstate(over="ignore"):
+            quarter = points[..., 0] * upward + points[..., 1] * along_y + points[..., 2] * along_z
+            gap[...] = 4.0 * quarter + 0.0
+        normal[...] = self.same_normal
+
+    def elevation(self, y: FloatArray, z: FloatArray) -> FloatArray:
+        """Return elevations, see `Seabed`."""
+        with np.errstate(over="ignore"):
+            level = self._rise * (self._half[0] * np.asarray(y) + self._half[1] * np.asarray(z))  # see the halves
+            return np.asarray(level + 0.0, np.float64)
+
+    def describe(self) -> str:
+        """Say what the bed is."""
+        return f"plane through the origin, slope {self._slope:g} deg, direction {self._direction:g} deg, without end"

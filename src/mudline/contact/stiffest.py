@@ -1,0 +1,190 @@
+"""The largest stiffness and the largest damping of each law on each element: what an explicit time step must resolve.
+
+Both are facts of the laws. Without positions they are the largest that a law can reach:
+
+* normal laws: the steepest slope at any penetration; unloading lines: their own stiffness, or the steepest slope of the
+  virgin path where that is steeper;
+* friction: the spring of a node that sticks; one with a mobilisation length has mu N / length under the static normal
+  force, the submerged weight of half of each of the node's elements;
+* lateral springs and springs against uplift: their stiffness;
+* suction: F_max / (xc1 Delta_B) while it is mobilised, and dF_max/dv, both at the pull-out velocity that makes them
+  largest: with the exponents of Bridge et al. v_r for the stiffness and rest for the damping. Infinite where a law has
+  no largest value: without a regularisation, or with exponents that grow with the velocity.
+
+With positions they are those that occur there.
+"""
+
+from __future__ import annotations
+
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from mudline.contact.arrays import BoolArray, FloatArray
+from mudline.contact.input import AssignedLaw
+from mudline.contact.result import ContactResult
+from mudline.contact.tables import NormalRows, Tables, steepest_anywhere
+
+
+class LawStiffness(NamedTuple):
+    """One law on the elements (m,) of a model; NaN for elements without it, or where something is not known.
+
+    law: its name. stiffness: force per length, largest. damping: force per velocity, largest; 0 for laws without.
+    per: what both are for: a "length" of the element, or its stiffer "node".
+    """
+
+    law: str
+    stiffness: FloatArray
+    damping: FloatArray
+    per: Literal["length", "node"]
+
+
+class Stiffest(NamedTuple):
+    """All laws of a model."""
+
+    laws: tuple[LawStiffness, ...]
+
+    def __getitem__(self, law: str | int | slice) -> LawStiffness:  # type: ignore[override]
+        """Return a law by its name; KeyError when the model does not have it."""
+        for found in self.laws:
+            if found.law == law:
+                return found
+        raise KeyError(law)
+
+    def per_length(self, tables_length: FloatArray) -> FloatArray:
+        """Return the largest stiffness (m,) of laws per unit length and of nodes over `tables_length` (m,)."""
+        columns = [law.stiffness / tables_length if law.per == "node" else law.stiffness for law in self.laws]
+        return np.fmax.reduce(columns) if columns else np.full(len(tables_length), np.nan)
+
+
+def stiffest(tables: Tables, result: ContactResult | None, speed: FloatArray | None) -> Stiffest:
+    """Return the largest stiffness and damping of each law.
+
+    `result` has the forces at some positions, and `speed` (..., n) the velocities along the normals there; None for the
+    largest values that the laws can reach.
+    """
+    with np.errstate(all="ignore"):
+        found = [_normal(tables, rows, result) for rows in tables.normal if rows.curve < 0]
+        curves = [rows for rows in tables.normal if rows.curve >= 0]
+        if curves:
+            parts = [_normal(tables, rows, result).stiffness for rows in curves]
+            found.append(_law("curve", np.fmax.reduce(parts)))
+        found += [_nodal(tables, rows, result) for rows in tables.nodal]
+        if tables.unloading is not None:
+            found.append(_unloading(tables))
+        if tables.springs is not None:
+            found.append(_law("suction spring", _spread(tables, tables.springs.rows, tables.springs.columns[0])))
+        if tables.suction is not None:
+            found.append(_suction(tables, speed))
+        if tables.friction is not None:
+            found.append(_friction(tables, result))
+        if tables.lateral is not None:
+            given: AssignedLaw = tables.given.assigned["lateral"]
+            found.append(_law("lateral", _spread(tables, given.rows, given["stiffness"])))
+    return Stiffest(tuple(found))
+
+
+def _law(name: str, stiffness: FloatArray, per: Literal["length", "node"] = "length") -> LawStiffness:
+    return LawStiffness(name, stiffness, np.where(np.isnan(stiffness), np.nan, 0.0), per)
+
+
+def _spread(tables: Tables, rows: np.ndarray[tuple[int, ...], np.dtype[np.intp]], values: FloatArray) -> FloatArray:
+    found = np.full(len(tables.half), np.nan)
+    found[rows] = values
+    return found
+
+
+def _largest(values: FloatArray) -> FloatArray:
+    """The largest over all steps."""
+    return values if values.ndim == 1 else np.fmax.reduce(values, axis=0)
+
+
+def _normal(tables: Tables, rows: NormalRows, result: ContactResult | None) -> LawStiffness:
+    """A normal law; at positions the slope of its own path, whatever else acts on the element."""
+    if result is None:
+        return _law(rows.law.name, _spread(tables, rows.rows, steepest_anywhere(tables, rows)))
+    depth, diameter = result.depth[..., rows.rows], tables.diameter[rows.rows]
+    if rows.curve >= 0:
+        curve = tables.given.curves[rows.curve]
+        slope = curve.evaluate(np.nan_to_num(depth / diameter))[1] / diameter
+    else:
+        slope = np.broadcast_to(rows.reaction(depth, diameter, *rows.columns)[1], depth.shape)
+    return _law(
+        rows.law.name, _spread(tables, rows.rows, _largest(np.where(result.contact[..., rows.rows], slope, 0.0)))
+    )
+
+
+def _nodal(tables: Tables, rows: NormalRows, result: ContactResult | None) -> LawStiffness:
+    """A normal law of nodes: of each element that of its stiffer node."""
+    own = np.full(len(tables.given.node_ids), np.nan)
+    own[rows.rows] = steepest_anywhere(tables, rows)
+    if result is not None:
+        z = 0.0 - result.gap[..., rows.rows]
+        slope = np.broadcast_to(rows.reaction(z, 0.0, *rows.columns)[1], z.shape)
+        own[rows.rows] = _largest(np.where(z > rows.law.onset(*rows.columns), slope, 0.0))
+    return _law(rows.law.name, _at_elements(tables, own), "node")
+
+
+def _at_elements(tables: Tables, at_nodes: FloatArray) -> FloatArray:
+    ends = tables.given.element_nodes
+    return np.fmax(at_nodes[ends[:, 0]], at_nodes[ends[:, 1]])
+
+
+def _unloading(tables: Tables) -> LawStiffness:
+    """Unloading lines: ku, or the steepest slope of the virgin path where that is steeper."""
+    unloading = tables.unloading
+    stiffness = np.full(len(tables.half), np.nan)
+    if unloading is not None:
+        virgin = np.zeros(len(tables.half))
+        for rows in tables.normal:
+            virgin[rows.rows] = steepest_anywhere(tables, rows)
+        stiffness[unloading.rows] = np.maximum(unloading.columns[0], virgin[unloading.rows])
+    return _law("unloading", stiffness)
+
+
+def _suction(tables: Tables, speed: FloatArray | None) -> LawStiffness:
+    from mudline.contact.laws.suction import SuctionLaw, breakout_uplift, maximum_force  # noqa: PLC0415 - only now
+
+    rows = tables.given.assigned["suction"].rows
+    law = SuctionLaw(*tables.given.assigned["suction"].columns)
+    factor = law.force_factor * law.largest_factor
+    n, slow = law.force_exponent, law.regularisation
+    if speed is None:
+        force, _ = maximum_force(slow, factor, n, slow)
+        rise = force / (law.first_corner * breakout_uplift(slow, law.depth_factor, law.depth_exponent, slow))
+        rise = np.where((n > law.depth_exponent) & (factor > 0.0), np.inf, np.where(slow > 0.0, rise, np.inf))
+        at_rest, at_slow = maximum_force(0.0 * slow, factor, n, slow)[1], maximum_force(slow, factor, n, slow)[1]
+        damping = np.where((n > 1.0) & (factor > 0.0), np.inf, np.maximum(at_rest, at_slow))
+        damping = np.where((slow > 0.0) | (n >= 1.0), damping, np.inf)
+        rise, damping = np.where(factor > 0.0, rise, 0.0), np.where(factor > 0.0, damping, 0.0)
+    else:
+        ends = tables.given.element_nodes[rows]
+        v = np.maximum(0.5 * speed[..., ends[:, 0]] + 0.5 * speed[..., ends[:, 1]], 0.0)
+        force, by_velocity = maximum_force(v, factor, n, slow)
+        rise = _largest(force / (law.first_corner * breakout_uplift(v, law.depth_factor, law.depth_exponent, slow)))
+        damping = _largest(by_velocity)
+    return LawStiffness("suction", _spread(tables, rows, rise), _spread(tables, rows, damping), "length")
+
+
+def _friction(tables: Tables, result: ContactResult | None) -> LawStiffness:
+    """Springs of nodes that stick, the stiffer of both directions and of the two nodes of an element."""
+    friction = tables.friction
+    nodes = len(tables.given.node_ids)
+    own = np.full(nodes, np.nan)
+    if friction is not None:
+        normal_force = static_normal_force(tables) if result is None else np.fmax(_largest(result.normal_force), 0.0)
+        springs = np.where(friction.rising > 0.0, friction.rising * normal_force, 0.0) + friction.constant
+        active: BoolArray = friction.active
+        own = np.where(active, springs.max(axis=0), np.nan)
+    return _law("friction", _at_elements(tables, own), "node")
+
+
+def static_normal_force(tables: Tables) -> FloatArray:
+    """Return the normal force (n,) of each node under the submerged weight; NaN where that is unknown or not > 0."""
+    weight, total = tables.given.weight, np.zeros(len(tables.given.node_ids))
+    if weight is None:
+        return np.full(len(total), np.nan)
+    carried = np.where(weight > 0.0, weight, np.nan) * tables.half
+    for end in tables.given.element_nodes.T:
+        np.add.at(total, end, carried)
+    return total

@@ -1,0 +1,279 @@
+"""An input as the drivers want it: the laws of elements and nodes as columns, made once for each model."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from mudline.contact.arrays import BoolArray, FloatArray, IndexArray, SmallIndexArray, StateArray
+from mudline.contact.input import AssignedLaw, ContactInput
+from mudline.contact.laws import NormalLaw
+from mudline.contact.laws.base import Reaction, Value
+from mudline.contact.line import Line
+from mudline.contact.state import ContactState
+
+if TYPE_CHECKING:
+    from mudline.contact.laws.friction import FrictionLaw
+
+
+class NormalRows(NamedTuple):
+    """Elements, or nodes, with one normal law: their rows (k,) ascending, and its parameters, each (k,).
+
+    `curve` is the index of the curve of a law with curves, else -1.
+    """
+
+    law: NormalLaw
+    rows: IndexArray
+    columns: tuple[FloatArray, ...]
+    curve: int = -1
+
+    @property
+    def reaction(self) -> Reaction:
+        """The equation of the law; TypeError for one with curves."""
+        if self.law.reaction is None:
+            raise TypeError(f"the law {self.law.name!r} has no equation")
+        return self.law.reaction
+
+    @property
+    def steepest(self) -> Callable[..., Value]:
+        """The steepest slope of the law; TypeError for one with curves."""
+        if self.law.steepest is None:
+            raise TypeError(f"the law {self.law.name!r} does not say how steep it is")
+        return self.law.steepest
+
+
+class ElementRows(NamedTuple):
+    """Elements (k,) with a law beside the normal one, and the parameters that the drivers need."""
+
+    rows: IndexArray
+    columns: tuple[FloatArray, ...]
+
+
+class FrictionRows(NamedTuple):
+    """Friction of all nodes (n,): springs under a normal force N are constant + rising N.
+
+    Attributes:
+        active: nodes that have it.
+        coefficients, constant, rising: (2, n) by direction; 0 without friction.
+        elliptic: nodes with one criterion for both directions.
+        turned: nodes whose u1 is at an angle to +Y, with `cosine` and `sine` of it.
+    """
+
+    active: BoolArray
+    coefficients: FloatArray
+    constant: FloatArray
+    rising: FloatArray
+    elliptic: BoolArray
+    turned: IndexArray
+    cosine: FloatArray
+    sine: FloatArray
+
+
+class TrenchRows(NamedTuple):
+    """What trenches add to the lateral limits of nodes, a row (k,) for each trench that a node lies in.
+
+    Attributes:
+        nodes: (k,) ascending.
+        start: (n + 1,) rows start[i] to start[i + 1] are those of node i.
+        kind: PEAK, WALL or TABLE.
+        inner, outer: half widths. steepness: 1 over half of their difference.
+        amount: peak force, coefficient of the normal force on the wall, or half length for a table.
+        table: which one, -1 for none.
+        line: row in `lines` of a straight centreline; -1 for the line as it was laid.
+        lines: (c, 4) place and direction (Y, Z) of each straight centreline.
+    """
+
+    nodes: IndexArray
+    start: IndexArray
+    kind: StateArray
+    inner: FloatArray
+    outer: FloatArray
+    steepness: FloatArray
+    amount: FloatArray
+    table: SmallIndexArray
+    line: SmallIndexArray
+    lines: FloatArray
+
+    def some(self, rows: IndexArray | slice) -> TrenchRows:
+        """Return some rows, which have no starts."""
+        return self._replace(
+            nodes=self.nodes[rows],
+            start=self.start[:0],
+            kind=self.kind[rows],
+            inner=self.inner[rows],
+            outer=self.outer[rows],
+            steepness=self.steepness[rows],
+            amount=self.amount[rows],
+            table=self.table[rows],
+            line=self.line[rows],
+        )
+
+
+class Tables:
+    """The laws of an input. Attributes of laws that nothing has are None.
+
+    Attributes:
+        line: how elements join nodes.
+        half: (m,) half of the lengths. diameter: (m,).
+        onset: (m,) penetration at which contact begins; None where that is the mudline everywhere.
+        normal: normal laws of elements. nodal: those of nodes.
+        unloading: stiffness. springs: stiffness and extent of suction springs. lateral: stiffness times length.
+        suction: parameters of `suction.SuctionLaw`, in its order.
+        pulling: elements with suction whose curve pulls somewhere; None when there are none.
+        cuts: whether curves that pull are cut to 0.
+        rigid: (n,) nodes of elements on a rigid seabed; None when there are none.
+        history: whether a step's result depends on the steps before it.
+    """
+
+    def __init__(self, given: ContactInput) -> None:
+        self.given = given
+        self.line = Line(given.element_nodes, len(given.node_ids))
+        self.half: FloatArray = 0.5 * given.length
+        self.diameter = given.diameter
+        onset = given.onset()
+        self.onset: FloatArray | None = onset if onset.any() else None
+        self.normal = [rows for law in given.normal_laws for rows in _normal_rows(law)]
+        self.nodal = [rows for law in given.nodal_laws for rows in _normal_rows(law)]
+        self.unloading = _element_rows(given, "unloading")
+        self.springs = _element_rows(given, "suction spring")
+        self.suction = _element_rows(given, "suction")
+        self.lateral = _lateral(given)
+        self.friction = None
+        if "friction" in given.assigned:
+            self.friction = _friction(given.assigned["friction"], len(given.node_ids))
+        self.trench = None
+        if self.friction is not None and given.has("trench peak", "trench wall", "trench table"):
+            from mudline.contact.trenches import trench_rows  # noqa: PLC0415 - most friction has no trench
+
+            self.trench = trench_rows(given, self.friction.coefficients[1])
+        self.pulling = _pulling(given)
+        self.cuts = given.tension == "cut"
+        self.rigid: BoolArray | None = None
+        if "rigid" in given.assigned:
+            self.rigid = np.zeros(len(given.node_ids), np.bool_)
+            self.rigid[given.element_nodes[given.assigned["rigid"].rows]] = True
+        parts = (self.unloading, self.suction, self.lateral, self.friction)
+        self.history = any(part is not None for part in parts)
+
+    def friction_law(self) -> FrictionLaw:
+        """Return the friction of all nodes as arrays by direction.
+
+        Raises:
+            KeyError: there is no friction.
+        """
+        from mudline.contact.laws.friction import FrictionLaw  # noqa: PLC0415 - only now is it needed
+
+        given, nodes = self.given.assigned["friction"], len(self.given.node_ids)
+        active = np.zeros(nodes, np.bool_)
+        active[given.rows] = True
+        coefficients, stiffness, mobilisation = (
+            np.column_stack([given.spread(f"{side}_{name}", nodes, otherwise) for side in ("axial", "lateral")])
+            for name, otherwise in (("coefficient", 0.0), ("stiffness", np.nan), ("mobilisation", 1.0))
+        )
+        mobilisation = np.where(np.isnan(mobilisation), 1.0, mobilisation)
+        return FrictionLaw(coefficients, stiffness, mobilisation, given.spread("elliptic", nodes, 0.0) > 0.0, active)
+
+    def initial_state(self) -> ContactState:
+        """Return the state before the first step: nothing has touched the seabed."""
+        unloading = suction = friction = None
+        if self.unloading is not None:
+            from mudline.contact.laws.unloading import UnloadingHistory  # noqa: PLC0415 - only now is it needed
+
+            unloading = UnloadingHistory.initial(self.unloading.columns[0])
+        if self.suction is not None:
+            from mudline.contact.laws.suction import SuctionHistory, SuctionLaw  # noqa: PLC0415 - only now is it needed
+
+            suction = SuctionHistory.initial(SuctionLaw(*self.suction.columns))
+        if self.friction is not None:
+            from mudline.contact.laws.friction import FrictionHistory  # noqa: PLC0415 - only now is it needed
+
+            friction = FrictionHistory.initial(self.friction.active)
+        return ContactState(
+            unloading=unloading,
+            suction=suction,
+            friction=friction,
+            touchdown=None if self.lateral is None else np.full((len(self.lateral.rows), 3), np.nan, order="F"),
+        )
+
+
+def rows_within(rows: IndexArray, begin: int, end: int) -> slice:
+    """Return which of ascending rows lie in a range."""
+    low, high = np.searchsorted(rows, [begin, end]).tolist()
+    return slice(low, high)
+
+
+def _normal_rows(given: AssignedLaw) -> list[NormalRows]:
+    """The rows of a normal law; a law with curves has one for each curve."""
+    law = given.law
+    if not isinstance(law, NormalLaw):
+        return []
+    if not law.tables:
+        return [NormalRows(law, given.rows, given.columns)]
+    index = given.columns[-1].astype(np.intp)
+    return [NormalRows(law, given.rows[index == each], (), each) for each in np.unique(index).tolist()]
+
+
+def _element_rows(given: ContactInput, name: str) -> ElementRows | None:
+    found = given.assigned.get(name)
+    return None if found is None else ElementRows(found.rows, found.columns)
+
+
+def _lateral(given: ContactInput) -> ElementRows | None:
+    found = given.assigned.get("lateral")
+    if found is None:
+        return None
+    with np.errstate(over="ignore"):  # a step refuses the reaction
+        return ElementRows(found.rows, (found["stiffness"] * given.length[found.rows],))
+
+
+def _friction(given: AssignedLaw, nodes: int) -> FrictionRows:
+    active = np.zeros(nodes, np.bool_)
+    active[given.rows] = True
+    both = {
+        name: np.stack([given.spread(f"{side}_{name}", nodes) for side in ("axial", "lateral")])
+        for name in ("coefficient", "stiffness", "mobilisation")
+    }
+    constant = ~np.isnan(both["stiffness"])
+    with np.errstate(all="ignore"):
+        rising = both["coefficient"] / both["mobilisation"]
+    angle = given.spread("angle", nodes)
+    turned = np.flatnonzero(~np.isnan(angle))
+    turn = np.radians(angle[turned])
+    return FrictionRows(
+        active,
+        np.where(active, both["coefficient"], 0.0),
+        np.where(constant, both["stiffness"], 0.0),
+        np.where(constant | ~active, 0.0, np.where(both["coefficient"] == 0.0, 0.0, rising)),
+        given.spread("elliptic", nodes, 0.0) > 0.0,
+        turned,
+        np.cos(turn),
+        np.sin(turn),
+    )
+
+
+def _pulling(given: ContactInput) -> IndexArray | None:
+    """Elements with suction on a curve that is kept where it pulls, and pulls somewhere below the seabed."""
+    if given.tension == "cut" or not given.has("suction") or not given.has("curve"):
+        return None
+    pulls = [
+        bool((curve.forces[curve.ratios > 0.0] < 0.0).any() or curve.slopes[-1] < 0.0 or curve.evaluate(0.0)[0] < 0.0)
+        for curve in given.curves
+    ]
+    on_pulling = np.array([*pulls, False])[given.curve_index]
+    found = np.intersect1d(np.flatnonzero(on_pulling), given.assigned["suction"].rows)
+    return found if found.size else None
+
+
+def steepest_anywhere(tables: Tables, rows: NormalRows) -> FloatArray:
+    """Return the largest stiffness (k,) that a normal law can reach on its elements, or nodes."""
+    if rows.curve >= 0:
+        from mudline.contact.laws.curve import steepest_slopes  # noqa: PLC0415 - only now is it needed
+
+        with np.errstate(all="ignore"):
+            slopes: FloatArray = steepest_slopes(tables.given.curves[rows.curve]).max() / tables.diameter[rows.rows]
+        return slopes
+    diameter = tables.diameter[rows.rows] if rows.law.acts_on == "elements" else np.zeros(len(rows.rows))
+    found = rows.steepest(np.full(len(rows.rows), np.inf), diameter, *rows.columns)
+    return np.broadcast_to(found, len(rows.rows)).copy()

@@ -1,0 +1,293 @@
+"""numpy and the loops give the same bits: results and states, at once, in parts, step by step, on several threads."""
+
+from __future__ import annotations
+
+from dataclasses import fields, replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mudline.contact import ContactInput, ContactModel, ContactResult, Tension
+from mudline.contact.arrays import FloatArray
+from mudline.contact.choice import Backend
+from mudline.contact.seabed import FlatSeabed, PlanesSeabed, ProfileSeabed, Seabed, SlopingSeabed
+from mudline.curves import ForceCurve
+from tests.contact.bits import arrays_of, differences, equal_bits, same_bits
+from tests.contact.builders import (
+    CLAY,
+    CURVE,
+    LINEAR,
+    NONE,
+    PULLING,
+    at_depths,
+    bridge_law,
+    chain,
+    everything,
+    friction,
+    journey,
+    on,
+    only,
+    rearranged,
+    renumbered,
+    suction,
+    trench,
+)
+from tests.contact.comparison import Scene, Sizes, compare
+from tests.contact.random_scenes import LARGEST, LAWS, SUBSETS, main, random_scene
+
+SEABEDS: list[Seabed] = [
+    FlatSeabed(),
+    SlopingSeabed(2.0, 30.0),
+    PlanesSeabed([[0.0, 0.0, 0.0]], [0.5]),
+    PlanesSeabed(
+        [[0.0, 0.0, 0.0], [0.0, 6.0, 0.0]], [1.0, 2.0], bounds=[[-1e9, 1e9, -1e9, 1e9], [6.0, 9.0, -1.0, 1.0]]
+    ),
+    ProfileSeabed([0.0, 5.0, 9.0], [0.0, -0.1, 0.1], "CUBIC SPLINE"),
+]
+TENSIONS: tuple[Tension, ...] = ("keep", "cut")
+BACKENDS: tuple[Backend, ...] = ("numpy", "fast")
+USUAL = Sizes(16384, 4096, 16, 2)
+seeds = st.integers(0, 2**32 - 1)
+
+
+def scene(inputs: ContactInput, positions: FloatArray, velocities: FloatArray | None = None) -> Scene:
+    """An input and a motion; without velocities they are differences over steps of 0.1."""
+    times = None if velocities is not None else 0.1 * np.arange(float(len(positions)))
+    return Scene(inputs, positions, velocities, times, None, USUAL)
+
+
+# ----------------------------------------------------------------------------------------------------- what is compared
+
+
+def test_the_comparison_sees_each_bit_of_each_array() -> None:
+    inputs = everything(12, 3)
+    positions, velocities, _ = journey(12, 3, 3)
+    contact = ContactModel(replace(inputs, curves=(CLAY, PULLING), tension="cut"))
+    result = contact.evaluate(positions, velocities=velocities)
+    _, state = contact.step(positions[0], velocities[0], contact.initial_state())
+    for part in (result, state):
+        names = {name for name, array in arrays_of(part) if array is not None}
+        assert names >= ({field.name for field in fields(ContactResult)} if part is result else {"unloading.numbers"})
+        assert same_bits(part, part)
+    for name in (field.name for field in fields(ContactResult)):
+        array = getattr(result, name).copy()
+        last = array.flat[-1]
+        array.flat[-1] = np.nextafter(last, 9.0) if array.dtype.kind == "f" else 1 - last.astype(np.int8)
+        assert differences(result, replace(result, **{name: array}))[0].startswith(f"{name}[")
+        assert differences(result, replace(result, **{name: getattr(result, name)[..., :-1]}))
+    assert differences(result, replace(result, state=None)) == ["state is in one only"]
+    assert differences(state, replace(state, friction=None))
+
+
+def test_minus_zero_is_not_zero_and_nan_is_nan() -> None:
+    one, other = np.array([0.0, np.nan, 1.0]), np.array([-0.0, -np.nan, 1.0])
+    assert equal_bits(one, other).tolist() == [False, True, True]
+    assert equal_bits(np.array([1, 2]), np.array([1, 3])).tolist() == [True, False]
+
+
+# -------------------------------------------------------------------------------------------------------- random scenes
+
+
+@pytest.mark.parametrize("number", range(len(SUBSETS)))
+@pytest.mark.parametrize("seed", range(20))
+def test_scenes_with_some_laws(number: int, seed: int) -> None:
+    names, flat = SUBSETS[number]
+    assert compare(random_scene(1000 * number + seed, names, flat=flat)) == []
+
+
+@settings(max_examples=80)
+@given(seeds)
+def test_any_scene_through_loops_that_are_not_compiled(seed: int) -> None:
+    assert compare(random_scene(seed), plain=True) == []
+
+
+@settings(max_examples=20)
+@given(seeds)
+def test_any_scene_with_everything(seed: int) -> None:
+    assert compare(random_scene(seed, frozenset(LAWS), flat=seed % 2 == 0)) == []
+
+
+def test_a_long_run_says_how_many_scenes_agree(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("sys.argv", ["random_scenes", "--scenes", "3", "--seed", "20", "--compiled", "0"])
+    assert main() in {0, 1}
+    assert capsys.readouterr().out.endswith(" of 3 scenes agree\n")
+
+
+def test_a_long_run_names_the_first_scene_that_differs(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("sys.argv", ["random_scenes", "--scenes", "3", "--seed", "7", "--compiled", "0"])
+    monkeypatch.setattr(
+        "tests.contact.random_scenes.compare", lambda _scene, *, plain: ["force[0] is 1, and 2"] * plain
+    )
+    assert main() == 1
+    assert capsys.readouterr().out == "seed 7 differs:\n  force[0] is 1, and 2\n0 of 3 scenes agree\n"
+
+
+# ------------------------------------------------------------------------------------------------ everything, and parts
+
+
+@settings(max_examples=60)
+@given(st.integers(1, 9), st.integers(0, 9999), st.sampled_from(SEABEDS), st.booleans(), st.booleans())
+def test_everything_at_once(elements: int, seed: int, seabed: Seabed, timed: bool, gaps: bool) -> None:
+    positions, velocities, times = journey(elements, 20, seed)
+    present = np.random.default_rng(seed).random(elements + 1) < (0.8 if gaps else 2.0)
+    inputs = everything(elements, seed, seabed)
+    given_scene = Scene(inputs, positions, None if timed else velocities, times, present if gaps else None, USUAL)
+    assert compare(given_scene, plain=True) == []
+
+
+@settings(max_examples=30)
+@given(st.integers(2, 8), st.integers(0, 9999))
+def test_elements_and_nodes_in_any_order(elements: int, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    inputs = rearranged(everything(elements, seed), rng.permutation(elements), rng.random(elements) < 0.5)
+    order = rng.permutation(elements + 1)
+    positions, velocities, _ = journey(elements, 12, seed)
+    assert compare(scene(renumbered(inputs, order), positions[:, order], velocities[:, order]), plain=True) == []
+
+
+@settings(max_examples=40)
+@given(st.integers(0, 9999), st.sets(st.sampled_from(LAWS), min_size=1), st.sampled_from(TENSIONS))
+def test_any_choice_of_laws(seed: int, names: set[str], tension: Tension) -> None:
+    inputs = only(everything(8, seed), *names)
+    inputs = replace(inputs, curves=(PULLING, CLAY), tension=tension)
+    assert compare(scene(inputs, journey(8, 12, seed)[0]), plain=True) == []
+
+
+sizes = st.sampled_from([0.0, 5e-324, 1e-300, 1e-160, 1e-12, 1.0, 1e3, 1e12, 1e150, 1e300, LARGEST])
+
+
+@settings(max_examples=50)
+@given(st.integers(1, 4), st.integers(0, 999), st.tuples(sizes, sizes, sizes), sizes, st.sampled_from(SEABEDS[:4]))
+def test_sizes_beyond_reason_are_refused_alike(
+    elements: int, seed: int, scale: tuple[float, float, float], speed: float, seabed: Seabed
+) -> None:
+    positions, velocities, _ = journey(elements, 4, seed)
+    with np.errstate(over="ignore"):
+        path, rates = np.clip(positions * scale, -LARGEST, LARGEST), np.clip(velocities * speed, -LARGEST, LARGEST)
+    assert compare(scene(everything(elements, seed, seabed), path, rates), plain=True) == []
+
+
+def odd_lines() -> dict[str, Scene]:
+    """Upright lines, nodes in one place, walls, and laws at the ends of their ranges."""
+    upright = np.zeros((3, 3, 3))
+    upright[:, :, 0] = [-0.1, -0.2, -0.3]
+    upright[1:, :, 2] = 0.2
+    crowd = upright.copy()
+    crowd[:, 1] = crowd[:, 0]
+    beside = friction(3, (0.0, 0.8), ellipse=True), on("lateral", 2, stiffness=900.0), trench(2, 0.1, 0.5, 1e3)
+    steep = PlanesSeabed([[0.0, 0.0, 0.0]], [89.99999999999])
+    wide = on("smoothed", 2, stiffness=5e4, half_width=[LARGEST, 5e-324], one_sided=[0.0, 1.0])
+    sucks = suction(bridge_law())
+    return {
+        "upright": scene(chain([LINEAR, NONE], *beside), upright),
+        "upright at a wall": scene(chain([LINEAR, NONE], *beside, seabed=steep), upright),
+        "crowded": scene(chain([LINEAR, NONE], *beside), crowd),
+        "crowded at a wall": scene(chain([LINEAR, NONE], *beside, seabed=steep), crowd),
+        "zones of any width": scene(chain([NONE, NONE], *beside, wide), upright),
+        "one step": scene(chain([LINEAR], sucks), at_depths([[0.1, 0.1]])),
+        "overflow": scene(
+            chain([LINEAR], on("nodal", 2, stiffness=[1e300, 1.0]), on("lateral", 1, stiffness=1.0)),
+            np.full((1, 2, 3), -1e10),
+        ),
+        "a lateral spring beside a zone": scene(
+            chain([CURVE, LINEAR], on("lateral", 2, stiffness=1.0)),
+            at_depths([[0.005, 0.005, -0.005], [-0.001, 0.002, 0.1]]),
+        ),
+    }
+
+
+@pytest.mark.parametrize("name", odd_lines())
+def test_odd_lines(name: str) -> None:
+    given_scene = odd_lines()[name]
+    assert compare(given_scene, plain=True) == []
+    if name == "overflow":
+        with pytest.raises(ValueError, match="overflows"):
+            ContactModel(given_scene.inputs, backend="fast").evaluate(given_scene.positions)
+
+
+def test_the_curve_law_of_many_elements() -> None:
+    elements = 400
+    rng = np.random.default_rng(8)
+    inputs = everything(elements, 8)
+    laws = on("curve", elements, curve=rng.integers(0, 2, elements)), on("lateral", [3, 99], stiffness=900.0)
+    positions, _, _ = journey(elements, 20, 8)
+    assert compare(scene(replace(inputs, laws=laws), positions)) == []
+
+
+def test_a_force_that_overflows_only_on_the_way_is_mended() -> None:
+    curve = ForceCurve([(0.0, -1.7e308), (2.5, 1.7e308)])
+    inputs = chain([CURVE], on("lateral", 1, stiffness=1.0), curves=(curve,), diameter=1.0, length=1e-3)
+    positions = at_depths([[2.0, 2.0], [2.1, 2.1]])
+    assert compare(scene(inputs, positions)) == []
+    result = ContactModel(inputs, backend="fast").evaluate(positions)
+    assert result.force.ravel() == pytest.approx([1.02e308, 1.156e308])
+
+
+@pytest.mark.parametrize("seabed", [None, SlopingSeabed(0.001, 30.0)])
+def test_a_long_line_on_several_threads(seabed: Seabed | None) -> None:
+    """Several ranges of elements and of nodes, as they are divided by default."""
+    elements = 2600
+    inputs = everything(elements, 5, seabed)
+    positions, velocities, _ = journey(elements, 30, 5)
+    one = ContactModel(inputs, backend="numpy").evaluate(positions, velocities=velocities)
+    for threads in (1, 2, 3):
+        contact = ContactModel(inputs, backend="fast", threads=threads)
+        assert differences(one, contact.evaluate(positions, velocities=velocities)) == []
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_states_go_from_one_backend_to_the_other(seed: int) -> None:
+    inputs = everything(60, seed)
+    positions, velocities, _ = journey(60, 10, seed)
+    models = [ContactModel(inputs, backend=backend) for backend in BACKENDS]
+    state = models[0].initial_state()
+    for number, (place, rate) in enumerate(zip(positions, velocities, strict=True)):
+        (one, after), (other, second) = (contact.step(place, rate, state) for contact in models)
+        assert differences(one, other) == []
+        assert differences(after, second) == []
+        state = (after, second)[number % 2]
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_a_state_is_never_written_to(backend: Backend) -> None:
+    contact = ContactModel(everything(60, 3), backend=backend)
+    positions, velocities, _ = journey(60, 8, 3)
+    state, kept = contact.initial_state(), []
+    for place, rate in zip(positions, velocities, strict=True):
+        _, state = contact.step(place, rate, state)
+        kept.append((state, {name: array.copy() for name, array in arrays_of(state) if array is not None}))
+    for old, copies in kept:
+        for name, array in arrays_of(old):
+            assert array is not None
+            assert equal_bits(array, copies[name]).all()
+
+
+def test_tangents_are_the_same() -> None:
+    inputs = everything(60, 2)
+    positions, velocities, _ = journey(60, 2, 2)
+    one, other = (
+        contact.tangent(positions[0], velocities[0], contact.initial_state())
+        for contact in (ContactModel(inputs, backend=backend) for backend in BACKENDS)
+    )
+    assert one.by_position.values.tobytes() == other.by_position.values.tobytes()
+    assert one.by_velocity.values.tobytes() == other.by_velocity.values.tobytes()
+
+
+@pytest.mark.parametrize("rows", [1, 3, 24])
+def test_series_in_parts(rows: int) -> None:
+    positions, _, times = journey(60, 30, 4)
+    contact = ContactModel(everything(60, 4), backend="fast")
+    whole = contact.evaluate(positions, times=times)
+    driver = contact._driver(30)
+    assert driver is not None
+    driver.steps = rows
+    parts = list(contact.stream(positions, times=times))
+    assert [part.start for part in parts] == list(range(0, 30, rows))
+    for start, part in parts:
+        assert differences(part, whole.steps(start, start + rows)) == []

@@ -1,0 +1,189 @@
+"""When series are evaluated by compiled loops, and what is needed for them: numba, a cache, threads."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import numba
+import numpy as np
+import pytest
+
+from mudline.contact import ContactModel, ContactResult, ContactState, compiled_driver, kernels
+from mudline.contact import choice as choices
+from mudline.contact.choice import Backend, Choice
+from mudline.contact.laws import law_named
+from mudline.contact.laws.base import NormalLaw
+from mudline.contact.numpy_driver import Batch
+from tests.contact.builders import CURVE, LINEAR, at_depths, chain, everything, friction, journey
+from tests.processes import TIMEOUT
+
+LONG, LONGER = 2_000_000, 15_000_000
+"""Nodes times steps from which on loops are loaded if they were compiled before, and compiled if not."""
+
+
+@pytest.fixture(autouse=True)
+def _no_markers(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """Nothing was compiled before, for all that these tests know."""
+    monkeypatch.setenv("MUDLINE_CACHE_DIR", str(tmp_path / "cache"))
+
+
+def choice_of(backend: Backend, contact: ContactModel | None = None) -> tuple[Choice, int]:
+    """The choice of a model, and how many nodes it has."""
+    made = contact or ContactModel(chain([LINEAR] * 99), backend=backend)
+    return made._choice, len(made.input.node_ids)
+
+
+def test_the_backend_that_a_series_gets() -> None:
+    fast, _ = choice_of("fast")
+    plain, _ = choice_of("numpy")
+    auto, nodes = choice_of("auto")
+    assert fast.compiles(1)
+    assert not plain.compiles(10**9)
+    assert not auto.compiles(LONGER // nodes - 1)
+    assert auto.compiles(LONGER // nodes)
+
+
+def test_loops_that_were_compiled_before_are_worth_loading_sooner() -> None:
+    auto, nodes = choice_of("auto")
+    assert not auto.compiles(LONG // nodes)
+    auto.note_compiled()
+    assert auto.compiles(LONG // nodes)
+    assert not auto.compiles(LONG // nodes - 1)
+    other, _ = choice_of("auto", ContactModel(chain([LINEAR] * 99, friction(3))))
+    assert not other.compiles(LONG // nodes)
+
+
+def test_a_model_notes_that_its_loops_were_compiled(tmp_path: Path) -> None:
+    contact = ContactModel(chain([LINEAR]), backend="fast")
+    contact.evaluate(at_depths([[0.1, 0.1]]))
+    (marker,) = (tmp_path / "cache").iterdir()
+    assert marker.name.startswith("loops-")
+    contact.evaluate(at_depths([[0.1, 0.1]]))
+    auto, _ = choice_of("auto", ContactModel(chain([LINEAR])))
+    assert auto.compiles(LONG)
+
+
+def test_without_a_place_for_markers_nothing_is_noted(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr("mudline.cache_folder.cache_folder", lambda: None)
+    auto, nodes = choice_of("auto")
+    auto.note_compiled()
+    assert not auto.compiles(LONG // nodes)
+    blocked = tmp_path / "file"
+    blocked.touch()
+    monkeypatch.setattr("mudline.cache_folder.cache_folder", lambda: blocked)
+    auto.note_compiled()
+    assert not auto.compiles(LONG // nodes)
+
+
+def test_without_numba_there_are_no_loops(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "numba", None)
+    monkeypatch.setattr(choices, "find_spec", lambda _name: None)
+    auto, _ = choice_of("auto")
+    assert not auto.compiles(10**9)
+    with pytest.raises(ImportError):
+        ContactModel(chain([LINEAR]), backend="fast")
+
+
+def test_a_backend_of_another_name() -> None:
+    wrong: Backend = "cuda"  # type: ignore[assignment]  # on purpose
+    with pytest.raises(ValueError, match="backend must be auto, numpy or fast, not 'cuda'"):
+        ContactModel(chain([LINEAR]), backend=wrong)
+
+
+@pytest.mark.parametrize("threads", [0, -1])
+def test_no_threads_at_all_are_refused(threads: int) -> None:
+    with pytest.raises(ValueError, match=f"threads must be 1 or more, not {threads}"):
+        ContactModel(chain([LINEAR]), threads=threads)
+
+
+def test_there_is_a_thread_for_each_processor(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert ContactModel(chain([LINEAR]), threads=7)._choice.threads == 7
+    assert ContactModel(chain([LINEAR]))._choice.threads >= 1
+    monkeypatch.delattr("os.sched_getaffinity", raising=False)
+    monkeypatch.setattr("os.cpu_count", lambda: 5)
+    assert ContactModel(chain([LINEAR]))._choice.threads == 5
+    monkeypatch.setattr("os.cpu_count", lambda: None)
+    assert ContactModel(chain([LINEAR]))._choice.threads == 1
+
+
+def test_numpy_alone_does_not_load_numba() -> None:
+    program = """if True:
+        import sys, numpy as np
+        from tests.contact.builders import everything, journey
+        from mudline.contact import ContactModel
+        positions, velocities, _ = journey(3, 4, 1)
+        ContactModel(everything(3, 1)).evaluate(positions, velocities=velocities)
+        print("numba" in sys.modules)"""
+    run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=TIMEOUT, check=True)
+    assert run.stdout.strip() == "False"
+
+
+def test_a_place_without_a_cache_compiles_anyway(monkeypatch: pytest.MonkeyPatch) -> None:
+    options: list[bool] = []
+
+    def njit(*, cache: bool = False, **_: object) -> Callable[[object], object]:
+        options.append(cache)
+        if cache:
+            raise RuntimeError("cannot cache function: no locator available")
+        return lambda function: (function, "compiled")
+
+    monkeypatch.setattr(numba, "njit", njit)
+    found: object = compiled_driver._compiled(abs)
+    assert options == [True, False]
+    assert found == (abs, "compiled")
+
+
+def test_the_edition_changes_with_the_laws() -> None:
+    linear, curve = law_named("linear"), law_named("curve")
+    assert isinstance(linear, NormalLaw)
+    assert isinstance(curve, NormalLaw)
+    assert kernels.edition(()) == kernels.edition(()) > 0
+    assert len({kernels.edition(laws) for laws in ((), (linear,), (linear, curve))}) >= 2
+
+
+def test_the_same_laws_have_the_same_loops() -> None:
+    one, other = (ContactModel(everything(50, seed), backend="fast")._driver(1) for seed in (1, 2))
+    sloping = ContactModel(chain([CURVE]), backend="fast")._driver(1)
+    assert one is not None
+    assert other is not None
+    assert sloping is not None
+    assert one._node_loop is other._node_loop
+    assert one._element_loop is not sloping._element_loop
+
+
+def test_values_that_are_not_finite_are_left_to_numpy() -> None:
+    """The loops count them, whichever they are; numpy says which."""
+    contact = ContactModel(chain([LINEAR], stiffness=1e300), backend="fast")
+    called: list[Batch] = []
+    plain = contact._numpy.run
+
+    def run(batch: Batch, part: ContactResult, state: ContactState) -> None:
+        called.append(batch)
+        plain(batch, part, state)
+
+    contact._numpy.run = run  # type: ignore[method-assign]  # a spy
+    contact.evaluate(at_depths([[0.1, 0.1]]))
+    assert not called
+    with pytest.raises(ValueError, match="element 11 at step 1: its force overflows"):
+        contact.evaluate(at_depths([[0.1, 0.1], [1e10, 1e10]]))
+    assert called
+
+
+def test_series_of_no_steps_and_lines_of_no_elements() -> None:
+    empty = ContactModel(everything(50, 1), backend="fast").evaluate(np.zeros((0, 51, 3)), times=np.zeros(0))
+    assert empty.force.shape == (0, 50)
+    alone = ContactModel(chain([]), backend="fast").evaluate(np.zeros((3, 1, 3)))
+    assert alone.reaction.tolist() == [[[0.0, 0.0, 0.0]]] * 3
+
+
+def test_a_stream_takes_a_few_steps_at_a_time() -> None:
+    positions, _, times = journey(50, 150, 2)
+    contact = ContactModel(everything(50, 2), backend="fast")
+    driver = contact._driver(150)
+    assert driver is not None
+    assert 1 < driver.steps < 150
+    sizes = [len(part.result.depth) for part in contact.stream(positions, times=times)]
+    assert sizes == [driver.steps] * (150 // driver.steps) + [150 % driver.steps]

@@ -1,0 +1,263 @@
+"""What holds for every scene and every path: with suction, friction, unloading and trenches all on."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mudline.contact import ContactInput, ContactModel
+from mudline.contact.arrays import FloatArray
+from mudline.contact.laws.trench import wall_coefficient
+from mudline.contact.seabed import FlatSeabed, Seabed, SlopingSeabed
+from tests.contact.bits import same_bits
+from tests.contact.builders import (
+    ALONG_Y,
+    PULLING,
+    SAND,
+    alone,
+    changed,
+    everything,
+    journey,
+    only,
+    rearranged,
+    renumbered,
+    stepped,
+    walk,
+    without,
+)
+
+seeds = st.integers(0, 2**32 - 1)
+lines = st.integers(1, 9)
+
+
+def close(one: FloatArray, other: FloatArray, tolerance: float = 1e-9) -> bool:
+    """Whether two arrays differ by no more than a share of the largest term."""
+    return bool(np.allclose(one, other, rtol=0.0, atol=tolerance * max(1.0, np.abs(other).max(initial=0.0))))
+
+
+def without_suction(elements: int, seed: int) -> ContactInput:
+    """Everything but suction."""
+    return without(everything(elements, seed), "suction", "suction spring")
+
+
+@settings(max_examples=40)
+@given(lines, seeds)
+def test_no_force_where_there_is_no_contact(elements: int, seed: int) -> None:
+    inputs = without(without_suction(elements, seed), "nodal")
+    positions, velocities, _ = journey(elements, 12, seed)
+    result = ContactModel(inputs).evaluate(positions, velocities=velocities)
+    onset = np.zeros(elements)
+    if (smoothed := inputs.assigned.get("smoothed")) is not None:
+        onset[smoothed.rows] = np.where(smoothed["one_sided"] > 0.0, 0.0, 0.0 - smoothed["half_width"])
+    above = result.depth <= onset
+    assert np.array_equal(result.contact, ~above)
+    for values in (result.force, result.stiffness, result.slope):
+        assert not values[above].any()
+    touched = np.zeros(result.normal_force.shape, np.bool_)
+    for end in inputs.element_nodes.T:
+        touched[:, end] |= result.contact
+    assert not result.reaction[~touched].any()
+    assert not np.signbit(result.force[above]).any()
+
+
+@settings(max_examples=40)
+@given(lines, seeds)
+def test_the_seabed_never_pulls_without_suction_where_tension_is_cut(elements: int, seed: int) -> None:
+    inputs = replace(without_suction(elements, seed), curves=(PULLING, SAND), tension="cut")
+    positions, velocities, _ = journey(elements, 12, seed)
+    result = ContactModel(inputs).evaluate(positions, velocities=velocities)
+    assert (result.force >= 0.0).all()
+    assert (result.normal_force >= 0.0).all()
+    assert not result.force[result.cut].any()
+
+
+def largest_added(inputs: ContactInput, pressed: FloatArray) -> FloatArray:
+    """The most that the trenches of the elements can add to the lateral limits of nodes under normal forces."""
+    found = np.zeros(pressed.shape)
+    half = 0.5 * inputs.length
+    around = np.zeros(len(inputs.node_ids))
+    coefficient = inputs.assigned["friction"].spread("lateral_coefficient", len(around), 0.0)
+    for end in inputs.element_nodes.T:
+        np.add.at(around, end, half)
+    highest = np.array([table[:, 1].max() for table in inputs.tables])
+    for name in {"trench peak", "trench table", "trench wall"} & set(inputs.assigned):
+        law = inputs.assigned[name]
+        for end in inputs.element_nodes[law.rows].T:
+            if name == "trench peak":
+                added = law["peak"] * half[law.rows] * np.ones((len(pressed), 1))
+            elif name == "trench table":
+                added = highest[law["table"].astype(np.intp)] * half[law.rows] * np.ones((len(pressed), 1))
+            else:
+                wall = wall_coefficient(law["depth"], law["bottom"], law["upper"], coefficient[end])
+                added = wall * pressed[:, end] * half[law.rows] / around[end]
+            found[:, end] += added
+    return np.where(pressed > 0.0, found, 0.0)
+
+
+@settings(max_examples=40)
+@given(lines, seeds)
+def test_friction_never_exceeds_its_limit(elements: int, seed: int) -> None:
+    inputs = without(everything(elements, seed), "lateral")
+    if not inputs.has("friction"):
+        return
+    law, nodes = inputs.assigned["friction"], elements + 1
+    mu = np.column_stack([law.spread(f"{side}_coefficient", nodes, 0.0) for side in ("axial", "lateral")])
+    positions, velocities, _ = journey(elements, 12, seed)
+    result = ContactModel(inputs).evaluate(positions, velocities=velocities)
+    assert result.friction is not None
+    pressed = np.maximum(result.normal_force, 0.0)
+    limit = mu * pressed[..., None]
+    limit[..., 1] += largest_added(inputs, pressed)
+    share = np.divide(np.abs(result.friction), limit, out=np.zeros_like(limit), where=limit > 0.0)
+    assert (share <= 1.0 + 1e-12).all()
+    ellipse = law.spread("elliptic", nodes, 0.0) > 0.0
+    assert (np.hypot(*np.moveaxis(share, -1, 0))[:, ellipse] <= 1.0 + 1e-12).all()
+    active = np.isin(np.arange(nodes), law.rows)
+    assert not result.friction[:, active][(limit == 0.0)[:, active]].any()
+    assert not result.friction[:, np.setdiff1d(np.arange(nodes), law.rows)].any()
+
+
+def on_fixed_axes(inputs: ContactInput) -> ContactInput:
+    """The input with constant springs of friction, along directions that do not turn."""
+    if not inputs.has("friction"):
+        return inputs
+    law = inputs.assigned["friction"]
+    springs = {name: np.where(np.isnan(law[name]), 5e4, law[name]) for name in ("axial_stiffness", "lateral_stiffness")}
+    return changed(inputs, "friction", angle=np.nan_to_num(law["angle"]), **springs)
+
+
+def work(reaction: FloatArray, positions: FloatArray) -> float:
+    """Work done on the seabed with the forces at the ends of the steps; of a spring no less than what it stores."""
+    return float(-(reaction[1:] * np.diff(positions, axis=0)).sum())
+
+
+@settings(max_examples=40)
+@given(lines, seeds, st.booleans())
+def test_closed_cycles_never_give_work(elements: int, seed: int, trenches: bool) -> None:
+    inputs = without(on_fixed_axes(everything(elements, seed)), "lateral", "suction spring")
+    if not trenches:
+        inputs = without(inputs, "trench peak", "trench wall", "trench table")
+    contact = ContactModel(inputs)
+    positions, _, times = journey(elements, 20, seed)
+    positions[0, :, 0] += 10.0  # begins and ends off the seabed
+    closed = np.concatenate([positions, positions[:1]])
+    result = contact.evaluate(closed, times=np.append(times, times[-1] + 1.0))
+    assert work(result.reaction, closed) >= -1e-9
+    assert work(result.normal_force[..., None] * result.normal, closed) >= -1e-9
+
+
+@settings(max_examples=25)
+@given(lines, seeds, seeds)
+def test_the_order_and_sense_of_the_elements_do_not_matter(elements: int, seed: int, other: int) -> None:
+    rng = np.random.default_rng(other)
+    inputs, order = everything(elements, seed), rng.permutation(elements)
+    mingled = rearranged(inputs, order, rng.random(elements) < 0.5)
+    positions, velocities, _ = journey(elements, 10, seed)
+    one, two = (ContactModel(each).evaluate(positions, velocities=velocities) for each in (inputs, mingled))
+    for name in ("depth", "contact", "force", "stiffness", "state", "regularised"):
+        here, there = getattr(one, name), getattr(two, name)
+        assert (here is None) == (there is None)
+        assert here is None or np.array_equal(there, here[:, order])
+    assert close(two.reaction, one.reaction)
+
+
+@settings(max_examples=25)
+@given(lines, seeds, seeds)
+def test_the_order_of_the_nodes_does_not_matter(elements: int, seed: int, other: int) -> None:
+    inputs, order = everything(elements, seed), np.random.default_rng(other).permutation(elements + 1)
+    positions, velocities, _ = journey(elements, 10, seed)
+    one = ContactModel(inputs).evaluate(positions, velocities=velocities)
+    two = ContactModel(renumbered(inputs, order)).evaluate(positions[:, order], velocities=velocities[:, order])
+    assert close(two.force, one.force)
+    assert close(two.reaction, one.reaction[:, order])
+
+
+@settings(max_examples=20)
+@given(lines, st.integers(1, 12), seeds, st.integers(1, 15), st.booleans())
+def test_parts_and_steps_do_not_change_a_bit(elements: int, steps: int, seed: int, rows: int, timed: bool) -> None:
+    contact = ContactModel(everything(elements, seed))
+    positions, velocities, times = journey(elements, steps, seed)
+    rates, clock = (None, times) if timed else (velocities, None)
+    whole = contact.evaluate(positions, velocities=rates, times=clock)
+    contact._numpy.steps = rows
+    assert same_bits(contact.evaluate(positions, velocities=rates, times=clock), whole)
+    parts = list(contact.stream(positions, velocities=rates, times=clock))
+    assert sum(len(part.result.depth) for part in parts) == steps
+    for start, part in parts:
+        assert same_bits(part, whole.steps(start, start + len(part.depth)))
+    if not timed:
+        for number, (result, _) in enumerate(stepped(contact, positions, velocities)):
+            assert same_bits(result, whole.step(number))
+
+
+@settings(max_examples=15)
+@given(lines, seeds)
+def test_elements_do_not_know_each_other(elements: int, seed: int) -> None:
+    """Without what belongs to nodes, the whole is the sum of its elements."""
+    inputs = without(everything(elements, seed), "friction", "nodal", "lateral")
+    positions, velocities, _ = journey(elements, 10, seed)
+    whole = ContactModel(inputs).evaluate(positions, velocities=velocities)
+    total = np.zeros_like(whole.reaction)
+    for element in range(elements):
+        one = ContactModel(alone(inputs, element)).evaluate(positions, velocities=velocities)
+        assert np.array_equal(one.force[:, 0], whole.force[:, element])
+        assert np.array_equal(one.stiffness[:, 0], whole.stiffness[:, element])
+        total += one.reaction
+    assert close(total, whole.reaction, 1e-13)
+
+
+def spun(vectors: FloatArray, degrees: float) -> FloatArray:
+    """Vectors turned about X, from Y to Z."""
+    cosine, sine = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+    found: FloatArray = vectors @ np.array([[1.0, 0.0, 0.0], [0.0, cosine, sine], [0.0, -sine, cosine]])
+    return found
+
+
+def carried(inputs: ContactInput, seabed: Seabed, degrees: float, shift: FloatArray) -> ContactInput:
+    """The input on another seabed, with the directions and trenches turned and shifted."""
+    for name in ("trench peak", "trench wall", "trench table"):
+        if inputs.has(name):
+            ends = np.column_stack([inputs.assigned[name][end] for end in ALONG_Y]).reshape(-1, 2, 2)
+            plan = np.concatenate([np.zeros((len(ends), 2, 1)), ends], axis=2)
+            straight = (spun(plan, degrees) + shift)[:, :, 1:].reshape(-1, 4)
+            inputs = changed(inputs, name, **dict(zip(ALONG_Y, straight.T, strict=True)))
+    if inputs.has("friction"):
+        inputs = changed(inputs, "friction", angle=inputs.assigned["friction"]["angle"] + degrees)
+    return replace(inputs, seabed=seabed)
+
+
+@settings(max_examples=40)
+@given(lines, seeds, st.floats(-180.0, 180.0), st.floats(-50.0, 50.0), st.floats(-50.0, 50.0), st.booleans())
+def test_a_scene_may_be_turned_and_shifted(
+    elements: int, seed: int, degrees: float, y: float, z: float, slopes: bool
+) -> None:
+    """A slope goes through the origin, so there only turning leaves it alone; an angle needs a flat seabed."""
+    shift = np.zeros(3) if slopes else np.array([0.0, y, z])
+    before, after = (
+        (SlopingSeabed(7.0, 20.0), SlopingSeabed(7.0, 20.0 + degrees)) if slopes else (FlatSeabed(), FlatSeabed())
+    )
+    inputs = everything(elements, seed)
+    if slopes and inputs.has("friction"):
+        inputs = changed(inputs, "friction", angle=np.nan)
+    positions, velocities, _ = journey(elements, 10, seed)
+    positions[..., 0] += before.elevation(positions[..., 1], positions[..., 2])
+    here = ContactModel(replace(inputs, seabed=before))
+    there = ContactModel(carried(inputs, after, degrees, shift))
+    one = here.evaluate(positions, velocities=velocities)
+    two = there.evaluate(spun(positions, degrees) + shift, velocities=spun(velocities, degrees))
+    assert close(two.force, one.force, 1e-8)
+    assert close(two.reaction, spun(one.reaction, degrees), 1e-8)
+
+
+def test_normal_laws_alone() -> None:
+    inputs = only(everything(4, 3), "curve", "linear", "smoothed")
+    positions, velocities, _ = journey(4, 5, 3)
+    contact = ContactModel(inputs)
+    whole = contact.evaluate(positions)
+    assert whole.force.any()
+    for number, result in enumerate(walk(contact, positions, velocities)):
+        for name in ("force", "reaction", "depth"):
+            assert np.array_equal(getattr(result, name), getattr(whole, name)[number])

@@ -1,0 +1,114 @@
+"""Time series, number types, and positions for some of the nodes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mudline.contact import ContactModel
+from tests.contact.bits import same_bits
+from tests.contact.builders import CURVE, LINEAR, at_depths, chain, everything, journey, mixed
+
+
+def series(steps: int, nodes: int) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
+    rng = np.random.default_rng(steps)
+    positions = rng.normal(size=(steps, nodes, 3))
+    positions[..., 0] *= 0.05
+    return positions
+
+
+@pytest.mark.parametrize("rows", [1, 7, 100, 1000])
+def test_how_many_steps_are_taken_together_does_not_change_a_bit(rows: int) -> None:
+    contact, positions = ContactModel(mixed(13, seed=1)), series(50, 14)
+    whole = contact.evaluate(positions)
+    contact._numpy.steps = rows
+    assert same_bits(contact.evaluate(positions), whole)
+    parts = list(contact.stream(positions))
+    assert [part.start for part in parts] == list(range(0, 50, rows))
+    for start, part in parts:
+        assert same_bits(part, whole.steps(start, start + rows))
+
+
+def test_a_step_of_a_series_is_what_the_step_alone_gives() -> None:
+    contact, positions = ContactModel(mixed(700, seed=2)), series(60, 701)
+    whole = contact.evaluate(positions)
+    for step in (0, 1, 22, 23, 24, 59):
+        assert same_bits(whole.step(step), contact.evaluate(positions[step]))
+    assert same_bits(whole.steps(3, 7), contact.evaluate(positions[3:7]))
+
+
+def test_shapes() -> None:
+    contact = ContactModel(chain([CURVE, LINEAR]))
+    one, many, none = contact.evaluate(series(1, 3)[0]), contact.evaluate(series(5, 3)), contact.evaluate(series(0, 3))
+    for result, steps in ((one, ()), (many, (5,)), (none, (0,))):
+        for name in ("depth", "ratio", "contact", "force", "slope", "stiffness", "cut"):
+            assert getattr(result, name).shape == (*steps, 2)
+        assert result.gap.shape == result.normal_force.shape == (*steps, 3)
+        assert result.normal.shape == result.reaction.shape == (*steps, 3, 3)
+
+
+def test_number_types_and_layouts(tmp_path: Path) -> None:
+    contact = ContactModel(mixed(13, seed=3))
+    single = series(40, 14).astype(np.float32)
+    expected = contact.evaluate(single.astype(np.float64))
+    np.save(tmp_path / "positions.npy", single)
+    mapped = np.load(tmp_path / "positions.npy", mmap_mode="r")
+    for same in (single, mapped, single.astype(">f4"), np.asfortranarray(single), single.astype(np.longdouble)):
+        assert same_bits(contact.evaluate(same), expected)
+    assert same_bits(contact.evaluate(single[::2]), contact.evaluate(single[::2].copy()))
+    whole = np.rint(single[0] * 10.0).astype(np.int64)
+    assert same_bits(contact.evaluate(whole), contact.evaluate(whole.tolist()))
+
+
+def test_elements_without_all_their_nodes_are_left_out() -> None:
+    contact = ContactModel(mixed(6, seed=4))
+    positions = series(9, 7)
+    complete = contact.evaluate(positions)
+    present = np.array([True, True, True, False, True, True, True])
+    positions[:, 3] = np.nan
+    partial = contact.evaluate(positions, present=present)
+    assert partial.evaluated.tolist() == [True, True, False, False, True, True]
+    assert partial.present.tolist() == present.tolist()
+    for name in ("depth", "ratio", "force", "slope", "stiffness"):
+        assert np.array_equal(
+            getattr(partial, name)[:, partial.evaluated], getattr(complete, name)[:, partial.evaluated]
+        )
+        assert np.isnan(getattr(partial, name)[:, ~partial.evaluated]).all()
+    assert not partial.contact[:, ~partial.evaluated].any()
+    for name in ("gap", "reaction", "normal_force"):
+        assert np.isnan(getattr(partial, name)[:, 3]).all()
+        assert np.array_equal(getattr(partial, name)[:, [0, 1, 5, 6]], getattr(complete, name)[:, [0, 1, 5, 6]])
+    # A neighbour of the absent node has the reaction of the element that is left.
+    half = 0.5 * contact.input.length[1] * partial.force[:, 1]
+    assert half.any()
+    assert partial.normal_force[:, 2] == pytest.approx(half, rel=1e-15)
+
+
+def test_what_stands_at_an_absent_node_is_not_looked_at() -> None:
+    contact, present = ContactModel(chain([CURVE, CURVE])), [True, True, False]
+    blank, wild = at_depths([0.03, 0.03, 0.0]), at_depths([0.03, 0.03, 0.0])
+    blank[2], wild[2] = np.inf, 1.7e308
+    assert same_bits(contact.evaluate(blank, present=present), contact.evaluate(wild, present=present))
+
+
+def test_all_nodes_present_is_the_same_as_not_saying_so() -> None:
+    contact, positions = ContactModel(mixed(6, seed=5)), series(4, 7)
+    assert same_bits(contact.evaluate(positions, present=np.ones(7, bool)), contact.evaluate(positions))
+
+
+@pytest.mark.parametrize("name", ["force", "depth", "gap", "contact"])
+def test_a_series_with_history_has_the_types_and_shapes_of_one_without(name: str) -> None:
+    positions, velocities, times = journey(5, 4, 2)
+    with_history = ContactModel(everything(5, 2))
+    assert with_history.plan.history
+    parts = (
+        with_history.evaluate(positions, velocities=velocities),
+        with_history.evaluate(positions, times=times),
+        with_history.evaluate(positions[0]),
+    )
+    for result, steps in zip(parts, ((4,), (4,), ()), strict=True):
+        plain = ContactModel(mixed(5, seed=2)).evaluate(positions if steps else positions[0])
+        assert getattr(result, name).shape == getattr(plain, name).shape
+        assert getattr(result, name).dtype == getattr(plain, name).dtype

@@ -1,0 +1,40 @@
+"""The page of the contact laws, from their declarations."""
+
+from __future__ import annotations
+
+from math import isnan
+
+from mudline.contact.laws import Law, known_laws, law_named
+from mudline.contact.laws.base import Parameter
+
+_HEAD = """\
+# The contact laws
+
+Every law that the evaluator knows, with its parameters as `LawAssignment` takes them: one number for each row, or an
+array (rows,). Units are powers of force F, length L and time T. What the laws mean, and what a deck writes for them, is in
+[contact.md](contact.md). This page is made from the program.
+"""
+
+
+def law_page() -> str:
+    """The page."""
+    return "\n".join([_HEAD, *(_section(law_named(name)) for name in known_laws())])
+
+
+def _section(law: Law) -> str:
+    facts = [f"acts on {law.acts_on}"]
+    facts += ["needs a diameter"] * law.needs_diameter + ["has a history"] * law.history
+    equation = f"    {law.equation}\n\n" if law.equation else ""
+    source = f"Source: {law.source}.\n" if law.source else ""
+    rows = "".join(_row(parameter) for parameter in law.parameters)
+    table = (
+        f"| parameter | unit | range | default | meaning |\n| --- | --- | --- | --- | --- |\n{rows}\n" if rows else ""
+    )
+    what = law.summary[0].upper() + law.summary[1:]
+    return f"## {law.name}\n\n{what}; {', '.join(facts)}.\n\n{equation}{table}{source}"
+
+
+def _row(parameter: Parameter) -> str:
+    default = "" if parameter.default is None else "none" if isnan(parameter.default) else f"{parameter.default:g}"
+    meaning = parameter.meaning.replace("|", "\\|")
+    return f"| `{parameter.name}` | {parameter.unit} | {parameter.valid_range} | {default} | {meaning} |\n"
