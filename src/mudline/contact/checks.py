@@ -50,13 +50,13 @@ def _refuse_step(part: ContactResult, speed: FloatArray | None, step: int, table
         _refuse_force(part, element, step, tables)
     for what, values in (("slope", part.slope), ("stiffness", part.stiffness)):
         _refuse_element(np.isinf(values), given.element_ids, step, f"its {what} overflows")
+    loads = np.zeros(len(given.node_ids))
     with np.errstate(all="ignore"):
-        load = part.force * tables.half
-    _refuse_element(~np.isfinite(load) & known, given.element_ids, step, "the reaction at its nodes overflows")
-    infinite = ~np.isfinite(part.normal_force) & part.present
-    if infinite.any() and (tables.normal or tables.springs or tables.suction):
-        at_node = infinite[tables.line.first] | infinite[tables.line.second]
-        _refuse_element(at_node & known, given.element_ids, step, "the reaction at its nodes overflows")
+        load = np.where(known, part.force * tables.half, 0.0)
+        for end in (tables.line.first, tables.line.second):
+            np.add.at(loads, end, load)
+    at_node = ~(np.isfinite(loads[tables.line.first]) & np.isfinite(loads[tables.line.second]))
+    _refuse_element(at_node & known, given.element_ids, step, "the reaction at its nodes overflows")
     wrong = ~np.isfinite(part.reaction).all(axis=-1) & part.present
     _refuse_node(wrong, given.node_ids, step, "the reaction there overflows")
 

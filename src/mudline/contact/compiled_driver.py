@@ -143,7 +143,7 @@ class CompiledDriver:
         job = self._job(batch, part, after)
         try:
             wrong = self._run(batch, job)
-        except numba.core.errors.NumbaError as error:
+        except (numba.core.errors.NumbaError, numba.core.errors.UnsupportedBytecodeError) as error:
             first = str(error).strip().splitlines()[0]
             warnings.warn(f"the laws cannot be compiled and are evaluated with numpy: {first}", RuntimeWarning, 3)
             self.broken = True

@@ -347,6 +347,8 @@ def elements_loop(
                     elif steepens and kind >= FIRST_LAW and touches:
                         steep = np.maximum(steep, steepest(kind - FIRST_LAW, z, diameter, table, e)[0])
                     line: Numbers = (lines[0, u], lines[1, u], lines[2, u], lines[3, u])
+                    if curves and cuts:
+                        cut[step, e] &= z > line[0]
                     line, (f, s, k) = moved_line(z, line, (f, s, k), diameter, steep)
                     lines[0, u], lines[1, u], lines[2, u], lines[3, u] = line
                     uplift, pressed = line[3] - deep, z > line[3]

@@ -60,10 +60,11 @@ class ContactModel:
         """
         self.input = given
         self._seabed: Seabed = given.seabed or FlatSeabed()
-        self._tables = Tables(given)
-        self._choice = Choice(backend, threads, self._tables, flat=isinstance(self._seabed, FlatSeabed))
-        self.plan: Plan = make_plan(given, self._tables, self._choice)
-        self._numpy = NumpyDriver(self._tables, self._seabed)
+        with np.errstate(all="ignore"):  # what overflows is refused where a step comes to it
+            self._tables = Tables(given)
+            self._choice = Choice(backend, threads, self._tables, flat=isinstance(self._seabed, FlatSeabed))
+            self.plan: Plan = make_plan(given, self._tables, self._choice)
+            self._numpy = NumpyDriver(self._tables, self._seabed)
         self._compiled: CompiledDriver | None = None
 
     def evaluate(
@@ -262,9 +263,14 @@ class ContactModel:
         flat = isinstance(self._seabed, FlatSeabed)
         if rates is None:
             rates = _differences(points[..., :1] if flat else points, spans, state.positions)
+        speed: FloatArray
         if flat:
-            return np.ascontiguousarray(rates[..., 0])
-        return rates[..., 0] * normal[..., 0] + rates[..., 1] * normal[..., 1] + rates[..., 2] * normal[..., 2]
+            speed = np.ascontiguousarray(rates[..., 0])
+        else:
+            speed = rates[..., 0] * normal[..., 0] + rates[..., 1] * normal[..., 1] + rates[..., 2] * normal[..., 2]
+        if not np.isfinite(rates.sum()):
+            speed = np.where(np.isfinite(rates).all(axis=-1), speed, np.nan)
+        return speed
 
 
 def _differences(points: FloatArray, spans: FloatArray | None, before: FloatArray | None) -> FloatArray:

@@ -209,8 +209,14 @@ class Elements:
             for group, mine, theirs in self._steeper:
                 steepest[:, mine] = np.maximum(steepest[:, mine], self._slope(group, deepest[:, mine], theirs))
         line = line_stiffness(steepest, deepest, force_max)
+        never = deepest == 0.0
+        if never.any():  # a smoothed law has a force at the mudline, its line none
+            force_max[never] = 0.0
+            np.copyto(line, some.columns[0], where=never)
         bottom = trench_bottom(line, deepest, force_max)
         back, rise = on_line(z, deepest, force_max, line, bottom)
+        if part.cut.flags.writeable:
+            part.cut[:, self._here][:, some.at] &= fresh
         values[0][:, some.at] = np.where(fresh, force, back)
         values[1][:, some.at] = np.where(fresh, slope, rise * self._diameter[some.at])
         values[2][:, some.at] = np.where(fresh, stiffness, rise)
