@@ -25,12 +25,13 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
 
-from mudline.contact import ContactInput, ContactModel
-from mudline.contact.arrays import FloatArray
 from mudline.contact.compiled.choice import Backend
 from mudline.contact.extras import Extras
-from mudline.contact.seabed import PlanesSeabed, Seabed, SlopingSeabed
 from tests.contact.scenes import CLAY, everything
+
+from mudline.contact import ContactInput, ContactModel
+from mudline.contact.arrays import FloatArray
+from mudline.contact.seabed import PlanesSeabed, Seabed, SlopingSeabed
 
 Timed = Callable[[], object]
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from mudline import cache_folder
 from mudline.cli import lint_jobs
 from mudline.diagnostics import Diagnostic
 from mudline.linting import cache_files, cache_keys
@@ -31,7 +32,7 @@ def linted(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Linted:
         names.append(name)
         return lint_one(name, data, settings, place)
 
-    monkeypatch.setenv(cache_files.PLACE, str(folder / "cache"))
+    monkeypatch.setenv(cache_folder.PLACE, str(folder / "cache"))
     monkeypatch.setattr(lint_jobs, "CACHED_FILES", 1)
     monkeypatch.setattr(lint_jobs, "lint_one", lint)
     return names
@@ -203,15 +204,15 @@ def test_number_and_size_are_bounded(tmp_path: Path, monkeypatch: pytest.MonkeyP
 
 
 def test_places_of_the_systems(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.delenv(cache_files.PLACE, raising=False)
+    monkeypatch.delenv(cache_folder.PLACE, raising=False)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    assert cache_files.cache_folder() == tmp_path / "mudline"
+    assert cache_folder.cache_folder() == tmp_path / "mudline"
     monkeypatch.delenv("XDG_CACHE_HOME")
     monkeypatch.setattr(Path, "home", lambda: tmp_path)
     monkeypatch.setattr("sys.platform", "linux")
-    assert cache_files.cache_folder() == tmp_path / ".cache" / "mudline"
+    assert cache_folder.cache_folder() == tmp_path / ".cache" / "mudline"
     monkeypatch.setattr("sys.platform", "darwin")
-    assert cache_files.cache_folder() == tmp_path / "Library" / "Caches" / "mudline"
+    assert cache_folder.cache_folder() == tmp_path / "Library" / "Caches" / "mudline"
     monkeypatch.setattr("sys.platform", "win32")
     monkeypatch.setenv("LOCALAPPDATA", str(tmp_path))
-    assert cache_files.cache_folder() == tmp_path / "mudline" / "Cache"
+    assert cache_folder.cache_folder() == tmp_path / "mudline" / "Cache"

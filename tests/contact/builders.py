@@ -13,8 +13,8 @@ from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.contact.laws import law_named
 from mudline.contact.laws.suction import SuctionLaw, from_cohesion
 from mudline.contact.seabed import Seabed
-from mudline.contact.state import ContactState
 from mudline.contact.stiffest import LawStiffness, Stiffest
+from mudline.contact.tables import ContactState
 from mudline.curves import ForceCurve
 
 CLAY = ForceCurve([(0.0, 0.0), (0.1, 2000.0), (0.3, 4500.0), (0.5, 6000.0)], name="clay")

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import NamedTuple
 from unittest.mock import patch
 
-from mudline.contact import ContactInput, ContactModel, ContactResult, compiled_driver, kernels, numpy_driver
+from mudline.contact import ContactInput, ContactModel, ContactResult, numpy_driver
 from mudline.contact.arrays import BoolArray, FloatArray
-from mudline.contact.choice import Backend
-from mudline.contact.state import ContactState
+from mudline.contact.compiled import driver as compiled_driver
+from mudline.contact.compiled.functions import Loop
+from mudline.contact.plan import Backend
+from mudline.contact.tables import ContactState
 from tests.contact.bits import differences
 
 
@@ -38,9 +40,8 @@ class Scene(NamedTuple):
 def plain_loops() -> Iterator[None]:
     """The loops of compiled drivers are plain Python."""
 
-    def loop(name: str, _wrap: object, *options: object) -> kernels.Loop:
-        made: kernels.Loop = getattr(kernels, name)(lambda function: function, *options)
-        return made
+    def loop(make: Callable[..., Loop], _wrap: object, *options: object) -> Loop:
+        return make(lambda function: function, *options)
 
     with patch.object(compiled_driver, "_loop", loop):
         yield

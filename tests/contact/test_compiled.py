@@ -11,12 +11,14 @@ import numba
 import numpy as np
 import pytest
 
-from mudline.contact import ContactModel, ContactResult, ContactState, compiled_driver, kernels
-from mudline.contact import choice as choices
-from mudline.contact.choice import Backend, Choice
+from mudline.contact import ContactModel, ContactResult, ContactState
+from mudline.contact import plan as choices
+from mudline.contact.compiled import driver as compiled_driver
+from mudline.contact.compiled.functions import edition
 from mudline.contact.laws import law_named
 from mudline.contact.laws.base import NormalLaw
 from mudline.contact.numpy_driver import Batch
+from mudline.contact.plan import Backend, Choice
 from tests.contact.builders import CURVE, LINEAR, at_depths, chain, everything, friction, journey
 from tests.processes import TIMEOUT
 
@@ -140,8 +142,8 @@ def test_the_edition_changes_with_the_laws() -> None:
     linear, curve = law_named("linear"), law_named("curve")
     assert isinstance(linear, NormalLaw)
     assert isinstance(curve, NormalLaw)
-    assert kernels.edition(()) == kernels.edition(()) > 0
-    assert len({kernels.edition(laws) for laws in ((), (linear,), (linear, curve))}) >= 2
+    assert edition(()) == edition(()) > 0
+    assert len({edition(laws) for laws in ((), (linear,), (linear, curve))}) >= 2
 
 
 def test_the_same_laws_have_the_same_loops() -> None:

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from mudline.contact.critical_step import (
+from mudline.contact.stiffest import (
     CRITICAL_OMEGA_DT,
     critical_step,
     omega,

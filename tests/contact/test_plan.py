@@ -191,9 +191,8 @@ WIDE = {"bottom": 0.5, "upper": 1.0}
 PULLS = {"force_factor": 1, "force_exponent": 1, "depth_factor": 1, "depth_exponent": 1}
 ALWAYS = {"model", "plan", "tables", "line", "numpy_driver", "seabed", "seabed.base", "laws", "laws.base"}
 STAGED = {
-    *(f"laws.{name}" for name in ("linear", "curve", "rigid", "unloading", "suction", "suction_spring", "friction")),
-    *(f"laws.{name}" for name in ("lateral", "trench")),
-    "trenches", "tangent", "stiffest", "compiled_driver", "kernels", "seabed.planes", "seabed.profile",
+    *(f"laws.{name}" for name in ("linear", "curve", "unloading", "suction", "friction", "trench")),
+    "trenches", "tangent", "stiffest", "compiled", "compiled.driver", "compiled.functions", "seabed.profile",
     "seabed.scattered", "mudline.curves",
 }  # fmt: skip
 """Modules that some scenes do without."""
@@ -203,15 +202,15 @@ STAGED = {
     ("laws", "needed"),
     [
         ([], set()),
-        ([("rigid", 1, {})], {"laws.rigid"}),
+        ([("rigid", 1, {})], {"laws.linear"}),
         ([("linear", 1, {"stiffness": 1})], {"laws.linear"}),
         ([("smoothed", 1, {"stiffness": 1, "half_width": 1})], {"laws.linear"}),
         ([("nodal", 2, {"stiffness": 1})], {"laws.linear"}),
         ([("curve", 1, {"curve": 0})], {"laws.curve", "mudline.curves"}),
         ([("unloading", 1, {"stiffness": 1})], {"laws.unloading"}),
-        ([("suction spring", 1, {"stiffness": 1, "extent": 1})], {"laws.suction_spring"}),
+        ([("suction spring", 1, {"stiffness": 1, "extent": 1})], {"laws.linear"}),
         ([("suction", 1, PULLS)], {"laws.suction"}),
-        ([("lateral", 1, {"stiffness": 1})], {"laws.lateral"}),
+        ([("lateral", 1, {"stiffness": 1})], {"laws.linear"}),
         ([SLIDES], {"laws.friction"}),
         ([SLIDES, ("trench peak", 1, {"peak": 1, **WIDE})], {"laws.friction", "laws.trench", "trenches"}),
         ([SLIDES, ("trench wall", 1, {"depth": 0.1, **WIDE})], {"laws.friction", "laws.trench", "trenches"}),

@@ -16,7 +16,7 @@ from mudline.contact import ContactInput, ContactModel, ElementError, LawKind, l
 from mudline.contact.arrays import FloatArray
 from mudline.contact.laws import NormalLaw, Parameter, known_laws, law_named, register
 from mudline.contact.laws.base import Value, where
-from mudline.contact.laws.rigid import RIGID
+from mudline.contact.laws.linear import RIGID
 from mudline.contact.laws.unloading import UNLOADING
 from mudline.contact.seabed import SlopingSeabed
 from tests.contact.builders import (

@@ -9,7 +9,7 @@ from mudline.contact import ContactModel
 from mudline.contact.arrays import FloatArray
 from mudline.contact.result import ContactResult
 from mudline.contact.seabed import FlatSeabed, PlanesSeabed, Seabed, SlopingSeabed
-from mudline.contact.state import ContactState
+from mudline.contact.tables import ContactState
 from tests.contact.builders import everything, line
 
 SEABEDS: dict[str, Seabed] = {

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import mudline
-from mudline.contact.suction.states import SuctionState
+from mudline.contact.laws.suction import SuctionState
 from mudline.scene.positions import read_positions
 
 Floats = NDArray[np.float64]

@@ -11,8 +11,8 @@ _HEAD = """\
 # The contact laws
 
 Every law that the evaluator knows, with its parameters as `LawAssignment` takes them: one number for each row, or an
-array (rows,). Units are powers of force F, length L and time T. What the laws mean, and what a deck writes for them, is in
-[contact.md](contact.md). This page is made from the program.
+array (rows,). Units are powers of force F, length L and time T. What the laws mean, and what a deck writes for them, is
+in [contact.md](contact.md). This page is made from the program.
 """
 
 

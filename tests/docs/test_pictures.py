@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mudline.contact.suction.states import SuctionState
+from mudline.contact.laws.suction import SuctionState
 from tests.docs.full_cycle import NOTES, Cycle, cycle, draw
 from tests.docs.pictures import IMAGES, ROOT, write
 

@@ -49,7 +49,7 @@ def test_a_deck_of_curves_on_a_flat_bed_imports_no_other_feature() -> None:
         (LINEAR + "*SEABED SUCTION\n SET=ALL\n COHESION=5000\n", "mudline.contact.suction", "mudline.contact.friction"),
         (
             LINEAR + "*SEABED PLANES\n PLANE=a\n POINT=0,0,0\n SLOPE=1\n",
-            "mudline.contact.seabed.planes",
+            "mudline.contact.seabed.base",
             "mudline.curves",
         ),
     ],

@@ -8,7 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mudline.contact import ContactInput, ContactModel, LawKind
+from mudline.contact import ContactInput, ContactModel
+from mudline.contact.arrays import FloatArray
+from mudline.contact.input import AssignedLaw
+from mudline.contact.tables import Tables
 from mudline.deck.loading import load_bytes, load_path
 from mudline.diagnostics import DeckError
 from mudline.scene.build import resolve
@@ -28,6 +31,17 @@ def made(seabed: str) -> ContactInput:
     return scene_of(deck(METRIC, seabed)).contact_input()
 
 
+def made_law(seabed: str, name: str) -> AssignedLaw:
+    return made(seabed).assigned[name]
+
+
+def everywhere(given: ContactInput, law: str, parameter: str) -> FloatArray:
+    """Return a parameter of a law for all elements or nodes, NaN where they do not have it."""
+    assigned = given.assigned[law]
+    on_nodes = assigned.law.acts_on == "nodes"
+    return assigned.spread(parameter, len(given.node_ids) if on_nodes else len(given.element_ids))
+
+
 def refusal(seabed: str) -> str:
     with pytest.raises(DeckError) as caught:
         scene_of(deck(METRIC, seabed)).contact()
@@ -44,11 +58,12 @@ def test_a_nodal_law_replaces_the_others() -> None:
     assert scene.law_names == ["linear"] * 5 + ["nodal"] * 5
     assert scene.law_sets == ["ALL"] * 5 + ["Right"] * 5
     given = scene.contact_input()
-    assert given.law.tolist() == [LawKind.LINEAR] * 5 + [LawKind.NODAL] * 5
-    assert given.extras.nodal is not None
-    assert np.isnan(given.extras.nodal.stiffness[:5]).all()
-    assert (given.extras.nodal.stiffness[5:] == 90000.0).all()
-    assert not given.extras.nodal.half_width.any()
+    assert given.assigned["linear"].rows.tolist() == [0, 1, 2, 3, 4]
+    assert set(given.assigned) == {"linear", "nodal"}
+    stiffness = everywhere(given, "nodal", "stiffness")
+    assert np.isnan(stiffness[:5]).all()
+    assert (stiffness[5:] == 90000.0).all()
+    assert not given.assigned["nodal"]["half_width"].any()
     result = ContactModel(given).evaluate()
     assert result.ratio[9] == pytest.approx(0.2)
     assert not result.force[5:].any()
@@ -59,17 +74,16 @@ def test_a_nodal_law_replaces_the_others() -> None:
 
 def test_a_node_between_two_nodal_laws_has_the_later_one_and_a_bare_block_takes_none_away() -> None:
     seabed = LINEAR + "*SEABED CONTACT\n SET=Right\n NODAL STIFFNESS=7\n SET=Left\n NODAL STIFFNESS=5\n"
-    nodal = made(seabed).extras.nodal
-    assert nodal is not None
-    assert nodal.stiffness.tolist() == [5.0] * 6 + [7.0] * 5
-    nodal = made(LINEAR + "*SEABED CONTACT\n SET=Right\n NODAL STIFFNESS=7\n SET=Left\n SMOOTHING=0.01\n").extras.nodal
-    assert nodal is not None
-    assert (nodal.stiffness[5:] == 7.0).all()
+    assert everywhere(made(seabed), "nodal", "stiffness").tolist() == [5.0] * 6 + [7.0] * 5
+    given = made(LINEAR + "*SEABED CONTACT\n SET=Right\n NODAL STIFFNESS=7\n SET=Left\n SMOOTHING=0.01\n")
+    assert (everywhere(given, "nodal", "stiffness")[5:] == 7.0).all()
 
 
 def test_a_nodal_law_leaves_rigid_elements_alone() -> None:
     rigid = "*SEABED PROPERTIES\n TYPE=RIGID\n SET=ALL\n"
-    assert scene_of(deck(METRIC, rigid + NODAL)).law.tolist() == [LawKind.RIGID] * 10
+    scene = scene_of(deck(METRIC, rigid + NODAL))
+    assert scene.law_names == ["rigid"] * 10
+    assert scene.contact_input().assigned["rigid"].rows.tolist() == list(range(10))
 
 
 # smoothing
@@ -85,27 +99,28 @@ def test_submerged_weight() -> None:
 
 def test_widths_of_linear_laws() -> None:
     def width(lines: str) -> list[float]:
-        smoothing = made(LINEAR + f"*SEABED CONTACT\n SET=Left\n{lines}").extras.smoothing
-        return [] if smoothing is None else [float(smoothing.half_width[0]), float(smoothing.half_width[9])]
+        given = made(LINEAR + f"*SEABED CONTACT\n SET=Left\n{lines}")
+        if "smoothed" not in given.assigned:
+            return []
+        widths = given.assigned["smoothed"].spread("half_width", 10, 0.0)
+        return [float(widths[0]), float(widths[9])]
 
     assert width(" SMOOTHING=0.004\n") == [0.004, 0.0]
     assert width(" SMOOTHING=NONE\n") == []
     assert width("") == [pytest.approx(min(0.1 * WEIGHT / 50000.0, 0.0025)), 0.0]
-    assert made(LINEAR).extras.smoothing is None
-    assert made(CURVE + "*SEABED CONTACT\n SET=ALL\n SMOOTHING=0.01\n").extras.smoothing is None
-    one_sided = made(LINEAR + "*SEABED CONTACT\n SET=Left\n SMOOTHING=0.01\n FORM=ONE-SIDED\n").extras.smoothing
-    assert one_sided is not None
-    assert one_sided.one_sided.tolist() == [True] * 5 + [False] * 5
+    assert set(made(LINEAR).assigned) == {"linear"}
+    assert set(made(CURVE + "*SEABED CONTACT\n SET=ALL\n SMOOTHING=0.01\n").assigned) == {"curve"}
+    one_sided = made_law(LINEAR + "*SEABED CONTACT\n SET=Left\n SMOOTHING=0.01\n FORM=ONE-SIDED\n", "smoothed")
+    assert one_sided.rows.tolist() == [0, 1, 2, 3, 4]
+    assert one_sided["one_sided"].all()
 
 
 def test_widths_of_nodal_laws_count_half_the_elements_of_a_node() -> None:
-    nodal = made(LINEAR + "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=1000000\n").extras.nodal
-    assert nodal is not None
-    np.testing.assert_allclose(nodal.half_width[[0, 10]], 0.1 * WEIGHT * 5.0 / 1e6)
-    np.testing.assert_allclose(nodal.half_width[1:10], 0.1 * WEIGHT * 10.0 / 1e6)
-    soft = made(LINEAR + "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=1000\n").extras.nodal
-    assert soft is not None
-    np.testing.assert_allclose(soft.half_width, 0.0025)
+    widths = made_law(LINEAR + "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=1000000\n", "nodal")["half_width"]
+    np.testing.assert_allclose(widths[[0, 10]], 0.1 * WEIGHT * 5.0 / 1e6)
+    np.testing.assert_allclose(widths[1:10], 0.1 * WEIGHT * 10.0 / 1e6)
+    soft = made_law(LINEAR + "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=1000\n", "nodal")
+    np.testing.assert_allclose(soft["half_width"], np.full(11, 0.0025))
 
 
 def test_without_a_weight_nothing_is_smoothed_and_the_plan_says_so() -> None:
@@ -119,11 +134,11 @@ def test_without_a_weight_nothing_is_smoothed_and_the_plan_says_so() -> None:
 
 
 def test_unloading_is_for_laws_per_length() -> None:
-    unloading = made(LINEAR + "*SEABED UNLOADING\n SET=Left\n STIFFNESS=200000\n").extras.unloading
-    assert unloading is not None
-    assert unloading[:5].tolist() == [200000.0] * 5
-    assert np.isnan(unloading[5:]).all()
-    assert made(LINEAR + NODAL + "*SEABED UNLOADING\n SET=ALL\n STIFFNESS=200000\n").extras.unloading is None
+    unloading = made_law(LINEAR + "*SEABED UNLOADING\n SET=Left\n STIFFNESS=200000\n", "unloading")
+    assert unloading.rows.tolist() == [0, 1, 2, 3, 4]
+    assert unloading["stiffness"].tolist() == [200000.0] * 5
+    per_node = refusal(LINEAR + NODAL + "*SEABED UNLOADING\n SET=ALL\n STIFFNESS=200000\n")
+    assert "elements have NODAL STIFFNESS" in per_node
     assert refusal(LINEAR + "*SEABED UNLOADING\n SET=ALL\n STIFFNESS=0\n").startswith(
         "7: the unloading stiffness is not"
     )
@@ -132,26 +147,19 @@ def test_unloading_is_for_laws_per_length() -> None:
 
 
 def test_suction_of_cohesion_and_of_explicit_laws() -> None:
-    suction = made(
-        LINEAR + "*SEABED SUCTION\n SET=Right\n COHESION=5000\n CYCLIC=0.5\n CUTOFF=0.1, 0.7\n"
-    ).extras.suction
-    assert suction is not None
-    assert suction.elements.tolist() == [5, 6, 7, 8, 9]
-    law = suction.law
-    np.testing.assert_allclose(law.force_factor, 1.12 * 0.25 * 5000.0 / 0.25**0.18)
-    np.testing.assert_allclose(law.depth_factor, 0.98 * 0.25)
-    assert (law.first_corner[0], law.second_corner[0], law.cyclic[0]) == (0.1, 0.7, 0.5)
-    assert law.regularisation[0] == 1e-3
-    own = made(
-        LINEAR + "*SEABED SUCTION\n SET=ALL\n COHESION=5000\n FORCE=70, 0.2\n REGULARISATION=0.01\n"
-    ).extras.suction
-    assert own is not None
-    assert (own.law.force_factor[0], own.law.force_exponent[0], own.law.depth_exponent[0]) == (70.0, 0.2, 0.26)
-    assert (own.law.first_corner[0], own.law.second_corner[0], own.law.regularisation[0]) == (0.2, 0.8, 0.01)
-    assert (
-        made("*SEABED PROPERTIES\n TYPE=RIGID\n SET=ALL\n*SEABED SUCTION\n SET=ALL\n COHESION=5\n").extras.suction
-        is None
+    law = made_law(LINEAR + "*SEABED SUCTION\n SET=Right\n COHESION=5000\n CYCLIC=0.5\n CUTOFF=0.1, 0.7\n", "suction")
+    assert law.rows.tolist() == [5, 6, 7, 8, 9]
+    np.testing.assert_allclose(law["force_factor"], np.full(5, 1.12 * 0.25 * 5000.0 / 0.25**0.18))
+    np.testing.assert_allclose(law["depth_factor"], np.full(5, 0.98 * 0.25))
+    assert (law["first_corner"][0], law["second_corner"][0], law["cyclic"][0]) == (0.1, 0.7, 0.5)
+    assert law["regularisation"][0] == 1e-3
+    own = made_law(
+        LINEAR + "*SEABED SUCTION\n SET=ALL\n COHESION=5000\n FORCE=70, 0.2\n REGULARISATION=0.01\n", "suction"
     )
+    assert (own["force_factor"][0], own["force_exponent"][0], own["depth_exponent"][0]) == (70.0, 0.2, 0.26)
+    assert (own["first_corner"][0], own["second_corner"][0], own["regularisation"][0]) == (0.2, 0.8, 0.01)
+    rigid = made("*SEABED PROPERTIES\n TYPE=RIGID\n SET=ALL\n*SEABED SUCTION\n SET=ALL\n COHESION=5\n")
+    assert "suction" not in rigid.assigned
 
 
 @pytest.mark.parametrize(
@@ -189,62 +197,61 @@ def test_user_units_have_no_defaults_of_suction() -> None:
 
 
 def test_suction_springs() -> None:
-    springs = made(LINEAR + " SUCTION=500, 0.2\n").extras.suction_springs
-    assert springs is not None
-    assert (springs.stiffness[0], springs.extent[0]) == (500.0, 0.2)
-    assert made(LINEAR + " SUCTION=500\n").extras.suction_springs is None
+    springs = made_law(LINEAR + " SUCTION=500, 0.2\n", "suction spring")
+    assert (springs["stiffness"][0], springs["extent"][0]) == (500.0, 0.2)
+    assert "suction spring" not in made(LINEAR + " SUCTION=500\n").assigned
 
 
 # friction, lateral, trench
 
 
 def test_friction_of_properties_has_mobilisation_lengths() -> None:
-    friction = made(LINEAR + " FRICTION=0.3, 0.5, , 0.02\n").extras.friction
-    assert friction is not None
-    assert friction.law.mobilisation[4].tolist() == [3.048, 0.02]
-    assert friction.law.coefficients[4].tolist() == [0.3, 0.5]
-    assert not friction.law.constant.any()
-    assert np.isnan(friction.angle).all()
-    surface = made("*ELASTIC SURFACE\n 50000, 0.3, 0.5, , , , 1.5, 2.5\n").extras.friction
-    assert surface is not None
-    assert surface.law.active.all()
+    friction = made_law(LINEAR + " FRICTION=0.3, 0.5, , 0.02\n", "friction")
+    assert friction.rows.tolist() == list(range(11))
+    assert (friction["axial_mobilisation"][4], friction["lateral_mobilisation"][4]) == (3.048, 0.02)
+    assert (friction["axial_coefficient"][4], friction["lateral_coefficient"][4]) == (0.3, 0.5)
+    assert np.isnan(friction["axial_stiffness"]).all()
+    assert np.isnan(friction["lateral_stiffness"]).all()
+    assert np.isnan(friction["angle"]).all()
+    surface = made_law("*ELASTIC SURFACE\n 50000, 0.3, 0.5, , , , 1.5, 2.5\n", "friction")
+    assert surface.rows.tolist() == list(range(11))
 
 
 def test_friction_of_the_keyword_replaces_that_of_properties_at_its_nodes() -> None:
     seabed = LINEAR + " FRICTION=0.3, 0.5\n*SEABED FRICTION\n SET=Right\n COEFFICIENTS=0.1, 0.2\n STIFFNESS=900\n"
-    friction = made(seabed + " DIRECTIONS=30\n CRITERION=ELLIPSE\n").extras.friction
-    assert friction is not None
-    assert friction.law.constant[:, 0].tolist() == [False] * 5 + [True] * 6
-    assert friction.law.stiffness[5].tolist() == [900.0, 900.0]
-    assert friction.law.coefficients[5].tolist() == [0.1, 0.2]
-    assert friction.law.ellipse.tolist() == [False] * 5 + [True] * 6
-    assert friction.angle[5] == 30.0
-    assert np.isnan(friction.angle[4])
+    friction = made_law(seabed + " DIRECTIONS=30\n CRITERION=ELLIPSE\n", "friction")
+    assert np.isfinite(friction["axial_stiffness"]).tolist() == [False] * 5 + [True] * 6
+    assert (friction["axial_stiffness"][5], friction["lateral_stiffness"][5]) == (900.0, 900.0)
+    assert (friction["axial_coefficient"][5], friction["lateral_coefficient"][5]) == (0.1, 0.2)
+    assert friction["ellipse"].tolist() == [False] * 5 + [True] * 6
+    assert friction["angle"][5] == 30.0
+    assert np.isnan(friction["angle"][4])
 
 
 def test_lateral_springs_take_the_transverse_coefficient_away() -> None:
     seabed = LINEAR + " FRICTION=0.3, 0.5\n SET=Left\n STIFFNESS=1\n FRICTION=0.3, 0.5\n LATERAL=70\n"
-    extras = made(seabed).extras
-    assert extras.lateral is not None
-    assert extras.friction is not None
-    assert extras.lateral[:5].tolist() == [70.0] * 5
-    assert np.isnan(extras.lateral[5:]).all()
-    assert extras.friction.law.coefficients[:, 1].tolist() == [0.0] * 6 + [0.5] * 5
+    laws = made(seabed).assigned
+    assert laws["lateral"].rows.tolist() == [0, 1, 2, 3, 4]
+    assert laws["lateral"]["stiffness"].tolist() == [70.0] * 5
+    assert laws["friction"]["lateral_coefficient"].tolist() == [0.0] * 6 + [0.5] * 5
 
 
 def test_a_trench_counts_its_own_elements() -> None:
     seabed = (
         LINEAR + " FRICTION=0.3, 0.5\n*SEABED TRENCH\n SET=Right\n GEOMETRY=1, 2, 3\n PEAK=100\n CENTRELINE=0,0,9,9\n"
     )
-    trench = made(seabed).extras.trench
-    assert trench is not None
-    assert np.isnan(trench.law.peak[:5]).all()
-    assert trench.law.peak[5:].tolist() == [500.0, 1000.0, 1000.0, 1000.0, 1000.0, 500.0]
-    assert (trench.law.bottom[5], trench.law.upper[5]) == (2.0, 3.0)
-    assert trench.straight[7].tolist() == [0.0, 0.0, 9.0, 9.0]
-    laid = made(seabed.replace("0,0,9,9", "LAID")).extras.trench
-    assert laid is not None
-    assert np.isnan(laid.straight).all()
+    given = made(seabed)
+    law = given.assigned["trench peak"]
+    assert law.rows.tolist() == [5, 6, 7, 8, 9]
+    assert law["peak"].tolist() == [100.0] * 5
+    assert (law["bottom"][0], law["upper"][0]) == (2.0, 3.0)
+    assert [law[name][2] for name in ("start_y", "start_z", "end_y", "end_z")] == [0.0, 0.0, 9.0, 9.0]
+    rows = Tables(given).trench
+    assert rows is not None
+    assert rows.nodes.tolist() == [5, 6, 7, 8, 9, 10]
+    assert rows.amount.tolist() == [500.0, 1000.0, 1000.0, 1000.0, 1000.0, 500.0]
+    laid = made_law(seabed.replace("0,0,9,9", "LAID"), "trench peak")
+    assert np.isnan([laid[name] for name in ("start_y", "start_z", "end_y", "end_z")]).all()
 
 
 @pytest.mark.parametrize(
@@ -281,7 +288,7 @@ def test_a_rigid_bed_restrains_nodes_along_its_normal() -> None:
     assert result.restrained[0].tolist() == [False] * 4 + [True] * 7
     assert not result.restrained[1].any()
     assert result.step(0).restrained is not None
-    assert made(LINEAR).law.any()
+    assert "linear" in made(LINEAR).assigned
     assert scene_of(deck(METRIC, LINEAR)).contact().evaluate().restrained is None
 
 

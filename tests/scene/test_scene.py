@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from mudline.contact.inputs import LawKind
 
 from mudline.codes import RUN001
-from mudline.contact.inputs import LawKind
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError
 from mudline.scene.build import resolve

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mudline.contact.critical_step import CRITICAL_OMEGA_DT
 from mudline.contact.laws.suction import SuctionLaw
+from mudline.contact.stiffest import CRITICAL_OMEGA_DT
 from mudline.deck.loading import load_bytes
 from mudline.linting.engine import lint_bytes
 from mudline.linting.selection import select

@@ -14,7 +14,7 @@ from mudline.contact.input import ContactInput, LawAssignment, LawKind, Tension
 from mudline.contact.model import ContactModel
 from mudline.contact.plan import Plan, Stage
 from mudline.contact.result import ContactResult
-from mudline.contact.state import ContactState
+from mudline.contact.tables import ContactState
 
 __all__ = [
     "ContactInput",

@@ -73,7 +73,7 @@ class Line:
         return pair
 
     def at(self, values: FloatArray, begin: int, end: int) -> tuple[FloatArray, FloatArray]:
-        """Values (steps, end - begin) at both ends of a range of elements, from those of nodes (steps, n); maybe views."""
+        """Values (steps, end - begin) at both ends of a range of elements, from those (steps, n) of nodes."""
         if self._runs is None:
             return values.take(self.first[begin:end], axis=1), values.take(self.second[begin:end], axis=1)
         if (key := (begin, end)) not in self._element_parts:

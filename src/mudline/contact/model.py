@@ -11,18 +11,16 @@ from numpy.typing import ArrayLike
 
 from mudline.contact.arrays import BoolArray, FloatArray
 from mudline.contact.checks import is_finite, refuse, refuse_pulling
-from mudline.contact.choice import Backend, Choice
 from mudline.contact.input import ContactInput
 from mudline.contact.numpy_driver import Batch, NumpyDriver
-from mudline.contact.plan import Plan, make_plan
+from mudline.contact.plan import Backend, Choice, Plan, make_plan
 from mudline.contact.positions import as_mask, as_series, as_times, as_velocities, read_steps
 from mudline.contact.result import ContactResult, blank_result
 from mudline.contact.seabed import FlatSeabed, Seabed
-from mudline.contact.state import ContactState
-from mudline.contact.tables import Tables
+from mudline.contact.tables import ContactState, Tables
 
 if TYPE_CHECKING:
-    from mudline.contact.compiled_driver import CompiledDriver
+    from mudline.contact.compiled.driver import CompiledDriver
     from mudline.contact.stiffest import Stiffest
     from mudline.contact.tangent import Tangent
 
@@ -207,7 +205,7 @@ class ContactModel:
         if not self._choice.compiles(steps):
             return None
         if self._compiled is None:
-            from mudline.contact.compiled_driver import CompiledDriver  # noqa: PLC0415 - loads numba
+            from mudline.contact.compiled.driver import CompiledDriver  # noqa: PLC0415 - loads numba
 
             self._compiled = CompiledDriver(self._tables, self._seabed, self._choice)
         return None if self._compiled.broken else self._compiled

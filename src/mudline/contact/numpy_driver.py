@@ -11,21 +11,22 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from mudline.contact.arrays import FloatArray
+from mudline.contact import vectors
+from mudline.contact.arrays import BoolArray, FloatArray, as_range, taken
 from mudline.contact.numpy_elements import Elements
-from mudline.contact.numpy_nodes import Nodes
 from mudline.contact.result import ContactResult
 from mudline.contact.seabed.base import FlatSeabed, Seabed
-from mudline.contact.state import ContactState
-from mudline.contact.tables import Tables
+from mudline.contact.tables import ContactState, Tables, rows_within
+from mudline.contact.vectors import in_plane
 
 if TYPE_CHECKING:
+    from mudline.contact.laws.friction import FrictionHistory
     from mudline.contact.trenches import LaidCentreline
 
 BLOCK = 32768
 """Elements or nodes, times steps, at a time."""
 _WIDTH = 4096
-"""Elements or nodes in a range of a long line, at least: over a few steps their parameters and states stay in caches."""
+"""Elements or nodes in a range of a long line, at least: over a few steps what belongs to them stays in caches."""
 _MOST = 2**20
 """Nodes times steps of a batch, at most."""
 
@@ -129,3 +130,190 @@ def _keep_freed_memory() -> None:
     is never touched costs nothing.
     """
     np.empty(31 * 2**20, np.int8)
+
+
+Components = tuple[FloatArray, ...]
+
+
+class Nodes:
+    """Nodes begin <= i < end."""
+
+    def __init__(self, tables: Tables, begin: int, end: int, *, flat: bool) -> None:
+        self._tables, self.begin, self.end, self._flat = tables, begin, end, flat
+        self._here = here = slice(begin, end)
+        self._plane = vectors.PLANES[2 if flat else 3]
+        self._nodal = []
+        for rows in tables.nodal:
+            cut = rows_within(rows.rows, begin, end)
+            columns = tuple(column[cut] for column in rows.columns)
+            if cut.start < cut.stop:
+                self._nodal.append((rows.reaction, as_range(rows.rows[cut] - begin), columns, rows.law.onset(*columns)))
+        friction = tables.friction
+        if friction is not None:
+            self._active, self._elliptic = friction.active[here], friction.elliptic[here]
+            self._curved = bool(self._elliptic.any())
+            self._coefficients = friction.coefficients[:, here]
+            self._constant, self._rising = friction.constant[:, here], friction.rising[:, here]
+            self._idle = self._active.astype(np.int8) - np.int8(1)
+            turned = rows_within(friction.turned, begin, end)
+            self._turned = friction.turned[turned] - begin
+            self._turn = friction.cosine[turned], friction.sine[turned]
+        if tables.trench is not None:
+            self._trench = tables.trench.some(rows_within(tables.trench.nodes, begin, end))
+            nodes = self._trench.nodes - begin
+            rank = np.arange(len(nodes)) - np.searchsorted(nodes, nodes)
+            ranks = [np.flatnonzero(rank == place) for place in range(int(rank.max(initial=-1)) + 1)]
+            self._in_trench, self._ranks = as_range(nodes), [(rows, as_range(nodes[rows])) for rows in ranks]
+
+    def run(self, part: ContactResult, state: ContactState, work: Work, laid: LaidCentreline | None) -> None:
+        """Write the nodes of a batch."""
+        line, here = self._tables.line, self._here
+        total = line.sums(work.load, self.begin, self.end)
+        for reaction, at, columns, onset in self._nodal:
+            z = 0.0 - taken(part.gap[:, here], at)
+            total[:, at] += np.where(z > onset, reaction(z, 0.0, *columns)[0], 0.0)
+        part.normal_force[:, here] = total
+        if part.normal.strides[1] == 0:  # one for all nodes
+            normal = tuple(part.normal[:1, :1, axis] for axis in range(3))
+        else:
+            normal = tuple(np.ascontiguousarray(part.normal[:, here, axis]) for axis in range(3))
+        reaction_here = part.reaction[:, here]
+        if not work.tangent:
+            if self._flat:
+                reaction_here[..., 1:] = 0.0
+            for axis in range(1 if self._flat else 3):
+                # a negative force times a zero component is -0, which is no reaction of its own
+                np.add(total * normal[axis], 0.0, out=reaction_here[..., axis])
+            return
+        wanted = tuple(line.sums(axis, self.begin, self.end, directed=True) for axis in work.tangent)
+        along = self._turned_axes(in_plane(wanted, normal), normal)
+        sideward = self._slide(part, state, work, (along, self._plane.across(along, normal)), laid)
+        for axis, component in enumerate(self._plane.reaction(total, normal, sideward)):
+            reaction_here[..., axis] = component
+
+    def _turned_axes(self, along: Components, normal: Components) -> Components:
+        """Put in u1 of the nodes that have it at an angle to +Y."""
+        if self._tables.friction is None or not self._turned.size:
+            return along
+        there = normal if normal[0].shape[1] == 1 else tuple(axis[:, self._turned] for axis in normal)
+        for axis, values in zip(along, self._plane.turned(*self._turn, there), strict=True):
+            axis[:, self._turned] = values
+        return along
+
+    def _slide(
+        self,
+        part: ContactResult,
+        state: ContactState,
+        work: Work,
+        axes: tuple[Components, Components],
+        laid: LaidCentreline | None,
+    ) -> Components:
+        """Components of the tangential reaction: friction and lateral springs."""
+        along, across = axes
+        found = tuple(np.zeros(along[0].shape) for _ in along)
+        one = other = np.zeros(along[0].shape)
+        if state.friction is not None:
+            one, other = self._rub(part, state.friction, work, axes, laid)
+            found = self._plane.blend(along, across, one, other)
+        if work.lateral:
+            push = tuple(self._tables.line.sums(axis, self.begin, self.end) for axis in work.lateral)
+            found = self._plane.added(found, push)
+            one, other = one + self._plane.dot(along, push), other + self._plane.dot(across, push)
+        if part.friction is not None:
+            part.friction[:, self._here, 0], part.friction[:, self._here, 1] = one, other
+        return found
+
+    def _rub(
+        self,
+        part: ContactResult,
+        history: FrictionHistory,
+        work: Work,
+        axes: tuple[Components, Components],
+        laid: LaidCentreline | None,
+    ) -> tuple[FloatArray, FloatArray]:
+        """Friction along u1 and u2 (steps, k); the stick points go from step to step."""
+        from mudline.contact.laws import friction as law  # noqa: PLC0415 - only now is it needed
+
+        along, across = axes
+        plane, here, first = self._plane, self._here, 3 - len(along)
+        places = [coordinate[:, here] for coordinate in work.planes]
+        pressing = np.where(self._active, np.fmax(part.normal_force[:, here], 0.0), 0.0)
+        closed = pressing > 0.0
+        springs = [self._constant[side] + self._rising[side] * pressing for side in range(2)]
+        limits = [self._coefficients[side] * pressing for side in range(2)]
+        limited = not self._curved or _all_above_0(limits, closed)
+        walls = None if laid is None or not self._ranks else self._walls(places, across, pressing, laid)
+        stick = [history.stick_points[here, axis].copy() for axis in range(3)]
+        held = history.states[here, 0] > 0
+        forces = np.empty(closed.shape), np.empty(closed.shape)
+        slips = np.empty(closed.shape, np.bool_), np.empty(closed.shape, np.bool_)
+        for step, close in enumerate(closed):
+            on, held = held & close, close
+            u, v = tuple(axis[step] for axis in along), tuple(axis[step] for axis in across)
+            away = tuple(
+                np.where(on, place[step] - point, 0.0)
+                for place, point in zip(places[first:], stick[first:], strict=True)
+            )
+            elongation = plane.dot(u, away), plane.dot(v, away)
+            k1, k2, limit_1, limit_2 = springs[0][step], springs[1][step], limits[0][step], limits[1][step]
+            t1, t2 = k1 * elongation[0], k2 * elongation[1]
+            if walls is not None:
+                limit_2 = limit_2 + np.where(t2 > 0.0, walls[0][step], walls[1][step])
+            (f1, slip_1), (f2, slip_2) = law.in_box(t1, limit_1), law.in_box(t2, limit_2)
+            if self._curved:
+                if limited:
+                    *curved, slip = law.on_ellipse(t1, t2, limit_1, limit_2)
+                    curved += [slip, slip]
+                else:
+                    curved = list(law.in_ellipse(t1, t2, limit_1, limit_2))
+                f1, f2, slip_1, slip_2 = (
+                    np.where(self._elliptic, ours, theirs)
+                    for ours, theirs in zip(curved, (f1, f2, slip_1, slip_2), strict=True)
+                )
+            moved = plane.blend(
+                u, v, law.slip_distance(slip_1, elongation[0], f1, k1), law.slip_distance(slip_2, elongation[1], f2, k2)
+            )
+            for axis in range(3):
+                stick[axis] = np.where(on, stick[axis], places[axis][step])
+            for point, way in zip(stick[first:], moved, strict=True):
+                np.add(point, way, out=point)
+            np.subtract(0.0, f1, out=forces[0][step])
+            np.subtract(0.0, f2, out=forces[1][step])
+            slips[0][step], slips[1][step] = slip_1, slip_2
+        for axis in range(3):
+            history.stick_points[here, axis] = np.where(held, stick[axis], np.nan)
+        for side in range(2):
+            states = (slips[side].view(np.int8) + np.int8(1)) * closed.view(np.int8)
+            states += self._idle
+            history.states[here, side] = states[-1]
+            if part.friction_state is not None:
+                part.friction_state[:, here, side] = states
+        return forces
+
+    def _walls(
+        self, places: list[FloatArray], across: Components, pressing: FloatArray, laid: LaidCentreline
+    ) -> tuple[FloatArray, FloatArray]:
+        """What trenches add to the lateral limits (steps, k) against motion along +u2, and along -u2."""
+        from mudline.contact.trenches import resistance  # noqa: PLC0415 - most friction has no trench
+
+        at = self._in_trench
+        away = laid.away(laid.beside(self.begin, self._trench), [taken(place, at) for place in places]).vector
+        lateral = tuple(taken(axis, at) for axis in across)
+        offset = self._plane.dot(lateral, away[3 - len(lateral) :])
+        added = resistance(self._trench, self._tables.given.tables, offset, taken(pressing, at))
+        found = np.zeros(pressing.shape), np.zeros(pressing.shape)
+        for whole, outward in zip(found, (offset > 0.0, offset < 0.0), strict=True):
+            share = np.where(outward, added, 0.0)
+            for rows, nodes in self._ranks:
+                whole[:, nodes] += share[:, rows]
+        return found
+
+
+def _all_above_0(limits: list[FloatArray], closed: BoolArray) -> bool:
+    """Whether all nodes with a normal force have limits above 0; those of the others become 1, to divide by."""
+    open_ = ~closed
+    if not all(((limit > 0.0) | open_).all() for limit in limits):
+        return False
+    for limit in limits:
+        np.copyto(limit, 1.0, where=open_)
+    return True

@@ -8,10 +8,9 @@ import numpy as np
 
 from mudline.contact import vectors
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray, Picked, StateArray, as_range, taken
-from mudline.contact.directions import in_plane, units
 from mudline.contact.result import ContactResult
-from mudline.contact.state import ContactState
-from mudline.contact.tables import ElementRows, NormalRows, Tables, rows_within
+from mudline.contact.tables import ContactState, ElementRows, NormalRows, Tables, rows_within
+from mudline.contact.vectors import in_plane, units
 
 if TYPE_CHECKING:
     from mudline.contact.laws.suction import SuctionHistory, SuctionLaw
@@ -248,7 +247,7 @@ class Elements:
 
     def _hold_back(self, some: _Some, depth: FloatArray, values: Values) -> None:
         """Add springs against uplift."""
-        from mudline.contact.laws.suction_spring import spring_suction  # noqa: PLC0415 - only now is it needed
+        from mudline.contact.laws.linear import spring_suction  # noqa: PLC0415 - only now is it needed
 
         force, stiffness = spring_suction(some.onset - taken(depth, some.at), *some.columns)
         values[0][:, some.at] += force
@@ -368,7 +367,7 @@ class Elements:
         work: Work,
     ) -> None:
         """Write the forces of lateral springs; their touchdown points go from step to step."""
-        from mudline.contact.laws.lateral import lateral_force  # noqa: PLC0415 - only now is it needed
+        from mudline.contact.laws.linear import lateral_force  # noqa: PLC0415 - only now is it needed
 
         plane = vectors.PLANES[len(along)]
         normal = self._mean_normal(some, part)

@@ -13,10 +13,9 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
-from mudline.contact.directions import Directions, directions_of
 from mudline.contact.result import ContactResult
-from mudline.contact.state import ContactState
-from mudline.contact.tables import Tables
+from mudline.contact.tables import ContactState, Tables
+from mudline.contact.vectors import Directions, directions_of
 
 
 class Triples(NamedTuple):
@@ -187,7 +186,7 @@ def _add_lateral(step: _Step, blocks: _Blocks) -> None:
 
 def _projected(span: FloatArray, normal: FloatArray) -> FloatArray:
     """Unit vectors (k, 3) along the projections of spans; the default direction for one along the normal."""
-    from mudline.contact.directions import in_plane  # noqa: PLC0415 - beside its only use
+    from mudline.contact.vectors import in_plane  # noqa: PLC0415 - beside its only use
 
     size = _size(span)
     unit = np.divide(span, size[:, None], out=np.zeros_like(span), where=size[:, None] > 0.0)

@@ -110,7 +110,7 @@ def _lengths(given: ContactInput) -> FloatArray:
 
 
 class _Pieces(NamedTuple):
-    """Straight pieces of a centreline: start and span, three (k,) each, 1 over the square of the length, and shares of its ends.
+    """Straight pieces of a centreline: start and span, three (k,) each, 1 / length^2, and the shares of their ends.
 
     A straight centreline is a piece with a span of length 1 in the plan that does not end.
     """

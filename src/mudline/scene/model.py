@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mudline.codes import REF007, RUN001
-from mudline.contact.choice import Backend
 from mudline.contact.errors import ElementError
 from mudline.contact.input import ContactInput, LawKind
 from mudline.contact.model import ContactModel
+from mudline.contact.plan import Backend
 from mudline.deck.model import Deck
 from mudline.deck.parameters import folded
 from mudline.diagnostics import DeckError, Problem, Severity, Where

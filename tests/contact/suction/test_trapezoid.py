@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from mudline.contact.laws.linear import spring_suction
 from mudline.contact.laws.suction import step, trapezoid
-from mudline.contact.laws.suction_spring import spring_suction
 from tests.contact.builders import bridge_law, floats
 from tests.contact.single import BROKEN, DEPTH, FORCE, SUCTION, lift, lifted, pull
 

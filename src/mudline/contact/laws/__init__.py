@@ -1,4 +1,4 @@
-"""The contact laws: one module each, with parameters, equation, tangents, state and source.
+"""The contact laws: in each module a kind of them, with parameters, equation, tangents, state and source.
 
 A law is known by its name and imported when an input has it. `register` adds one: a normal law of a module of your own
 is evaluated, stepped, planned and differentiated like the others, with numpy and with compiled loops.
@@ -17,12 +17,12 @@ _LAWS: dict[str, str | Law] = {
     "smoothed": "linear:SMOOTHED",
     "nodal": "linear:NODAL",
     "curve": "curve:CURVE",
-    "rigid": "rigid:RIGID",
+    "rigid": "linear:RIGID",
     "unloading": "unloading:UNLOADING",
-    "suction spring": "suction_spring:SUCTION_SPRING",
+    "suction spring": "linear:SUCTION_SPRING",
     "suction": "suction:SUCTION_LAW",
     "friction": "friction:FRICTION",
-    "lateral": "lateral:LATERAL",
+    "lateral": "linear:LATERAL",
     "trench peak": "trench:TRENCH_PEAK",
     "trench table": "trench:TRENCH_TABLE",
     "trench wall": "trench:TRENCH_WALL",

@@ -1,4 +1,4 @@
-"""Linear normal laws, kinked at the mudline or with a quadratic zone around it.
+"""Laws of constant stiffness: normal laws, springs against uplift and to the side, and the rigid seabed.
 
 `STIFFNESS=number` of `*SEABED PROPERTIES` and of `*ELASTIC SURFACE`; `NODAL STIFFNESS=`, `SMOOTHING=` and `FORM=` of
 `*SEABED CONTACT`. With the stiffness K and the half width h of the zone, over the penetration z:
@@ -8,6 +8,22 @@
 * ONE-SIDED:  F = K z^2 / (4 h) on 0 < z < 2 h, K (z - h) beyond it, 0 below.
 
 Force and slope dF/dz are continuous for h > 0.
+
+`SUCTION=` of `*SEABED PROPERTIES` is a spring against uplift, up to some height above the seabed (INFERRED),
+
+    f = -k x for 0 < x <= extent, 0 elsewhere,
+
+x the height of the element above the point where its contact begins. It has no history, and acts beside an unloading
+line: where the element is above the seabed.
+
+`LATERAL=` of `*SEABED PROPERTIES` is a spring to where the element touched down (INFERRED). It acts per unit length at
+the middle of an element that is in contact, along n x t, where t is the element's direction and n the mean normal of
+the seabed at its nodes (over a break of the seabed the mean of the normals on both sides). Half of the force goes to
+each node:
+
+    f = -k ((n x t) . (x - x_touchdown)) (n x t).
+
+`TYPE=RIGID` is a constraint on the nodes, gap >= 0, and gives no force.
 """
 
 from __future__ import annotations
@@ -15,7 +31,7 @@ from __future__ import annotations
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
-from mudline.contact.laws.base import NormalLaw, Parameter, Value, where
+from mudline.contact.laws.base import Law, NormalLaw, Parameter, Value, where
 
 _WIDEST = 0.25 * float(np.finfo(np.float64).max)
 """Half widths above this are halved in the sums, which would overflow."""
@@ -121,4 +137,49 @@ NODAL = NormalLaw(
     onset=zone_onset,
     equation="as `smoothed`, at the node's own penetration",
     source="definition of NODAL STIFFNESS=",
+)
+
+
+def spring_suction(uplift: Value, stiffness: Value, extent: Value) -> tuple[Value, Value]:
+    """Return the force per unit length at a height `uplift` above the seabed, and its stiffness -d force / d x."""
+    held = (uplift > 0.0) & (uplift <= extent)
+    return where(held, 0.0 - stiffness * uplift, 0.0), where(held, stiffness, 0.0)
+
+
+SUCTION_SPRING = Law(
+    name="suction spring",
+    summary="spring against uplift, without history",
+    acts_on="elements",
+    parameters=(
+        Parameter("stiffness", "F/L2", "force per unit length and length of uplift"),
+        Parameter("extent", "L", "height above the seabed up to which it acts"),
+    ),
+    equation="f = -k x for 0 < x <= extent",
+    source="SUCTION= of *SEABED PROPERTIES (INFERRED)",
+)
+
+
+def lateral_force(stiffness: Value, elongation: Value) -> Value:
+    """Return the force along n x t on each of the two nodes; `stiffness` is k times the element's length."""
+    return -0.5 * stiffness * elongation
+
+
+LATERAL = Law(
+    name="lateral",
+    summary="spring to where the element touched down",
+    acts_on="elements",
+    parameters=(Parameter("stiffness", "F/L2", "force per unit length and length of lateral displacement"),),
+    history=True,
+    equation="f = -k y, y the displacement along n x t from the touchdown point",
+    source="LATERAL= of *SEABED PROPERTIES (INFERRED)",
+)
+
+
+RIGID = Law(
+    name="rigid",
+    summary="rigid seabed, a constraint",
+    acts_on="elements",
+    parameters=(),
+    equation="gap >= 0",
+    source="definition of TYPE=RIGID",
 )

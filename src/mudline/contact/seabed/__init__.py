@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from mudline.contact.seabed.base import FlatSeabed, Seabed, SeabedError, SlopingSeabed
 
 if TYPE_CHECKING:
-    from mudline.contact.seabed.planes import PlanesSeabed
+    from mudline.contact.seabed.base import PlanesSeabed
     from mudline.contact.seabed.profile import ProfileSeabed
 
 __all__ = ["FlatSeabed", "PlanesSeabed", "ProfileSeabed", "Seabed", "SeabedError", "SlopingSeabed"]

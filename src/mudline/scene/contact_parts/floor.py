@@ -55,7 +55,7 @@ def _made(floor: Floor) -> Seabed:
 
 
 def _planes(floor: Floor) -> Seabed:
-    from mudline.contact.seabed.planes import PlanesSeabed  # noqa: PLC0415 - only now is it needed
+    from mudline.contact.seabed.base import PlanesSeabed  # noqa: PLC0415 - only now is it needed
 
     return PlanesSeabed(
         np.array([plane.point for plane in floor.planes]),

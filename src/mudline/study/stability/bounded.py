@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
-from mudline.contact.critical_step import CRITICAL_OMEGA_DT
+from mudline.contact.stiffest import CRITICAL_OMEGA_DT
 from mudline.scene.model import Scene
 from mudline.study.schemes.marching import march
 from mudline.study.schemes.newton import Newton

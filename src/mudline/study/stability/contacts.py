@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.contact.arrays import FloatArray, IndexArray
-from mudline.contact.critical_step import omega, steepest_slope
 from mudline.contact.input import LawKind
+from mudline.contact.stiffest import omega, steepest_slope
 from mudline.curves import ForceCurve
 from mudline.scene.contact_parts.unloading import KEYWORD as UNLOADING
 from mudline.scene.contact_parts.unloading import given_stiffness

@@ -12,9 +12,9 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
-from mudline.contact.critical_step import release_stiffness
 from mudline.contact.input import AssignedLaw
 from mudline.contact.laws.suction import SuctionHistory, SuctionLaw, breakout_uplift, maximum_force, step
+from mudline.contact.stiffest import release_stiffness
 from mudline.scene.model import Scene
 
 VELOCITIES = (1e-3, 1e-2, 1e-1, 1.0)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from mudline.contact.critical_step import ADVISED_OMEGA_DT, CRITICAL_OMEGA_DT
+from mudline.contact.stiffest import ADVISED_OMEGA_DT, CRITICAL_OMEGA_DT
 from mudline.study.report import Cell, Column, StudyTable
 from mudline.study.stability.bounded import ALWAYS, FAR, Measured
 from mudline.study.stability.contacts import Contact

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from mudline.contact.critical_step import ADVISED_OMEGA_DT, rounded_down
+from mudline.contact.stiffest import ADVISED_OMEGA_DT, rounded_down
 from mudline.scene.model import Scene
 from mudline.study.options import StudyOptions
 from mudline.study.report import Omission, StudyReport

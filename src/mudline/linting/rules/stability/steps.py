@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from mudline.contact.critical_step import (
+from mudline.contact.input import LawKind
+from mudline.contact.stiffest import (
     ADVISED_OMEGA_DT,
     CRITICAL_OMEGA_DT,
     critical_step,
@@ -16,7 +17,6 @@ from mudline.contact.critical_step import (
     rounded_down,
     steepest_slope,
 )
-from mudline.contact.input import LawKind
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule

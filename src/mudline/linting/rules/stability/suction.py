@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mudline.contact.critical_step import release_stiffness
 from mudline.contact.laws.suction import SuctionLaw
+from mudline.contact.stiffest import release_stiffness
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule

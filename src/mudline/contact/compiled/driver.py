@@ -12,21 +12,32 @@ import warnings
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, cast
+from typing import Any, NamedTuple, TypeVar, cast
 
 import numba
 import numpy as np
 from numba.extending import overload
 
-from mudline.contact import kernels
 from mudline.contact.arrays import FloatArray
-from mudline.contact.choice import Choice
+from mudline.contact.compiled.functions import SHARED, Loop, edition, one_of
+from mudline.contact.compiled.loops import elements_loop, nodes_loop
+from mudline.contact.compiled.tables import (
+    LAW,
+    NO_LINE,
+    by_component,
+    element_tables,
+    node_tables,
+    read_only,
+    suction_table,
+    trench_tables,
+    what_there_is,
+)
 from mudline.contact.laws import NormalLaw, base
 from mudline.contact.numpy_driver import Batch
+from mudline.contact.plan import Choice
 from mudline.contact.result import ContactResult
 from mudline.contact.seabed.base import FlatSeabed, Seabed
-from mudline.contact.state import ContactState
-from mudline.contact.tables import Tables
+from mudline.contact.tables import ContactState, Tables
 
 _BATCH = 2**20
 """Nodes times steps at a time, at most."""
@@ -36,8 +47,6 @@ _STEPS = 64
 _WORTH_THREADS = 60_000
 """Nodes times steps of a batch from which on several threads are worth their start."""
 
-if TYPE_CHECKING:
-    from mudline.curves import ForceCurve
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -60,23 +69,23 @@ def callable_in_loops(function: Function) -> Function:
     return function
 
 
-for _shared in kernels.SHARED:
+for _shared in SHARED:
     callable_in_loops(_shared)
 
 
-def _compiled(loop: kernels.Loop) -> kernels.Loop:
+def _compiled(loop: Loop) -> Loop:
     options: Any = {"error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}
     try:
         made = numba.njit(cache=True, **options)(loop)
     except RuntimeError:  # there is no place where numba may write
         made = numba.njit(**options)(loop)
-    return cast("kernels.Loop", made)
+    return cast("Loop", made)
 
 
 @cache
-def _loop(name: str, *options: Any) -> kernels.Loop:
-    """The loop of a name for options, each made once."""
-    return _compiled(getattr(kernels, name)(*options))
+def _loop(make: Callable[..., Loop], *options: Any) -> Loop:
+    """The compiled loop for options, each made once."""
+    return _compiled(make(*options))
 
 
 class _Job(NamedTuple):
@@ -104,24 +113,24 @@ class CompiledDriver:
         self._tables, self._choice, self._threads = tables, choice, choice.threads
         self._noted = False
         self._pool: ThreadPoolExecutor | None = None
-        self._normal = None if seabed.same_normal is None else _given(seabed.same_normal.reshape(1, 1, 3))
+        self._normal = None if seabed.same_normal is None else read_only(seabed.same_normal.reshape(1, 1, 3))
         self._nodes, self._elements = len(given.node_ids), len(given.element_ids)
-        has = kernels.what_there_is(tables, flat=isinstance(seabed, FlatSeabed))
+        has = what_there_is(tables, flat=isinstance(seabed, FlatSeabed))
         self._has = has
         laws = tuple(_with_equation(rows.law) for rows in tables.normal if rows.curve < 0)
         slopes = tuple(_steepest(rows.law) for rows in tables.normal if rows.curve < 0) if has.steepens else ()
-        sources = kernels.edition(tuple(rows.law for rows in (*tables.normal, *tables.nodal)))
-        self._element_loop = _loop("elements_loop", callable_in_loops, has, laws, _choice(slopes), sources)
-        self._index, self._numbers, self._knots = _element_tables(tables)
-        self._pulls = _suction_table(tables)
+        sources = edition(tuple(rows.law for rows in (*tables.normal, *tables.nodal)))
+        self._element_loop = _loop(elements_loop, callable_in_loops, has, laws, _choice(slopes), sources)
+        self._index, self._numbers, self._knots = element_tables(tables)
+        self._pulls = suction_table(tables)
         self._node_loop = _loop(
-            "nodes_loop", callable_in_loops, has, tuple(_with_equation(rows.law) for rows in tables.nodal), sources
+            nodes_loop, callable_in_loops, has, tuple(_with_equation(rows.law) for rows in tables.nodal), sources
         )
-        self._node_index, self._node_numbers = _node_tables(tables)
-        self._ditch = _ditch_tables(tables)
+        self._node_index, self._node_numbers = node_tables(tables)
+        self._ditch = trench_tables(tables)
         line = tables.line
         self._line = tuple(
-            _given(array) for array in (line.start.astype(np.int32), line.elements, line.senses, tables.half)
+            read_only(array) for array in (line.start.astype(np.int32), line.elements, line.senses, tables.half)
         )
         self._sequence = _tasks(tables, range(len(range(0, self._elements, _RANGE))))
         self._groups = _groups(tables, self._elements, self._threads, self._sequence)
@@ -199,16 +208,16 @@ class CompiledDriver:
             np.empty((4, 0)) if unloading is None else unloading.numbers,
             np.zeros((2, 0), np.int8) if suction is None else suction.flags,
             np.empty((3, 0)) if suction is None else suction.numbers,
-            _columns(np.empty((0, 3)) if after.touchdown is None else after.touchdown),
-            _columns(np.empty((0, 3)) if friction is None else friction.stick_points),
-            _columns(np.zeros((0, 2), np.int8) if friction is None else friction.states),
+            by_component(np.empty((0, 3)) if after.touchdown is None else after.touchdown),
+            by_component(np.empty((0, 3)) if friction is None else friction.stick_points),
+            by_component(np.zeros((0, 2), np.int8) if friction is None else friction.states),
         )
         cut = part.cut if part.cut.flags.writeable else none > 0
         return _Job(
-            _given(batch.points),
+            read_only(batch.points),
             part.gap,
             np.empty((0, 0)) if batch.speed is None else batch.speed,
-            _given(part.normal) if self._normal is None else self._normal,
+            read_only(part.normal) if self._normal is None else self._normal,
             states,
             self._laid_tables(batch.laid),
             (part.depth, part.ratio, part.contact, part.force, part.slope, part.stiffness),
@@ -228,14 +237,14 @@ class CompiledDriver:
     def _laid_tables(self, laid: FloatArray) -> tuple[Any, ...]:
         """The line as it was `laid`, prepared once: the states of a run share that array."""
         if self._tables.trench is None:
-            return _NO_LINE
+            return NO_LINE
         kept = self._laid
         if kept is None or kept[0] is not laid:
             from mudline.contact.trenches import LaidCentreline  # noqa: PLC0415 - most friction has no trench
 
             line = LaidCentreline(laid, self._tables.line)
             pieces = np.concatenate([line.start, line.span, line.inverse[None]])
-            self._laid = kept = (laid, (_given(pieces), (_given(line.ends), _given(line.elements_at))))
+            self._laid = kept = (laid, (read_only(pieces), (read_only(line.ends), read_only(line.elements_at))))
         return kept[1]
 
 
@@ -306,136 +315,4 @@ def _steepest(law: NormalLaw) -> tuple[Callable[..., Any], int]:
 
 @cache
 def _choice(slopes: tuple[tuple[Callable[..., Any], int], ...]) -> Callable[..., Any]:
-    return kernels.one_of(callable_in_loops, slopes, kernels.LAW)
-
-
-def _element_tables(tables: Tables) -> tuple[Any, Any, Any]:
-    """Indices (m, c) and numbers (m, c) of the elements, and all curves.
-
-    Curves are (4, k): ratios, forces, slopes behind the points, and the steepest slopes up to there.
-    """
-    given, count = tables.given, len(tables.half)
-    formulas = [rows for rows in tables.normal if rows.curve < 0]
-    most = max((len(rows.columns) for rows in formulas), default=0)
-    index, numbers = np.full((count, kernels.INDICES), -1, np.int32), np.zeros((count, kernels.LAW + most))
-    index[:, kernels.FIRST], index[:, kernels.SECOND] = tables.line.first, tables.line.second
-    index[:, kernels.KIND] = kernels.NO_LAW
-    numbers[:, kernels.DIAMETER] = given.diameter
-    numbers[:, kernels.ONSET] = 0.0 if tables.onset is None else tables.onset
-    for kind, rows in enumerate(formulas, kernels.FIRST_LAW):
-        index[rows.rows, kernels.KIND] = kind
-        for column, values in enumerate(rows.columns, kernels.LAW):
-            numbers[rows.rows, column] = values
-    knots = [np.empty((4, 0))]
-    start = 0
-    for rows in tables.normal:
-        if rows.curve >= 0:
-            curve = given.curves[rows.curve]
-            knots.append(_knots(curve))
-            index[rows.rows, kernels.KIND] = kernels.ON_CURVE
-            index[rows.rows, kernels.CURVE_START], index[rows.rows, kernels.CURVE_END] = (
-                start,
-                start + len(curve.ratios),
-            )
-            start += len(curve.ratios)
-    places = (
-        (tables.unloading, kernels.UNLOADS),
-        (tables.suction, kernels.PULLS),
-        (tables.lateral, kernels.SPRINGS_BACK),
-    )
-    for some, column in places:
-        if some is not None:
-            index[some.rows, column] = np.arange(len(some.rows))
-    columns = (
-        (tables.unloading, (kernels.LINE,)), (tables.springs, (kernels.SPRING, kernels.EXTENT)), (tables.lateral, (kernels.LATERAL,)),
-    )  # fmt: skip
-    for some, names in columns:
-        if some is not None:
-            for column, values in zip(names, some.columns, strict=True):
-                numbers[some.rows, column] = values
-    return _given(index), _given(numbers), _given(np.concatenate(knots, axis=1))
-
-
-def _knots(curve: ForceCurve) -> FloatArray:
-    from mudline.contact.laws.curve import steepest_slopes  # noqa: PLC0415 - only now is it needed
-
-    steepest, slopes = steepest_slopes(curve), curve.slopes
-    return np.stack([curve.ratios, curve.forces, np.append(slopes, slopes[-1]), np.append(steepest, steepest[-1])])
-
-
-def _suction_table(tables: Tables) -> Any:
-    """Suction laws (k, c)."""
-    if tables.suction is None:
-        return _given(np.empty((0, kernels.SUCTION_COLUMNS)))
-    from mudline.contact.laws.suction import SuctionLaw  # noqa: PLC0415 - only now is it needed
-
-    law = SuctionLaw(*tables.suction.columns)
-    return _given(np.column_stack([*law, law.factor_per_cycle, np.nan_to_num(law.cyclic_floor), law.least_depth]))
-
-
-def _node_tables(tables: Tables) -> tuple[Any, Any]:
-    """Indices (n, c) and numbers (n, c) of the nodes."""
-    count = len(tables.given.node_ids)
-    most = max((len(rows.columns) for rows in tables.nodal), default=0)
-    index, numbers = np.full((count, kernels.NODE_INDICES), -1, np.int32), np.zeros((count, kernels.NODE_LAW + most))
-    numbers[:, kernels.COSINE] = np.nan
-    for kind, rows in enumerate(tables.nodal):
-        index[rows.rows, kernels.NODE_KIND] = kind
-        numbers[rows.rows, kernels.NODE_ONSET] = rows.law.onset(*rows.columns)
-        for column, values in enumerate(rows.columns, kernels.NODE_LAW):
-            numbers[rows.rows, column] = values
-    friction = tables.friction
-    if friction is not None:
-        index[:, kernels.ACTIVE], index[:, kernels.ELLIPTIC] = friction.active, friction.elliptic
-        pairs = (
-            (kernels.MU_1, friction.coefficients),
-            (kernels.CONSTANT_1, friction.constant),
-            (kernels.RISING_1, friction.rising),
-        )
-        for column, values in pairs:
-            numbers[:, column], numbers[:, column + 1] = values
-        numbers[friction.turned, kernels.COSINE], numbers[friction.turned, kernels.SINE] = (
-            friction.cosine,
-            friction.sine,
-        )
-    return _given(index), _given(numbers)
-
-
-def _ditch_tables(tables: Tables) -> tuple[Any, ...]:
-    """Trenches of the nodes: where those of each node start, indices, numbers, straight lines, and rows of all tables."""
-    trench = tables.trench
-    if trench is None:
-        return tuple(
-            _given(array)
-            for array in (
-                np.zeros(0, np.int32), np.zeros((0, kernels.TRENCH_INDICES), np.int32),
-                np.empty((0, kernels.TRENCH_NUMBERS)), np.empty((0, 4)), np.empty((3, 0)),
-            )
-        )  # fmt: skip
-    from mudline.contact.laws.trench import table_rows  # noqa: PLC0415 - most friction has no trench
-
-    rows = [np.stack(table_rows(table)) for table in tables.given.tables]
-    starts = np.append(0, np.cumsum([table.shape[1] for table in rows])).astype(np.int32)
-    index = np.full((len(trench.nodes), kernels.TRENCH_INDICES), -1, np.int32)
-    index[:, kernels.TRENCH_KIND], index[:, kernels.CENTRELINE] = trench.kind, trench.line
-    tabled = trench.table >= 0
-    index[tabled, kernels.TABLE_START] = starts[trench.table[tabled]]
-    index[tabled, kernels.TABLE_END] = starts[trench.table[tabled] + 1]
-    numbers = np.column_stack([trench.inner, trench.outer, trench.steepness, trench.amount])
-    every = np.concatenate([np.empty((3, 0)), *rows], axis=1)
-    return tuple(_given(array) for array in (trench.start.astype(np.int32), index, numbers, trench.lines, every))
-
-
-def _given(array: Any) -> Any:
-    """The array as one that may not be written, without gaps: one type to compile for."""
-    view = np.ascontiguousarray(array).view()
-    view.setflags(write=False)
-    return view
-
-
-def _columns(array: Any) -> Any:
-    """Components (k, c), each in one piece of memory."""
-    return array if array.flags.f_contiguous and array.flags.writeable else np.array(array, order="F")
-
-
-_NO_LINE = (_given(np.empty((7, 0))), (_given(np.empty((0, 2), np.intp)), _given(np.empty((0, 2), np.intp))))
+    return one_of(callable_in_loops, slopes, LAW)

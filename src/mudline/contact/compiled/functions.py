@@ -1,0 +1,300 @@
+"""Functions of single numbers that loops call: searches in tables, histories, centrelines of trenches."""
+
+from __future__ import annotations
+
+import hashlib
+import inspect
+import math
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mudline.contact import vectors
+from mudline.contact.compiled.tables import FLOOR, LEAST_DEPTH, PER_CYCLE
+from mudline.contact.laws import NormalLaw
+from mudline.contact.laws.curve import on_segment
+from mudline.contact.laws.friction import in_box, in_ellipse, norm, on_ellipse, slip_distance
+from mudline.contact.laws.linear import lateral_force, spring_suction
+from mudline.contact.laws.suction import (
+    BROKEN,
+    COMPRESSION,
+    SUCTION,
+    after_cycle,
+    breakout_uplift,
+    maximum_force,
+    next_state,
+    suction_force,
+    trapezoid,
+)
+from mudline.contact.laws.trench import in_table, on_wall, peak_share, share_of_piece
+from mudline.contact.laws.unloading import line_stiffness, on_line, trench_bottom
+
+Loop = Callable[..., int]
+Wrap = Callable[[Any], Any]
+"""Makes a function one that loops can call, and returns it."""
+Array = Any
+"""An array; the loops are typed when they are compiled."""
+Point = tuple[float, float, float]
+
+
+@cache
+def edition(laws: tuple[NormalLaw, ...]) -> int:
+    """Return a number that changes with the source of the loops and laws, so that no cached loop outlives them."""
+    texts = [path.read_text(encoding="utf-8") for path in _SOURCES]
+    for law in laws:
+        texts += [inspect.getsource(function) for function in (law.reaction, law.steepest) if function is not None]
+    return int.from_bytes(hashlib.sha256("".join(texts).encode()).digest()[:4], "big")
+
+
+_LAW_MODULES = ("base", "curve", "friction", "lateral", "suction", "trench", "unloading")
+_CONTACT = Path(__file__).parents[1]
+_SOURCES = (
+    *(_CONTACT / "compiled" / f"{name}.py" for name in ("driver", "functions", "loops", "tables")),
+    _CONTACT / "vectors.py",
+    *(_CONTACT / "laws" / f"{name}.py" for name in _LAW_MODULES),
+)
+
+
+def row_of_0(_table: Array, _row: int, _first: int) -> tuple[()]:
+    """Return no parameter."""
+    return ()
+
+
+def row_of_1(table: Array, row: int, first: int) -> tuple[float, ...]:
+    """Return one parameter of a row of a table, from a first column on."""
+    return (table[row, first],)
+
+
+def row_of_2(table: Array, row: int, first: int) -> tuple[float, ...]:
+    """Return two parameters."""
+    return table[row, first], table[row, first + 1]
+
+
+def row_of_3(table: Array, row: int, first: int) -> tuple[float, ...]:
+    """Return three parameters."""
+    return table[row, first], table[row, first + 1], table[row, first + 2]
+
+
+def row_of_4(table: Array, row: int, first: int) -> tuple[float, ...]:
+    """Return four parameters."""
+    return table[row, first], table[row, first + 1], table[row, first + 2], table[row, first + 3]
+
+
+def row_of_5(table: Array, row: int, first: int) -> tuple[float, ...]:
+    """Return five parameters."""
+    return (*row_of_4(table, row, first), table[row, first + 4])
+
+
+def row_of_6(table: Array, row: int, first: int) -> tuple[float, ...]:
+    """Return six parameters."""
+    return (*row_of_4(table, row, first), table[row, first + 4], table[row, first + 5])
+
+
+ROWS = (row_of_0, row_of_1, row_of_2, row_of_3, row_of_4, row_of_5, row_of_6)
+"""By how many parameters a law has; a law with more runs with numpy."""
+
+
+def one_of(wrap: Wrap, laws: tuple[tuple[Callable[..., Any], int], ...], first: int) -> Callable[..., Any]:
+    """Return a function that evaluates the law of a kind, from 0: (kind, z, diameter, table, row).
+
+    `laws` are reactions and their numbers of parameters, which stand in a table from the column `first` on.
+    """
+    if not laws:
+
+        def nothing(_kind: int, _z: float, _diameter: float, _table: Array, _row: int) -> tuple[float, float]:
+            return 0.0, 0.0
+
+        return wrap(nothing)  # type: ignore[no-any-return]
+    (reaction, count), others = laws[0], one_of(wrap, laws[1:], first)
+    reaction, parameters = wrap(reaction), wrap(ROWS[count])
+    if len(laws) == 1:
+
+        def only(_kind: int, z: float, diameter: float, table: Array, row: int) -> tuple[float, float]:
+            f, k = reaction(z, diameter, *parameters(table, row, first))
+            return f, k
+
+        return wrap(only)  # type: ignore[no-any-return]
+
+    def one(kind: int, z: float, diameter: float, table: Array, row: int) -> tuple[float, float]:
+        if kind > 0:
+            f, k = others(kind - 1, z, diameter, table, row)
+        else:
+            f, k = reaction(z, diameter, *parameters(table, row, first))
+        return f, k
+
+    return wrap(one)  # type: ignore[no-any-return]
+
+
+def passed(points: Array, begin: int, end: int, value: float) -> int:
+    """Return the last of ascending points begin <= i < end that lies at or below a value; the first if none does."""
+    count = end - begin - 1
+    while count > 0:
+        half = (count + 1) // 2
+        begin += half * (value >= points[begin + half])  # no branch: which way it goes cannot be guessed
+        count -= half
+    return begin
+
+
+def unit_of_span(dx: float, dy: float, dz: float) -> tuple[float, float, float]:
+    """Return the direction of a span; 0 for one without length, or with an end that is not there."""
+    square = dx * dx + dy * dy + dz * dz
+    if not vectors.LEAST_SQUARE < square < vectors.LARGEST_SQUARE:
+        scale = vectors.span_scale(dx, dy, dz)
+        dx = dx / scale if math.isfinite(dx) else 0.0
+        dy = dy / scale if math.isfinite(dy) else 0.0
+        dz = dz / scale if math.isfinite(dz) else 0.0
+        square = dx * dx + dy * dy + dz * dz
+        square = square if square > 0.0 else math.inf
+    share = vectors.tangent_share(square)
+    return dx * share, dy * share, dz * share
+
+
+Numbers = tuple[float, ...]
+
+
+def moved_line(
+    z: float, before: Numbers, virgin: tuple[float, float, float], diameter: float, stiffness: float
+) -> tuple[Numbers, tuple[float, float, float]]:
+    """Return the unloading history of an element at a penetration, and its force, slope and stiffness.
+
+    `before` are z_max, F_max, ku' and z_p; `virgin` force, slope and stiffness of the virgin path, and `stiffness` ku,
+    already as steep as that.
+    """
+    after, reaction = before, virgin
+    if z > before[0]:
+        top = np.maximum(virgin[0], 0.0)
+        line = line_stiffness(stiffness, z, top)
+        after = (z, top, line, trench_bottom(line, z, top))
+    else:
+        f, k = on_line(z, before[0], before[1], before[2], before[3])
+        reaction = (f, k * diameter, k)
+    return after, reaction
+
+
+def moved_suction(
+    before: tuple[bool, int, Numbers],
+    uplift: float,
+    pressed: bool,  # noqa: FBT001 - loops pass arguments by place
+    v: float,
+    law: Numbers,
+) -> tuple[tuple[bool, int, Numbers], float, float, bool]:
+    """Return the suction history of an element: armed, state, numbers; force, stiffness, and whether v < v_r.
+
+    `law` are the columns of the table of suction laws.
+    """
+    armed, state, (v_max, factor, depth) = before
+    g = h = 0.0
+    slow, completed, now, largest, reach = False, False, 0, 0.0, law[LEAST_DEPTH]
+    if pressed:
+        completed = armed and v_max > 0.0
+        armed, now = True, COMPRESSION
+    elif (armed or state == BROKEN) and not math.isnan(uplift):
+        largest, reach = np.maximum(v_max, v) if armed else v_max, depth
+        if largest > v_max:
+            reach = breakout_uplift(largest, law[2], law[3], law[7])
+        was = armed
+        armed, largest, now = next_state(armed, largest, state, reach, uplift, v)
+        completed = was and now == BROKEN
+        if now == SUCTION:
+            g, h = suction_force(uplift, v, reach, (law[0] * factor, law[1], law[7], law[4], law[5]))
+            slow = v < law[7] and law[1] < 2.0
+        elif now == 0:
+            reach = law[LEAST_DEPTH]
+    else:
+        armed = False
+    if completed:
+        factor = after_cycle(factor, law[PER_CYCLE], law[FLOOR])
+    return (armed, now, (largest, factor, reach)), g, h, slow
+
+
+def suction_law(pulls: Array, row: int) -> Numbers:
+    """Return the columns of a row of the table of suction laws."""
+    return (
+        pulls[row, 0], pulls[row, 1], pulls[row, 2], pulls[row, 3], pulls[row, 4], pulls[row, 5], pulls[row, 6],
+        pulls[row, 7], pulls[row, 8], pulls[row, PER_CYCLE], pulls[row, FLOOR], pulls[row, LEAST_DEPTH],
+    )  # fmt: skip
+
+
+def mean_normal(normals: Array, step: int, one: int, other: int) -> tuple[float, float, float]:
+    """Return the mean of the unit normals at two nodes, as a unit vector."""
+    x = normals[step, one, 0] + normals[step, other, 0]
+    y = normals[step, one, 1] + normals[step, other, 1]
+    z = normals[step, one, 2] + normals[step, other, 2]
+    size = np.sqrt(vectors.dot_3((x, y, z), (x, y, z)))
+    return x / size, y / size, z / size
+
+
+def on_piece(laid: Array, element: int, point: Point) -> tuple[float, float, float, float, float]:
+    """Return the share of the nearest point of a piece as laid, the vector from there, and its square."""
+    x, y, z = point[0] - laid[0, element], point[1] - laid[1, element], point[2] - laid[2, element]
+    span = (laid[3, element], laid[4, element], laid[5, element])
+    share = np.minimum(np.maximum(share_of_piece((x, y, z), span, laid[6, element]), 0.0), 1.0)
+    x, y, z = x - share * span[0], y - share * span[1], z - share * span[2]
+    return share, x, y, z, x * x + y * y + z * z
+
+
+def from_laid(laid: Array, beside: Array, node: int, point: Point) -> Point:
+    """Return the vector from the nearest point of the line as laid, sought from the node's own place.
+
+    `beside` has the first two elements at each node, then the nodes of each element.
+    """
+    ends, elements_at = beside
+    current = elements_at[node, 0]
+    if current < 0:
+        return 0.0, 0.0, 0.0
+    share, x, y, z, square = on_piece(laid, current, point)
+    following = elements_at[node, 1]
+    if following >= 0:
+        second = on_piece(laid, following, point)
+        if second[4] < square:
+            current, share, x, y, z, square = following, second[0], second[1], second[2], second[3], second[4]
+    walks = share == (0.0 if ends[current, 1] == node else 1.0) and square > 0.0
+    while walks:
+        at = ends[current, 0] if share <= 0.0 else ends[current, 1]
+        following = elements_at[at, 1] if elements_at[at, 0] == current else elements_at[at, 0]
+        walks = False
+        if following >= 0:
+            second = on_piece(laid, following, point)
+            if second[4] < square:
+                current, share, x, y, z, square = following, second[0], second[1], second[2], second[3], second[4]
+                walks = share <= 0.0 or share >= 1.0
+    return x, y, z
+
+
+def table_resistance(rows: Array, begin: int, end: int, distance: float) -> float:
+    """Return the resistance per unit length of the rows begin to end of tables at a distance."""
+    row = passed(rows[0], begin, end - 1, distance)
+    if distance > rows[0, end - 1]:
+        row = end - 1
+    value: float = in_table(np.maximum(distance, rows[0, begin]), rows[0, row], rows[1, row], rows[2, row])
+    return value
+
+
+def in_limits(t1: float, t2: float, l1: float, l2: float, elliptic: bool) -> tuple[float, float, bool, bool]:  # noqa: FBT001
+    """Return forces in the springs and whether they slip, in the ellipse or in the box."""
+    if elliptic:
+        f1, f2, slip_1, slip_2 = in_ellipse(t1, t2, l1, l2)
+    else:
+        f1, slip_1 = in_box(t1, l1)
+        f2, slip_2 = in_box(t2, l2)
+    return f1, f2, slip_1, slip_2
+
+
+def from_straight(lines: Array, line: int, p: Point) -> Point:
+    """Return the vector from a straight centreline, at the point's own elevation."""
+    y, z, span = p[1] - lines[line, 0], p[2] - lines[line, 1], (0.0, lines[line, 2], lines[line, 3])
+    share = share_of_piece((p[0], y, z), span, 1.0)
+    return 0.0, y - share * span[1], z - share * span[2]
+
+
+SHARED = (
+    passed, unit_of_span, mean_normal, on_piece, from_laid, from_straight, table_resistance, row_of_4, moved_line,
+    moved_suction, suction_law, in_limits, *(function for plane in vectors.PLANES.values() for function in plane),
+    vectors.tangent_share, vectors.span_scale, on_segment, norm, on_ellipse, in_box, in_ellipse, slip_distance,
+    lateral_force, maximum_force, trapezoid, after_cycle, breakout_uplift, next_state, suction_force, spring_suction,
+    in_table, on_wall, peak_share, share_of_piece, line_stiffness, on_line, trench_bottom,
+)  # fmt: skip
+"""Functions that loops call by name."""

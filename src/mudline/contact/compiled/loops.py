@@ -1,0 +1,325 @@
+"""The loops over elements (normal laws, unloading, suction, lateral springs) and over nodes (sums, friction)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from mudline.contact import vectors
+from mudline.contact.compiled.functions import (
+    Array,
+    Loop,
+    Numbers,
+    Point,
+    Wrap,
+    from_laid,
+    from_straight,
+    in_limits,
+    mean_normal,
+    moved_line,
+    moved_suction,
+    one_of,
+    passed,
+    suction_law,
+    table_resistance,
+    unit_of_span,
+)
+from mudline.contact.compiled.tables import (
+    ACTIVE,
+    AMOUNT,
+    CENTRELINE,
+    CONSTANT_1,
+    CONSTANT_2,
+    COSINE,
+    CURVE_END,
+    CURVE_START,
+    DIAMETER,
+    ELLIPTIC,
+    EXTENT,
+    FIRST,
+    FIRST_LAW,
+    INNER,
+    KIND,
+    LATERAL,
+    LAW,
+    LINE,
+    MU_1,
+    MU_2,
+    NODE_KIND,
+    NODE_LAW,
+    NODE_ONSET,
+    ON_CURVE,
+    ONSET,
+    OUTER,
+    PULLS,
+    RISING_1,
+    RISING_2,
+    SECOND,
+    SINE,
+    SPRING,
+    SPRINGS_BACK,
+    STEEPNESS,
+    TABLE_END,
+    TABLE_START,
+    TRENCH_KIND,
+    UNLOADS,
+    Has,
+)
+from mudline.contact.laws.curve import on_segment
+from mudline.contact.laws.friction import slip_distance
+from mudline.contact.laws.linear import lateral_force, spring_suction
+from mudline.contact.laws.suction import SUCTION
+from mudline.contact.laws.trench import PEAK, WALL, on_wall, peak_share
+
+
+def elements_loop(
+    wrap: Wrap, has: Has, laws: tuple[tuple[Callable[..., Any], int], ...], steepest: Callable[..., Any], edition: int
+) -> Loop:
+    """Make the loop over elements.
+
+    `laws` are the normal laws with equations; `steepest` is asked for (kind, z, diameter, table, e), where an
+    unloading line may be less steep than the virgin path.
+    """
+    curves, cuts, unloading, steepens, springs = has.curves, has.cuts, has.unloading, has.steepens, has.springs
+    suction, slides, lateral, flat = has.suction, has.slides, has.lateral, has.flat
+    plane = vectors.PLANES[2 if has.flat else 3]
+    project, default, cross, dot = plane.project, plane.default, plane.across, plane.dot
+    normal_law = one_of(wrap, laws, LAW)
+
+    def loop(
+        begin: int, end: int, index: Array, table: Array, pulls: Array, points: Array, gap: Array, speed: Array,
+        normals: Array, knots: Array, states: Array, out: Array, extra: Array, work: Array,
+    ) -> int:  # fmt: skip
+        depth, ratio, contact, force, slope, stiffness = out
+        cut, state, regularised = extra
+        tangent, sideways = work
+        lines, flags, numbers, touchdown = states
+        wrong = min(edition, 0)
+        for step in range(len(gap)):
+            for e in range(begin, end):
+                a, b, kind = index[e, FIRST], index[e, SECOND], index[e, KIND]
+                diameter, onset = table[e, DIAMETER], table[e, ONSET]
+                deep = 0.0 - (0.5 * gap[step, a] + 0.5 * gap[step, b])
+                share = deep / diameter
+                touches = deep > onset
+                wrong += math.isinf(share) | math.isinf(deep)
+
+                f = k = 0.0
+                s = 0.0 * diameter  # NaN without a diameter
+                segment = 0
+                if touches and curves and kind == ON_CURVE:
+                    segment = passed(knots[0], index[e, CURVE_START], index[e, CURVE_END], share)
+                    s = knots[2, segment]
+                    f = on_segment(share, knots[0, segment], knots[1, segment], s)
+                    k = s / diameter
+                    wrong += (cuts or unloading) and not math.isfinite(f + k)
+                    if cuts and f < 0.0:
+                        f = s = k = 0.0
+                        cut[step, e] = True
+                elif touches and kind >= FIRST_LAW:
+                    f, k = normal_law(kind - FIRST_LAW, deep, diameter, table, e)
+                    s = k * diameter
+                    wrong += unloading and not math.isfinite(f + k)
+
+                uplift, pressed = onset - deep, touches
+                if unloading and index[e, UNLOADS] >= 0:
+                    u, z, steep = index[e, UNLOADS], max(0.0, deep), table[e, LINE]
+                    if steepens and curves and kind == ON_CURVE and touches:
+                        # at a point the segment to its right does not count yet
+                        back = share == knots[0, segment] and segment > index[e, CURVE_START]
+                        steep = np.maximum(steep, knots[3, segment - 1 if back else segment] / diameter)
+                    elif steepens and kind >= FIRST_LAW and touches:
+                        steep = np.maximum(steep, steepest(kind - FIRST_LAW, z, diameter, table, e)[0])
+                    line: Numbers = (lines[0, u], lines[1, u], lines[2, u], lines[3, u])
+                    if curves and cuts:
+                        cut[step, e] &= z > line[0]
+                    line, (f, s, k) = moved_line(z, line, (f, s, k), diameter, steep)
+                    lines[0, u], lines[1, u], lines[2, u], lines[3, u] = line
+                    uplift, pressed = line[3] - deep, z > line[3]
+
+                if springs and table[e, SPRING] > 0.0:
+                    g, h = spring_suction(onset - deep, table[e, SPRING], table[e, EXTENT])
+                    f, s, k = f + g, s + h * diameter, k + h
+
+                if suction and index[e, PULLS] >= 0:
+                    held, v = index[e, PULLS], 0.5 * speed[step, a] + 0.5 * speed[step, b]
+                    was = (flags[0, held] > 0, flags[1, held], (numbers[0, held], numbers[1, held], numbers[2, held]))
+                    now, g, h, slow = moved_suction(was, uplift, pressed, v, suction_law(pulls, held))
+                    if now[1] == SUCTION:
+                        f, s, k = f + g, s + h * diameter, k + h
+                    flags[0, held], flags[1, held] = now[0], now[1]
+                    numbers[0, held], numbers[1, held], numbers[2, held] = now[2]
+                    state[step, e], regularised[step, e] = now[1], slow
+
+                wrong += (not math.isfinite(f + k)) | math.isinf(s)
+                depth[step, e], ratio[step, e], contact[step, e] = deep, share, touches
+                force[step, e], slope[step, e], stiffness[step, e] = f, s, k
+                if not slides:
+                    continue
+
+                p = (points[step, a, 0], points[step, a, 1], points[step, a, 2])
+                q = (points[step, b, 0], points[step, b, 1], points[step, b, 2])
+                unit = unit_of_span(q[0] - p[0], q[1] - p[1], q[2] - p[2])
+                if flat:
+                    tangent[step, e, 0], tangent[step, e, 1] = unit[1], unit[2]
+                else:
+                    tangent[step, e, 0], tangent[step, e, 1], tangent[step, e, 2] = unit
+                if lateral and index[e, SPRINGS_BACK] >= 0:
+                    held = index[e, SPRINGS_BACK]
+                    x, y, z = 0.5 * p[0] + 0.5 * q[0], 0.5 * p[1] + 0.5 * q[1], 0.5 * p[2] + 0.5 * q[2]
+                    if not touches:
+                        touchdown[held, 0] = touchdown[held, 1] = touchdown[held, 2] = np.nan
+                    elif math.isnan(touchdown[held, 0]):
+                        touchdown[held, 0], touchdown[held, 1], touchdown[held, 2] = x, y, z
+                    n = (normals[0, 0, 0], normals[0, 0, 1], normals[0, 0, 2])
+                    wanted: Numbers = unit[1:] if flat else unit
+                    x, y, z = x - touchdown[held, 0], y - touchdown[held, 1], z - touchdown[held, 2]
+                    arm: Numbers = (y, z) if flat else (x, y, z)
+                    if not flat and normals.shape[1] > 1:
+                        n = mean_normal(normals, step, a, b)
+                    along, able = project(wanted, n)
+                    if not able:
+                        along = default(n)
+                    across = cross(along, n)
+                    push = lateral_force(table[e, LATERAL], dot(across, arm)) if touches else 0.0
+                    for axis in range(sideways.shape[2]):
+                        sideways[step, e, axis] = across[axis] * push
+                elif lateral:
+                    for axis in range(sideways.shape[2]):
+                        sideways[step, e, axis] = 0.0
+        return wrong
+
+    return loop
+
+
+def _trench_limit(has: Has) -> Callable[..., Any]:
+    """Make the function that gives what trenches add to the lateral limit of a node that is pulled to one side."""
+    flat, tables = has.flat, has.tables
+    dot = vectors.PLANES[2 if has.flat else 3].dot
+
+    def walls(i: int, total: float, p: Point, across: Array, forward: bool, ditch: Array) -> float:  # noqa: FBT001
+        start, index, table, lines, rows, laid, beside = ditch
+        added = 0.0
+        for at in range(start[i], start[i + 1]):
+            line, kind, amount = index[at, CENTRELINE], index[at, TRENCH_KIND], table[at, AMOUNT]
+            x, y, z = from_laid(laid, beside, i, p) if line < 0 else from_straight(lines, line, p)
+            offset = dot(across, (y, z)) if flat else dot(across, (x, y, z))
+            if (offset > 0.0) if forward else (offset < 0.0):
+                distance = np.abs(offset)
+                if kind == PEAK:
+                    added += amount * peak_share(distance, table[at, INNER], table[at, OUTER], table[at, STEEPNESS])
+                elif kind == WALL:
+                    added += amount * total * on_wall(distance, table[at, INNER], table[at, OUTER])
+                elif tables:
+                    added += amount * table_resistance(rows, index[at, TABLE_START], index[at, TABLE_END], distance)
+        return added
+
+    return walls
+
+
+def nodes_loop(wrap: Wrap, has: Has, laws: tuple[tuple[Callable[..., Any], int], ...], edition: int) -> Loop:
+    """Make the loop over nodes: sums of element forces, nodal springs, friction, lateral springs and reactions."""
+    friction, turned, lateral, nodal, slides = has.friction, has.turned, has.lateral, has.nodal, has.slides
+    flat, elliptic, trench = has.flat, has.elliptic, has.trench
+    plane = vectors.PLANES[2 if has.flat else 3]
+    project, default, cross, dot, turn = plane.project, plane.default, plane.across, plane.dot, plane.turned
+    blend, added, reacts = plane.blend, plane.added, plane.reaction
+    normal_law = one_of(wrap, laws, NODE_LAW)
+    walls = wrap(_trench_limit(has))
+
+    def loop(
+        begin: int, end: int, start: Array, elements: Array, senses: Array, half: Array, index: Array, table: Array,
+        points: Array, gap: Array, normals: Array, force: Array, work: Array, ditch: Array, states: Array, out: Array,
+        extra: Array,
+    ) -> int:  # fmt: skip
+        totals, reaction = out
+        rubbing, slipping = extra
+        tangent, sideways = work
+        sticks, sticking = states
+        wrong = min(edition, 0)
+        for step in range(len(gap)):
+            for i in range(begin, end):
+                total = 0.0
+                tx = ty = tz = gx = gy = gz = 0.0
+                for at in range(start[i], start[i + 1]):
+                    e = elements[at]
+                    total += force[step, e] * half[e]
+                    if slides:
+                        tx += tangent[step, e, 0] * senses[at]
+                        ty += tangent[step, e, 1] * senses[at]
+                        if not flat:
+                            tz += tangent[step, e, 2] * senses[at]
+                    if lateral:
+                        gx += sideways[step, e, 0]
+                        gy += sideways[step, e, 1]
+                        if not flat:
+                            gz += sideways[step, e, 2]
+                if nodal and index[i, NODE_KIND] >= 0:
+                    z = 0.0 - gap[step, i]
+                    if z > table[i, NODE_ONSET]:
+                        f, k = normal_law(index[i, NODE_KIND], z, 0.0, table, i)
+                        wrong += not math.isfinite(f + k)
+                        total += f
+                totals[step, i] = total
+                n = (normals[0, 0, 0], normals[0, 0, 1], normals[0, 0, 2])
+                if normals.shape[1] > 1:
+                    n = (normals[step, i, 0], normals[step, i, 1], normals[step, i, 2])
+                wanted: Numbers = (tx, ty) if flat else (tx, ty, tz)
+                push: Numbers = (gx, gy) if flat else (gx, gy, gz)
+                sideward: Numbers = (0.0, 0.0) if flat else (0.0, 0.0, 0.0)
+
+                if slides:
+                    along, able = project(wanted, n)
+                    if not able:
+                        along = default(n)
+                    if friction and turned and not math.isnan(table[i, COSINE]):
+                        along = turn(table[i, COSINE], table[i, SINE], n)
+                    across = cross(along, n)
+                    f1 = f2 = 0.0
+                    if friction:
+                        one = other = index[i, ACTIVE] - 1
+                        if index[i, ACTIVE] > 0 and total > 0.0:
+                            p = (points[step, i, 0], points[step, i, 1], points[step, i, 2])
+                            held = sticking[i, 0] > 0
+                            if not held:
+                                sticks[i, 0], sticks[i, 1], sticks[i, 2] = p
+                            x, y, z = p[0] - sticks[i, 0], p[1] - sticks[i, 1], p[2] - sticks[i, 2]
+                            if not held:
+                                x = y = z = 0.0
+                            away = (y, z) if flat else (x, y, z)
+                            e1, e2 = dot(along, away), dot(across, away)
+                            k1 = table[i, CONSTANT_1] + table[i, RISING_1] * total
+                            k2 = table[i, CONSTANT_2] + table[i, RISING_2] * total
+                            t1, t2, l1, l2 = k1 * e1, k2 * e2, table[i, MU_1] * total, table[i, MU_2] * total
+                            curved = elliptic and index[i, ELLIPTIC] > 0
+                            f1, f2, slip_1, slip_2 = in_limits(t1, t2, l1, l2, curved)
+                            if trench and (slip_2 or (curved and slip_1)):  # what sticks without a trench sticks in it
+                                l2 = l2 + walls(i, total, p, across, t2 > 0.0, ditch)
+                                f1, f2, slip_1, slip_2 = in_limits(t1, t2, l1, l2, curved)
+                            m1, m2 = slip_distance(slip_1, e1, f1, k1), slip_distance(slip_2, e2, f2, k2)
+                            moved = blend(along, across, m1, m2)
+                            if flat:
+                                sticks[i, 1], sticks[i, 2] = sticks[i, 1] + moved[0], sticks[i, 2] + moved[1]
+                            else:
+                                sticks[i, 0], sticks[i, 1] = sticks[i, 0] + moved[0], sticks[i, 1] + moved[1]
+                                sticks[i, 2] = sticks[i, 2] + moved[2]
+                            f1, f2, one, other = 0.0 - f1, 0.0 - f2, 1 + slip_1, 1 + slip_2
+                        else:
+                            sticks[i, 0] = sticks[i, 1] = sticks[i, 2] = np.nan
+                        sticking[i, 0], sticking[i, 1] = one, other
+                        slipping[step, i, 0], slipping[step, i, 1] = one, other
+                        sideward = blend(along, across, f1, f2)
+                    if lateral:
+                        sideward, f1, f2 = added(sideward, push), f1 + dot(along, push), f2 + dot(across, push)
+                    rubbing[step, i, 0], rubbing[step, i, 1] = f1, f2
+
+                total_force = reacts(total, n, sideward)
+                reaction[step, i, 0], reaction[step, i, 1], reaction[step, i, 2] = total_force
+                if not math.isfinite(total_force[0] + total_force[1] + total_force[2]):
+                    wrong += not math.isnan(points[step, i, 0])
+        return wrong
+
+    return loop
