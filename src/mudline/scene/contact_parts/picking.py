@@ -55,7 +55,7 @@ def refuse(extension: Extension, elements: Mask, ids: Ids, what: str) -> None:
         raise RefusedError(message, extension.places[int(extension.of_element[at[0]])])
 
 
-def refuse_entry(where: Where, key: str, what: str) -> None:
+def refuse_entry(where: Where, key: str | int, what: str) -> None:
     """Refuse a value of a block."""
     raise RefusedError(f"{what}; this cannot be evaluated", where._replace(path=(*where.path, key)))
 
