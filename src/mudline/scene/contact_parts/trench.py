@@ -38,7 +38,7 @@ def trenches(scene: Scene, friction: LawAssignment | None) -> list[LawAssignment
         return []
     bare = (extension.of_element >= 0) & ~_sprung(scene, friction)
     refuse(extension, bare, scene.element_ids, "a trench needs a lateral friction spring: give *SEABED FRICTION")
-    refuse(extension, self_locking(scene, friction), scene.element_ids, LOCKED)
+    refuse(extension, self_locking(scene, friction), scene.element_ids, LOCKED, "geometry")
     walls = np.array([entry.model == "WALL" for entry in entries])
     tabled = np.array([entry.peak == "TABLE" for entry in entries]) & ~walls
     tables = np.cumsum(tabled) - 1
