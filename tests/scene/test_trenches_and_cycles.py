@@ -44,7 +44,8 @@ def lateral(units: Units, trench: str, sideways: list[float]) -> list[float]:
     """The size of the lateral force in the middle of the line, in the deck's units."""
     friction = moved(units, bed(units, trench), sideways).friction
     assert friction is not None
-    return np.abs(friction[1:, 5, 1]).tolist()
+    found: list[float] = np.abs(friction[1:, 5, 1]).tolist()
+    return found
 
 
 @BOTH
