@@ -6,7 +6,6 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 
 from mudline.keywords.model import About, Block, ListRow, Part, Row, Rows, Slot, layout
-from mudline.keywords.values import Kind
 from tests.docs.keyword_format import TAKES
 from tests.docs.marking import marked
 
@@ -75,10 +74,8 @@ def _fields(slots: Iterable[Slot], *, named: bool = True) -> Iterator[str]:
 def _takes(slot: Slot) -> str:
     if isinstance(slot.about, Rows):
         return "rows, below"
-    if slot.row:
-        return "values, below"
-    many = "one or more of " if slot.many else ""
-    return many + (", ".join(slot.choices) or TAKES[slot.kind or Kind.REAL])
+    taken = [*([TAKES[slot.kind]] if slot.kind else []), *slot.choices, *(["values, below"] if slot.row else [])]
+    return ("one or more of " if slot.many else "") + ", ".join(taken)
 
 
 def _meaning(about: About) -> str:
@@ -88,6 +85,8 @@ def _meaning(about: About) -> str:
 def _range(about: About) -> str:
     if about.above is not None:
         return f"> {about.above:g}"
+    if about.at_most is not None:
+        return f"{about.at_least:g} to {about.at_most:g}"
     return f">= {about.at_least:g}" if about.at_least is not None else ""
 
 

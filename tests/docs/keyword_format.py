@@ -58,5 +58,10 @@ def _optional(slot: Slot, text: str) -> str:
 
 
 def _setting(slot: Slot) -> str:
-    value = layout(slot.row).wanted if slot.row else "|".join(slot.choices) or TAKES[slot.kind or Kind.REAL]
+    taken = [
+        *([TAKES[slot.kind]] if slot.kind else []),
+        *slot.choices,
+        *([layout(slot.row).wanted] if slot.row else []),
+    ]
+    value = "|".join(taken)
     return f"{slot.key}={value}" + (" [, ...]" if slot.many else "")

@@ -45,9 +45,15 @@ def _varied_parameter(draw: st.DrawFn, made: Values) -> Values:
     return {"parameter": made["parameter"], chosen: draw(cell(_slots(VariedParameter)[chosen]))}
 
 
+def _trench_set(made: Values) -> st.SearchStrategy[Values]:
+    """Rows stand below PEAK=TABLE only."""
+    return st.just(made | {"peak": "TABLE"} if "table" in made else made)
+
+
 ARRANGED: dict[str, Callable[[Values], st.SearchStrategy[Values]]] = {
     "geometric_set": _geometric_set,
     "seabed_profile": _seabed_profile,
+    "trench_set": _trench_set,
     "varied_parameter": _varied_parameter,
 }
 """By the rule of the record."""

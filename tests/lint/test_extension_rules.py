@@ -18,6 +18,8 @@ AREA = "*GEOMETRIC SETS\n OPTION=RIGID\n SET=ALL\n 207.0E9, 79.6E9, 0.25, 0.22, 
 CHAIN = "*GEOMETRIC SETS\n OPTION=MOORING\n SET=ALL\n 1E8, 200.0, 0.1\n"
 PLANE = "*SEABED PLANES\n PLANE=a\n POINT=0, 0, 0\n SLOPE=0\n"
 PULLING = "*SEABED STIFFNESS\n CURVE=c\n 0, 0\n 1, -5\n" + PROPERTIES + " STIFFNESS=c\n"
+SPRING = "*SEABED FRICTION\n SET=ALL\n COEFFICIENTS=0.3, 0.5\n STIFFNESS=5\n"
+EXT003 = select(["EXT003"])
 TRENCH = "*SEABED TRENCH\n SET=ALL\n GEOMETRY=0.5, 1.0, 3.0\n PEAK=2000\n"
 
 
@@ -93,6 +95,60 @@ def test_a_curve_that_pulls_is_a_warning_as_its_tension_may_be_cut() -> None:
 def test_the_geometry_of_a_trench_is_told_once(geometry: str, code: str) -> None:
     trench = TRENCH.replace("0.5, 1.0, 3.0", geometry)
     assert [one[0] for one in found(PIPE + LINEAR + " FRICTION=0.3, 0.5\n" + trench, "EXT003", "SBD010")] == [code]
+
+
+@pytest.mark.parametrize(
+    ("lines", "expected"),
+    [
+        ("", "2:6: MODEL=PEAK needs a resistance: give PEAK="),
+        (" MODEL=PEAK\n", "2:6: MODEL=PEAK needs a resistance: give PEAK="),
+        (" PEAK=x\n", ""),
+        (" PEAK=TABLE\n", "4:7: PEAK=TABLE needs two rows or more"),
+        (" PEAK=TABLE\n 0.0, 5.0\n", "4:7: PEAK=TABLE needs two rows or more"),
+        (" PEAK=TABLE\n 0.0, 5.0\n 1.0, 5.0\n", ""),
+        (" PEAK=TABLE\n -0.1, 5.0\n 1.0, 5.0\n", "5:2: the offset from the centreline is negative"),
+        (" PEAK=TABLE\n 0.0, 5.0\n 1.0, 5.0\n 1.0, 6.0\n", "7:2: the offset is not larger than that of the row"),
+        (" PEAK=TABLE\n 0.0, 5.0\n 2.0, 5.0\n 1.0, 6.0\n", "7:2: the offset is not larger than that of the row"),
+        (" PEAK=TABLE\n 0.0, 5.0\n =[unknown], 5.0\n", ""),
+        (" MODEL=WALL\n", ""),
+        (" MODEL=WALL\n PEAK=2000\n", "5:7: PEAK= counts for nothing under MODEL=WALL"),
+        (" MODEL=WALL\n PEAK=TABLE\n", "5:7: PEAK= counts for nothing under MODEL=WALL"),
+    ],
+)
+def test_the_resistance_of_a_trench(lines: str, expected: str) -> None:
+    trench = TRENCH.replace(" PEAK=2000\n", lines)
+    above = (PIPE + LINEAR + SPRING).count("\n")
+    told = [f"{line - above}:{column}: {message}" for line, column, message in placed(LINEAR + SPRING + trench)]
+    assert [one[: len(expected)] for one in told] == ([expected] if expected else [])
+    severities = [
+        str(one.severity) for one in lint_bytes((PIPE + LINEAR + SPRING + trench).encode(), "d.keyxm", EXT003)
+    ]
+    assert severities == (["warning" if "for nothing" in expected else "error"] if expected else [])
+
+
+@pytest.mark.parametrize(
+    ("depth", "friction", "expected"),
+    [
+        ("1.0", "*SEABED FRICTION\n SET=ALL\n COEFFICIENTS=1, 0.99\n STIFFNESS=5\n", 0),
+        ("1.0", "*SEABED FRICTION\n SET=ALL\n COEFFICIENTS=0, 1\n STIFFNESS=5\n", 10),
+        ("0.5", "*SEABED FRICTION\n SET=ALL\n COEFFICIENTS=0, 1\n STIFFNESS=5\n", 0),
+        ("2.0", " FRICTION=0.9, 0.5\n", 10),
+        ("2.0", " FRICTION=0.9, 0.5\n LATERAL=1\n*SEABED FRICTION\n SET=Left\n COEFFICIENTS=1, 1\n STIFFNESS=5\n", 0),
+        ("2.0", " FRICTION=0.9, 0.5\n*SEABED FRICTION\n SET=Two\n COEFFICIENTS=1, 0.4\n STIFFNESS=5\n", 8),
+        ("2.0", " FRICTION=0.9, 0.5\n*SEABED FRICTION\n SET=Lost\n COEFFICIENTS=1, 0.4\n STIFFNESS=5\n", 0),
+        ("-2.0", " FRICTION=0.9, 0.5\n", 0),
+    ],
+)
+def test_a_wall_that_locks_itself(depth: str, friction: str, expected: int) -> None:
+    sets = "*ELEMENT SETS\n SET=Left\n GEN=1, 10\n SET=Two\n GEN=1, 2\n"
+    trench = TRENCH.replace("0.5,", f"{depth},").replace("PEAK=2000", "MODEL=WALL")
+    told = [message for *_, message in placed(sets + LINEAR + friction + trench) if "locks" in message]
+    assert [int(one.partition("itself: ")[2].split()[0]) for one in told] == ([expected] if expected else [])
+
+
+def placed(lines: str) -> list[tuple[int, int, str]]:
+    told = lint_bytes((PIPE + lines).encode(), "deck.keyxm", EXT003)
+    return [(one.line, one.column, one.message) for one in told]
 
 
 def test_an_unloading_stiffness_is_told_once() -> None:

@@ -2,10 +2,24 @@
 
 from __future__ import annotations
 
-import pytest
+import json
+import re
+from typing import cast
 
+import numpy as np
+import pytest
+from jsonschema import Draft202012Validator
+
+from mudline.deck.document import FORMAT
 from mudline.deck.keyword_form import to_keyword
-from mudline.deck.loading import load_bytes
+from mudline.deck.loading import dump, load_bytes
+from mudline.deck.schema import json_schema
+from mudline.diagnostics import DeckError
+from mudline.formatting.document import formatted
+from mudline.keywords.library.seabed_suction import CyclicLoading, SeabedSuction, SuctionSet
+from mudline.keywords.library.seabed_trench import Centreline, SeabedTrench, TrenchSet
+
+TRENCH = "*SEABED TRENCH\n SET=ALL\n GEOMETRY=1, 2, 3\n"
 
 
 def told(text: str) -> list[tuple[str, str]]:
@@ -52,8 +66,143 @@ def test_two_points_or_a_word() -> None:
 
 
 def test_a_setting_that_a_record_must_have() -> None:
-    ((code, message),) = told("*SEABED TRENCH\n SET=ALL\n GEOMETRY=1, 2, 3\n")
-    assert (code, message) == ("SYN001", "PEAK= is missing here")
+    ((code, message),) = told("*SEABED TRENCH\n SET=ALL\n PEAK=4\n")
+    assert (code, message) == ("SYN001", "GEOMETRY= is missing here")
+
+
+def suctions(lines: str) -> list[SuctionSet]:
+    deck = load_bytes(f"$MODEL\n*SEABED SUCTION\n SET=ALL\n{lines}".encode(), "deck.keyxm")
+    assert deck.problems == []
+    return cast("SeabedSuction", deck.sections[0].blocks[0]).sets
+
+
+def trenches(lines: str) -> list[TrenchSet]:
+    deck = load_bytes(f"$MODEL\n{TRENCH}{lines}".encode(), "deck.keyxm")
+    assert deck.problems == []
+    return cast("SeabedTrench", deck.sections[0].blocks[0]).sets
+
+
+def test_the_factor_of_cyclic_loading_alone_or_with_a_floor() -> None:
+    for written, factor in (("0.9", 0.9), ("0.9,", 0.9), ("0.9, ,", 0.9), ("=[a]", "=[a]")):
+        assert suctions(f" CYCLIC={written}\n")[0].cyclic == factor
+    for written, factor in (("0.9, 0.5", 0.9), ("0.9 0.5", 0.9), ("0.9,0.5,", 0.9), ("=[a], 0.5", "=[a]")):
+        cyclic = suctions(f" CYCLIC={written}\n")[0].cyclic
+        assert isinstance(cyclic, CyclicLoading)
+        assert (cyclic.factor, cyclic.floor) == (factor, 0.5)
+    assert suctions("")[0].cyclic is None
+
+
+@pytest.mark.parametrize(
+    ("written", "code", "message"),
+    [
+        ("", "SYN003", "CYCLIC= has no value"),
+        ("x", "SYN002", "for CYCLIC="),
+        ("x, 0.5", "SYN002", "for factor"),
+        (", 0.5", "SYN003", "factor is missing"),
+        ("0.9, 0.5, 0.1", "SYN003", "(`factor, floor`), found 3"),
+    ],
+)
+def test_cyclic_loading_that_cannot_be_read(written: str, code: str, message: str) -> None:
+    ((found, words),) = told(f"*SEABED SUCTION\n SET=ALL\n CYCLIC={written}\n COHESION=5000\n")
+    assert found == code
+    assert message in words
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"factor": 0.9}, "cyclic.floor: is missing"),
+        ({"factor": 0.9, "floor": "x"}, "cyclic.floor: expected a number"),
+        ([0.9, 0.5], "cyclic: expected an object or a number"),
+    ],
+)
+def test_cyclic_loading_of_a_document(given: object, message: str) -> None:
+    sets = [{"set": "ALL", "cyclic": given}]
+    model = {"name": "MODEL", "blocks": [{"keyword": "SEABED SUCTION", "sets": sets}]}
+    with pytest.raises(DeckError, match=re.escape(message)):
+        load_bytes(json.dumps({"format": FORMAT, "sections": [model]}).encode(), "deck.json")
+
+
+def test_the_model_of_a_trench() -> None:
+    assert trenches(" MODEL=wall\n")[0].model == "WALL"
+    assert trenches(" MODEL=PEAK\n PEAK=4\n")[0].model == "PEAK"
+    trench = trenches(" PEAK=4\n")[0]
+    assert (trench.model, trench.peak, trench.table) == (None, 4.0, None)
+
+
+def test_a_table_of_resistance_and_what_follows_it() -> None:
+    lines = " PEAK=table\n 0, 0\nC of the wall\n 1.5, 800\n 3.0, =[a]\n CENTRELINE=0, 0, 9, 9\n"
+    first, second = trenches(lines + " SET=Left\n GEOMETRY=1, 2, 3\n PEAK=7\n")
+    assert (first.peak, second.peak) == ("TABLE", 7.0)
+    assert first.table is not None
+    np.testing.assert_array_equal(first.table.values, [[0.0, 0.0], [1.5, 800.0], [3.0, np.nan]])
+    assert first.table.words == {(2, 1): "=[a]"}
+    assert isinstance(first.centreline, Centreline)
+    assert first.centreline.z1 == 9.0
+    assert trenches(" PEAK=TABLE\n")[0].table is None
+
+
+@pytest.mark.parametrize(
+    ("lines", "code", "message"),
+    [
+        (" PEAK=5\n 0, 0\n", "SYN001", "rows belong to PEAK=TABLE only"),
+        (" 0, 0\n PEAK=TABLE\n", "SYN001", "expected PEAK= before this line"),
+        (" MODEL=WALL\n 0, 0\n", "SYN001", "expected PEAK= before this line"),
+        (" PEAK=TABEL\n", "SYN005", "expected a number or TABLE (did you mean TABLE?)"),
+        (" MODEL=SLOPE\n", "SYN005", "expected PEAK or WALL"),
+        (" PEAK=TABLE\n 0, 0\n 1\n", "SYN014", "1 field, expected 2 (`offset, resistance`)"),
+        (" PEAK=TABLE\n 0, 0\n 1, x\n", "SYN002", "for resistance"),
+    ],
+)
+def test_a_trench_that_cannot_be_read(lines: str, code: str, message: str) -> None:
+    found = told(TRENCH + lines)
+    assert [one for one, _ in found] in ([code], ["SYN003"])
+    assert message in found[0][1]
+
+
+def test_rows_that_no_table_asks_for_in_a_document() -> None:
+    trench = {"set": "ALL", "geometry": {"depth": 1, "bottom_width": 2, "upper_width": 3}, "table": [[0, 1], [1, 2]]}
+    model = {"name": "MODEL", "blocks": [{"keyword": "SEABED TRENCH", "sets": [trench]}]}
+    with pytest.raises(DeckError, match="table: rows belong to PEAK=TABLE only"):
+        load_bytes(json.dumps({"format": FORMAT, "sections": [model]}).encode(), "deck.json")
+
+
+TRENCHES = """\
+*SEABED TRENCH
+ SET=ALL
+ GEOMETRY=1.0, 2.0, 3.0
+ MODEL=PEAK
+ PEAK=TABLE
+ 0.0, 0.0
+C a wall
+ 1.5, 800.0
+ CENTRELINE=LAID
+ SET=Left
+ GEOMETRY=1.0, 2.0, 3.0
+ MODEL=WALL
+ SET=Right
+ GEOMETRY=1.0, 2.0, 3.0
+ PEAK=4.0
+"""
+
+
+@pytest.mark.parametrize(
+    "block",
+    [
+        "*SEABED SUCTION\n SET=ALL\n COHESION=5000.0\n CYCLIC=0.9, 0.5\n SET=Left\n CYCLIC=0.8\n",
+        TRENCHES,
+    ],
+)
+def test_every_form_holds_cyclic_loading_and_trenches(block: str) -> None:
+    text = f"$MODEL\n{block}"
+    deck = load_bytes(text.encode(), "deck.keyxm")
+    assert dump(deck, "keyword") == text
+    for form in ("json", "yaml"):
+        again = load_bytes(dump(deck, form).encode(), f"deck.{form}")
+        assert again.sections == deck.sections
+        assert dump(again, "keyword") == text
+    Draft202012Validator(json_schema()).validate(json.loads(dump(deck, "json")))
+    assert load_bytes(formatted(text.encode(), "deck.keyxm"), "deck.keyxm").sections == deck.sections
 
 
 def test_direction_stands_on_the_line_of_interpolation_only() -> None:

@@ -158,8 +158,8 @@ def _unfit(placed: list[tuple[DocumentPath, ErrorDetails]], steps: dict[Document
     lacking: dict[DocumentPath, bool] = {}
     for loc, fault in placed:
         for step in steps[loc]:
-            below = len(loc) - step - 1
-            wrong = below == 0 or (below == 1 and fault["type"] == "missing")
+            below = [index for index in range(step + 1, len(loc)) if index not in steps[loc]]
+            wrong = not below or (len(below) == 1 and fault["type"] == "missing")
             lacking[loc[: step + 1]] = wrong or lacking.get(loc[: step + 1], False)
     choices = {inner[:-1] for inner, wrong in lacking.items() if not wrong}
     return {inner for inner, wrong in lacking.items() if wrong and inner[:-1] in choices}

@@ -164,7 +164,7 @@ class Builder:
     def _setting(self, built: Built, slot: Slot, group: Group, path: Path) -> None:
         self.places.spans[path] = group.span
         fields = group.fields
-        if slot.row and not (slot.choices and len(fields) == 1):
+        if slot.row and not _alone(slot, fields):
             self.lost += issubclass(slot.row, ListRow) and path[:-1] in self.places.damaged
             built.values[slot.json] = self._row_values(slot.row, fields, path)
             return
@@ -328,6 +328,13 @@ class Builder:
             self.places.spans[*path, len(values)] = given.span
             values.append(value)
         return values
+
+
+def _alone(slot: Slot, fields: list[Field]) -> bool:
+    """Whether a setting that may hold a row holds a word or a number instead."""
+    if not (slot.choices or slot.kind) or any(given.text for given in fields[1:]):
+        return False
+    return not blank_separated(fields[0].text)
 
 
 def construct(built: Built) -> Part:

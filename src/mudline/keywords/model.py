@@ -39,6 +39,7 @@ class About:
     default: str = ""
     at_least: float | None = None
     above: float | None = None
+    at_most: float | None = None
     inferred: str = ""
 
 

@@ -8,7 +8,8 @@ from typing import Any
 
 from mudline.codes import SBD010
 from mudline.diagnostics import Where
-from mudline.keywords.model import Block, ListRow, Part, Slot, layout
+from mudline.keywords.model import Block, ListRow, Part, Rows, Slot, layout
+from mudline.keywords.table import Table
 from mudline.scene.context import Context
 
 
@@ -30,7 +31,8 @@ def _checked_slots(part: type[Part]) -> tuple[Slot, ...]:
 
 
 def _ranged(slot: Slot) -> bool:
-    if slot.about.at_least is not None or slot.about.above is not None:
+    about = slot.about
+    if any(limit is not None for limit in (about.at_least, about.above, about.at_most)):
         return True
     parts = [slot.row, *slot.record.values()]
     return any(_checked_slots(part) for part in parts if part and not issubclass(part, ListRow))
@@ -45,19 +47,34 @@ def _faults(part: Part) -> Iterator[tuple[tuple[str | int, ...], str]]:
                 yield (slot.json,), fault
         elif isinstance(value, Part):
             yield from (((slot.json, *path), fault) for path, fault in _faults(value))
+        elif isinstance(value, Table):
+            yield from (((slot.json, *path), fault) for path, fault in _table_faults(value, slot))
         elif isinstance(value, list):
             for index, item in enumerate(value):
                 if isinstance(item, Part):
                     yield from (((slot.json, index, *path), fault) for path, fault in _faults(item))
 
 
+def _table_faults(table: Table, slot: Slot) -> Iterator[tuple[tuple[int, int], str]]:
+    """Row, column and message of each value of a table that is out of range."""
+    columns = layout(slot.row).columns if isinstance(slot.about, Rows) and slot.row else []
+    for index, column in enumerate(columns):
+        if not _ranged(column):
+            continue
+        for row, value in enumerate(table.column(index).tolist()):
+            if fault := _fault(value, column):
+                yield (row, index), fault
+
+
 def _fault(value: float, slot: Slot) -> str:
     """What is wrong with a number, or nothing; NaN stands for one that could not be read."""
-    low, above = slot.about.at_least, slot.about.above
+    low, above, most = slot.about.at_least, slot.about.above, slot.about.at_most
     if low is not None and value < low:
         return f"{_name(slot)} is {value!r}: it must not be less than {low:g}"
     if above is not None and value <= above:
         return f"{_name(slot)} is {value!r}: it must be greater than {above:g}"
+    if most is not None and value > most:
+        return f"{_name(slot)} is {value!r}: it must not be more than {most:g}"
     return ""
 
 

@@ -31,6 +31,18 @@ class CutOff(Row):
     second: Annotated[Real, about("begin of the fall", unit="-", default="0.8")]
 
 
+class CyclicLoading(Row):
+    """Values of CYCLIC= with a floor."""
+
+    factor: Annotated[Real, about("factor on the largest force for each completed uplift cycle", unit="-", at_least=0)]
+    floor: Annotated[
+        Real,
+        about(
+            "share of the first largest force below which the cycles do not lower it", unit="-", at_least=0, at_most=1
+        ),
+    ]
+
+
 class SuctionSet(Record):
     """What one SET= gets, taken whole."""
 
@@ -49,8 +61,15 @@ class SuctionSet(Record):
     depth: Annotated[SuctionDepth | None, setting("DEPTH", "law of the uplift at breakout")] = None
     cutoff: Annotated[CutOff | None, setting("CUTOFF", "corners of the trapezoid", default="0.2, 0.8")] = None
     cyclic: Annotated[
-        Real | None,
-        setting("CYCLIC", "factor on the largest force for cyclic loading", unit="-", default="1", at_least=0),
+        CyclicLoading | Real | None,
+        setting(
+            "CYCLIC",
+            "factor on the largest force for cyclic loading: alone it holds from the start, with a floor it is applied "
+            "once for each completed uplift cycle",
+            unit="-",
+            default="1",
+            at_least=0,
+        ),
     ] = None
     regularisation: Annotated[
         Real | None,

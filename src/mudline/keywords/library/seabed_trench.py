@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Literal
 
-from pydantic import Field
+from pydantic import Field, ValidationInfo, field_validator
 
-from mudline.keywords.model import Block, Record, Row, about, setting
+from mudline.keywords.model import Block, Record, Row, about, rows, setting
+from mudline.keywords.table import Table
 from mudline.keywords.values import Name, Real
 
 
@@ -16,6 +17,13 @@ class TrenchGeometry(Row):
     depth: Annotated[Real, about("depth of the trench", unit="L", above=0)]
     bottom_width: Annotated[Real, about("width at the bottom", unit="L", above=0)]
     upper_width: Annotated[Real, about("width at the top", unit="L", above=0)]
+
+
+class ResistancePoint(Row):
+    """A row below PEAK=TABLE."""
+
+    offset: Annotated[Real, about("distance from the centreline; not negative, larger in each row", unit="L")]
+    resistance: Annotated[Real, about("lateral resistance per unit length there", unit="F/L", at_least=0)]
 
 
 class Centreline(Row):
@@ -33,9 +41,31 @@ class TrenchSet(Record):
     rule: ClassVar[str] = "trench_set"
     set_name: Annotated[Name, setting("SET", "element set")] = Field(alias="set")
     geometry: Annotated[TrenchGeometry, setting("GEOMETRY", "depth and widths of the trench")]
+    model: Annotated[
+        Literal["PEAK", "WALL"] | None,
+        setting(
+            "MODEL",
+            "PEAK: the resistance that PEAK= gives, which is then mandatory; WALL: that of sloped walls, by GEOMETRY= "
+            "and friction",
+            default="PEAK",
+        ),
+    ] = None
     peak: Annotated[
-        Real, setting("PEAK", "peak lateral resistance of the walls per unit length", unit="F/L", at_least=0)
-    ]
+        Real | Literal["TABLE"] | None,
+        setting(
+            "PEAK",
+            "peak lateral resistance of the walls per unit length; TABLE: by the distance from the centreline, in the "
+            "rows below",
+            unit="F/L",
+            at_least=0,
+        ),
+    ] = None
+    table: Annotated[
+        Table | None,
+        rows(
+            ResistancePoint, "rows of PEAK=TABLE, at least two; linear between them, the first holds inside, 0 outside"
+        ),
+    ] = None
     centreline: Annotated[
         Literal["LAID"] | Centreline | None,
         setting(
@@ -45,13 +75,22 @@ class TrenchSet(Record):
         ),
     ] = None
 
+    @field_validator("table")
+    @classmethod
+    def _of_table(cls, table: Table | None, info: ValidationInfo) -> Table | None:
+        """Rows stand below PEAK=TABLE only."""
+        if table is not None and "peak" in info.data and info.data["peak"] != "TABLE":
+            raise ValueError("rows belong to PEAK=TABLE only: write that, or remove them")
+        return table
+
 
 class SeabedTrench(Block):
     """Trenches by set."""
 
     rule: ClassVar[str] = "seabed_trench"
     names: ClassVar[tuple[str, ...]] = ("SEABED TRENCH",)
-    summary: ClassVar[str] = "Peak lateral resistance of the walls of a trench, by element set (extension)."
+    tabular: ClassVar[bool] = True
+    summary: ClassVar[str] = "Lateral resistance of the walls of a trench, by element set (extension)."
     example: ClassVar[str] = "*SEABED TRENCH\n SET=ALL\n GEOMETRY=0.5, 1.0, 3.0\n PEAK=2000.0\n CENTRELINE=LAID\n"
 
     keyword: Literal["SEABED TRENCH"] = "SEABED TRENCH"

@@ -9,6 +9,7 @@ import numpy as np
 from mudline.contact.input import LawAssignment, LawKind
 from mudline.scene.contact_parts.refused import RefusedError
 from mudline.scene.floor import FloorKind
+from mudline.scene.numbering import Indices
 
 if TYPE_CHECKING:
     from mudline.contact.seabed.base import Seabed
@@ -88,22 +89,33 @@ def _suction(scene: Scene, *, keep: bool) -> list[LawAssignment]:
 def _sideways(scene: Scene) -> list[LawAssignment]:
     """Lateral springs, friction, trenches."""
     laws = []
-    lateral = np.zeros(0, dtype=np.intp)
     if given(scene, "lateral"):
-        stiffness = scene.bed.column("lateral")
-        lateral = np.flatnonzero((stiffness > 0.0) & (scene.law != LawKind.RIGID))
-        laws.append(LawAssignment("lateral", lateral, {"stiffness": stiffness[lateral]}))
-    friction = None
-    if "SEABED FRICTION" in scene.extensions or given(scene, "friction"):
-        from mudline.scene.contact_parts.friction import node_friction  # noqa: PLC0415 - only now is it needed
-
-        friction = node_friction(scene, lateral)
+        lateral = _lateral(scene)
+        laws.append(LawAssignment("lateral", lateral, {"stiffness": scene.bed.column("lateral")[lateral]}))
+    friction = friction_of(scene)
+    if friction is not None:
         laws.append(friction)
     if "SEABED TRENCH" in scene.extensions:
         from mudline.scene.contact_parts.trench import trenches  # noqa: PLC0415 - only now is it needed
 
         laws += trenches(scene, friction)
     return laws
+
+
+def friction_of(scene: Scene) -> LawAssignment | None:
+    """The friction of the nodes; None where nothing gives any."""
+    if "SEABED FRICTION" not in scene.extensions and not given(scene, "friction"):
+        return None
+    from mudline.scene.contact_parts.friction import node_friction  # noqa: PLC0415 - only now is it needed
+
+    return node_friction(scene, _lateral(scene))
+
+
+def _lateral(scene: Scene) -> Indices:
+    """Elements with a lateral spring."""
+    if not given(scene, "lateral"):
+        return np.zeros(0, dtype=np.intp)
+    return np.flatnonzero((scene.bed.column("lateral") > 0.0) & (scene.law != LawKind.RIGID))
 
 
 def given(scene: Scene, name: str) -> bool:

@@ -47,15 +47,16 @@ def touched(elements: Mask, element_nodes: Indices, nodes: int) -> Mask:
     return found
 
 
-def refuse(extension: Extension, elements: Mask, ids: Ids, what: str) -> None:
-    """Refuse the block that the first of the marked elements follows, if there is one."""
+def refuse(extension: Extension, elements: Mask, ids: Ids, what: str, *key: str) -> None:
+    """Refuse the block that the first of the marked elements follows, or its value `key`, if there is one."""
     at = np.flatnonzero(elements)
     if at.size:
         message = f"{what}: {_named(ids[at])}; this cannot be evaluated"
-        raise RefusedError(message, extension.places[int(extension.of_element[at[0]])])
+        where = extension.places[int(extension.of_element[at[0]])]
+        raise RefusedError(message, where._replace(path=(*where.path, *key)))
 
 
-def refuse_entry(where: Where, key: str, what: str) -> None:
+def refuse_entry(where: Where, key: str | int, what: str) -> None:
     """Refuse a value of a block."""
     raise RefusedError(f"{what}; this cannot be evaluated", where._replace(path=(*where.path, key)))
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from mudline.scene.given import number
 from mudline.scene.numbering import Floats, Indices, Mask
 
 if TYPE_CHECKING:
+    from mudline.keywords.library.seabed_suction import SuctionSet
     from mudline.scene.extensions import Extension
     from mudline.scene.model import Scene
 
@@ -72,8 +73,8 @@ def suction_law(scene: Scene, extension: Extension, elements: Indices) -> Suctio
 
 def _cyclic(entry: object) -> tuple[float, float]:
     """Factor and floor of CYCLIC=; the floor is NaN where there is none."""
-    both = getattr(entry, "cyclic", None)
-    return number(both, "factor", number(entry, "cyclic", 1.0)), number(both, "floor")
+    given = cast("SuctionSet", entry).cyclic
+    return number(given, "factor", number(entry, "cyclic", 1.0)), number(given, "floor")
 
 
 def _check_alone(scene: Scene, extension: Extension, held: Mask, *, keep: bool) -> None:
