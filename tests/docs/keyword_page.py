@@ -54,8 +54,8 @@ _CERTAIN = """## Certain and inferred
 """
 
 _COMPUTED = {
-    "SEABED PROFILE": "floors",
-    "SEABED PLANES": "floors",
+    "SEABED PROFILE": "shapes-of-the-seabed",
+    "SEABED PLANES": "shapes-of-the-seabed",
     "SEABED STIFFNESS": "normal-laws",
     "EMBEDMENT": "normal-laws",
     "SEABED PROPERTIES": "normal-laws",

@@ -267,6 +267,8 @@ def deck_lines(draw: st.DrawFn) -> Lines:
 def deck_texts(draw: st.DrawFn) -> str:
     """A whole deck without a fault, with line ends of any kind."""
     lines = draw(deck_lines())
+    if lines and lines[-1] == "*":  # a file that was cut off
+        lines.append(" x")
     ends = draw(st.sampled_from([["\n"], ["\r\n"], ["\r"], ["\n", "\r\n", "\r"]]))
     text = "".join(line + (ends[index % len(ends)]) for index, line in enumerate(lines))
     return text if draw(st.booleans()) else text.removesuffix("\n").removesuffix("\r")

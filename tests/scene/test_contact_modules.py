@@ -24,8 +24,6 @@ scene.contact().evaluate()
 print(*(name for name in sys.modules if name.startswith(("mudline.", "scipy"))))
 """
 
-PARTS = ("planes", "profile", "scattered", "sloping")
-
 
 def imported(seabed: str) -> set[str]:
     run = [sys.executable, "-W", "error", "-c", PROGRAM, deck(METRIC, seabed)]
@@ -35,18 +33,23 @@ def imported(seabed: str) -> set[str]:
 def test_a_deck_of_curves_on_a_flat_bed_imports_no_other_feature() -> None:
     found = imported(CURVE)
     assert "mudline.curves" in found
-    assert not found & {f"mudline.contact.seabed.{part}" for part in PARTS}
-    assert not found & {"scipy", "mudline.contact.unloading", "mudline.contact.nodal", "mudline.contact.uplift"}
-    assert not [name for name in found if name.startswith(("mudline.contact.suction", "mudline.contact.friction"))]
+    assert "scipy" not in found
+    assert {name for name in found if name.startswith("mudline.contact.seabed.")} == {"mudline.contact.seabed.base"}
+    laws = {name.rpartition(".")[2] for name in found if name.startswith("mudline.contact.laws.")}
+    assert laws == {"base", "curve"}
     parts = {name.rpartition(".")[2] for name in found if name.startswith("mudline.scene.contact_parts.")}
-    assert parts == {"build", "refused"}
+    assert parts == {"build", "refused", "units", "picking"}
 
 
 @pytest.mark.parametrize(
     ("seabed", "needed", "idle"),
     [
-        (LINEAR + " FRICTION=0.3, 0.4\n", "mudline.contact.friction.law", "mudline.contact.suction"),
-        (LINEAR + "*SEABED SUCTION\n SET=ALL\n COHESION=5000\n", "mudline.contact.suction", "mudline.contact.friction"),
+        (LINEAR + " FRICTION=0.3, 0.4\n", "mudline.contact.laws.friction", "mudline.contact.laws.suction"),
+        (
+            LINEAR + "*SEABED SUCTION\n SET=ALL\n COHESION=5000\n",
+            "mudline.contact.laws.suction",
+            "mudline.contact.laws.friction",
+        ),
         (
             LINEAR + "*SEABED PLANES\n PLANE=a\n POINT=0,0,0\n SLOPE=1\n",
             "mudline.contact.seabed.base",

@@ -45,49 +45,37 @@ def test_every_feature_is_the_same_in_feet_and_pounds(moves: list[tuple[float, f
 
 def test_the_laws_themselves_are_the_same_to_rounding() -> None:
     ours, theirs = METRES.input, FEET.input
+    one, other = ours.assigned, theirs.assigned
+    factors = {
+        "nodal": {"stiffness": POUND / FOOT, "half_width": FOOT},
+        "suction": {"regularisation": FOOT},
+        "unloading": {"stiffness": POUND / FOOT**2},
+        "lateral": {"stiffness": POUND / FOOT**2},
+        "friction": {
+            "axial_coefficient": 1.0,
+            "lateral_coefficient": 1.0,
+            "axial_stiffness": POUND / FOOT,
+            "lateral_stiffness": POUND / FOOT,
+            "axial_mobilisation": FOOT,
+            "lateral_mobilisation": FOOT,
+        },
+        "trench peak": {"peak": POUND / FOOT, "upper": FOOT},
+    }
+    assert set(factors) <= set(one) == set(other)
     pairs: list[tuple[NDArray[np.float64], NDArray[np.float64], float]] = [
         (ours.length, theirs.length, FOOT),
         (ours.diameter, theirs.diameter, FOOT),
-        (ours.linear_stiffness, theirs.linear_stiffness, POUND / FOOT**2),
+        (ours.curves[0].forces, theirs.curves[0].forces, POUND / FOOT),
+        *(
+            (one[law][name], other[law][name], factor)
+            for law, names in factors.items()
+            for name, factor in names.items()
+        ),
     ]
-    one, other = ours.extras, theirs.extras
-    assert one.nodal is not None
-    assert other.nodal is not None
-    pairs.append((one.nodal.stiffness, other.nodal.stiffness, POUND / FOOT))
-    pairs.append((one.nodal.half_width, other.nodal.half_width, FOOT))
-    assert one.suction is not None
-    assert other.suction is not None
-    law, foreign = one.suction.law, other.suction.law
-    pairs.append((law.regularisation, foreign.regularisation, FOOT))
-    speeds = np.full(law.cyclic.shape, 0.1)
-    pairs.append(
-        (
-            law.force_factor * speeds**law.force_exponent,
-            foreign.force_factor * (speeds / FOOT) ** foreign.force_exponent,
-            POUND / FOOT,
-        )
-    )
-    pairs.append(
-        (
-            law.depth_factor * speeds**law.depth_exponent,
-            foreign.depth_factor * (speeds / FOOT) ** foreign.depth_exponent,
-            FOOT,
-        )
-    )
-    assert one.unloading is not None
-    assert other.unloading is not None
-    pairs.append((one.unloading, other.unloading, POUND / FOOT**2))
-    assert one.lateral is not None
-    assert other.lateral is not None
-    pairs.append((one.lateral, other.lateral, POUND / FOOT**2))
-    assert one.friction is not None
-    assert other.friction is not None
-    pairs.append((one.friction.law.coefficients, other.friction.law.coefficients, 1.0))
-    pairs.append((one.friction.law.stiffness, other.friction.law.stiffness, POUND / FOOT))
-    pairs.append((one.friction.law.mobilisation, other.friction.law.mobilisation, FOOT))
-    assert one.trench is not None
-    assert other.trench is not None
-    pairs.append((one.trench.law.peak, other.trench.law.peak, POUND))
-    pairs.append((one.trench.law.upper, other.trench.law.upper, FOOT))
+    law, foreign = one["suction"], other["suction"]
+    for name, factor in (("force", POUND / FOOT), ("depth", FOOT)):
+        mine = law[f"{name}_factor"] * 0.1 ** law[f"{name}_exponent"]
+        yours = foreign[f"{name}_factor"] * (0.1 / FOOT) ** foreign[f"{name}_exponent"]
+        pairs.append((mine, yours, factor))
     for mine, yours, factor in pairs:
         np.testing.assert_allclose(yours * factor, mine, rtol=1e-12)

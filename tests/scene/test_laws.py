@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 import pytest
-from mudline.contact.inputs import LawKind
 
+from mudline.contact.input import LawKind
 from mudline.scene.model import Scene
 from tests.scene.decks import CLAY, PIPE, STEEL, messages, scene_of, told
 

@@ -109,7 +109,7 @@ def test_each_deck_has_its_own_parameters(folder: Path) -> None:
     (folder / "static.keyxm").write_text(head.format(500.0) + model)
     own = "$MODEL\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=A\n STIFFNESS==[k]\n"
     found = scene(folder, head.format(900.0) + DYNAMIC + own)
-    assert found.contact_input().linear_stiffness.tolist() == [900.0] * 2 + [500.0] * 8
+    assert found.contact_input().assigned["linear"]["stiffness"].tolist() == [900.0] * 2 + [500.0] * 8
     assert any("parameter k is not defined" in line for line in lint(folder, DYNAMIC + own))
 
 

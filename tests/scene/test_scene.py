@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from mudline.contact.inputs import LawKind
 
 from mudline.codes import RUN001
+from mudline.contact.input import LawKind
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError
 from mudline.scene.build import resolve
@@ -69,7 +69,7 @@ def test_elements_without_a_law_have_no_curve_and_no_stiffness() -> None:
     given = scene_of(deck).contact_input("cut")
     assert given.law.tolist() == [LawKind.CURVE] * 2 + [LawKind.NONE] * 8
     assert given.curve_index.tolist() == [0] * 2 + [-1] * 8
-    assert np.isnan(given.linear_stiffness).all()
+    assert set(given.assigned) == {"curve"}
     assert given.tension == "cut"
 
 
@@ -137,12 +137,14 @@ def test_what_an_unknown_function_leaves_unknown_is_refused_where_it_is_needed(
 
 
 def test_a_length_that_overflows_is_refused_unless_nothing_needs_it() -> None:
-    far = "$MODEL\n*NODE\n 1, -1, 0\n 2, -1, 1.0E300\n*ELEMENT\n 1, 1, 2\n"
+    far = "$MODEL\n*NODE\n 1, -1, -1.0E308\n 2, -1, 1.0E308\n*ELEMENT\n 1, 1, 2\n"
     spring = "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=1\n"
     assert refusal(far + spring) == [
         (RUN001.code, 6, "element 1 has no known finite length; this cannot be evaluated"),
     ]
     assert scene_of(far).contact().evaluate().force.tolist() == [0.0]
+    near = far.replace("-1.0E308", "0").replace("1.0E308", "1.0E300")
+    assert scene_of(near + spring).contact().evaluate().reaction[:, 0].tolist() == [5e299, 5e299]
 
 
 def test_one_element_without_a_law_is_named() -> None:

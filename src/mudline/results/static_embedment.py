@@ -34,9 +34,8 @@ def static_embedment(scene: Scene) -> list[dict[str, Any]]:
     """A row for each set, law, weight per length and diameter of elements whose weight is known, up to 100 rows.
 
     `penetration` is where the law, smoothed as it is evaluated, carries the weight, `stiffness` that of the law there.
-    Of a curve that does so at
-    several ratios it is the smallest that is not negative. For nodal laws there is a row for the node that carries
-    least and one for the node that carries most; `stiffness` is then Kn, force per length.
+    Of a curve that does so at several ratios it is the smallest that is not negative. For nodal laws there is a row for
+    the node that carries least and one for the node that carries most; `stiffness` is then Kn, force per length.
     """
     weight = submerged_weight(scene)
     known = np.flatnonzero((weight > 0.0) & np.isin(scene.law, (LawKind.CURVE, LawKind.LINEAR)))
@@ -84,7 +83,7 @@ def _of_element(scene: Scene, arrays: LawArrays, zones: _Zones, case: _Case) -> 
         if scene.law[case.element] == LawKind.LINEAR:
             stiffness = float(arrays.linear_stiffness[case.element])
             law = stiffness, zones.half_width[case.element], zones.one_sided[case.element]
-            depth = float(penetration_under(case.weight, *law))
+            depth = float(penetration_under(np.float64(case.weight), *law))
             slope = float(smoothed_reaction(depth, diameter, *law)[1])
             return _row(case, float(np.divide(depth, diameter)), depth, slope, None)
         curve_index = int(arrays.curve_index[case.element])

@@ -46,7 +46,7 @@ def summarise(scene: Scene) -> dict[str, Any]:
 
 
 def _total_length(scene: Scene) -> float | None:
-    known = scene.length[np.isfinite(scene.length)]
+    known = scene.length[~np.isnan(scene.length)]
     return _sum(known) if known.size else None
 
 
