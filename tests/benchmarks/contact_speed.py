@@ -1,71 +1,147 @@
 """Nanoseconds a node and step of the contact evaluator: python tests/benchmarks/contact_speed.py
 
-Each round times every scene and every peer once, so that a busy machine slows all of them alike. Printed are, of the
-times of the rounds, the medians, how many times the time of np.searchsorted (over the four points of a curve) and of a
-copy of the positions each scene takes, medians of the ratios within a round, and the least times: what the machine does
-when it is left alone.
+Every scene and peer is run several times; printed is the least processor time of a run, which the rest of the machine
+disturbs least. Runs on two threads count their wall time.
 
-The scenes: "curves" has neither history nor anything at nodes and takes steps together, "all" has every stage on
-(smoothing, nodal springs, unloading, both suctions, friction, lateral springs, trenches, curves) over a flat bed,
-"sloping" and "planes" are the same over those beds. Which node has which law is drawn at random, so compiled loops
-guess many branches wrong; in a deck they come in long stretches. "fast" behind a name: with compiled loops.
+The scenes: "all" has every law on (curves, linear and smoothed laws, nodal springs, unloading, both suctions, friction,
+lateral springs, trenches) over a flat seabed; "sloping" and "planes" are the same over those seabeds, "stretches" has
+its laws in stretches as decks have them: elsewhere they are drawn at random for each element. "curves" has one curve on
+all elements and is streamed, "evaluate" is the same in one result, and "GEN=" the same with its two end nodes first, as
+a deck lists the nodes between which GEN= makes others.
+
+The peers: a function written by hand for one curve ("by hand"), a copy of the positions, and np.searchsorted over the
+points of the curve.
 """
 
 from __future__ import annotations
 
 import argparse
-import statistics
+import os
+import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
 
-from mudline.contact.compiled.choice import Backend
-from mudline.contact.extras import Extras
-from tests.contact.scenes import CLAY, everything
+from mudline.contact import ContactInput, ContactModel, LawAssignment
+from mudline.contact.arrays import FloatArray, IndexArray
+from mudline.contact.plan import Backend
+from mudline.contact.seabed import PlanesSeabed, SlopingSeabed
+from tests.contact.builders import ALONG_Y, CLAY, FRICTION, bridge_law, line, on, renumbered, suction
 
-from mudline.contact import ContactInput, ContactModel
-from mudline.contact.arrays import FloatArray
-from mudline.contact.seabed import PlanesSeabed, Seabed, SlopingSeabed
+Work = Callable[[], object]
+Clock = Callable[[], float]
 
-Timed = Callable[[], object]
-
-_PEERS = ("searchsorted", "copy")
-_ROUND = 200_000
-"""Node-steps a round and method, at least."""
-
-
-def beds(elements: int) -> dict[str, Seabed | None]:
-    """The beds of the scenes with everything on."""
-    middle = [0.0, 2.0 * elements, 0.0]
-    return {
-        "all": None,
-        "sloping": SlopingSeabed(0.001, 30.0),
-        "planes": PlanesSeabed([[0.0, 0.0, 0.0], middle], [0.0, 0.5]),
-    }
-
-
-def scenes(nodes: int) -> dict[str, ContactInput]:
-    """The scenes by name."""
-    found = {name: everything(nodes - 1, 1, floor) for name, floor in beds(nodes - 1).items()}
-    return {"curves": replace(found["all"], extras=Extras()), **found}
+_NODE_STEPS = 400_000
+"""Of a run, about."""
+_FIRST = """
+import time
+from tests.benchmarks.contact_speed import all_laws, series
+from mudline.contact import ContactModel
+import numba
+inputs = all_laws(1000)
+positions, times = series(inputs, 4), [0.0, 0.1, 0.2, 0.3]
+start = time.process_time()
+ContactModel(inputs, backend="fast", threads=1).evaluate(positions, times=times)
+print(time.process_time() - start)
+"""
 
 
-def series(points: FloatArray, steps: int) -> FloatArray:
+def all_laws(nodes: int, *, stretches: bool = False) -> ContactInput:
+    """A line with every law on some of its elements or nodes."""
+    rng, count = np.random.default_rng(1), nodes - 1
+    points = line(count, 1)
+
+    def some(share: float, of: int = count) -> IndexArray:
+        if stretches:
+            start = int(rng.integers(0, max(1, int(of * (1.0 - share)))))
+            return np.arange(start, start + int(of * share))
+        return np.flatnonzero(rng.random(of) < share)
+
+    curves, unloads, spread, slides = some(0.5), some(0.4), some(0.7), some(0.9, nodes)
+    linear = np.setdiff1d(np.arange(count), curves)
+    plain, smoothed = np.intersect1d(linear, unloads), np.setdiff1d(linear, unloads)
+    diameter = rng.choice([0.3, 0.5], count)
+    nodal, trench, k = some(0.3, nodes), some(0.7), len(slides)
+    constant = np.where(rng.random((k, 1)) < 0.5, rng.uniform(2e4, 1e5, (k, 2)), np.nan)
+    turned = np.where(rng.random(k) < 0.3, rng.uniform(-180.0, 180.0, k), np.nan)
+    sliding = np.column_stack(
+        [rng.uniform(0.2, 0.9, (k, 2)), constant, rng.uniform(0.005, 0.05, (k, 2)), rng.random(k) < 0.4, turned]
+    )
+    straight = np.where(rng.random((len(trench), 1)) < 0.3, np.array([[0.0, 0.1, 50.0, 0.3]]), np.nan)
+    walls = dict(zip(ALONG_Y, straight.T, strict=True))
+    zone, nodal_zone = rng.uniform(0.0, 0.02, len(smoothed)), rng.uniform(0.0, 0.01, len(nodal))
+    return of_line(
+        points,
+        diameter,
+        on("curve", curves, curve=0),
+        on("linear", plain, stiffness=2.0e4),
+        on("smoothed", smoothed, stiffness=2.0e4, half_width=zone, one_sided=rng.random(len(smoothed)) < 0.5),
+        on("nodal", nodal, stiffness=3.0e4, half_width=nodal_zone, one_sided=rng.random(len(nodal)) < 0.5),
+        on("unloading", unloads, stiffness=4.0e5),
+        on("suction spring", np.setdiff1d(np.arange(count), spread), stiffness=800.0, extent=0.2),
+        suction(bridge_law(len(spread), 4000.0, diameter[spread]), spread.tolist()),
+        on("friction", slides, **dict(zip(FRICTION, sliding.T, strict=True))),
+        on("lateral", some(0.3), stiffness=900.0),
+        on("trench peak", trench, peak=350.0, bottom=0.02, upper=0.4, **walls),
+    )
+
+
+def of_line(points: FloatArray, diameter: FloatArray, *laws: LawAssignment) -> ContactInput:
+    """A line through points with laws and one curve."""
+    count = len(diameter)
+    return ContactInput(
+        node_ids=np.arange(1, count + 2),
+        coordinates=points,
+        element_ids=np.arange(1, count + 1),
+        element_nodes=np.column_stack([np.arange(count), np.arange(1, count + 1)]),
+        length=np.sqrt((np.diff(points, axis=0) ** 2).sum(axis=1)),
+        diameter=diameter,
+        laws=laws,
+        curves=(CLAY,),
+    )
+
+
+def one_curve(nodes: int) -> ContactInput:
+    """A line with one curve on all elements."""
+    diameter = np.random.default_rng(1).choice([0.3, 0.5], nodes - 1)
+    return of_line(line(nodes - 1, 1), diameter, on("curve", np.arange(nodes - 1), curve=0))
+
+
+def series(inputs: ContactInput, steps: int) -> FloatArray:
     """Positions (steps, n, 3) of nodes that move a little about where they lie."""
-    rng = np.random.default_rng(2)
-    moves = rng.normal(0.0, 0.01, (4, *points.shape))
-    return np.stack([points + moves[step % 4] for step in range(steps)])
+    moves = np.random.default_rng(2).normal(0.0, 0.01, (4, *inputs.coordinates.shape))
+    return np.stack([inputs.coordinates + moves[step % 4] for step in range(steps)])
 
 
-def streaming(inputs: ContactInput, positions: FloatArray, backend: Backend) -> Timed:
-    """A run through the whole series."""
-    model, times = ContactModel(inputs, backend=backend), 0.1 * np.arange(float(len(positions)))
+def by_hand(positions: FloatArray, diameter: FloatArray, half: FloatArray) -> None:
+    """The results of one curve on all elements of a line, as one writes them for one purpose."""
+    slopes, rows = np.append(CLAY.slopes, CLAY.slopes[-1]), max(1, 8192 // positions.shape[1])
+    for start in range(0, len(positions), rows):
+        gap = positions[start : start + rows, :, 0] + 0.0
+        depth = 0.0 - (0.5 * gap[:, :-1] + 0.5 * gap[:, 1:])
+        ratio, contact = depth / diameter, depth > 0.0
+        at = np.searchsorted(CLAY.ratios[1:], ratio, side="right")
+        slope = slopes[at]
+        force = np.where(contact, CLAY.forces[at] + slope * (ratio - CLAY.ratios[at]), 0.0)
+        slope = np.where(contact, slope, 0.0)
+        _stiffness, _cut, load = slope / diameter, np.zeros(depth.shape, np.bool_), force * half
+        normal, reaction = np.zeros(gap.shape), np.zeros((*gap.shape, 3))
+        normal[:, :-1] += load
+        normal[:, 1:] += load
+        reaction[..., 0] = normal
+
+
+def streaming(inputs: ContactInput, positions: FloatArray, backend: Backend, threads: int = 1) -> Work:
+    """A run through a whole series, a few steps at a time."""
+    model, times = ContactModel(inputs, backend=backend, threads=threads), 0.1 * np.arange(float(len(positions)))
 
     def run() -> None:
         for _ in model.stream(positions, times=times):
@@ -74,50 +150,98 @@ def streaming(inputs: ContactInput, positions: FloatArray, backend: Backend) -> 
     return run
 
 
-def methods(nodes: int, steps: int) -> dict[str, Timed]:
-    """Scenes and peers by name."""
-    inputs = scenes(nodes)
-    positions = series(inputs["all"].coordinates, steps)
-    ratios = positions[..., 0].copy()
-    target = np.zeros_like(positions)
-    return {
-        **{name: streaming(scene, positions, "numpy") for name, scene in inputs.items()},
-        **{f"{name} fast": streaming(inputs[name], positions, "fast") for name in beds(nodes - 1)},
-        "searchsorted": lambda: np.searchsorted(CLAY.ratios, ratios),
-        "copy": lambda: np.copyto(target, positions),
+def evaluating(inputs: ContactInput, positions: FloatArray, backend: Backend) -> Work:
+    """The whole series in one result."""
+    model = ContactModel(inputs, backend=backend, threads=1)
+    return lambda: model.evaluate(positions)
+
+
+def stepping(inputs: ContactInput, positions: FloatArray, backend: Backend) -> Work:
+    """One step behind another."""
+    model = ContactModel(inputs, backend=backend, threads=1)
+    _, state = model.step(positions[0], None, model.initial_state())
+    return lambda: model.step(positions[1], None, state, 0.1)
+
+
+def generated(inputs: ContactInput) -> ContactInput:
+    """The same line with its end nodes first."""
+    count = len(inputs.node_ids)
+    return renumbered(inputs, np.array([0, count - 1, *range(1, count - 1)]))
+
+
+def least(work: Work, rounds: int, clock: Clock = time.thread_time) -> float:
+    """Least time of several runs, after one to warm up."""
+    work()
+    taken = []
+    for _ in range(rounds):
+        start = clock()
+        work()
+        taken.append(clock() - start)
+    return min(taken)
+
+
+def table(nodes: int, rounds: int) -> None:
+    """Print all scenes and peers of one size."""
+    steps = max(8, _NODE_STEPS // nodes)
+    scale = 1e9 / (nodes * steps)
+    every, curves = all_laws(nodes), one_curve(nodes)
+    middle = [0.0, 2.0 * nodes, 0.0]
+    scenes = {
+        "all": every,
+        "stretches": all_laws(nodes, stretches=True),
+        "sloping": replace(every, seabed=SlopingSeabed(0.001, 30.0)),
+        "planes": replace(every, seabed=PlanesSeabed([[0.0, 0.0, 0.0], middle], [0.0, 0.5])),
+        "curves": curves,
+        "GEN=": generated(curves),
     }
+    works: dict[str, dict[str, Work]] = {}
+    backends: tuple[Backend, ...] = ("numpy", "fast")
+    for name, inputs in scenes.items():
+        positions = series(inputs, steps)
+        works[name] = {backend: streaming(inputs, positions, backend) for backend in backends}
+        works[name]["2 threads"] = streaming(inputs, positions, "fast", 2)
+    places = series(curves, steps)
+    works["evaluate"] = {backend: evaluating(curves, places, backend) for backend in backends}
+    ratios, target = places[..., 0].copy(), np.empty_like(places)
+    works["by hand"] = {"numpy": partial(by_hand, places, curves.diameter, 0.5 * curves.length)}
+    works["copy"] = {"numpy": partial(np.copyto, target, places)}
+    works["searchsorted"] = {"numpy": partial(np.searchsorted, CLAY.ratios, ratios)}
+    for name, found in works.items():
+        cells = [
+            least(work, rounds, time.perf_counter if kind == "2 threads" else time.thread_time) * scale
+            for kind, work in found.items()
+        ]
+        print(f"{nodes:>8}{name:>14}" + "".join(f"{cell:>12.1f}" for cell in cells), flush=True)
 
 
-def timed(found: dict[str, Timed], rounds: int, node_steps: int) -> dict[str, list[float]]:
-    """Nanoseconds a node and step in each round, after one to warm up."""
-    taken: dict[str, list[float]] = {name: [] for name in found}
-    for _ in range(rounds + 1):
-        for name, method in found.items():
-            start = time.perf_counter()
-            method()
-            taken[name].append((time.perf_counter() - start) / node_steps * 1e9)
-    return {name: times[1:] for name, times in taken.items()}
-
-
-def quotient(taken: dict[str, list[float]], method: str, peer: str) -> float:
-    """Median over the rounds of how many times the time of `peer` the method takes."""
-    return statistics.median(mine / other for mine, other in zip(taken[method], taken[peer], strict=True))
+def first_evaluation(cache: str) -> float:
+    """Processor seconds of the first compiled evaluation of a process, numba imported."""
+    environment = {**os.environ, "NUMBA_CACHE_DIR": cache, "MUDLINE_CACHE_DIR": cache}
+    words = [sys.executable, "-c", _FIRST]
+    run = subprocess.run(
+        words, env=environment, capture_output=True, text=True, check=True, cwd=Path(__file__).parents[2]
+    )
+    return float(run.stdout)
 
 
 def main() -> None:
-    """Time lines of growing numbers of nodes."""
+    """Time lines of growing numbers of nodes, one step, and compilation."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--nodes", type=int, nargs="+", default=[1000, 10_000, 100_000, 1_000_000])
-    parser.add_argument("--rounds", type=int, default=3, help="rounds to take the median of (default 3)")
+    parser.add_argument("--rounds", type=int, default=7, help="runs to take the least time of (default 7)")
     arguments = parser.parse_args()
-    heads = ["median [ns]", *(f"/{peer}" for peer in _PEERS), "least [ns]"]
-    print(f"{'nodes':>8}{'scene':>14}" + "".join(f"{head:>15}" for head in heads))
+    print(f"{'nodes':>8}{'ns/node/step':>14}{'numpy':>12}{'compiled':>12}{'2 threads':>12}")
     for nodes in arguments.nodes:
-        steps = max(2, _ROUND // nodes)
-        taken = timed(methods(nodes, steps), arguments.rounds, nodes * steps)
-        for name, times in taken.items():
-            cells = [statistics.median(times), *(quotient(taken, name, peer) for peer in _PEERS), min(times)]
-            print(f"{nodes:>8}{name:>14}" + "".join(f"{cell:>15.2f}" for cell in cells), flush=True)
+        table(nodes, arguments.rounds)
+    inputs = all_laws(1000)
+    positions = series(inputs, 2)
+    backends: tuple[Backend, ...] = ("numpy", "fast")
+    for backend in backends:
+        taken = least(stepping(inputs, positions, backend), 20 * arguments.rounds)
+        print(f"step(), 1000 nodes, all laws, {backend}: {taken * 1e6:.0f} us")
+    with tempfile.TemporaryDirectory() as cache:
+        cold, cached = first_evaluation(cache), min(first_evaluation(cache) for _ in range(3))
+    print(f"first compiled evaluation: {cold:.2f} s, with cached loops {cached:.2f} s")
 
 
 if __name__ == "__main__":

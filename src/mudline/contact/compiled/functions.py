@@ -49,7 +49,7 @@ def edition(laws: tuple[NormalLaw, ...]) -> int:
     return int.from_bytes(hashlib.sha256("".join(texts).encode()).digest()[:4], "big")
 
 
-_LAW_MODULES = ("base", "curve", "friction", "lateral", "suction", "trench", "unloading")
+_LAW_MODULES = ("base", "curve", "friction", "linear", "suction", "trench", "unloading")
 _CONTACT = Path(__file__).parents[1]
 _SOURCES = (
     *(_CONTACT / "compiled" / f"{name}.py" for name in ("driver", "functions", "loops", "tables")),
