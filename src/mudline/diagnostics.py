@@ -7,7 +7,7 @@ text, or a path into the values). A *diagnostic* is the public form of the same 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import NamedTuple
 
@@ -47,13 +47,26 @@ class Where(NamedTuple):
     path: tuple[str | int, ...] = ()
 
 
+class Blocks(StrEnum):
+    """Whether a finding keeps a deck from being evaluated. What a configuration makes of its severity is no matter."""
+
+    NEVER = "never"
+    WITH_TENSION = "with tension keep"
+    """Only where the pull of curves is kept, which is the default."""
+    ALWAYS = "always"
+
+
 @dataclass(frozen=True, slots=True)
 class Code:
-    """The name of a kind of finding: code, slug, and the severity it has unless something says otherwise."""
+    """The name of a kind of finding: code, slug, and the severity it has unless something says otherwise.
+
+    `page` explains the findings of a code that has no function of its own, in the form of a rule's docstring.
+    """
 
     code: str
     slug: str
     severity: Severity
+    page: str = field(default="", compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +85,8 @@ class Repair:
 class Problem:
     """Something noticed in a deck, at a span of its text or among its values.
 
-    `severity` None means the severity of the code. Only a deck that was read from text has repairs.
+    `severity` None means the severity of the code. Only a deck that was read from text has repairs. `blocks` None means
+    that the problem keeps the deck from being evaluated if it is an error.
     """
 
     code: Code
@@ -81,11 +95,17 @@ class Problem:
     severity: Severity | None = None
     where: Where | None = None
     repair: Repair | None = None
+    blocks: Blocks | None = None
 
     @property
     def weight(self) -> Severity:
         """The severity that holds."""
         return self.severity or self.code.severity
+
+    @property
+    def blocking(self) -> Blocks:
+        """Whether the deck can be evaluated in spite of it."""
+        return self.blocks or (Blocks.ALWAYS if self.weight is Severity.ERROR else Blocks.NEVER)
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,7 +128,10 @@ class Fix:
 
 @dataclass(frozen=True, slots=True)
 class Diagnostic:
-    """A finding with its place in the file; lines and columns count from 1, the end is exclusive."""
+    """A finding with its place in the file; lines and columns count from 1, the end is exclusive.
+
+    `blocks` says that the deck cannot be evaluated, unless its curves are cut where they pull and that is the reason.
+    """
 
     file: str
     code: str
@@ -120,6 +143,7 @@ class Diagnostic:
     end_line: int
     end_column: int
     fix: Fix | None = None
+    blocks: bool = False
 
     @property
     def sort_key(self) -> tuple[str, int, int, str, str]:

@@ -269,7 +269,10 @@ def test_elements_at_nodes_that_are_not_known(place: Place) -> None:
     outcome = run("evaluate", place(deck))
     assert outcome.code == 1
     assert ":10:" in outcome.err
-    assert "an element ends at nodes that are not known: *LINES may make them" in outcome.err
+    assert "REF006 element 2 ends at node 33, which is not defined: define it; *LINES" in outcome.err
+    outcome = run("evaluate", place(deck.replace("33", "{End}")))
+    assert outcome.code == 1
+    assert "RUN001 an element ends at nodes that are not known: *LINES may make them" in outcome.err
 
 
 def test_value_that_overflows_names_the_line_of_the_element(place: Place) -> None:

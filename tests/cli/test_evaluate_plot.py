@@ -56,7 +56,7 @@ def test_panels_without_data_are_left_out(place: Place, folder: Path) -> None:
     [
         CLEAN.replace("-0.1,", "9.0,"),
         CLEAN.replace(" 2, 2, 3\n", "").replace(" 1, 2\n*GEO", " 1\n*GEO"),
-        CLEAN.replace(" 0.0\n 2,", " 10.0\n 2,").replace("20.0\n*E", "10.0\n*E"),
+        CLEAN.replace("-0.1, 0.0\n 2,", "-0.2, 10.0\n 2,").replace("20.0\n*E", "10.0\n*E"),
         CLEAN.partition("*SEABED PROPERTIES")[0],
         CLEAN.replace("Clay", "C$l$ay <&"),
         CLEAN.replace("20.0\n*E", "1.0E150\n*E"),

@@ -173,7 +173,16 @@ def test_entries_come_back_whole() -> None:
 
 
 @pytest.mark.parametrize(
-    "text", ["{}", "[1]", "[[]]", "nonsense", "[" * 100_000, '[["a","b","error","m",0,1,1,1,null]]']
+    "text",
+    [
+        "{}",
+        "[1]",
+        "[[]]",
+        "nonsense",
+        "[" * 100_000,
+        '[["a","b","error","m",0,1,1,1,null,true]]',
+        '[["a","b","error","m",1,1,1,1,null,1]]',
+    ],
 )
 def test_entries_of_another_shape(text: str) -> None:
     with pytest.raises(ValueError):  # noqa: PT011 - of whatever kind
@@ -181,7 +190,7 @@ def test_entries_of_another_shape(text: str) -> None:
 
 
 def test_fix_of_another_kind() -> None:
-    text = '[["a","b","error","m",1,1,1,1,["sure","x",[]]]]'
+    text = '[["a","b","error","m",1,1,1,1,["sure","x",[]],true]]'
     with pytest.raises(ValueError, match="no fix"):
         unpacked(text, "a")
     assert unpacked(text.replace("sure", "safe"), "a")[0].fix is not None

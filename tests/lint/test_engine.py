@@ -129,6 +129,7 @@ def test_a_finding_says_file_code_severity_and_place() -> None:
             column=10,
             end_line=6,
             end_column=14,
+            blocks=True,
         )
     ]
 

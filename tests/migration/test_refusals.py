@@ -21,7 +21,6 @@ SURFACE = "*ELASTIC SURFACE\n 1e4, 0.3, 0.5"
         ("*RIGID SURFACE\n 0.3, 0.5, 2.0\n", 2, 12, "give the mobilisation length instead"),
         (f"{SURFACE}\n*ELASTIC SURFACE\n 2e4\n", 3, 1, "a second surface"),
         (f"{SURFACE}\n 2.5\n 0, 0\n 1, 1\n", 3, 2, "a slope and a profile"),
-        (f"{SURFACE}\n 0, 0\n", 3, 2, "a profile of one point"),
         (f"{SURFACE}\n 0, 0\n =[1+1], 1\n", 4, 2, "an equation in a profile"),
         (f"{SURFACE}\n 2.5\n*SEABED PROFILE\n TYPE=SLOPING\n SLOPE=1\n", 4, 1, "*SEABED PROFILE and the slope"),
         (f"{SURFACE}\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=West\n STIFFNESS=1\n", 3, 1, "stands beside legacy"),

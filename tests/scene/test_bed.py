@@ -69,12 +69,11 @@ def test_a_value_that_could_not_be_read_is_none() -> None:
     ],
 )
 def test_extension_blocks_by_element(block: str) -> None:
-    text = PIPE + STEEL + SETS + block.format("A") + block.format("b")
+    head = PIPE + STEEL + SETS + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n FRICTION=0.3, 0.5\n"
+    text = head + block.format("A") + block.format("b")
     scene = scene_of(text)
     ((keyword, found),) = scene.extensions.items()
     assert block.startswith(f"*{keyword}\n")
     assert found.of_element.tolist() == [0, 0, 1, 1, 1, 1, -1, -1, -1, -1]
     assert [getattr(entry, "set_name", "") for entry in found.entries] == ["A", "b"]
-    assert told(PIPE + STEEL + SETS + block.format("C")) == [
-        ("E", "REF001", text.count("\n") - block.count("\n") * 2 + 2, 6)
-    ]
+    assert told(head + block.format("C")) == [("E", "REF001", text.count("\n") - block.count("\n") * 2 + 2, 6)]

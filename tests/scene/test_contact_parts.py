@@ -20,6 +20,7 @@ from tests.scene.contact_decks import METRIC, deck
 from tests.scene.decks import scene_of
 
 LINEAR = "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=50000\n"
+RUBBING = LINEAR + " FRICTION=0.3, 0.5\n"
 CURVE = (
     "*SEABED STIFFNESS\n CURVE=Clay\n 0, 0\n 0.5, 4000\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=Clay\n"
 )
@@ -46,8 +47,7 @@ def refusal(seabed: str) -> str:
     with pytest.raises(DeckError) as caught:
         scene_of(deck(METRIC, seabed)).contact()
     (told,) = caught.value.diagnostics
-    assert told.code == "RUN001"
-    return f"{told.line - deck(METRIC, '').count(chr(10))}: {told.message}"
+    return f"{told.line - deck(METRIC, '').count(chr(10))}: {told.code} {told.message}"
 
 
 # normal laws
@@ -83,7 +83,7 @@ def test_a_nodal_law_leaves_rigid_elements_alone() -> None:
     rigid = "*SEABED PROPERTIES\n TYPE=RIGID\n SET=ALL\n"
     scene = scene_of(deck(METRIC, rigid + NODAL))
     assert scene.law_names == ["rigid"] * 10
-    assert scene.contact_input().assigned["rigid"].rows.tolist() == list(range(10))
+    assert refusal(rigid + NODAL).startswith("4: EXT001 *SEABED CONTACT needs an elastic seabed, and the seabed is rig")
 
 
 # smoothing
@@ -138,12 +138,12 @@ def test_unloading_is_for_laws_per_length() -> None:
     assert unloading.rows.tolist() == [0, 1, 2, 3, 4]
     assert unloading["stiffness"].tolist() == [200000.0] * 5
     per_node = refusal(LINEAR + NODAL + "*SEABED UNLOADING\n SET=ALL\n STIFFNESS=200000\n")
-    assert per_node.startswith("9: a nodal stiffness has no unloading line: remove one of them: 10 elements (first: 1)")
+    assert per_node.startswith("9: EXT009 10 elements (first: 1) have NODAL STIFFNESS=")
     assert refusal(LINEAR + "*SEABED UNLOADING\n SET=ALL\n STIFFNESS=0\n").startswith(
-        "7: the unloading stiffness is not"
+        "7: EXT009 unloading stiffness 0.0: it must be above 0"
     )
     both = LINEAR + "*SEABED CONTACT\n SET=ALL\n SMOOTHING=0.01\n*SEABED UNLOADING\n SET=ALL\n STIFFNESS=200000\n"
-    assert refusal(both).startswith("9: there is smoothing too where the reaction unloads: 10 elements (first: 1)")
+    assert refusal(both).startswith("9: EXT009 10 elements (first: 1) have smoothing too")
 
 
 def test_suction_of_cohesion_and_of_explicit_laws() -> None:
@@ -158,22 +158,26 @@ def test_suction_of_cohesion_and_of_explicit_laws() -> None:
     )
     assert (own["force_factor"][0], own["force_exponent"][0], own["depth_exponent"][0]) == (70.0, 0.2, 0.26)
     assert (own["first_corner"][0], own["second_corner"][0], own["regularisation"][0]) == (0.2, 0.8, 0.01)
-    rigid = made("*SEABED PROPERTIES\n TYPE=RIGID\n SET=ALL\n*SEABED SUCTION\n SET=ALL\n COHESION=5\n")
-    assert "suction" not in rigid.assigned
+    rigid = "*SEABED PROPERTIES\n TYPE=RIGID\n SET=ALL\n*SEABED SUCTION\n SET=ALL\n COHESION=5\n"
+    assert refusal(rigid).startswith("4: EXT001 *SEABED SUCTION needs an elastic seabed")
 
 
 @pytest.mark.parametrize(
     ("seabed", "message"),
     [
-        (LINEAR + "*SEABED SUCTION\n SET=ALL\n FORCE=70, 0.2\n", "6: the suction law is incomplete"),
+        (LINEAR + "*SEABED SUCTION\n SET=ALL\n FORCE=70, 0.2\n", "6: EXT005 the suction law is incomplete"),
         (
             LINEAR + "*SEABED SUCTION\n SET=ALL\n COHESION=5\n CUTOFF=0.8, 0.2\n",
-            "8: the corners of CUTOFF= must be 0 < first <= second < 1",
+            "8: EXT004 corners 0.8, 0.2: they must be 0.01 <= first <= second <= 0.99",
         ),
-        (LINEAR + " SUCTION=5, 1\n*SEABED SUCTION\n SET=ALL\n COHESION=5\n", "7: SUCTION= of *SEABED PROPERTIES holds"),
+        (LINEAR + "*SEABED SUCTION\n SET=ALL\n COHESION=5\n CUTOFF=0.001, 0.2\n", "8: EXT004 corners 0.001, 0.2"),
+        (
+            LINEAR + " SUCTION=5, 1\n*SEABED SUCTION\n SET=ALL\n COHESION=5\n",
+            "7: EXT006 10 elements (first: 1) have SUCTION= of the seabed too",
+        ),
         (
             CURVE.replace("0.5, 4000", "0.5, -4000") + "*SEABED SUCTION\n SET=ALL\n COHESION=5\n",
-            "10: the curve pulls too",
+            "10: EXT006 10 elements (first: 1) have a curve that pulls too",
         ),
     ],
 )
@@ -191,8 +195,11 @@ def test_user_units_have_no_defaults_of_suction() -> None:
             return error.diagnostics[0].message
         return ""
 
-    assert told(" COHESION=5\n").startswith("COHESION= needs metric or imperial units")
-    assert told(" FORCE=5, 0.2\n DEPTH=1, 0.3\n").startswith("REGULARISATION= has no default with user units")
+    assert told(" COHESION=5\n REGULARISATION=0.001\n").startswith("COHESION= needs metric or imperial units")
+    assert told(" FORCE=5, 0.2\n DEPTH=1, 0.3\n").startswith(
+        "REGULARISATION= is missing: with user units it has no def"
+    )
+    assert told(" COHESION=5\n FORCE=5, 0.2\n DEPTH=1, 0.3\n REGULARISATION=0.001\n") == ""
     assert told(" FORCE=5, 0.2\n DEPTH=1, 0.3\n REGULARISATION=0.001\n") == ""
 
 
@@ -259,15 +266,25 @@ def test_a_trench_counts_its_own_elements() -> None:
     [
         (
             LINEAR + "*SEABED TRENCH\n SET=ALL\n GEOMETRY=1, 2, 3\n PEAK=1\n",
-            "6: a trench needs a lateral friction spring",
+            "6: EXT003 10 elements (first: 1) have a trench and no lateral friction spring",
         ),
-        (LINEAR + "*SEABED TRENCH\n SET=ALL\n GEOMETRY=1, 3, 2\n PEAK=1\n", "7: the widths of the trench"),
+        (RUBBING + "*SEABED TRENCH\n SET=ALL\n GEOMETRY=1, 3, 2\n PEAK=1\n", "8: EXT003 invalid trench geometry"),
         (
-            LINEAR + "*SEABED TRENCH\n SET=ALL\n GEOMETRY=1, 2, 3\n PEAK=1\n CENTRELINE=1, 2, 1, 2\n",
-            "9: the two points of the centreline are one",
+            RUBBING + " LATERAL=5\n*SEABED TRENCH\n SET=ALL\n GEOMETRY=1, 2, 3\n PEAK=1\n",
+            "8: EXT003 10 elements (first: 1) have a trench and no lateral friction spring",
         ),
-        (LINEAR + "*SEABED PLANES\n PLANE=a\n POINT=0, 0, 0\n SLOPE=90\n", "5: slope of plane 1 is 90 degrees"),
-        (LINEAR + "*SEABED PROFILE\n TYPE=2D\n FILE=none.txt\n", "5: the bed is not known: 'none.txt' is not there"),
+        (
+            RUBBING + "*SEABED TRENCH\n SET=ALL\n GEOMETRY=1, 2, 3\n PEAK=1\n CENTRELINE=1, 2, 1, 2\n",
+            "10: EXT003 the two points of the centreline are one",
+        ),
+        (
+            LINEAR + "*SEABED PLANES\n PLANE=a\n POINT=0, 0, 0\n SLOPE=90\n",
+            "8: EXT007 slope 90.0: it must be between -90 and 90 degrees",
+        ),
+        (
+            LINEAR + "*SEABED PROFILE\n TYPE=2D\n FILE=none.txt\n",
+            "5: RUN001 the seabed is not known: 'none.txt' is not there",
+        ),
     ],
 )
 def test_what_cannot_be_evaluated_is_told_at_its_line(seabed: str, message: str) -> None:

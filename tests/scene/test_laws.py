@@ -218,7 +218,7 @@ def test_embedment_on_a_rigid_bed_is_told_once_for_a_block() -> None:
 def test_embedment_without_an_elastic_bed() -> None:
     text = BASE + embedment("a")
     assert told(text) == [("E", "SBD005", BASE.count("\n") + 2, 2)]
-    assert told(text + "*SEABED PROPERTIES\n SET=a\n") == []
+    assert told(text + "*SEABED PROPERTIES\n SET=a\n") == [("E", "SBD003", text.count("\n") + 1, 1)]
     assert told(text + "*SEABED PROPERTES\n SET=a\n") == []
 
 

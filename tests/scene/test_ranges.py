@@ -33,7 +33,6 @@ def test_values_of_rows(lines: str, column: int, message: str) -> None:
         ),
         ("SEABED PROPERTIES", "STIFFNESS=-1.0", ["STIFFNESS="]),
         ("SEABED FRICTION", "COEFFICIENTS=-0.3, 0.6", ["friction coefficient along u1"]),
-        ("SEABED TRENCH", "GEOMETRY=-0.5, 1.0, 3.0", ["depth of the trench"]),
         ("SEABED TRENCH", "PEAK=-1.0", ["PEAK="]),
         ("SEABED TRENCH", "PEAK=TABLE\n 0, -1\n 1, 5\n 2, -3", ["lateral resistance per unit length there"] * 2),
         ("SEABED SUCTION", "CYCLIC=-0.1", ["CYCLIC="]),
@@ -86,7 +85,7 @@ def test_other_sections_are_not_looked_at() -> None:
 
 
 def test_the_floor_of_cyclic_loading_is_a_share() -> None:
-    deck = "$MODEL\n*SEABED SUCTION\n SET=ALL\n CYCLIC={}\n"
+    deck = "$MODEL\n*SEABED SUCTION\n SET=ALL\n CYCLIC={}\n COHESION=5000\n*ELASTIC SURFACE\n 5000\n"
     assert told(deck.format("0.9, 1.0")) == told(deck.format("1.5, 0.0")) == []
     assert told(deck.format("0.9, 1.01")) == [("E", "SBD010", 4, 14)]
     assert told(deck.format("-0.9, -0.01")) == [("E", "SBD010", 4, 9), ("E", "SBD010", 4, 15)]
@@ -96,7 +95,10 @@ def test_the_floor_of_cyclic_loading_is_a_share() -> None:
 
 
 def test_values_of_a_table() -> None:
-    deck = "$PREPROCESSOR\n*PARAMETERS\n p, -7\n$MODEL\n*SEABED TRENCH\n SET=ALL\n GEOMETRY=1, 2, 3\n PEAK=TABLE\n{}"
+    deck = (
+        "$PREPROCESSOR\n*PARAMETERS\n p, -7\n$MODEL\n*SEABED TRENCH\n SET=ALL\n GEOMETRY=1, 2, 3\n PEAK=TABLE\n{}"
+        "*ELASTIC SURFACE\n 5000\n"
+    )
     assert told(deck.format(" 0, 0\n 1, 5\n")) == []
     assert told(deck.format(" 0, -1\n 1, 5\n 2, =[p]\n")) == [("E", "SBD010", 9, 5), ("E", "SBD010", 11, 5)]
     assert messages(deck.format(" 0, 0\n 1, =[p]\n")) == [

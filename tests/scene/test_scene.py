@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from mudline.codes import RUN001
+from mudline.contact import ContactModel
 from mudline.contact.input import LawKind
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError
@@ -100,40 +101,49 @@ def test_warnings_refuse_nothing() -> None:
 
 
 def test_elements_at_nodes_of_lines_are_refused() -> None:
-    text = "$MODEL\n*LINES\n LINE=SCR\n*NODE\n 1, 0, 0\n*ELEMENT\n 1, 1, 1\n 7, 1, {End}\n 8, 1, 5\n"
+    text = "$MODEL\n*LINES\n LINE=SCR\n*NODE\n 1, 0, 0\n 2, 0, 1\n*ELEMENT\n 1, 1, 2\n 7, 1, {End}\n"
     scene = scene_of(text)
     assert scene.require() is scene
-    message = "2 elements (first: 7) end at nodes that are not known; this cannot be evaluated"
-    assert refusal(text) == [(RUN001.code, 8, message)]
+    message = "element 7 ends at a node that is not known; this cannot be evaluated"
+    assert refusal(text) == [(RUN001.code, 9, message)]
+    text += " 8, 1, 5\n"
+    ((code, line, message),) = refusal(text)
+    assert (code, line) == ("REF006", 10)
+    assert message.startswith("element 8 ends at node 5, which is not defined: define it; *LINES, which is not read,")
 
 
 def test_a_law_that_the_deck_before_may_define_is_refused() -> None:
     text = "$LOAD CASE\n*RESTART\n LAST=x\n" + FULL.replace("STIFFNESS=Clay", "STIFFNESS=Sand")
-    message = "the law given here is not known: 10 elements (first: 1); this cannot be evaluated"
-    assert refusal(text) == [(RUN001.code, 23, message)]
+    message = "curve 'Sand' is not defined: *SEABED STIFFNESS has no such curve; the deck that *RESTART continues may "
+    assert refusal(text) == [("REF002", 23, message + "define it")]
     scene = scene_of(text)
+    assert scene.require() is scene
     assert scene.law_names == ["curve"] * 10
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "line", "message"),
+    ("old", "new", "line"),
     [
-        ("STIFFNESS=Clay", "STIFFNESS==[cu(2)]", 20, "the law given here is not known: 10 elements (first: 1)"),
-        ("0.5, 4000.0", "0.5, =[cu(2)]", 20, "the law given here is not known: 10 elements (first: 1)"),
-        ("0.25, 0.22", "=[cu(2)], 0.22", 20, "a curve is given here, and the external diameter is not known: 10 elem"),
-        ("11, -0.05", "11, =[cu(2)]", 7, "10 elements (first: 1) have no known finite length"),
+        ("STIFFNESS=Clay", "STIFFNESS==[cu(2)]", 20),
+        ("0.5, 4000.0", "0.5, =[cu(2)]", 16),
+        ("0.25, 0.22", "=[cu(2)], 0.22", 12),
+        ("11, -0.05", "11, =[cu(2)]", 4),
     ],
 )
-def test_what_an_unknown_function_leaves_unknown_is_refused_where_it_is_needed(
-    old: str, new: str, line: int, message: str
-) -> None:
+def test_what_an_unknown_function_leaves_unknown_is_refused_at_the_equation(old: str, new: str, line: int) -> None:
     """An unknown function is a warning: the deck may be fine where it runs. A result cannot be made of it."""
     text = FULL.replace(old, new)
     scene = scene_of(text)
     assert scene.require() is scene
     code, at, found = refusal(text)[0]
-    assert (code, at) == (RUN001.code, line)
-    assert found.startswith(message)
+    assert (code, at) == ("SYN017", line)
+    assert found.startswith("'=[cu(2)]': the function 'cu' is not known")
+
+
+def test_what_an_unknown_function_leaves_unknown_in_a_parameter_is_refused_where_the_model_uses_it() -> None:
+    parameters = "$PREPROCESSOR\n*PARAMETERS\n p, =[cu(2)]\n"
+    assert isinstance(scene_of(parameters + FULL).contact(), ContactModel)
+    assert [found[:2] for found in refusal(parameters + FULL.replace("0.5, 4000.0", "0.5, =[p]"))] == [("SYN017", 3)]
 
 
 def test_a_length_that_overflows_is_refused_unless_nothing_needs_it() -> None:
@@ -145,11 +155,6 @@ def test_a_length_that_overflows_is_refused_unless_nothing_needs_it() -> None:
     assert scene_of(far).contact().evaluate().force.tolist() == [0.0]
     near = far.replace("-1.0E308", "0").replace("1.0E308", "1.0E300")
     assert scene_of(near + spring).contact().evaluate().reaction[:, 0].tolist() == [5e299, 5e299]
-
-
-def test_one_element_without_a_law_is_named() -> None:
-    text = FULL.replace("SET=ALL\n STIFFNESS=Clay", "SET=a\n STIFFNESS==[cu(2)]") + "*ELEMENT SETS\n SET=a\n 4\n"
-    assert refusal(text)[0][2].startswith("the law given here is not known: element 4;")
 
 
 # -------------------------------------------------------------------------------------------------------- left out

@@ -118,17 +118,17 @@ def test_a_factor_with_a_floor_is_applied_once_for_each_cycle(units: Units, leng
 @pytest.mark.parametrize(
     ("trench", "line", "code", "message"),
     [
-        (" GEOMETRY=1, 2, 3\n", 1, "RUN001", "MODEL=PEAK needs a resistance: give PEAK="),
-        (" GEOMETRY=1, 2, 3\n PEAK=TABLE\n 0, 1\n", 3, "RUN001", "PEAK=TABLE needs two rows or more"),
-        (" GEOMETRY=1, 2, 3\n PEAK=TABLE\n -1, 1\n 1, 1\n", 4, "RUN001", "the offset from the centreline is negative"),
+        (" GEOMETRY=1, 2, 3\n", 1, "EXT003", "MODEL=PEAK needs a resistance: give PEAK="),
+        (" GEOMETRY=1, 2, 3\n PEAK=TABLE\n 0, 1\n", 3, "EXT003", "PEAK=TABLE needs two rows or more"),
+        (" GEOMETRY=1, 2, 3\n PEAK=TABLE\n -1, 1\n 1, 1\n", 4, "EXT003", "the offset from the centreline is negative"),
         (
             " GEOMETRY=1, 2, 3\n PEAK=TABLE\n 0, 1\n 0, 1\n",
             5,
-            "RUN001",
+            "EXT003",
             "the offset is not larger than that of the row",
         ),
         (" GEOMETRY=1, 2, 3\n PEAK=TABLE\n 0, 1\n 1, -1\n", 5, "SBD010", "lateral resistance per unit length there is"),
-        (" GEOMETRY=1, 2, 3\n MODEL=WALL\n", 2, "RUN001", "mu2 tan(theta) must be below 1"),
+        (" GEOMETRY=1, 2, 3\n MODEL=WALL\n", 2, "EXT003", "mu2 tan(theta) must be below 1"),
     ],
 )
 def test_what_no_trench_can_be_is_refused_at_its_line(trench: str, line: int, code: str, message: str) -> None:

@@ -102,9 +102,9 @@ def command(
         if needed and not has_library(needed):
             return FOUND
     loaded = load(deck, units=units, stdin_name=stdin_name)
-    scene = resolve(loaded, read_elements(elements) if elements else None).require()
-    given = read_positions_of(positions, scene, time_step) if positions else None
     pull = cast("Tension", tension)
+    scene = resolve(loaded, read_elements(elements) if elements else None).require_evaluable(pull)
+    given = read_positions_of(positions, scene, time_step) if positions else None
     if plan_only:
         _plan(prepare(scene, given, pull), output_format, view)
         return DONE

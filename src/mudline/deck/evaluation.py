@@ -10,7 +10,7 @@ from typing import Any
 from mudline.codes import SYN002
 from mudline.deck.model import Deck
 from mudline.deck.parameters import NoValueError, Parameters, Value, whole_fault
-from mudline.diagnostics import Problem, Where
+from mudline.diagnostics import Blocks, Problem, Where
 from mudline.keywords.model import ListRow, Part, Slot, columns_of, layout
 from mudline.keywords.table import Table
 from mudline.keywords.values import Equation, Kind
@@ -20,7 +20,10 @@ _EVALUATED = (Kind.REAL, Kind.WHOLE, Kind.REAL_OR_NAME)
 
 
 def evaluated(deck: Deck) -> tuple[Deck, list[Problem]]:
-    """The deck with every equation of `$MODEL` evaluated; one without a value becomes NaN and a problem."""
+    """The deck with every equation of `$MODEL` evaluated; one without a value becomes NaN and a problem.
+
+    Nothing can be evaluated without such a value, were it only because a function is not known, which is a warning.
+    """
     parameters = Parameters(deck)
     evaluator = _Evaluator(parameters)
     sections = []
@@ -32,7 +35,10 @@ def evaluated(deck: Deck) -> tuple[Deck, list[Problem]]:
                     blocks[j] = evaluator.part(block, Where(i, j))
         sections.append(type(section)(section.name, blocks, section.comments, section.lines))
     ready = replace(deck, sections=sections)
-    return ready, parameters.problems + evaluator.problems
+    noticed = parameters.problems
+    if evaluator.lacks_parameter:
+        noticed = [replace(problem, blocks=Blocks.ALWAYS) for problem in noticed]
+    return ready, noticed + evaluator.problems
 
 
 @cache
@@ -58,6 +64,7 @@ class _Evaluator:
     def __init__(self, parameters: Parameters) -> None:
         self.parameters = parameters
         self.problems: list[Problem] = []
+        self.lacks_parameter = False
 
     def part(self, part: Any, where: Where) -> Any:
         """A part without equations; the same object if it has none."""
@@ -103,7 +110,9 @@ class _Evaluator:
             value = self.parameters.evaluate(equation, where)
         except NoValueError as reason:
             if reason.problem:
-                self.problems.append(reason.problem)
+                self.problems.append(replace(reason.problem, blocks=Blocks.ALWAYS))
+            else:  # told where the parameter without a value is defined
+                self.lacks_parameter = True
             return nothing
         if isinstance(value, str):
             if kind is Kind.REAL_OR_NAME:

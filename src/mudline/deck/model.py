@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol, Self
 
-from mudline.diagnostics import Code, DeckError, Diagnostic, Edit, Fix, Problem, Repair, Severity, Where
+from mudline.diagnostics import Blocks, Code, DeckError, Diagnostic, Edit, Fix, Problem, Repair, Severity, Where
 from mudline.keywords.model import Block, Comment, Part
 from mudline.keywords.values import Text
 
@@ -133,7 +133,8 @@ class Deck:
         if not message.isprintable():  # names of the deck stand in it as they are
             message = "".join(char if char.isprintable() else "\ufffd" for char in message)
         fix = self._fix(problem.repair, code) if problem.repair else None
-        return Diagnostic(self.file, code.code, code.slug, problem.weight, message, *place, fix)
+        blocks = problem.blocking is not Blocks.NEVER
+        return Diagnostic(self.file, code.code, code.slug, problem.weight, message, *place, fix, blocks)
 
     def _fix(self, repair: Repair, code: Code) -> Fix:
         """A repair in lines and columns."""

@@ -36,13 +36,14 @@ def _row(one: Diagnostic) -> list[object]:
         [[*edit.start, *edit.end, edit.text] for edit in one.fix.edits],
     ]
     place = (one.line, one.column, one.end_line, one.end_column)
-    return [one.code, one.slug, one.severity.value, one.message, *place, fix]
+    return [one.code, one.slug, one.severity.value, one.message, *place, fix, one.blocks]
 
 
 def _finding(row: object, file: str) -> Diagnostic:
-    code, slug, severity, message, line, column, end_line, end_column, fix = _shaped(row, "ssssiiii*")
+    code, slug, severity, message, line, column, end_line, end_column, fix, blocks = _shaped(row, "ssssiiii*b")
     place = (line, column, end_line, end_column)
-    return Diagnostic(file, code, slug, Severity(severity), message, *place, None if fix is None else _fix(fix))
+    repair = None if fix is None else _fix(fix)
+    return Diagnostic(file, code, slug, Severity(severity), message, *place, repair, blocks)
 
 
 def _fix(value: object) -> Fix:
@@ -54,10 +55,12 @@ def _fix(value: object) -> Fix:
 
 
 def _shaped(value: object, kinds: str) -> list[Any]:
-    """The list, if its items are texts (s), numbers from 1 (i) or anything (*) as wanted."""
+    """The list, if its items are texts (s), numbers from 1 (i), true or false (b), or anything (*) as wanted."""
     if not isinstance(value, list) or len(value) != len(kinds):
         raise ValueError("a row of another length")
     for item, kind in zip(value, kinds, strict=True):
         if (kind == "s" and not isinstance(item, str)) or (kind == "i" and not (type(item) is int and item > 0)):
             raise ValueError("an item of another kind")
+        if kind == "b" and not isinstance(item, bool):
+            raise ValueError("neither true nor false")
     return value

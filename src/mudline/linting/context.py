@@ -3,17 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import chain, islice
 from typing import TypeVar, cast
 
 from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin
-from mudline.diagnostics import Code, Problem
+from mudline.diagnostics import Blocks, Code, Problem
 from mudline.linting.odd_curves import odd_curves
 from mudline.scene.build import resolve
+from mudline.scene.context import MOST_TOLD
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene
+from mudline.variations.undefined import (
+    misspelt_keywords,
+    misspelt_sections,
+    undefined_parameters,
+    undefined_variations,
+)
 
 T = TypeVar("T")
 
@@ -47,7 +55,7 @@ class LintContext:
     @cached_property
     def _told(self) -> dict[str, list[Problem]]:
         told: dict[str, list[Problem]] = {}
-        for problem in [*self.deck.problems, *self.scene.problems]:
+        for problem in chain(self.scene.findings, _of_variations(self.deck)):
             told.setdefault(problem.code.code, []).append(problem)
         return told
 
@@ -58,5 +66,12 @@ class LintContext:
         return cast("T", self._made[make])
 
     def told(self, code: Code) -> Iterator[Problem]:
-        """What reading and resolving the deck noticed under a code."""
+        """What reading and resolving the deck, and the checks of its scene, noticed under a code."""
         yield from self._told.get(code.code, ())
+
+
+def _of_variations(deck: Deck) -> Iterator[Problem]:
+    """Names in variations that lead nowhere: they spoil the decks that are made, and not this one."""
+    for find in (undefined_parameters, undefined_variations, misspelt_keywords, misspelt_sections):
+        for problem in islice(find(deck), MOST_TOLD):
+            yield replace(problem, blocks=Blocks.NEVER)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import Deck
-from mudline.diagnostics import DeckError, Diagnostic, Problem
+from mudline.diagnostics import Blocks, DeckError, Diagnostic, Problem
 from mudline.keywords.memory import BlockMemory
 from mudline.linting.context import LintContext
 from mudline.linting.registry import Rule
@@ -33,8 +34,13 @@ def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
 
     What comments suppress is among it, and unused comments are not.
     """
-    found = (problem for rule in chosen for problem in rule.check(context))
+    found = (_advice(problem) if rule.advises else problem for rule in chosen for problem in rule.check(context))
     return [problem for problem in found if not of_base(context.deck, problem)]
+
+
+def _advice(problem: Problem) -> Problem:
+    """A problem that does not keep the deck from being evaluated."""
+    return problem if problem.blocking is Blocks.NEVER else replace(problem, blocks=Blocks.NEVER)
 
 
 def told(context: LintContext, problems: list[Problem], chosen: Sequence[Rule]) -> list[Problem]:

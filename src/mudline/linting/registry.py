@@ -1,4 +1,4 @@
-"""What a rule is, and the list of all rules."""
+"""What a rule is, and the list of all rules: the checks of reading and resolving, and rules that only advise."""
 
 from __future__ import annotations
 
@@ -9,16 +9,15 @@ from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
 
+from mudline import codes
 from mudline.diagnostics import Code, Problem
 from mudline.linting import plugins
 from mudline.linting.context import LintContext
+from mudline.scene.checks.running import all_checks
 
 Check = Callable[[LintContext], Iterable[Problem]]
 
 MODULES = (
-    "syntax_lines",
-    "syntax_fields",
-    "syntax_words",
     "references",
     "sections",
     "curves",
@@ -38,7 +37,7 @@ _RULES: dict[str, Rule] = {}
 
 @dataclass(frozen=True, slots=True)
 class Rule:
-    """A rule: its code, the function that finds, and what its docstring says.
+    """A rule: its code, the function that finds, and what its page says.
 
     `title` is the first sentence, `why` the text behind it, `bad` a deck that it finds something in at `place` (line
     and column), `good` the same deck mended; `file` is the name that the examples are read under. `encoding` is that of
@@ -57,6 +56,11 @@ class Rule:
     encoding: str
     off: bool
     dialect: str = "mudline"
+
+    @property
+    def advises(self) -> bool:
+        """Whether its findings, whatever their severity, never keep a deck from being evaluated."""
+        return not isinstance(self.check, Noticed)
 
     @property
     def bad_bytes(self) -> bytes:
@@ -78,8 +82,19 @@ class Rule:
         return "" if self.bad.endswith("\n") else "the file ends behind the last character, without a line end"
 
 
+@dataclass(frozen=True, slots=True)
+class Noticed:
+    """What reading and resolving a deck, or a check of its scene, noticed under a code."""
+
+    code: Code
+
+    def __call__(self, context: LintContext) -> Iterable[Problem]:
+        """The problems of the code."""
+        return context.told(self.code)
+
+
 def rule(code: Code, *, off: bool = False) -> Callable[[Check], Check]:
-    """Register a function as the rule of a code; `off` keeps it from running unless it is selected.
+    """Register a function as the rule of a code that only advises; `off` keeps it from running unless it is selected.
 
     Its docstring begins with the title, a sentence on a line of its own; the text behind it says why. Then come a bad
     and a good deck, indented below `Bad:` and `Good:`, and `Finds: line:column`, the place of the one finding in the
@@ -90,17 +105,21 @@ def rule(code: Code, *, off: bool = False) -> Callable[[Check], Check]:
     """
 
     def register(check: Check) -> Check:
-        described = _described(code, check, off=off)
-        if any(code.code == known.code.code or code.slug == known.code.slug for known in _RULES.values()):
-            raise ValueError(f"there is a rule {code.code} or {code.slug} already")
-        _RULES[code.code] = described
+        _register(_described(code, check, check.__doc__ or "", off=off))
         return check
 
     return register
 
 
-def _described(code: Code, check: Check, *, off: bool) -> Rule:
-    parts = _HEADINGS.split(inspect.getdoc(check) or "")
+def _register(described: Rule) -> None:
+    code = described.code
+    if any(code.code == known.code.code or code.slug == known.code.slug for known in _RULES.values()):
+        raise ValueError(f"there is a rule {code.code} or {code.slug} already")
+    _RULES[code.code] = described
+
+
+def _described(code: Code, check: Check, page: str, *, off: bool = False) -> Rule:
+    parts = _HEADINGS.split(inspect.cleandoc(page))
     title, _, why = parts[0].strip().partition("\n")
     found = {name: (line, body) for name, line, body in zip(parts[1::3], parts[2::3], parts[3::3], strict=True)}
     lacking = [name for name in ("Bad", "Good", "Finds") if name not in found]
@@ -132,6 +151,11 @@ def _example(body: str) -> str:
 
 @cache
 def _collected() -> tuple[tuple[Rule, ...], tuple[str, ...]]:
+    declared = {code.code: (code, code.page) for code in vars(codes).values() if isinstance(code, Code) and code.page}
+    for found in all_checks():
+        declared.setdefault(found.code.code, (found.code, found.find.__doc__ or ""))
+    for code, page in declared.values():
+        _register(_described(code, Noticed(code), page))
     for module in MODULES:
         import_module(f"mudline.linting.rules.{module}")
     faults = plugins.load(_RULES)

@@ -82,8 +82,8 @@ def _checked(deck: Deck, before: Scene, changed: Deck, made: Rewriting) -> Scene
     faults += [f"the comment {text!r} would be lost or read as data" for text in lost]
     if _others(deck) != _others(changed):
         faults.append("a block of another keyword would change")
-    expected = Counter(problem.code.code for problem in [*deck.problems, *before.problems])
-    new = Counter(problem.code.code for problem in [*changed.problems, *after.problems])
+    expected = Counter(problem.code.code for problem in before.findings)
+    new = Counter(problem.code.code for problem in after.findings)
     if not np.array_equal(before.law, after.law):
         faults.append("an element would have a law of another kind")
     for code in (new - expected) - Counter({"REF015": len(made.files)}):

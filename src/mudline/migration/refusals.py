@@ -109,8 +109,6 @@ def _bed(deck: Deck, block: Surface, where: Where) -> Iterator[Problem]:
     shaped = block.slope is not None or block.profile is not None
     if block.slope is not None and block.profile is not None:
         yield _told("a slope and a profile: remove one of them", where._replace(path=("slope",)))
-    if block.profile is not None and len(block.profile) < 2:
-        yield _told("a profile of one point: give another, or remove it", where._replace(path=("profile",)))
     for keyword in ("SEABED PROFILE", "SEABED PLANES"):
         for other, _ in deck.blocks(keyword):
             if shaped:

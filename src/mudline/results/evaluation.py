@@ -119,7 +119,7 @@ def evaluate_scene(scene: Scene, positions: Positions | None = None, tension: Te
     Raises DeckError: errors in the deck, elements without known nodes or coordinates, times that a law cannot use.
     """
     if positions is None:
-        _require_coordinates(scene.require())
+        _require_coordinates(scene.require_evaluable(tension))
     ready = prepare(scene, positions, tension)
     if positions is None:
         places, present = ready.scene.coordinates[np.newaxis], np.ones(len(scene.nodes), dtype=bool)
@@ -144,8 +144,7 @@ def prepare(scene: Scene, positions: Positions | None = None, tension: Tension =
 
     Raises DeckError: errors in the deck, elements without known nodes.
     """
-    scene.require()
-    _require_elements(scene)
+    _require_elements(scene.require_evaluable(tension))
     complete, filled = _with_lengths(scene, positions)
     with _told(complete):
         return Prepared(complete, complete.contact(tension), filled)

@@ -12,12 +12,10 @@ from mudline.scene.extensions import read_extensions
 from mudline.scene.external import ExternalElements
 from mudline.scene.floor import read_floor
 from mudline.scene.force_curves import read_curves
-from mudline.scene.law_checks import check_diameters, check_laws
 from mudline.scene.laws import read_laws
 from mudline.scene.line_checks import check_lines
 from mudline.scene.model import Scene
 from mudline.scene.nodes import read_nodes
-from mudline.scene.ranges import check_ranges
 from mudline.scene.restart import continued
 from mudline.scene.sections import read_sections
 from mudline.scene.sets import read_sets
@@ -49,7 +47,4 @@ def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:
     if external is None:  # a file of elements does not tell of every node and set
         check_soil(context, sets, nodes)
         check_boundaries(context, nodes)
-    check_laws(context, laws)
-    check_diameters(context, laws, sections, elements.numbered, extensions.get("SEABED CONTACT"))
-    check_ranges(context)
     return Scene(ready, nodes, elements, sets, sections, laws, bed, extensions, floor, context.problems)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from bisect import bisect_left
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from functools import cached_property
 from typing import Any, cast
@@ -13,7 +13,7 @@ from typing import Any, cast
 from mudline.codes import SYN001, SYN004, SYN016
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.parameters import folded
-from mudline.diagnostics import Code, Problem, Severity, Where
+from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.keywords import catalogue
 from mudline.keywords.likeness import meant_in, meant_keyword
 from mudline.keywords.model import ListRow
@@ -24,6 +24,9 @@ from mudline.syntax.tree import canonical_name, mark_of
 
 MOST_TOLD = 1000
 """Findings of one code told one by one; the rest is left out."""
+
+MORE = f"and more of the same: the first {MOST_TOLD} are listed"
+"""The message of the finding behind them."""
 
 _NEAR = 0.75
 _LONGEST_MISSPELT = 256
@@ -50,6 +53,7 @@ class Context:
     doubtful: dict[str, list[tuple[int, int]]] = field(default_factory=dict)
     _told: dict[str, int] = field(default_factory=dict)
     _compared: int = 0
+    _placeless: set[tuple[int, int]] = field(default_factory=set)
 
     def __post_init__(self) -> None:
         for i, section in enumerate(self.deck.sections):
@@ -59,21 +63,27 @@ class Context:
 
     def tell(self, code: Code, message: str, where: Where, severity: Severity | None = None) -> None:
         """Note a problem."""
-        count = self._told[code.code] = self._told.get(code.code, 0) + 1
+        self.note(Problem(code, message, None, severity, where))
+
+    def note(self, problem: Problem) -> None:
+        """Note a problem, if there are not very many of its code already."""
+        code = problem.code.code
+        count = self._told[code] = self._told.get(code, 0) + 1
         if count <= MOST_TOLD:
-            self.problems.append(Problem(code, message, None, severity, where))
+            self.problems.append(problem)
         elif count == MOST_TOLD + 1:
-            message = f"and more of the same: the first {MOST_TOLD} are listed"
-            self.problems.append(Problem(code, message, None, severity, where))
+            self.problems.append(replace(problem, message=MORE))
 
     def tell_missing(self, code: Code, message: str, where: Where, keyword: str, number: int | None = None) -> None:
-        """Note a name or number that nothing defines: an error, or a warning where something unread could define it."""
-        if self._told.get(code.code, 0) > MOST_TOLD:
-            return
+        """Note a name or number that nothing defines."""
+        if self._told.get(code.code, 0) <= MOST_TOLD:
+            self.note(self.missing(code, message, where, keyword, number))
+
+    def missing(self, code: Code, message: str, where: Where, keyword: str, number: int | None = None) -> Problem:
+        """A name or number that nothing defines: an error, or a warning where something unread could define it."""
         if supplier := self.supplier(keyword, number):
-            self.tell(code, f"{message}; {supplier}", where, Severity.WARNING)
-        else:
-            self.tell(code, message, where)
+            return Problem(code, f"{message}; {supplier}", None, Severity.WARNING, where)
+        return Problem(code, message, where=where)
 
     def supplier(self, keyword: str, number: int | None = None) -> str:
         """What could define a thing of a keyword that is missing, in words, or ""; `number` None stands for any."""
@@ -169,8 +179,28 @@ class Context:
 
     def doubted(self, where: Where) -> bool:
         """Whether the label at this place was guessed from a word without braces, which has been told."""
+        return self._line_and_column(where) in self._guessed_labels
+
+    def cannot_place(self, where: Where) -> None:
+        """Note that an element ends at the label at this place, and that no node with that label is known."""
+        self._placeless.add(self._line_and_column(where))
+
+    def of_deck(self) -> list[Problem]:
+        """What reading the deck noticed; guessed labels that elements end at keep it from being evaluated."""
+        if not self._placeless:
+            return self.deck.problems
+        return [
+            replace(problem, blocks=Blocks.ALWAYS) if self._is_placeless(problem) else problem
+            for problem in self.deck.problems
+        ]
+
+    def _is_placeless(self, problem: Problem) -> bool:
+        place = self.deck.origin.place(problem)
+        return problem.code is SYN016 and (place.line, place.column) in self._placeless
+
+    def _line_and_column(self, where: Where) -> tuple[int, int]:
         place = self.deck.origin.place(Problem(SYN016, "", where=where))
-        return (place.line, place.column) in self._guessed_labels
+        return place.line, place.column
 
     @cached_property
     def definers(self) -> list[str]:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from mudline.deck.model import Deck, Origin, Range, Section
-from mudline.diagnostics import Diagnostic, Problem, Severity, Where
+from mudline.diagnostics import Blocks, Diagnostic, Problem, Where
 from mudline.keywords.model import Block
 
 
@@ -26,7 +26,7 @@ class Base:
     @property
     def errors(self) -> list[Problem]:
         """What keeps its model from being used."""
-        return [problem for problem in self.problems if problem.weight is Severity.ERROR]
+        return [problem for problem in self.problems if problem.blocking is Blocks.ALWAYS]
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,6 +44,7 @@ def lent(problem: Problem, deck: Deck) -> BaseProblem:
         span=problem.span,
         severity=problem.severity,
         where=problem.where,
+        blocks=problem.blocks,
         deck=deck,
     )
 

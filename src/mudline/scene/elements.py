@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
 from mudline.codes import REF005, REF006, REF010
-from mudline.diagnostics import Severity, Where
+from mudline.diagnostics import Blocks, Severity, Where
 from mudline.keywords.table import Table
 from mudline.keywords.text import shown
 from mudline.scene.context import MOST_TOLD, Context
@@ -81,9 +81,11 @@ def _labels(context: Context, table: Table, where: Where) -> None:
         return
     for row, column, word in labels[: MOST_TOLD + 1]:
         place = where._replace(path=(*where.path, "elements", row, column))
-        if not context.doubted(place):
+        if context.doubted(place):
+            context.cannot_place(place)
+        else:
             message = f"node {shown(word)} is a label, and nothing in this deck makes labelled nodes: give a number"
-            context.tell_missing(REF006, message, place, "NODE")
+            context.note(replace(context.missing(REF006, message, place, "NODE"), blocks=Blocks.ALWAYS))
 
 
 def _generate(context: Context, gathered: Gathered, given: ElementPattern, where: Where) -> None:
@@ -137,7 +139,8 @@ def _join(context: Context, elements: Numbered, nodes: Numbered) -> Indices:
         message = f"element {elements.ids[index]} ends at node {numbers[index, end]}, which is not defined: define it"
         generated = not elements.batches[elements.batches_of(int(elements.rows[index]))].table
         place = where if generated else where._replace(path=(*where.path, end + 1))
-        context.tell_missing(REF006, message, place, "NODE", int(numbers[index, end]))
+        problem = context.missing(REF006, message, place, "NODE", int(numbers[index, end]))
+        context.note(replace(problem, blocks=Blocks.ALWAYS))
     return indices
 
 

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from mudline.codes import SBD023
 from mudline.diagnostics import Where
 from mudline.keywords.text import shown
 from mudline.scene.context import Context
@@ -53,7 +52,8 @@ class Floor:
     """The bed, angles in degrees, lengths in the deck's units.
 
     `points` (k, 2) are Y and elevation of a profile, (k, 3) elevation, Y and Z of a surface, in the order of the deck.
-    `missing` says why they are not known, "" when they are.
+    `missing` says why they are not known, "" when they are. `unreadable` has the places of all files of points that
+    could not be read, those of other profiles too, with what is wrong.
     """
 
     kind: FloorKind = FloorKind.FLAT
@@ -65,6 +65,7 @@ class Floor:
     file: str = ""
     missing: str = ""
     where: Where = field(default_factory=Where)
+    unreadable: tuple[tuple[Where, str], ...] = ()
 
     def same(self, other: Floor) -> bool:
         """Whether both are the same bed, number by number; files of points that are not known must be the same file."""
@@ -82,8 +83,9 @@ def read_floor(context: Context) -> Floor:
     for keyword in ("RIGID SURFACE", "ELASTIC SURFACE"):
         for where, block in context.deck.blocks(keyword):
             found = _surface(cast("Surface", block), where, found)
+    unreadable: list[tuple[Where, str]] = []
     for where, block in context.deck.blocks("SEABED PROFILE"):
-        found = _profile(context, cast("SeabedProfile", block), where)
+        found = _profile(context, cast("SeabedProfile", block), where, unreadable)
     planes = [
         _plane(plane)
         for _, block in context.deck.blocks("SEABED PLANES")
@@ -92,7 +94,7 @@ def read_floor(context: Context) -> Floor:
     if planes:
         where = next(where for where, _ in context.deck.blocks("SEABED PLANES"))
         found = Floor(FloorKind.PLANES, planes=tuple(planes), where=where)
-    return found
+    return replace(found, unreadable=tuple(unreadable)) if unreadable else found
 
 
 def _surface(surface: Surface, where: Where, before: Floor) -> Floor:
@@ -104,13 +106,16 @@ def _surface(surface: Surface, where: Where, before: Floor) -> Floor:
     return before
 
 
-def _profile(context: Context, block: SeabedProfile, where: Where) -> Floor:
+def _profile(context: Context, block: SeabedProfile, where: Where, unreadable: list[tuple[Where, str]]) -> Floor:
     direction = number(block, "direction", 0.0)
     if block.type_ == "SLOPING":
         return Floor(FloorKind.SLOPING, number(block, "slope"), direction, where=where)
     kind, columns = (FloorKind.SURFACE, 3) if block.type_ == "3D" else (FloorKind.PROFILE, 2)
     name = file_name(block.file or "")
-    points, missing = _points(context, name, columns, where._replace(path=("file",)))
+    place = where._replace(path=("file",))
+    points, missing, fault = _points(context, name, columns, place)
+    if fault:
+        unreadable.append((place, f"the profile {shown(name)} cannot be read: {fault}"))
     return Floor(
         kind,
         direction=direction,
@@ -122,19 +127,18 @@ def _profile(context: Context, block: SeabedProfile, where: Where) -> Floor:
     )
 
 
-def _points(context: Context, name: str, columns: int, where: Where) -> tuple[Floats, str]:
-    """The points of a file, or why they are not known; a file that is not there is told elsewhere."""
+def _points(context: Context, name: str, columns: int, where: Where) -> tuple[Floats, str, str]:
+    """The points of a file, why they are not known, and the fault of a file that is there, or is a compiled one."""
     path = find_file(context.deck.folder_of(where), name)
     try:
         if path is None and not name.lower().endswith(COMPILED):
-            return _NO_POINTS, f"{shown(name)} is not there"
-        return read_profile(path or Path(name), columns), ""
-    except ProfileError as fault:
-        context.tell(SBD023, f"the profile {shown(name)} cannot be read: {fault}", where)
-        return _NO_POINTS, str(fault)
+            return _NO_POINTS, f"{shown(name)} is not there", ""
+        return read_profile(path or Path(name), columns), "", ""
+    except ProfileError as error:
+        fault = str(error)
     except OSError as error:
-        context.tell(SBD023, f"the profile {shown(name)} cannot be read: {error.strerror}", where)
-        return _NO_POINTS, str(error.strerror)
+        fault = str(error.strerror)
+    return _NO_POINTS, fault, fault
 
 
 def _plane(plane: Plane) -> FloorPlane:

@@ -8,12 +8,9 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from mudline.codes import REF002
 from mudline.contact.input import LawKind
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Where
-from mudline.keywords.remarks import advice_on
-from mudline.keywords.text import shown
 from mudline.scene.context import Context
 from mudline.scene.force_curves import SceneCurve, set_name
 from mudline.scene.numbering import Indices
@@ -171,11 +168,5 @@ class _Reading:
     def _curve(self, name: str, where: Where, found: NamedSet, *, unread: bool) -> Grant:
         self.laws.referenced.add(folded(name))
         index = self.curves.get(folded(name), NOTHING)
-        if index == NOTHING:
-            near = self.context.near(name, self.curves)
-            hint = f" (did you mean {self.laws.curves[self.curves[near]].name}?)" if near else ""
-            advice = advice_on(name) or "*SEABED STIFFNESS has no such curve"
-            message = f"curve {shown(name)} is not defined{hint}: {advice}"
-            self.context.tell_missing(REF002, message, where, "SEABED STIFFNESS")
         unknown = unread or index == NOTHING or not self.laws.curves[index].usable
         return Grant(LawKind.CURVE, found, where, "new", curve=index, unknown=unknown)

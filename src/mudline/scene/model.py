@@ -9,15 +9,16 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mudline.codes import REF007, RUN001
+from mudline.codes import RUN001
 from mudline.contact.errors import ElementError
 from mudline.contact.input import ContactInput, LawKind
 from mudline.contact.model import ContactModel
 from mudline.contact.plan import Backend
 from mudline.deck.model import Deck
 from mudline.deck.parameters import folded
-from mudline.diagnostics import DeckError, Problem, Severity, Where
+from mudline.diagnostics import Blocks, DeckError, Problem, Severity, Where
 from mudline.scene.bed import Bed
+from mudline.scene.checks.running import checked
 from mudline.scene.contact_parts.build import laws_of, seabed_of, table_of
 from mudline.scene.contact_parts.refused import RefusedError
 from mudline.scene.context import Context
@@ -36,9 +37,6 @@ from mudline.scene.sets import Sets
 if TYPE_CHECKING:
     from mudline.curves import ForceCurve
 
-_TOLERATED = (REF007.code,)
-"""Errors with a stated meaning (the later definition holds) do not keep a scene from being used."""
-
 
 class LawArrays(NamedTuple):
     """The normal law of elements (m,): `LawKind`, index in `curves` or -1, linear stiffness or NaN."""
@@ -53,7 +51,8 @@ class LawArrays(NamedTuple):
 class Scene:
     """Nodes (n), elements (m), sets, sections and laws of a deck, in the deck's units.
 
-    `deck` has its equations evaluated. `problems` is what resolving noticed; `require` refuses a scene with errors.
+    `deck` has its equations evaluated. `noticed` is what went wrong while it was resolved; `problems` has that and what
+    the checks find, `findings` what reading noticed too. `require` refuses a scene with errors.
     """
 
     deck: Deck
@@ -65,7 +64,7 @@ class Scene:
     bed: Bed
     extensions: dict[str, Extension]
     floor: Floor
-    problems: list[Problem]
+    noticed: list[Problem]
 
     @property
     def context(self) -> Context:
@@ -174,10 +173,33 @@ class Scene:
             return f"curve:{self.laws.curves[grant.curve].name}"
         return grant.kind.name.lower()
 
+    @cached_property
+    def findings(self) -> list[Problem]:
+        """All that is wrong with the deck, as far as evaluating it goes."""
+        return [*self.context.of_deck(), *self.problems]
+
+    @cached_property
+    def problems(self) -> list[Problem]:
+        """What resolving the deck noticed, and what the checks of the scene find."""
+        return [*self.noticed, *checked(self)]
+
+    def blocking(self, tension: Literal["keep", "cut"] = "keep") -> list[Problem]:
+        """The findings that keep the scene from being evaluated; `tension` is that of `contact`."""
+        blocks = (Blocks.ALWAYS, Blocks.WITH_TENSION) if tension == "keep" else (Blocks.ALWAYS,)
+        return [problem for problem in self.findings if problem.blocking in blocks]
+
     def errors(self) -> list[Problem]:
-        """What keeps the scene from being used."""
-        found = (problem for problem in [*self.deck.problems, *self.problems] if problem.weight is Severity.ERROR)
-        return [problem for problem in found if problem.code.code not in _TOLERATED]
+        """What is wrong with the deck itself, so that the scene cannot be used.
+
+        A warning may keep the scene from being evaluated too: what it lacks may stand where it is not read.
+        """
+        return [problem for problem in self.blocking("cut") if problem.weight is Severity.ERROR]
+
+    def require_evaluable(self, tension: Literal["keep", "cut"] = "keep") -> Scene:
+        """The scene itself; raises DeckError for the findings that keep it from being evaluated."""
+        if problems := self.blocking(tension):
+            raise DeckError(self.deck.diagnose(problems))
+        return self
 
     def require(self) -> Scene:
         """The scene itself; raises DeckError for errors on which a result depends."""
@@ -191,14 +213,14 @@ class Scene:
         `backend` "fast" steps through history with compiled loops (extra `mudline[fast]`), "numpy" never does, "auto"
         does where a series is so long that compiling pays.
 
-        Raises ImportError where "fast" is not installed, and DeckError for errors on which a result depends, where a
-        law, a node, a length or the bed is not known, and for a law or a bed that is none.
+        Raises ImportError where "fast" is not installed, and DeckError for the findings that keep the scene from being
+        evaluated, and (RUN001) for what no check covers.
         """
         return ContactModel(self.contact_input(tension), backend=backend)
 
     def contact_input(self, tension: Literal["keep", "cut"] = "keep") -> ContactInput:
         """The arrays that the evaluator is made from; raises DeckError as `contact` does."""
-        self.require()
+        self.require_evaluable(tension)
         if problems := list(refusals(self)):
             raise DeckError(self.deck.diagnose(problems))
         try:
@@ -214,7 +236,7 @@ class Scene:
 
     def _contact_input(self, tension: Literal["keep", "cut"]) -> ContactInput:
         arrays = self.law_arrays()
-        laws = laws_of(self, arrays, keep=tension == "keep")
+        laws = laws_of(self, arrays)
         return ContactInput(
             node_ids=self.node_ids,
             coordinates=self.coordinates,

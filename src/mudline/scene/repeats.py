@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mudline.codes import REF007
-from mudline.diagnostics import Severity
+from mudline.diagnostics import Blocks, Problem, Severity
 from mudline.scene.context import MOST_TOLD, Context
 from mudline.scene.numbering import Indices, Numbered
 
@@ -31,7 +31,7 @@ def _tell(context: Context, numbered: Numbered, row: int, thing: str, count: int
     what = f"{thing} {number[0]} is" if count == 1 else f"{count} {thing}s (first: {number[0]}) are"
     message = f"{what} defined twice: the later definition holds; remove one"
     if first.section == where.section:
-        context.tell(REF007, message, where)
+        context.note(Problem(REF007, message, where=where, blocks=Blocks.NEVER))
     else:
         message += " (inferred: the $MODEL sections of a file make one model)"
         context.tell(REF007, message, where, Severity.WARNING)

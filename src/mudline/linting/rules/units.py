@@ -17,7 +17,7 @@ from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
 from mudline.linting.rules.curves.columns import swapped
-from mudline.linting.rules.sections import format_of
+from mudline.scene.checks.sections import format_of
 from mudline.scene.context import MOST_TOLD
 from mudline.scene.model import Scene
 

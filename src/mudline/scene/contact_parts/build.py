@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mudline.contact.input import LawAssignment, LawKind
-from mudline.scene.contact_parts.refused import RefusedError
 from mudline.scene.floor import FloorKind
 from mudline.scene.numbering import Indices
 
@@ -25,9 +24,9 @@ def seabed_of(scene: Scene) -> Seabed | None:
     return contact_seabed(scene.floor)
 
 
-def laws_of(scene: Scene, arrays: LawArrays, *, keep: bool) -> list[LawAssignment]:
-    """Everything that the deck gives elements and nodes; `keep`: pulling curves are kept. Raises RefusedError."""
-    laws = [*_normal(scene, arrays), *_suction(scene, keep=keep), *_sideways(scene)]
+def laws_of(scene: Scene, arrays: LawArrays) -> list[LawAssignment]:
+    """Everything that the deck gives elements and nodes."""
+    laws = [*_normal(scene, arrays), *_suction(scene), *_sideways(scene)]
     return [law for law in laws if len(law.rows)]
 
 
@@ -55,12 +54,7 @@ def _normal(scene: Scene, arrays: LawArrays) -> list[LawAssignment]:
         smoothed[smoothing.rows] = True
         laws.append(smoothing)
     plain = linear[~smoothed[linear]]
-    stiffness = arrays.linear_stiffness[plain]
-    if np.isnan(stiffness).any():
-        index = int(plain[np.isnan(stiffness)][0])
-        message = f"element {scene.element_ids[index]} has a linear law and no finite stiffness"
-        raise RefusedError(f"{message}; this cannot be evaluated", scene.table.numbered.where(index))
-    laws.append(LawAssignment("linear", plain, {"stiffness": stiffness}))
+    laws.append(LawAssignment("linear", plain, {"stiffness": arrays.linear_stiffness[plain]}))
     if (scene.law == LawKind.NODAL).any():
         from mudline.scene.contact_parts.nodal import nodal_springs  # noqa: PLC0415 - only now is it needed
 
@@ -68,11 +62,11 @@ def _normal(scene: Scene, arrays: LawArrays) -> list[LawAssignment]:
     if "SEABED UNLOADING" in scene.extensions:
         from mudline.scene.contact_parts.unloading import unloading_lines  # noqa: PLC0415 - only now is it needed
 
-        laws.append(unloading_lines(scene, smoothed))
+        laws.append(unloading_lines(scene))
     return laws
 
 
-def _suction(scene: Scene, *, keep: bool) -> list[LawAssignment]:
+def _suction(scene: Scene) -> list[LawAssignment]:
     laws = []
     if given(scene, "suction"):
         stiffness, extent = scene.bed.column("suction"), scene.bed.column("extent")
@@ -82,7 +76,7 @@ def _suction(scene: Scene, *, keep: bool) -> list[LawAssignment]:
     if "SEABED SUCTION" in scene.extensions:
         from mudline.scene.contact_parts.suction import element_suction  # noqa: PLC0415 - only now is it needed
 
-        laws.append(element_suction(scene, keep=keep))
+        laws.append(element_suction(scene))
     return laws
 
 
@@ -98,7 +92,7 @@ def _sideways(scene: Scene) -> list[LawAssignment]:
     if "SEABED TRENCH" in scene.extensions:
         from mudline.scene.contact_parts.trench import trenches  # noqa: PLC0415 - only now is it needed
 
-        laws += trenches(scene, friction)
+        laws += trenches(scene)
     return laws
 
 

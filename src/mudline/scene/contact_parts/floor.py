@@ -21,20 +21,21 @@ if TYPE_CHECKING:
 def contact_seabed(floor: Floor) -> Seabed | None:
     """The bed; None for a flat one at elevation 0.
 
-    Raises RefusedError: points that are not known, a bed that is none, or one that needs a package that is missing.
+    Raises RefusedError for what no check covers: files of a deck that came from no folder, points that only their
+    triangulation refuses, and a package that is missing.
     """
     if floor.kind is FloorKind.FLAT:
         return None
     if floor.missing:
-        raise RefusedError(f"the bed is not known: {floor.missing}; this cannot be evaluated", floor.where)
+        raise RefusedError(f"the seabed is not known: {floor.missing}; this cannot be evaluated", floor.where)
     try:
-        return _made(floor)
+        return made_seabed(floor)
     except SeabedError as error:
         raise RefusedError(f"{error}; this cannot be evaluated", floor.where) from error
 
 
-def _made(floor: Floor) -> Seabed:
-    """Only the module of the kind that there is gets imported."""
+def made_seabed(floor: Floor) -> Seabed:
+    """The bed of a floor that is not flat; raises SeabedError for one that is none. Imports the module of its kind."""
     if floor.kind is FloorKind.SLOPING:
         from mudline.contact.seabed.base import SlopingSeabed  # noqa: PLC0415 - only now is it needed
 

@@ -6,10 +6,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from mudline.diagnostics import Where
-from mudline.scene.contact_parts.refused import RefusedError
-from mudline.scene.extensions import Extension
-from mudline.scene.numbering import Floats, Ids, Indices, Mask
+from mudline.scene.numbering import Floats, Indices, Mask
 
 
 def picked(values: Iterable[float], index: Indices) -> Floats:
@@ -45,21 +42,3 @@ def touched(elements: Mask, element_nodes: Indices, nodes: int) -> Mask:
     found = np.zeros(nodes, dtype=np.bool_)
     found[element_nodes[elements].ravel()] = True
     return found
-
-
-def refuse(extension: Extension, elements: Mask, ids: Ids, what: str, *key: str) -> None:
-    """Refuse the block that the first of the marked elements follows, or its value `key`, if there is one."""
-    at = np.flatnonzero(elements)
-    if at.size:
-        message = f"{what}: {_named(ids[at])}; this cannot be evaluated"
-        where = extension.places[int(extension.of_element[at[0]])]
-        raise RefusedError(message, where._replace(path=(*where.path, *key)))
-
-
-def refuse_entry(where: Where, key: str | int, what: str) -> None:
-    """Refuse a value of a block."""
-    raise RefusedError(f"{what}; this cannot be evaluated", where._replace(path=(*where.path, key)))
-
-
-def _named(ids: Ids) -> str:
-    return f"element {ids[0]}" if ids.size == 1 else f"{ids.size} elements (first: {ids[0]})"

@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from mudline.linting.rules.references import curves, files, lists, numbers, parameters, repeats, sets
+from mudline.linting.rules.references import curves, lists, repeats, sets
 
-__all__ = ["curves", "files", "lists", "numbers", "parameters", "repeats", "sets"]
+__all__ = ["curves", "lists", "repeats", "sets"]

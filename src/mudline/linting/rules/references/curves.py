@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, cast
 
-from mudline.codes import REF002
 from mudline.contact.input import LawKind
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Code, Problem, Severity
@@ -23,42 +22,6 @@ if TYPE_CHECKING:
 
 REF003 = Code("REF003", "unused-curve", Severity.WARNING)
 REF004 = Code("REF004", "duplicate-curve", Severity.WARNING)
-
-
-@rule(REF002)
-def undefined_curve(context: LintContext) -> Iterator[Problem]:
-    """A STIFFNESS= names a curve that the deck does not define.
-
-    The elements of the set have no seabed then. A STIFFNESS= that is no number is taken for the name of a curve, so a
-    slip in a number is told here too. Define the curve in *SEABED STIFFNESS, or correct the name.
-
-    Bad:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Soft Clay
-         0.0, 0.0
-         0.1, 1200.0
-         0.5, 4200.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Softclay
-
-    Good:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Soft Clay
-         0.0, 0.0
-         0.1, 1200.0
-         0.5, 4200.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Soft Clay
-
-    Finds: 10:12
-    """
-    yield from context.told(REF002)
 
 
 @rule(REF003)

@@ -1,4 +1,4 @@
-"""The seabed: its type, what carries the elements, the values of its fields."""
+"""The seabed: what carries the elements, what is given twice or for nothing, where the nodes lie."""
 
 from __future__ import annotations
 
@@ -9,11 +9,7 @@ from mudline.linting.rules.seabed import (
     friction,
     overlaps,
     position,
-    profile,
     restraint,
-    slope,
-    types,
-    values,
 )
 
 __all__ = [
@@ -23,9 +19,5 @@ __all__ = [
     "friction",
     "overlaps",
     "position",
-    "profile",
     "restraint",
-    "slope",
-    "types",
-    "values",
 ]

@@ -6,11 +6,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mudline.codes import SBD004
 from mudline.contact.input import LawKind
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
+from mudline.scene.checks.laws import SBD004
 from mudline.scene.floor import FloorKind
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices
@@ -77,7 +77,7 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
         return
     if reading.unread.intersection(_LEGACY) or "SEABED CONTACT" in scene.deck.keywords():
         return  # a law that was not read may hold
-    if any(problem.code is SBD004 for problem in scene.problems):
+    if any(context.told(SBD004)):
         return  # that there is no stiffness has been told
     free = scene.law == LawKind.NONE
     yield from _blocks(scene, np.flatnonzero(free & (scene.laws.covered >= 0)))

@@ -4,24 +4,57 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from mudline.codes import SBD010
-from mudline.diagnostics import Where
+from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.model import Block, ListRow, Part, Rows, Slot, layout
 from mudline.keywords.table import Table
-from mudline.scene.context import Context
+from mudline.scene.checks.declaring import check
+
+if TYPE_CHECKING:
+    from mudline.scene.model import Scene
+
+SBD010 = Code("SBD010", "negative-property", Severity.ERROR)
+
+_GEOMETRY = "geometry"
+"""A setting of `*SEABED TRENCH`, the third step of a path to its values; EXT003 says what is wrong with them."""
 
 
-def check_ranges(context: Context) -> None:
-    """Every number of `$MODEL` against the range of its field."""
-    for i, section in enumerate(context.deck.sections):
+@check(SBD010)
+def negative_property(scene: Scene) -> Iterator[Problem]:
+    """A stiffness, a friction coefficient, a length or a diameter is negative, or zero where it divides.
+
+    Such a value has no physical meaning: a sign was typed by mistake, or the value stands in the wrong field. The same
+    holds for a share above 1, as the floor of CYCLIC= in *SEABED SUCTION. Correct it. Values of equations and of tables
+    are looked at too. The geometry of a trench and the stiffness of unloading have rules of their own, EXT003 and
+    EXT009.
+
+    Bad:
+        $MODEL
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=50000.0
+         FRICTION=-0.3, 0.6
+
+    Good:
+        $MODEL
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=50000.0
+         FRICTION=0.3, 0.6
+
+    Finds: 6:11
+    """
+    for i, section in enumerate(scene.deck.sections):
         if section.name != "MODEL":
             continue
         for j, block in enumerate(section.blocks):
             if isinstance(block, Block):
                 for path, message in _faults(block):
-                    context.tell(SBD010, message, Where(i, j, path))
+                    if _GEOMETRY not in path[2:3] or block.keyword != "SEABED TRENCH":
+                        yield Problem(SBD010, message, where=Where(i, j, path))
 
 
 @cache

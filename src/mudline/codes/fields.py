@@ -1,18 +1,15 @@
-"""Fields: numbers, brackets, labels and equations."""
+"""Fields of lines: numbers, brackets, labels, equations."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from mudline.diagnostics import Code, Severity
 
-from mudline.codes import SYN002, SYN003, SYN006, SYN015, SYN016, SYN017
-from mudline.diagnostics import Problem
-from mudline.linting.context import LintContext
-from mudline.linting.registry import rule
-
-
-@rule(SYN002)
-def bad_number(context: LintContext) -> Iterator[Problem]:
-    """A field that needs a number holds none.
+SYN002 = Code(
+    "SYN002",
+    "bad-number",
+    Severity.ERROR,
+    """
+    A field that needs a number holds none.
 
     A letter O for a zero, two decimal points or a value that a spreadsheet wrote as NaN are easily overlooked, and
     programs differ in what they make of them: some stop, some read the digits up to the first strange character. Values
@@ -30,13 +27,15 @@ def bad_number(context: LintContext) -> Iterator[Problem]:
          500.0, 1025.0, 9.81
 
     Finds: 3:2
+    """,
+)
+
+SYN003 = Code(
+    "SYN003",
+    "wrong-field-count",
+    Severity.ERROR,
     """
-    yield from context.told(SYN002)
-
-
-@rule(SYN003)
-def wrong_field_count(context: LintContext) -> Iterator[Problem]:
-    """The line has too few or too many fields.
+    The line has too few or too many fields.
 
     The place of a value on its line says what it is, so one comma too many or a value left out gives every later value
     another meaning. The message shows the format of the line. A field that may be empty is still set off by its comma.
@@ -66,13 +65,15 @@ def wrong_field_count(context: LintContext) -> Iterator[Problem]:
          STIFFNESS=Soft clay
 
     Finds: 5:2
+    """,
+)
+
+SYN006 = Code(
+    "SYN006",
+    "unbalanced-bracket",
+    Severity.ERROR,
     """
-    yield from context.told(SYN003)
-
-
-@rule(SYN006)
-def unbalanced_bracket(context: LintContext) -> Iterator[Problem]:
-    """A bracket, brace, slash list or quotation mark is opened and not closed on its line.
+    A bracket, brace, slash list or quotation mark is opened and not closed on its line.
 
     Commas between `=[` and `]`, in `{...}`, `/.../` and `"..."` part no fields. An opened one therefore swallows the
     rest of the line, and the values behind it are lost. Close it on the same line: nothing continues on the next.
@@ -96,13 +97,15 @@ def unbalanced_bracket(context: LintContext) -> Iterator[Problem]:
          =[depth], 1025.0, 9.81
 
     Finds: 4:12
+    """,
+)
+
+SYN015 = Code(
+    "SYN015",
+    "decimal-comma",
+    Severity.WARNING,
     """
-    yield from context.told(SYN006)
-
-
-@rule(SYN015)
-def decimal_comma(context: LintContext) -> Iterator[Problem]:
-    """A comma may have been meant as a decimal point.
+    A comma may have been meant as a decimal point.
 
     A comma parts fields, so `0,1` is the two numbers 0 and 1. A line of whole numbers, twice as many as it should have,
     or two numbers where one belongs, was probably written with decimal commas, as a spreadsheet does in many countries.
@@ -134,13 +137,15 @@ def decimal_comma(context: LintContext) -> Iterator[Problem]:
          STIFFNESS=Soft clay
 
     Finds: 5:2
+    """,
+)
+
+SYN016 = Code(
+    "SYN016",
+    "label-without-braces",
+    Severity.WARNING,
     """
-    yield from context.told(SYN015)
-
-
-@rule(SYN016)
-def label_without_braces(context: LintContext) -> Iterator[Problem]:
-    """Text stands where the number or the {label} of a node or element belongs.
+    Text stands where the number or the {label} of a node or element belongs.
 
     Nodes and elements that the lines facility makes have labels with blanks in them, and a label stands in braces
     wherever a number could stand. The text is read as if it had them; other programs may stop here, or read on with
@@ -163,13 +168,15 @@ def label_without_braces(context: LintContext) -> Iterator[Problem]:
          {Seabed End}
 
     Finds: 6:2
+    """,
+)
+
+SYN017 = Code(
+    "SYN017",
+    "expression-error",
+    Severity.ERROR,
     """
-    yield from context.told(SYN016)
-
-
-@rule(SYN017)
-def expression_error(context: LintContext) -> Iterator[Problem]:
-    """The equation cannot be read or has no value.
+    The equation cannot be read or has no value.
 
     An operand or a bracket is missing, a number is divided by zero, a function gets the wrong number of arguments: the
     field then has no value, and neither has anything that depends on it. Correct the equation at the place that the
@@ -194,5 +201,5 @@ def expression_error(context: LintContext) -> Iterator[Problem]:
          =[surveyed + tide], 1025.0, 9.81
 
     Finds: 7:2
-    """
-    yield from context.told(SYN017)
+    """,
+)

@@ -2,20 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from itertools import islice
+from mudline.diagnostics import Code, Severity
 
-from mudline.codes import SYN004, SYN005, SYN009, SYN010
-from mudline.diagnostics import Problem
-from mudline.linting.context import LintContext
-from mudline.linting.registry import rule
-from mudline.scene.context import MOST_TOLD
-from mudline.variations.undefined import misspelt_keywords, misspelt_sections
-
-
-@rule(SYN004)
-def unknown_setting(context: LintContext) -> Iterator[Problem]:
-    """The keyword has no such KEY=.
+SYN004 = Code(
+    "SYN004",
+    "unknown-setting",
+    Severity.ERROR,
+    """
+    The keyword has no such KEY=.
 
     A setting that is misspelt is not read, and the default or nothing at all holds in its place: a seabed without its
     stiffness carries nothing. The message lists the keys of the keyword and suggests the nearest.
@@ -35,13 +29,15 @@ def unknown_setting(context: LintContext) -> Iterator[Problem]:
          STIFFNESS=50000.0
 
     Finds: 5:2
+    """,
+)
+
+SYN005 = Code(
+    "SYN005",
+    "bad-choice",
+    Severity.ERROR,
     """
-    yield from context.told(SYN004)
-
-
-@rule(SYN005)
-def bad_choice(context: LintContext) -> Iterator[Problem]:
-    """The setting takes one of a few words, and this is none of them.
+    The setting takes one of a few words, and this is none of them.
 
     A choice decides how the lines below it are read and which law holds, so it cannot be guessed. The message lists the
     words and suggests the nearest. Upper or lower case does not matter.
@@ -61,13 +57,15 @@ def bad_choice(context: LintContext) -> Iterator[Problem]:
          STIFFNESS=50000.0
 
     Finds: 3:7
+    """,
+)
+
+SYN009 = Code(
+    "SYN009",
+    "unknown-keyword",
+    Severity.INFO,
     """
-    yield from context.told(SYN005)
-
-
-@rule(SYN009)
-def unknown_keyword(context: LintContext) -> Iterator[Problem]:
-    """The keyword is not known.
+    The keyword is not known.
 
     There are more keywords than are known here, so this is a note: the block is kept as it is and not checked. A name
     that differs from a known one by a letter or two, has the same beginning or has words behind it is a warning, as a
@@ -85,14 +83,15 @@ def unknown_keyword(context: LintContext) -> Iterator[Problem]:
          500.0, 1025.0, 9.81
 
     Finds: 2:1
+    """,
+)
+
+SYN010 = Code(
+    "SYN010",
+    "unknown-section",
+    Severity.INFO,
     """
-    yield from context.told(SYN009)
-    yield from islice(misspelt_keywords(context.deck), MOST_TOLD)
-
-
-@rule(SYN010)
-def unknown_section(context: LintContext) -> Iterator[Problem]:
-    """The section is not known.
+    The section is not known.
 
     All that stands in it is kept as it is and not checked. This is a note, as there are sections that are not known
     here; a name that differs from a known one by a letter or two, has the same beginning or has words behind it is a
@@ -115,6 +114,5 @@ def unknown_section(context: LintContext) -> Iterator[Problem]:
          TYPE=STATIC
 
     Finds: 4:1
-    """
-    yield from context.told(SYN010)
-    yield from islice(misspelt_sections(context.deck), MOST_TOLD)
+    """,
+)

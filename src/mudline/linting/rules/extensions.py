@@ -1,4 +1,4 @@
-"""Unloading against the loading law and against smoothing."""
+"""Unloading against the loading law."""
 
 from __future__ import annotations
 
@@ -10,14 +10,11 @@ from mudline.contact.input import LawKind
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
-from mudline.linting.rules.extensions.smoothing import smoothed
 from mudline.scene.given import number
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats
 
 EXT008 = Code("EXT008", "soft-unloading", Severity.WARNING)
-EXT009 = Code("EXT009", "unloading-conflict", Severity.ERROR)
-
 _KEYWORD = "SEABED UNLOADING"
 
 
@@ -79,55 +76,6 @@ def soft_unloading(context: LintContext) -> Iterator[Problem]:
                 f"{float(steepest[softer].max()):.6g}: it is raised to it; give at least that"
             )
             yield Problem(EXT008, message, where=where._replace(path=(*where.path, "stiffness")))
-
-
-@rule(EXT009)
-def unloading_conflict(context: LintContext) -> Iterator[Problem]:
-    """Unloading stands together with smoothing, or its stiffness is not above 0.
-
-    Both change the reaction near the bed, and there is no law for the two together. *SEABED CONTACT smooths a linear
-    law unless it says SMOOTHING=NONE. Write that, or remove the unloading; a stiffness divides and must be above 0.
-    SMOOTHING=AUTO smooths nothing where the submerged weight is not known, or is not above 0.
-
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-        *SEABED UNLOADING
-         SET=ALL
-         STIFFNESS=0.0
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-        *SEABED UNLOADING
-         SET=ALL
-         STIFFNESS=500000.0
-
-    Finds: 8:12
-    """
-    scene = context.scene
-    extension = scene.extensions.get(_KEYWORD)
-    if extension is None:
-        return
-    smooth = smoothed(scene)
-    for index, (entry, where) in enumerate(zip(extension.entries, extension.places, strict=True)):
-        stiffness = number(entry, "stiffness")
-        if stiffness <= 0.0:
-            message = f"unloading stiffness {stiffness!r}: it must be above 0"
-            yield Problem(EXT009, message, where=where._replace(path=(*where.path, "stiffness")))
-        both = np.flatnonzero((extension.of_element == index) & smooth)
-        if both.size:
-            message = (
-                f"{both.size} elements (first: {scene.element_ids[both[0]]}) have smoothing too: "
-                "write SMOOTHING=NONE in *SEABED CONTACT, or remove the unloading"
-            )
-            yield Problem(EXT009, message, where=where._replace(path=(*where.path, "set")))
 
 
 def _steepest(scene: Scene) -> Floats:

@@ -1,18 +1,15 @@
-"""Lines: what kind they are, and whether they stand where they belong."""
+"""Lines, blocks and files that cannot be read as they stand."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from mudline.diagnostics import Code, Severity
 
-from mudline.codes import SYN001, SYN007, SYN008, SYN011, SYN012, SYN013, SYN014
-from mudline.diagnostics import Problem
-from mudline.linting.context import LintContext
-from mudline.linting.registry import rule
-
-
-@rule(SYN001)
-def unreadable_line(context: LintContext) -> Iterator[Problem]:
-    """The line fits none of the line formats of its keyword.
+SYN001 = Code(
+    "SYN001",
+    "unreadable-line",
+    Severity.ERROR,
+    """
+    The line fits none of the line formats of its keyword.
 
     The lines of a keyword come in a fixed order: a setting such as SET= opens a group, and only certain settings and
     rows of numbers may follow it. A line that fits nowhere is left out, so whatever it was meant to define is missing
@@ -34,13 +31,15 @@ def unreadable_line(context: LintContext) -> Iterator[Problem]:
          STIFFNESS=50000.0
 
     Finds: 5:2
+    """,
+)
+
+SYN007 = Code(
+    "SYN007",
+    "keyword-outside-section",
+    Severity.ERROR,
     """
-    yield from context.told(SYN001)
-
-
-@rule(SYN007)
-def keyword_outside_section(context: LintContext) -> Iterator[Problem]:
-    """A keyword stands before the first $SECTION.
+    A keyword stands before the first $SECTION.
 
     What a keyword means depends on its section, and before the first one it has no meaning: the whole block is not
     read. The section line may have been lost when decks were put together. Put the line that the message names, for
@@ -56,13 +55,15 @@ def keyword_outside_section(context: LintContext) -> Iterator[Problem]:
          500.0, 1025.0, 9.81
 
     Finds: 1:1
+    """,
+)
+
+SYN008 = Code(
+    "SYN008",
+    "keyword-in-wrong-section",
+    Severity.ERROR,
     """
-    yield from context.told(SYN007)
-
-
-@rule(SYN008)
-def keyword_in_wrong_section(context: LintContext) -> Iterator[Problem]:
-    """The keyword does not belong in this section.
+    The keyword does not belong in this section.
 
     The model is described once, in `$MODEL`, and a load case says what acts on it. A block in the wrong section is not
     read as what it looks like: a restraint in `$MODEL` restrains nothing, a seabed in `$LOAD CASE` carries nothing.
@@ -88,13 +89,15 @@ def keyword_in_wrong_section(context: LintContext) -> Iterator[Problem]:
          1, 2
 
     Finds: 4:1
+    """,
+)
+
+SYN011 = Code(
+    "SYN011",
+    "data-outside-keyword",
+    Severity.WARNING,
     """
-    yield from context.told(SYN008)
-
-
-@rule(SYN011)
-def data_outside_keyword(context: LintContext) -> Iterator[Problem]:
-    """A data line stands under no keyword.
+    A data line stands under no keyword.
 
     Lines before the first section, or between a `$SECTION` and its first keyword, belong to nothing and are not read.
     Title lines at the top of a deck are common and do no harm, but numbers there are numbers that the model lacks. Turn
@@ -113,13 +116,15 @@ def data_outside_keyword(context: LintContext) -> Iterator[Problem]:
          120.0, 1025.0, 9.81
 
     Finds: 1:1
+    """,
+)
+
+SYN012 = Code(
+    "SYN012",
+    "bad-encoding",
+    Severity.WARNING,
     """
-    yield from context.told(SYN011)
-
-
-@rule(SYN012)
-def bad_encoding(context: LintContext) -> Iterator[Problem]:
-    """The file holds bytes that are not UTF-8 text, or control characters.
+    The file holds bytes that are not UTF-8 text, or control characters.
 
     Letters beyond the English alphabet, in a set name for instance, are saved as different bytes by different editors.
     A file that is not UTF-8 is read as CP1252, and as Latin-1 if that cannot be: a guess, after which a set's name may
@@ -141,13 +146,15 @@ def bad_encoding(context: LintContext) -> Iterator[Problem]:
 
     Bytes: cp1252
     Finds: 2:12
+    """,
+)
+
+SYN013 = Code(
+    "SYN013",
+    "ambiguous-comment",
+    Severity.WARNING,
     """
-    yield from context.told(SYN012)
-
-
-@rule(SYN013)
-def ambiguous_comment(context: LintContext) -> Iterator[Problem]:
-    """The line begins with a C in column 1 and a letter: comment or data?
+    The line begins with a C in column 1 and a letter: comment or data?
 
     A C in column 1 makes a comment. Written before a blank there is no doubt, but `CURVE=` or `COMPRESSION CHECK=` in
     column 1 is data to one reader and a comment to another. Here a line counts as data if it begins with a key that its
@@ -167,13 +174,15 @@ def ambiguous_comment(context: LintContext) -> Iterator[Problem]:
          120.0, 1025.0, 9.81
 
     Finds: 3:1
+    """,
+)
+
+SYN014 = Code(
+    "SYN014",
+    "truncated-file",
+    Severity.ERROR,
     """
-    yield from context.told(SYN013)
-
-
-@rule(SYN014)
-def truncated_file(context: LintContext) -> Iterator[Problem]:
-    """The file ends in the middle of something.
+    The file ends in the middle of something.
 
     A copy that was broken off, or a full disk, cuts a deck anywhere: inside a number (`1.0E`), inside an equation, or
     before a line that the last keyword must have. Everything behind the cut is missing as well, and a deck may look
@@ -191,5 +200,5 @@ def truncated_file(context: LintContext) -> Iterator[Problem]:
 
     Cut: yes
     Finds: 3:23
-    """
-    yield from context.told(SYN014)
+    """,
+)

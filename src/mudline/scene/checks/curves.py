@@ -1,0 +1,79 @@
+"""Curves that laws name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import TYPE_CHECKING, cast
+
+from mudline.contact.input import LawKind
+from mudline.deck.parameters import folded
+from mudline.diagnostics import Blocks, Code, Problem, Severity
+from mudline.keywords.remarks import advice_on
+from mudline.keywords.text import shown
+from mudline.scene.checks.declaring import check
+from mudline.scene.laws import NOTHING
+
+if TYPE_CHECKING:
+    from mudline.keywords.library.seabed_properties import SeabedProperties
+    from mudline.scene.laws import Grant
+    from mudline.scene.model import Scene
+
+REF002 = Code("REF002", "undefined-curve", Severity.ERROR)
+
+
+@check(REF002)
+def undefined_curve(scene: Scene) -> Iterator[Problem]:
+    """A STIFFNESS= names a curve that the deck does not define.
+
+    The elements of the set have no seabed then. A STIFFNESS= that is no number is taken for the name of a curve, so a
+    slip in a number is told here too. Define the curve in *SEABED STIFFNESS, or correct the name.
+
+    Bad:
+        $MODEL
+        *SEABED STIFFNESS
+         CURVE=Soft Clay
+         0.0, 0.0
+         0.1, 1200.0
+         0.5, 4200.0
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=Softclay
+
+    Good:
+        $MODEL
+        *SEABED STIFFNESS
+         CURVE=Soft Clay
+         0.0, 0.0
+         0.1, 1200.0
+         0.5, 4200.0
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=Soft Clay
+
+    Finds: 10:12
+    """
+    grants = scene.laws.grants
+    lost = [i for i, grant in enumerate(grants) if grant.kind is LawKind.CURVE and grant.curve == NOTHING]
+    if not lost:
+        return
+    names = {folded(curve.name): curve.name for curve in scene.laws.curves if curve.named and not curve.embedment}
+    for index in lost:
+        name, where = _name(scene, grants[index]), grants[index].where
+        near = scene.context.near(name, names)
+        hint = f" (did you mean {names[near]}?)" if near else ""
+        advice = advice_on(name) or "*SEABED STIFFNESS has no such curve"
+        problem = scene.context.missing(
+            REF002, f"curve {shown(name)} is not defined{hint}: {advice}", where, "SEABED STIFFNESS"
+        )
+        followed = bool((scene.laws.of_element == index).any())
+        yield replace(problem, blocks=Blocks.ALWAYS) if followed else problem
+
+
+def _name(scene: Scene, grant: Grant) -> str:
+    """The name in STIFFNESS= of a set of `*SEABED PROPERTIES`."""
+    where = grant.where
+    block = cast("SeabedProperties", scene.deck.sections[where.section].blocks[where.block])
+    return str(block.sets[cast("int", where.path[1])].stiffness)

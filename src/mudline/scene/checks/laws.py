@@ -1,0 +1,315 @@
+"""The types of seabed of a model, and what its laws need: an elastic seabed, a stiffness, curves, diameters."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+
+from mudline.contact.input import LawKind
+from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
+from mudline.keywords.text import shown
+from mudline.scene.checks.declaring import check
+from mudline.scene.laws import typed_blocks
+
+if TYPE_CHECKING:
+    from mudline.keywords.library.elastic_surface import ElasticSurface
+    from mudline.keywords.library.embedment import Embedment
+    from mudline.scene.force_curves import SceneCurve
+    from mudline.scene.model import Scene
+
+SBD001 = Code("SBD001", "rigid-with-curve", Severity.ERROR)
+SBD002 = Code("SBD002", "two-seabed-types", Severity.ERROR)
+SBD003 = Code("SBD003", "missing-type", Severity.ERROR)
+SBD004 = Code("SBD004", "missing-embedment", Severity.ERROR)
+SBD005 = Code("SBD005", "embedment-needs-elastic", Severity.ERROR)
+SBD009 = Code("SBD009", "missing-diameter", Severity.ERROR)
+
+
+@check(SBD001)
+def rigid_with_curve(scene: Scene) -> Iterator[Problem]:
+    """A rigid seabed has a force-embedment curve, or a value that only an elastic one has.
+
+    Nothing sinks into a rigid seabed, so a curve cannot hold there: it is an error, as one of the two is not what was
+    meant. STIFFNESS= with a number, LATERAL= and SUCTION= count for nothing and are a warning. Choose TYPE=ELASTIC, or
+    remove the line.
+
+    Bad:
+        $MODEL
+        *SEABED STIFFNESS
+         CURVE=Clay
+         0.0, 0.0
+         0.5, 4200.0
+        *SEABED PROPERTIES
+         TYPE=RIGID
+         SET=ALL
+         STIFFNESS=Clay
+
+    Good:
+        $MODEL
+        *SEABED STIFFNESS
+         CURVE=Clay
+         0.0, 0.0
+         0.5, 4200.0
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=Clay
+
+    Finds: 9:12
+    """
+    for where, properties, type_ in typed_blocks(scene.context):
+        for index, entry in enumerate(properties.sets if type_ == "RIGID" else ()):
+            place = where._replace(path=("sets", index))
+            suction = entry.suction and entry.suction.stiffness
+            for name, value in (("stiffness", entry.stiffness), ("lateral", entry.lateral), ("suction", suction)):
+                inner = place._replace(path=(*place.path, name))
+                if isinstance(value, str):
+                    message = f"curve {shown(value)} on a rigid seabed: a force-embedment curve needs TYPE=ELASTIC"
+                    yield Problem(SBD001, message, where=inner)
+                elif value:
+                    message = f"{name.upper()}= has no effect on a rigid seabed: it needs TYPE=ELASTIC"
+                    yield Problem(SBD001, message, None, Severity.WARNING, inner)
+
+
+@check(SBD002)
+def two_seabed_types(scene: Scene) -> Iterator[Problem]:
+    """The model has a rigid and an elastic seabed.
+
+    A model has one of them for all its elements, whether it says so with TYPE= or with *RIGID SURFACE and *ELASTIC
+    SURFACE. A block pasted from another deck is the usual cause. Remove one of them; a hard place in an elastic seabed
+    takes a high stiffness instead.
+
+    Bad:
+        $MODEL
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=50000.0
+        *SEABED PROPERTIES
+         TYPE=RIGID
+         SET=ALL
+
+    Good:
+        $MODEL
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=50000.0
+
+    Finds: 7:7
+    """
+    places = sorted((where, name) for name, found in scene.laws.types.items() for where in found)
+    where, name = next(((where, name) for where, name in places if name != places[0][1]), (Where(), ""))
+    if not name:
+        return
+    this, other = ("a rigid", "an elastic") if name == "RIGID" else ("an elastic", "a rigid")
+    message = f"{this} seabed after {other} one: a model has one of them; remove the other"
+    if where.section == places[0][0].section:
+        yield Problem(SBD002, message, where=where)
+    else:
+        message += " (inferred: the $MODEL sections of a file make one model)"
+        yield Problem(SBD002, message, None, Severity.WARNING, where)
+
+
+@check(SBD003)
+def missing_type(scene: Scene) -> Iterator[Problem]:
+    """*SEABED PROPERTIES does not say whether the seabed is rigid or elastic.
+
+    The type has no default: write TYPE=RIGID or TYPE=ELASTIC on the first line. A later block without TYPE= goes on
+    with the type of the one before it. A SET= that is missing at the beginning is a warning: the lines before the first
+    SET= are read as SET=ALL (inferred), and so are the points of *EMBEDMENT before its first SET=.
+
+    Bad:
+        $MODEL
+        *SEABED PROPERTIES
+         SET=ALL
+         STIFFNESS=50000.0
+
+    Good:
+        $MODEL
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=50000.0
+
+    Finds: 2:1
+    """
+    reading, told = scene.context, False
+    for where, properties, type_ in typed_blocks(reading):
+        if type_ is None and not told and not reading.disturbed(where):
+            told = True
+            message = "the type is missing: write TYPE=RIGID or TYPE=ELASTIC as the first line"
+            yield Problem(SBD003, message, where=where)
+        for index, entry in enumerate(properties.sets[:1]):
+            yield from _without_set(scene, entry.set_name, where._replace(path=("sets", index)), "lines")
+    for where, block in scene.deck.blocks("EMBEDMENT"):
+        for index, curve in enumerate(cast("Embedment", block).curves[:1]):
+            yield from _without_set(scene, curve.set_name, where._replace(path=("curves", index)), "points")
+
+
+def _without_set(scene: Scene, name: str | None, where: Where, what: str) -> Iterator[Problem]:
+    if name is None and not scene.context.lacks_value(where, "set"):
+        message = f"{what} before any SET= are read as those of SET=ALL (inferred): write SET= before them"
+        yield Problem(SBD003, message, None, Severity.WARNING, where)
+
+
+@check(SBD004)
+def missing_embedment(scene: Scene) -> Iterator[Problem]:
+    """*ELASTIC SURFACE gives no stiffness, and there is no *EMBEDMENT.
+
+    The first field of *ELASTIC SURFACE may be empty only when curves of *EMBEDMENT carry the elements. Otherwise
+    nothing holds them vertically, and a static run has no solution. Give a stiffness, here or with the newer keywords.
+
+    Bad:
+        $MODEL
+        *ELASTIC SURFACE
+         , 0.3, 0.6
+
+    Good:
+        $MODEL
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=50000.0
+         FRICTION=0.3, 0.6
+
+    Finds: 2:1
+    """
+    reading = scene.context
+    embedment = any(curve.embedment for curve in scene.laws.curves) or "EMBEDMENT" in reading.unread
+    for where, block in scene.deck.blocks("ELASTIC SURFACE"):
+        properties = cast("ElasticSurface", block).properties
+        lacking = getattr(properties, "stiffness", None) is None
+        if lacking and not embedment and not reading.disturbed(where._replace(path=("properties",))):
+            message = "no stiffness here and no *EMBEDMENT in the model: nothing carries the elements; give a stiffness"
+            yield reading.missing(SBD004, message, where, "EMBEDMENT")
+
+
+@check(SBD005)
+def embedment_needs_elastic(scene: Scene) -> Iterator[Problem]:
+    """*EMBEDMENT stands beside a rigid seabed, or beside none.
+
+    A force-embedment curve describes how far a pipe sinks, so it holds only on an elastic seabed: *ELASTIC SURFACE, or
+    *SEABED PROPERTIES with TYPE=ELASTIC. Choose the elastic seabed, or remove the curves.
+
+    Bad:
+        $MODEL
+        *RIGID SURFACE
+         0.3, 0.6
+        *EMBEDMENT
+         SET=ALL
+         0.0, 0.0
+         0.5, 4200.0
+
+    Good:
+        $MODEL
+        *SEABED STIFFNESS
+         CURVE=Clay
+         0.0, 0.0
+         0.5, 4200.0
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=Clay
+         FRICTION=0.3, 0.6
+
+    Finds: 5:2
+    """
+    reading, types = scene.context, scene.laws.types
+    unread = "SEABED PROPERTIES" in scene.deck.keywords() or reading.astray("SEABED PROPERTIES")
+    if "RIGID" not in types and ("ELASTIC" in types or unread):
+        return  # of a type that could not be read enough has been said
+    first: dict[tuple[int, int], SceneCurve] = {}
+    for curve in scene.laws.curves:
+        if curve.embedment:
+            first.setdefault((curve.where.section, curve.where.block), curve)
+    for curve in first.values():
+        if "RIGID" in types:
+            message = "*EMBEDMENT needs an elastic seabed: the seabed is rigid"
+            yield Problem(SBD005, message, where=curve.where)
+        else:
+            message = "*EMBEDMENT needs an elastic seabed: the model has no *ELASTIC SURFACE and no TYPE=ELASTIC"
+            yield reading.missing(SBD005, message, curve.where, "ELASTIC SURFACE")
+
+
+@check(SBD009)
+def missing_diameter(scene: Scene) -> Iterator[Problem]:
+    """Elements follow a force-embedment curve and have no external diameter.
+
+    The embedment ratio is a depth divided by the external diameter: without one there is no ratio, and no force. The
+    diameter is Do of *GEOMETRIC SETS, or for OPTION=FLEXIBLE without Do the drag diameter Dd, and it must not be 0.
+    Give the elements a section, or put them into a set that has one.
+
+    Bad:
+        $MODEL
+        *NODE
+         1, -0.05, 0.0
+         5, -0.05, 40.0
+         GEN=1, 5
+        *ELEMENT
+         1, 1, 2
+         GEN=1, 4
+        *ELEMENT SETS
+         SET=Flowline
+         GEN=1, 3
+        *GEOMETRIC SETS
+         OPTION=RIGID
+         SET=Flowline
+         207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
+        *SEABED STIFFNESS
+         CURVE=Clay
+         0.0, 0.0
+         0.5, 4200.0
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=Clay
+
+    Good:
+        $MODEL
+        *NODE
+         1, -0.05, 0.0
+         5, -0.05, 40.0
+         GEN=1, 5
+        *ELEMENT
+         1, 1, 2
+         GEN=1, 4
+        *ELEMENT SETS
+         SET=Flowline
+         GEN=1, 4
+        *GEOMETRIC SETS
+         OPTION=RIGID
+         SET=Flowline
+         207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
+        *SEABED STIFFNESS
+         CURVE=Clay
+         0.0, 0.0
+         0.5, 4200.0
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=Clay
+
+    Finds: 23:12
+    """
+    sections = scene.section_table
+    missing = np.flatnonzero((scene.law == LawKind.CURVE) & np.isnan(sections.diameter) & ~sections.faulty)
+    if not missing.size:
+        return
+    found = np.unique(scene.laws.of_element[missing], return_index=True, return_counts=True)
+    for index, first, count in zip(*(part.tolist() for part in found), strict=True):
+        number = scene.element_ids[missing[first]]
+        what = f"element {number} has" if count == 1 else f"{count} elements (first: {number}) have"
+        message = f"{what} a curve and no external diameter: give Do (or Dd) in *GEOMETRIC SETS"
+        yield lacks_diameter(scene, SBD009, message, scene.laws.grants[index].where)
+
+
+def lacks_diameter(scene: Scene, code: Code, message: str, where: Where) -> Problem:
+    """An external diameter that a law needs and that is not known, wherever it may be given."""
+    if scene.section_table.open:
+        message += "; a section belongs to a set whose elements this deck does not show"
+        return Problem(code, message, None, Severity.WARNING, where, blocks=Blocks.ALWAYS)
+    return replace(scene.context.missing(code, message, where, "GEOMETRIC SETS"), blocks=Blocks.ALWAYS)

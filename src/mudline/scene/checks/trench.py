@@ -1,0 +1,183 @@
+"""`*SEABED TRENCH`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+
+from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
+from mudline.scene.checks.declaring import check
+from mudline.scene.given import number
+from mudline.scene.numbering import Floats, Mask
+
+if TYPE_CHECKING:
+    from mudline.contact.input import LawAssignment
+    from mudline.keywords.library.seabed_trench import TrenchSet
+    from mudline.scene.model import Scene
+
+EXT003 = Code("EXT003", "bad-trench", Severity.ERROR)
+
+_KEYWORD = "SEABED TRENCH"
+_SIZES = ("depth", "bottom_width", "upper_width")
+_LEAST_ROWS = 2
+_LOCKED = "mu2 tan(theta) must be below 1, else the wall of the trench locks itself"
+_HIDDEN = "; the friction of elements that this deck does not show may hold them"
+
+
+@check(EXT003)
+def bad_trench(scene: Scene) -> Iterator[Problem]:
+    """A trench has no possible geometry, no resistance, no friction spring, or a wall that locks itself.
+
+    The walls of a trench rise from its bottom width to a larger upper width, and its depth is above 0. Their resistance
+    raises the limit of the lateral friction spring: at both nodes of an element *SEABED FRICTION, or a transverse
+    friction coefficient that no LATERAL= replaces, must give one. MODEL=PEAK, the default, needs PEAK=; the rows of
+    PEAK=TABLE are two or more, and their offsets begin at 0 or more and ascend. MODEL=WALL has the resistance of its
+    slope: where the transverse coefficient times that slope is 1 or more, the wall would hold any force. The two points
+    of CENTRELINE= must differ. PEAK= beside MODEL=WALL has no effect and is a warning, and so are elements whose
+    friction this deck may not show. Correct the value, or give what is missing.
+
+    Bad:
+        $MODEL
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=50000.0
+         FRICTION=0.3, 0.6
+        *SEABED TRENCH
+         SET=ALL
+         GEOMETRY=0.5, 3.0, 1.0
+         PEAK=2000.0
+
+    Good:
+        $MODEL
+        *SEABED PROPERTIES
+         TYPE=ELASTIC
+         SET=ALL
+         STIFFNESS=50000.0
+         FRICTION=0.3, 0.6
+        *SEABED TRENCH
+         SET=ALL
+         GEOMETRY=0.5, 1.0, 3.0
+         PEAK=2000.0
+
+    Finds: 9:2
+    """
+    extension = scene.extensions.get(_KEYWORD)
+    if extension is None:
+        return
+    bare, locked = _without_spring(scene)
+    for index, (entry, where) in enumerate(zip(_entries(scene), extension.places, strict=True)):
+        yield from _of_block(scene, entry, where)
+        found = np.flatnonzero((extension.of_element == index) & bare)
+        if found.size:
+            message = (
+                f"{found.size} elements (first: {scene.element_ids[found[0]]}) have a trench and no lateral friction "
+                "spring: give *SEABED FRICTION for them"
+            )
+            place = where._replace(path=(*where.path, "set"))
+            if _uncertain(scene):
+                yield Problem(EXT003, message + _HIDDEN, None, Severity.WARNING, place, blocks=Blocks.ALWAYS)
+            else:
+                yield Problem(EXT003, message, where=place)
+        held = np.flatnonzero((extension.of_element == index) & locked)
+        if held.size:
+            message = f"{_LOCKED}: {held.size} elements (first: {scene.element_ids[held[0]]})"
+            yield Problem(EXT003, message, where=where._replace(path=(*where.path, "geometry")))
+
+
+def _entries(scene: Scene) -> list[TrenchSet]:
+    return cast("list[TrenchSet]", scene.extensions[_KEYWORD].entries)
+
+
+def _of_block(scene: Scene, entry: TrenchSet, where: Where) -> Iterator[Problem]:
+    """What a block says by itself: its resistance, its section, its centreline."""
+    if entry.model == "WALL" and entry.peak is not None:
+        message = "PEAK= has no effect under MODEL=WALL: remove it, or write MODEL=PEAK"
+        yield Problem(EXT003, message, None, Severity.WARNING, where._replace(path=(*where.path, "peak")))
+    if entry.model != "WALL" and not scene.context.disturbed(where):
+        for path, message in _resistance_faults(entry):
+            yield Problem(EXT003, message, where=where._replace(path=(*where.path, *path)))
+    depth, bottom, upper = (number(entry.geometry, name) for name in _SIZES)
+    if depth <= 0.0 or bottom <= 0.0 or upper <= 0.0 or upper <= bottom:
+        message = "invalid trench geometry: depth and bottom width must be above 0, the upper width larger"
+        yield Problem(EXT003, message, where=where._replace(path=(*where.path, "geometry")))
+    line = entry.centreline
+    if all(number(line, f"{axis}0") == number(line, f"{axis}1") for axis in "yz"):
+        message = "the two points of the centreline are one: give another one"
+        yield Problem(EXT003, message, where=where._replace(path=(*where.path, "centreline")))
+
+
+def _resistance_faults(entry: TrenchSet) -> Iterator[tuple[tuple[str | int, ...], str]]:
+    """Path and message of what keeps a block from saying its resistance; a sloped wall has that of its geometry."""
+    if entry.peak is None:
+        yield ("set",), "MODEL=PEAK needs a resistance: give PEAK="
+    if entry.peak != "TABLE":
+        return
+    offsets = np.zeros(0) if entry.table is None else entry.table.column(0)
+    if len(offsets) < _LEAST_ROWS:
+        yield ("peak",), "PEAK=TABLE needs two rows or more: offset from the centreline, resistance per unit length"
+    if (offsets[:1] < 0.0).any():
+        yield ("table", 0, 0), "the offset from the centreline is negative: it is a distance, the same on both sides"
+    for row in np.flatnonzero(np.diff(offsets) <= 0.0)[:1].tolist():
+        yield ("table", row + 1, 0), "the offset is not larger than that of the row before: offsets must ascend"
+
+
+def _without_spring(scene: Scene) -> tuple[Mask, Mask]:
+    """Elements in a trench of which a node has no lateral friction spring, and those whose wall locks itself."""
+    extension = scene.extensions[_KEYWORD]
+    nothing: Mask = np.zeros(len(scene.element_ids), dtype=np.bool_)
+    if not (extension.of_element >= 0).any() or scene.element_nodes.min(initial=0) < 0 or _unread(scene):
+        return nothing, nothing
+    from mudline.scene.contact_parts.build import friction_of  # noqa: PLC0415 - a deck without trenches does without it
+
+    friction = friction_of(scene)
+    bare: Mask = (extension.of_element >= 0) & ~_sprung(scene, friction)
+    return bare, nothing if _uncertain(scene) else _self_locking(scene, friction)
+
+
+def _unread(scene: Scene) -> bool:
+    """Whether friction could not be read, or belongs to no set, which has been told as an error."""
+    friction = scene.extensions.get("SEABED FRICTION")
+    if friction is not None and None in friction.sets and not scene.context.supplier("ELEMENT SETS"):
+        return True
+    places = [*scene.bed.places, *(friction.places if friction else ())]
+    return any(scene.context.disturbed(place) for place in places)
+
+
+def _uncertain(scene: Scene) -> bool:
+    """Whether some friction may come from lines, sets or a deck that this deck does not show."""
+    friction = scene.extensions.get("SEABED FRICTION")
+    if friction is not None and any(held is None or held.open for held in friction.sets):
+        return True
+    return scene.laws.uncertain or scene.context.restart
+
+
+def _sprung(scene: Scene, friction: LawAssignment | None) -> Mask:
+    """Elements (m,) whose two nodes have a lateral friction spring."""
+    sprung = np.zeros(len(scene.node_ids), dtype=np.bool_)
+    if friction is not None:
+        stiffness = np.asarray(friction.parameters["lateral_stiffness"])
+        coefficient = np.asarray(friction.parameters["lateral_coefficient"])
+        sprung[friction.rows] = ~np.isnan(stiffness) | (coefficient > 0.0)
+    found: Mask = np.logical_and(*sprung[scene.element_nodes].T)
+    return found
+
+
+def _self_locking(scene: Scene, friction: LawAssignment | None) -> Mask:
+    """Elements (m,) in a trench with sloped walls where the lateral coefficient of a node has mu2 tan(theta) >= 1."""
+    from mudline.contact.laws.trench import wall_coefficient  # noqa: PLC0415 - as above
+    from mudline.scene.contact_parts.picking import marked, picked  # noqa: PLC0415 - as above
+
+    of_element, entries = scene.extensions[_KEYWORD].of_element, _entries(scene)
+    coefficient: Floats = np.zeros(len(scene.node_ids))
+    if friction is not None:
+        coefficient[friction.rows] = np.asarray(friction.parameters["lateral_coefficient"])
+    sizes = [picked((number(entry.geometry, name) for entry in entries), of_element) for name in _SIZES]
+    found: Mask = np.zeros(len(scene.element_ids), dtype=np.bool_)
+    for end in scene.element_nodes.T:
+        added = wall_coefficient(sizes[0], sizes[1], sizes[2], coefficient[end])
+        found |= ~(np.isfinite(added) & (added >= 0.0))
+    usable = (sizes[0] > 0.0) & (sizes[1] > 0.0) & (sizes[2] > sizes[1])
+    return found & usable & marked((entry.model == "WALL" for entry in entries), of_element)
