@@ -213,6 +213,11 @@ def test_friction_of_properties_has_mobilisation_lengths() -> None:
     assert np.isnan(friction["axial_stiffness"]).all()
     assert np.isnan(friction["lateral_stiffness"]).all()
     assert np.isnan(friction["angle"]).all()
+    uneven = deck(METRIC, LINEAR + " FRICTION=0.3, 0.5\n")
+    for number, place in ((2, 1.0), (3, 3.0), (4, 4.0)):
+        uneven = uneven.replace(f" {number}, -0.05, {10.0 * (number - 1)}\n", f" {number}, -0.05, {place}\n")
+    lengths = scene_of(uneven).contact_input().assigned["friction"]["axial_mobilisation"]
+    assert lengths[:5].tolist() == [1.0, 1.0, 1.0, 1.0, 3.048]
     surface = made_law("*ELASTIC SURFACE\n 50000, 0.3, 0.5, , , , 1.5, 2.5\n", "friction")
     assert surface.rows.tolist() == list(range(11))
 
