@@ -31,7 +31,7 @@ _MOST_TOLD = 20
 
 
 @dataclass(frozen=True, slots=True)
-class Plan:
+class ExpansionPlan:
     """The decks in the order of `*COMBINATIONS`, and what makes their texts.
 
     `source` is the name of the file that they come from, `notes` are remarks for a reader. `companions` are files
@@ -64,7 +64,7 @@ class _Group:
         return prod(len(cases.rows) for cases in self.cases)
 
 
-def plan(deck: Deck) -> Plan:
+def plan(deck: Deck) -> ExpansionPlan:
     """The decks that a deck describes.
 
     Raises DeckError for a deck with errors, and for what cannot be done: a parameter that is not defined, parameters
@@ -82,7 +82,7 @@ class _Planner:
         self.rewriter = Rewriter(self.text, self.targets)
         self.problems: list[Problem] = []
 
-    def plan(self) -> Plan:
+    def plan(self) -> ExpansionPlan:
         reader = CaseReader(self.text, self.targets)
         variations = reader.read()
         self.problems += self.targets.parameters.problems + reader.problems
@@ -98,7 +98,7 @@ class _Planner:
         self._raise_any()
         self._readable(decks)
         self._raise_any()
-        return Plan(PurePath(self.deck.file).name, decks, self.rewriter, self._notes(), companions(self.text))
+        return ExpansionPlan(PurePath(self.deck.file).name, decks, self.rewriter, self._notes(), companions(self.text))
 
     def _tell(self, message: str, where: Where) -> None:
         self.problems.append(Problem(EXP001, message, None, None, where))
