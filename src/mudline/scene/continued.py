@@ -101,6 +101,22 @@ class ContinuedDeck(Deck):
     incomplete: bool = False
 
     @property
+    def alone(self) -> Deck:
+        """The deck without those that it continues."""
+        origin = self.origin.origin if isinstance(self.origin, ContinuedOrigin) else self.origin
+        return Deck(
+            file=self.file,
+            source=self.source,
+            units=self.units,
+            preamble=self.preamble,
+            sections=[*self.own_sections],
+            comments=self.comments,
+            problems=self.problems,
+            origin=origin,
+            folder=self.folder,
+        )
+
+    @property
     def own_sections(self) -> Sequence[Section]:
         """The sections of the deck itself."""
         return self.sections[: len(self.sections) - sum(len(base.sections) for base in self.bases)]
