@@ -18,6 +18,7 @@ from mudline.deck.model import Deck
 from mudline.deck.parameters import folded
 from mudline.diagnostics import DeckError, Problem, Severity, Where
 from mudline.scene.bed import Bed
+from mudline.scene.by_name import ByName
 from mudline.scene.contact_parts.build import laws_of, seabed_of, table_of
 from mudline.scene.contact_parts.refused import RefusedError
 from mudline.scene.context import Context
@@ -31,7 +32,7 @@ from mudline.scene.numbering import Floats, Ids, Indices, Mask, Numbered
 from mudline.scene.refusals import refusals
 from mudline.scene.section_weight import submerged_weight
 from mudline.scene.sections import SectionTable
-from mudline.scene.sets import Sets
+from mudline.scene.sets import Sets, set_key
 
 if TYPE_CHECKING:
     from mudline.curves import ForceCurve
@@ -108,13 +109,14 @@ class Scene:
         return self.section_table.diameter
 
     @cached_property
-    def sets(self) -> dict[str, Ids]:
-        """Element numbers of every set, by its name as first written; ALL included."""
-        return {entry.name: self.element_ids[entry.elements] for entry in self.set_table.named.values()}
+    def sets(self) -> ByName[Ids]:
+        """Element numbers (k,) of every set by its name, found without case; ALL included."""
+        named = self.set_table.named.values()
+        return ByName("set", ((entry.name, self.element_ids[entry.elements]) for entry in named), set_key)
 
     @cached_property
-    def curves(self) -> dict[str, ForceCurve]:
-        """The force-embedment curves by name; one of `*EMBEDMENT` has the name of its set.
+    def curves(self) -> ByName[ForceCurve]:
+        """The force-embedment curves by name, found without case; one of `*EMBEDMENT` has the name of its set.
 
         Of two curves of one name the later one holds, a named one before that of a set.
         """
@@ -123,7 +125,7 @@ class Scene:
             before = held.get(folded(entry.name))
             if entry.named and (before is None or before.embedment or not entry.embedment):
                 held[folded(entry.name)] = entry
-        return {entry.name: entry.curve for entry in held.values() if entry.curve is not None}
+        return ByName("curve", ((entry.name, entry.curve) for entry in held.values() if entry.curve is not None))
 
     def grant(self, element: int) -> Grant | None:
         """What gives the element of an index its law."""

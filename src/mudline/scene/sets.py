@@ -26,6 +26,11 @@ ALL = "all"
 _NOTHING = np.zeros(0, dtype=np.intp)
 
 
+def set_key(name: str) -> str:
+    """Return the name of a set as names of sets compare: without case, blanks, quotes and braces."""
+    return folded(bare(name))
+
+
 @dataclass(slots=True)
 class NamedSet:
     """A set: its name as first written, the indices of its elements in ascending order, where it is defined.
