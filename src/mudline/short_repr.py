@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Sized
 from dataclasses import fields, is_dataclass
 from enum import Enum
 
@@ -25,6 +25,12 @@ def with_fields(thing: object, given: Iterable[tuple[str, object]]) -> str:
     return f"{type(thing).__name__}({cut(text, LONGEST - len(type(thing).__name__) - 2)})"
 
 
+def outline(title: str, *parts: str) -> str:
+    """Return `<title: part; part>` without empty parts, in at most `LONGEST` characters."""
+    text = "; ".join(part for part in parts if part)
+    return f"<{cut(f'{title}: {text}', LONGEST - 2)}>"
+
+
 def brief(value: object) -> str:
     """Return a value in a few words: numbers and short texts as they are, of anything else what and how many."""
     shape = getattr(value, "shape", None)
@@ -41,7 +47,8 @@ def brief(value: object) -> str:
     elif isinstance(value, Collection) and type(value).__module__ == "builtins":
         text = counted(len(value), "item") if value else repr(value)
     else:
-        text = f"<{type(value).__name__}>"
+        size = f" of {len(value)}" if isinstance(value, Sized) and not isinstance(value, tuple) else ""
+        text = f"<{type(value).__name__}{size}>"
     return text
 
 

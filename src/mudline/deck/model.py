@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, Self
 from mudline.diagnostics import Code, DeckError, Diagnostic, Edit, Fix, Problem, Repair, Severity, Where
 from mudline.keywords.model import Block, Comment, Part
 from mudline.keywords.values import Text
+from mudline.short_repr import counted, cut, listed, outline
 
 if TYPE_CHECKING:
     from mudline.scene.model import Scene
@@ -31,6 +32,10 @@ class Section:
     comments: list[Comment] = field(default_factory=list)
     lines: list[str] = field(default_factory=list)
 
+    def __repr__(self) -> str:
+        keywords = list(dict.fromkeys(block.keyword for block in self.blocks))
+        return outline(f"Section {cut(self.name, 40)!r}", counted(len(self.blocks), "block"), listed(keywords))
+
 
 class Range(NamedTuple):
     """Lines and columns from 1, the end exclusive."""
@@ -43,6 +48,9 @@ class Range(NamedTuple):
 
 _LONGEST = 1000
 """Characters of a message; names of the deck stand in it, and may be of any length."""
+
+_INTERNAL = frozenset({"alone", "diagnose", "folder_of", "origin", "own_sections", "problems", "require"})
+"""What the rest of the program uses of a deck; `dir` leaves it out."""
 
 START = Range(1, 1, 1, 1)
 
@@ -111,6 +119,18 @@ class Deck:
     problems: list[Problem] = field(default_factory=list, compare=False)
     origin: Origin = field(default_factory=Nowhere, compare=False, repr=False)
     folder: Path | None = field(default=None, compare=False)
+
+    def __repr__(self) -> str:
+        parts = [self.units, counted(len(self.sections), "section"), counted(self._count_blocks(), "block")]
+        if errors := len(self._errors()):
+            parts.append(counted(errors, "error"))
+        return outline(f"{type(self).__name__} {cut(self.file, 80)!r}", ", ".join(parts))
+
+    def __dir__(self) -> list[str]:
+        return [name for name in super().__dir__() if name not in _INTERNAL]
+
+    def _count_blocks(self) -> int:
+        return sum(len(section.blocks) for section in self.sections)
 
     def to_json(self) -> str:
         """Return the deck as JSON text; nothing but layout is lost."""
@@ -194,7 +214,9 @@ class Deck:
 
     def require(self) -> Self:
         """The deck itself; raises DeckError when something in it could not be read."""
-        errors = [problem for problem in self.problems if problem.weight is Severity.ERROR]
-        if errors:
+        if errors := self._errors():
             raise DeckError(self.diagnose(errors))
         return self
+
+    def _errors(self) -> list[Problem]:
+        return [problem for problem in self.problems if problem.weight is Severity.ERROR]

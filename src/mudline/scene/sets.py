@@ -18,6 +18,7 @@ from mudline.scene.context import Context
 from mudline.scene.external import ExternalElements
 from mudline.scene.harvest import bare
 from mudline.scene.numbering import Ids, Indices, Numbered
+from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:
     from mudline.keywords.library.element_sets import ElementRange, ElementSet, ElementSets, SetList
@@ -43,6 +44,8 @@ class NamedSet:
     where: Where | None
     open: bool = False
 
+    __repr__ = short_repr
+
 
 @dataclass(slots=True)
 class Sets:
@@ -51,6 +54,8 @@ class Sets:
     context: Context
     elements: Numbered
     named: dict[str, NamedSet] = field(default_factory=dict)
+
+    __repr__ = short_repr
 
     @property
     def everything(self) -> NamedSet:

@@ -14,6 +14,7 @@ from mudline.deck.model import Deck
 from mudline.deck.reading import read_source
 from mudline.diagnostics import DeckError, Problem, Severity, Where
 from mudline.keywords.text import shown, suggestion
+from mudline.short_repr import short_repr
 from mudline.syntax.source import Source
 from mudline.variations.cases import CaseReader
 from mudline.variations.companions import companions
@@ -43,6 +44,8 @@ class ExpansionPlan:
     rewriter: Rewriter
     notes: Sequence[str] = ()
     companions: Sequence[str] = ()
+
+    __repr__ = short_repr
 
     def content(self, planned: PlannedDeck) -> bytes:
         """The content of a planned deck."""
