@@ -80,7 +80,8 @@ def held(deck: mudline.Deck) -> list[object]:
     tangent = contact.tangent(scene.coordinates, still, contact.initial_state(), 0.1)
     evaluation = evaluate_scene(scene)
     begin = contact.initial_state()
-    return [deck, scene, contact, result, begin, state, tangent, contact.stiffest(), evaluation, *parts]
+    more = [contact.stiffest(), evaluation, scene.law_arrays(), *parts]
+    return [deck, scene, contact, result, begin, state, tangent, *more]
 
 
 @pytest.mark.parametrize("name", DECKS)
