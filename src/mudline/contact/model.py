@@ -12,9 +12,9 @@ from numpy.typing import ArrayLike
 from mudline.contact.arrays import BoolArray, FloatArray
 from mudline.contact.checks import is_finite, refuse, refuse_pulling
 from mudline.contact.input import ContactInput
-from mudline.contact.numpy_driver import Batch, NumpyDriver
+from mudline.contact.numpy_driver import NumpyDriver
 from mudline.contact.plan import Backend, Choice, Plan, make_plan
-from mudline.contact.positions import as_mask, as_series, as_times, as_velocities, read_steps
+from mudline.contact.positions import Batch, as_mask, as_series, as_times, as_velocities, read_steps
 from mudline.contact.result import ContactResult, blank_result
 from mudline.contact.seabed import FlatSeabed, Seabed
 from mudline.contact.tables import ContactState, Tables

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
 
-from mudline.contact.arrays import BoolArray, FloatArray, IndexArray, SmallIndexArray, StateArray
+from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.contact.input import AssignedLaw, ContactInput
 from mudline.contact.laws import NormalLaw
 from mudline.contact.laws.base import Reaction, Value
@@ -117,46 +117,6 @@ class FrictionRows(NamedTuple):
     turned: IndexArray
     cosine: FloatArray
     sine: FloatArray
-
-
-class TrenchRows(NamedTuple):
-    """What trenches add to the lateral limits of nodes, a row (k,) for each trench that a node lies in.
-
-    Attributes:
-        nodes: (k,) ascending.
-        start: (n + 1,) rows start[i] to start[i + 1] are those of node i.
-        kind: PEAK, WALL or TABLE.
-        inner, outer: half widths. steepness: 1 over half of their difference.
-        amount: peak force, coefficient of the normal force on the wall, or half length for a table.
-        table: which one, -1 for none.
-        line: row in `lines` of a straight centreline; -1 for the line as it was laid.
-        lines: (c, 4) place and direction (Y, Z) of each straight centreline.
-    """
-
-    nodes: IndexArray
-    start: IndexArray
-    kind: StateArray
-    inner: FloatArray
-    outer: FloatArray
-    steepness: FloatArray
-    amount: FloatArray
-    table: SmallIndexArray
-    line: SmallIndexArray
-    lines: FloatArray
-
-    def some(self, rows: IndexArray | slice) -> TrenchRows:
-        """Return some rows, which have no starts."""
-        return self._replace(
-            nodes=self.nodes[rows],
-            start=self.start[:0],
-            kind=self.kind[rows],
-            inner=self.inner[rows],
-            outer=self.outer[rows],
-            steepness=self.steepness[rows],
-            amount=self.amount[rows],
-            table=self.table[rows],
-            line=self.line[rows],
-        )
 
 
 class Tables:
