@@ -13,6 +13,7 @@ from mudline.contact.input import AssignedLaw, ContactInput
 from mudline.contact.laws import NormalLaw
 from mudline.contact.laws.base import Reaction, Value
 from mudline.contact.line import Line
+from mudline.short_repr import outline
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
@@ -43,6 +44,12 @@ class ContactState:
     suction: SuctionHistory | None = None
     friction: FrictionHistory | None = None
     touchdown: FloatArray | None = None
+
+    def __repr__(self) -> str:
+        when = "before the first step" if self.positions is None else f"after a step of {len(self.positions)} nodes"
+        names = ("unloading", "suction", "friction", "touchdown")
+        held = ", ".join(name for name in names if getattr(self, name) is not None)
+        return outline(f"ContactState {when}", held or "nothing to remember")
 
     def copied(self) -> ContactState:
         """Return a state whose arrays may be written; positions stay as they are."""

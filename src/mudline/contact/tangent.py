@@ -16,6 +16,7 @@ from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.contact.result import ContactResult
 from mudline.contact.tables import ContactState, Tables
 from mudline.contact.vectors import in_plane, turned_3, units
+from mudline.short_repr import short_repr
 
 
 class Triples(NamedTuple):
@@ -25,6 +26,9 @@ class Triples(NamedTuple):
     columns: IndexArray
     values: FloatArray
     size: int
+
+    def __repr__(self) -> str:
+        return short_repr(self)
 
     def dense(self) -> FloatArray:
         """Return the matrix as an array, for small ones."""
@@ -38,6 +42,9 @@ class Tangent(NamedTuple):
 
     by_position: Triples
     by_velocity: Triples
+
+    def __repr__(self) -> str:
+        return short_repr(self)
 
 
 class _Blocks:
