@@ -99,15 +99,6 @@ def test_submerged_weight() -> None:
     np.testing.assert_allclose(submerged_weight(scene_of(later)), WEIGHT * 3.7 / 9.81, rtol=1e-14)
 
 
-def test_automatic_width_of_a_section_without_a_diameter_is_a_tenth_of_its_penetration() -> None:
-    rigid = " OPTION=RIGID\n SET=ALL\n 207000000000.0, 79600000000.0, 0.25, 0.22, 7850.0\n"
-    flexible = " OPTION=FLEXIBLE\n SET=ALL\n 1E7, 1E7, 1E7, 1E9, 200.0, 1.0, 0.2, 0.25, 0.25\n"
-    text = deck(METRIC, LINEAR + "*SEABED CONTACT\n SET=ALL\n").replace(rigid, flexible)
-    law = scene_of(text).contact_input().assigned["smoothed"]
-    weight = (200.0 - 1025.0 * math.pi / 4 * 0.25**2) * 9.81
-    np.testing.assert_allclose(law["half_width"], np.full(10, 0.1 * weight / 50000.0))
-
-
 def test_widths_of_linear_laws() -> None:
     def width(lines: str) -> list[float]:
         given = made(LINEAR + f"*SEABED CONTACT\n SET=Left\n{lines}")
