@@ -13,32 +13,51 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from mudline.api import Deck, from_json, from_yaml, lint, read
-    from mudline.curves import ForceCurve
+    from mudline.api import from_json, from_keyword, from_yaml, lint, read
+    from mudline.contact import ContactModel, ContactResult, ContactState, Plan, PositionError
+    from mudline.curves import CurveError, ForceCurve
+    from mudline.deck.model import Deck
     from mudline.diagnostics import DeckError, Diagnostic, Severity
+    from mudline.scene.model import Scene
 
 __version__ = "0.1.0"
 
 __all__ = [
+    "ContactModel",
+    "ContactResult",
+    "ContactState",
+    "CurveError",
     "Deck",
     "DeckError",
     "Diagnostic",
     "ForceCurve",
+    "Plan",
+    "PositionError",
+    "Scene",
     "Severity",
     "__version__",
     "from_json",
+    "from_keyword",
     "from_yaml",
     "lint",
     "read",
 ]
 
 _HOMES = {
-    "Deck": "api",
+    "ContactModel": "contact",
+    "ContactResult": "contact",
+    "ContactState": "contact",
+    "CurveError": "curves",
+    "Deck": "deck.model",
     "DeckError": "diagnostics",
     "Diagnostic": "diagnostics",
     "ForceCurve": "curves",
+    "Plan": "contact",
+    "PositionError": "contact",
+    "Scene": "scene.model",
     "Severity": "diagnostics",
     "from_json": "api",
+    "from_keyword": "api",
     "from_yaml": "api",
     "lint": "api",
     "read": "api",

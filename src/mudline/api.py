@@ -1,66 +1,74 @@
-"""What `import mudline` offers: decks, scenes, findings."""
+"""What `import mudline` offers: decks from files and texts, and their findings."""
 
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterable
-from dataclasses import fields
 from pathlib import Path
 
-from mudline.deck import model
-from mudline.deck.json_form import from_json as _from_json
-from mudline.deck.json_form import to_json as _to_json
-from mudline.deck.keyword_form import to_keyword as _to_keyword
-from mudline.deck.loading import load_path
-from mudline.deck.yaml_form import from_yaml as _from_yaml
-from mudline.deck.yaml_form import to_yaml as _to_yaml
+from mudline.deck import json_form, yaml_form
+from mudline.deck.loading import load_bytes, load_path
+from mudline.deck.model import Deck
 from mudline.diagnostics import Diagnostic
 from mudline.linting.engine import lint_bytes
 from mudline.linting.selection import select as _chosen
-from mudline.scene.build import resolve
-from mudline.scene.model import Scene
 
-
-class Deck(model.Deck):
-    """A deck: sections and blocks as validated models, equations as written."""
-
-    def to_json(self) -> str:
-        """The deck as JSON text."""
-        return _to_json(self)
-
-    def to_yaml(self) -> str:
-        """The deck as YAML 1.2 text."""
-        return _to_yaml(self)
-
-    def to_keyword(self) -> str:
-        """The deck as keyword text."""
-        return _to_keyword(self)
-
-    def scene(self) -> Scene:
-        """Parameters evaluated, sets expanded, diameters, lengths and laws as arrays.
-
-        Raises DeckError for errors on which a result depends.
-        """
-        return resolve(self).require()
+_KEYWORD = re.compile(r"\s*[$*][A-Z][A-Z &/-]*\s*", re.IGNORECASE)
+_SECTION = re.compile(r"^\s*\$[A-Z]", re.IGNORECASE | re.MULTILINE)
+_YAML = re.compile(r"^(?:%YAML|---|(?:format|source|units|sections)\s*:)", re.MULTILINE)
 
 
 def read(path: str | os.PathLike[str], *, units: str | None = None) -> Deck:
     """Read a deck from a keyword, JSON or YAML file, by its suffix.
 
-    `units` ("metric", "imperial" or "user") holds instead of what the file tells. Raises OSError when the file cannot
-    be read, DeckError (with `.diagnostics`) when its content cannot.
+    Args:
+        path: the file. For the text of a deck there are `from_keyword`, `from_json` and `from_yaml`.
+        units: "metric", "imperial" or "user", instead of what the file tells.
+
+    Raises:
+        OSError: the file cannot be read.
+        DeckError: its content cannot be read; `.diagnostics` has the places.
+        ValueError: `path` is the text of a deck.
+        TypeError: `path` is no path.
     """
-    return _offered(load_path(Path(path), units=units).require())
+    return load_path(_path(path), units=units).require()
 
 
-def from_json(text: str) -> Deck:
-    """The deck of a JSON text; raises DeckError."""
-    return _offered(_from_json(text))
+def from_keyword(text: str | bytes, *, units: str | None = None) -> Deck:
+    """Return the deck of a keyword text, or of the bytes of a keyword file.
+
+    Files that the deck names are not looked for: a text has no folder.
+
+    Args:
+        text: the text, with any line ends. Bytes are UTF-8, CP1252 or Latin-1.
+        units: "metric", "imperial" or "user", instead of what the text tells.
+
+    Raises:
+        DeckError: the text cannot be read; `.diagnostics` has the places.
+    """
+    data = text if isinstance(text, bytes) else text.encode(errors="replace")
+    deck = load_bytes(data, "<keyword>", form="keyword", units=units)
+    deck.source = ""
+    return deck.require()
 
 
-def from_yaml(text: str) -> Deck:
-    """The deck of a YAML text; raises DeckError."""
-    return _offered(_from_yaml(text))
+def from_json(text: str | bytes) -> Deck:
+    """Return the deck of a JSON text, as `Deck.to_json` writes it.
+
+    Raises:
+        DeckError: the text is no JSON, has a key twice, or breaks the schema.
+    """
+    return json_form.read(text, "<json>") if isinstance(text, bytes) else json_form.from_json(text)
+
+
+def from_yaml(text: str | bytes) -> Deck:
+    """Return the deck of a YAML 1.2 text, as `Deck.to_yaml` writes it.
+
+    Raises:
+        DeckError: the text is no YAML, has a key twice or an alias, or breaks the schema.
+    """
+    return yaml_form.read(text, "<yaml>") if isinstance(text, bytes) else yaml_form.from_yaml(text)
 
 
 def lint(
@@ -70,14 +78,40 @@ def lint(
     ignore: Iterable[str] = (),
     units: str | None = None,
 ) -> list[Diagnostic]:
-    """All findings in a file, in its order; never raises for content.
+    """Return all findings in a file, in its order; never raises for its content.
 
-    `select` and `ignore` name rules by code, prefix of a code, or slug; without `select` all rules run. Raises OSError
-    when the file cannot be read, ValueError for a word that names no rule.
+    Args:
+        path: the file.
+        select: rules by code, prefix of a code, or slug; all rules if empty.
+        ignore: rules that are left out, named the same way.
+        units: "metric", "imperial" or "user", instead of what the file tells.
+
+    Raises:
+        OSError: the file cannot be read.
+        ValueError: a word names no rule, or `path` is the text of a deck.
+        TypeError: `path` is no path.
     """
-    file = Path(path)
+    file = _path(path, "save it to a file")
     return lint_bytes(file.read_bytes(), file.as_posix(), _chosen(select, ignore), units=units, folder=file.parent)
 
 
-def _offered(deck: model.Deck) -> Deck:
-    return Deck(**{item.name: getattr(deck, item.name) for item in fields(deck)})
+def _path(given: object, advice: str = "use mudline.{}(text)") -> Path:
+    """The path that is given; raises ValueError for the text of a deck, TypeError for what is no path."""
+    name = os.fspath(given) if isinstance(given, os.PathLike) else given
+    text = bytes(name).decode("utf-8-sig", "replace") if isinstance(name, bytes | bytearray) else name
+    function = _function_for(text.lstrip("\ufeff")) if isinstance(text, str) else None
+    if function and not os.path.exists(str(text)):  # noqa: PTH110 - Path raises for names that are too long
+        raise ValueError(f"expected a path, found the text of a deck: {advice.format(function)}")
+    if not isinstance(name, str):
+        raise TypeError(f"expected a path as str or os.PathLike, found {type(name).__name__}")
+    return Path(name)
+
+
+def _function_for(text: str) -> str | None:
+    """Name of the function that reads a text; None for what may be a path."""
+    several = any(end in text for end in "\r\n")
+    if text.lstrip().startswith("{"):
+        return "from_json" if several or text.rstrip().endswith("}") else None
+    if several:
+        return "from_yaml" if _YAML.search(text) and not _SECTION.search(text) else "from_keyword"
+    return "from_keyword" if _KEYWORD.fullmatch(text) else None

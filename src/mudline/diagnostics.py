@@ -11,6 +11,8 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import NamedTuple
 
+from mudline.short_repr import counted, outline, short_repr
+
 
 class Severity(StrEnum):
     """How bad a finding is; the order of the members is the order of badness."""
@@ -80,6 +82,8 @@ class Repair:
     message: str
     edits: tuple[tuple[Span, str], ...]
 
+    __repr__ = short_repr
+
 
 @dataclass(frozen=True, slots=True)
 class Problem:
@@ -96,6 +100,8 @@ class Problem:
     where: Where | None = None
     repair: Repair | None = None
     blocks: Blocks | None = None
+
+    __repr__ = short_repr
 
     @property
     def weight(self) -> Severity:
@@ -125,6 +131,8 @@ class Fix:
     message: str
     edits: tuple[Edit, ...]
 
+    __repr__ = short_repr
+
 
 @dataclass(frozen=True, slots=True)
 class Diagnostic:
@@ -150,6 +158,9 @@ class Diagnostic:
         """Order of findings in every output."""
         return (self.file, self.line, self.column, self.code, self.message)
 
+    def __repr__(self) -> str:
+        return outline("Diagnostic", f"{self.severity.value} {self}")
+
     def __str__(self) -> str:
         return f"{self.file}:{self.line}:{self.column}: {self.code} {self.message}"
 
@@ -160,3 +171,10 @@ class DeckError(ValueError):
     def __init__(self, diagnostics: Sequence[Diagnostic]) -> None:
         self.diagnostics = tuple(diagnostics)
         super().__init__("\n".join(str(diagnostic) for diagnostic in self.diagnostics))
+
+    def __repr__(self) -> str:
+        first = str(self.diagnostics[0]) if self.diagnostics else ""
+        return outline("DeckError", counted(len(self.diagnostics), "diagnostic"), first)
+
+    def __reduce__(self) -> tuple[type[DeckError], tuple[tuple[Diagnostic, ...]]]:
+        return type(self), (self.diagnostics,)

@@ -5,13 +5,16 @@ from __future__ import annotations
 import importlib
 import inspect
 from pathlib import Path
+from typing import cast
 
 import numpy as np
 import pytest
 
 import mudline
+from mudline.deck.loading import load_path
 from tests.cli.decks import BAD_NUMBER, CLEAN, ILLEGAL, UNSORTED, UNUSED
 
+EMPTY = '{"format": "mudline-deck/1", "source": "", "units": "user", "sections": []}'
 NAMES = [name for name in mudline.__all__ if name != "__version__"]
 
 
@@ -40,8 +43,12 @@ def test_public_name_resolves_and_is_documented(name: str) -> None:
             assert attribute.__doc__, f"{name}.{member}"
 
 
+CONTRACT = "read lint from_keyword from_json from_yaml Deck DeckError Diagnostic Severity Scene ForceCurve CurveError"
+CONTACT = "ContactModel ContactResult ContactState Plan PositionError"
+
+
 def test_names_are_those_of_the_contract() -> None:
-    assert {"read", "lint", "from_json", "from_yaml", "ForceCurve", "DeckError"} <= set(mudline.__all__)
+    assert {*CONTRACT.split(), *CONTACT.split(), "__version__"} == set(mudline.__all__)
     assert dir(mudline) == mudline.__all__ == sorted(mudline.__all__)
     assert mudline.__version__.count(".") == 2
 
@@ -108,6 +115,87 @@ def test_file_that_is_missing(tmp_path: Path) -> None:
         mudline.read(tmp_path / "nowhere.keyxm")
     with pytest.raises(FileNotFoundError):
         mudline.lint(tmp_path / "nowhere.keyxm")
+
+
+def test_every_deck_is_of_one_class(path: Path) -> None:
+    deck = mudline.read(path)
+    made = [deck, mudline.from_keyword(CLEAN), mudline.from_json(deck.to_json()), mudline.from_yaml(deck.to_yaml())]
+    made += [deck.scene().deck, load_path(path)]
+    assert [type(each) for each in made] == [mudline.Deck] * len(made)
+
+
+def test_deck_of_a_scene_that_continues_another_is_a_deck_too(path: Path) -> None:
+    dynamic = path.with_name("dynamic.keyxm")
+    dynamic.write_text("$LOAD CASE\n*RESTART\n LAST=scr.keyxm\n", encoding="utf-8")
+    scene = mudline.read(dynamic).scene()
+    assert isinstance(scene.deck, mudline.Deck)
+    assert scene.deck.to_keyword() == mudline.read(dynamic).to_keyword()
+    assert mudline.from_json(scene.deck.to_json()).to_yaml() == scene.deck.to_yaml()
+    again = scene.deck.scene()
+    assert again.node_ids.tolist() == scene.node_ids.tolist() == mudline.read(path).scene().node_ids.tolist()
+    assert again.curves == scene.curves
+
+
+def test_keyword_text(path: Path) -> None:
+    deck = mudline.from_keyword(CLEAN)
+    assert deck.sections == mudline.read(path).sections
+    assert (deck.file, deck.source, deck.folder) == ("<keyword>", "", None)
+    assert mudline.from_keyword(CLEAN.encode()) == deck
+    assert mudline.from_keyword(CLEAN, units="imperial").units == "imperial"
+    with pytest.raises(mudline.DeckError, match="<keyword>:6:11: SYN002 'ten' is no number"):
+        mudline.from_keyword(BAD_NUMBER)
+    with pytest.raises(mudline.DeckError, match="SYN012"):
+        mudline.from_keyword(CLEAN.encode("utf-16"))
+
+
+def test_documents_as_bytes(path: Path) -> None:
+    deck = mudline.read(path)
+    assert mudline.from_json(deck.to_json().encode()).sections == deck.sections
+    assert mudline.from_yaml(deck.to_yaml().encode()).sections == deck.sections
+
+
+TEXTS = {
+    CLEAN: "from_keyword",
+    CLEAN.encode(): "from_keyword",
+    "$MODEL": "from_keyword",
+    "\ufeff$MODEL\r*NODE": "from_keyword",
+    "C a comment\n---\n$MODEL\n": "from_keyword",
+    "just\ntext": "from_keyword",
+    EMPTY: "from_json",
+    '{\n"format":': "from_json",
+    b"\xef\xbb\xbf{}": "from_json",
+    "# a comment\nformat: mudline-deck/1\nsections: []\n": "from_yaml",
+}
+
+
+@pytest.mark.parametrize(("text", "function"), TEXTS.items())
+def test_text_in_place_of_a_path(text: object, function: str) -> None:
+    with pytest.raises(
+        ValueError, match=rf"^expected a path, found the text of a deck: use mudline\.{function}\(text\)$"
+    ):
+        mudline.read(cast("str", text))
+    with pytest.raises(ValueError, match=r"^expected a path, found the text of a deck: save it to a file$"):
+        mudline.lint(cast("str", text))
+    assert callable(getattr(mudline, function))
+
+
+@pytest.mark.parametrize(("given", "found"), [(b"scr.keyxm", "bytes"), (3, "int"), (None, "NoneType")])
+def test_what_is_no_path(given: object, found: str) -> None:
+    with pytest.raises(TypeError, match=f"^expected a path as str or os.PathLike, found {found}$"):
+        mudline.read(cast("str", given))
+
+
+@pytest.mark.parametrize("name", ["*.keyxm", "$MODEL.keyxm", "{deck.keyxm"])
+def test_path_that_looks_like_a_text(name: str) -> None:
+    with pytest.raises(FileNotFoundError):
+        mudline.read(name)
+
+
+def test_file_whose_name_is_a_text(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    odd = tmp_path / "$MODEL"
+    odd.write_text(CLEAN, encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    assert mudline.read("$MODEL").sections == mudline.from_keyword(CLEAN).sections
 
 
 @pytest.mark.parametrize("read", [mudline.from_json, mudline.from_yaml])
@@ -203,6 +291,3 @@ def test_curve_of_ones_own() -> None:
 def test_scene_of_a_document() -> None:
     deck = mudline.from_json(mudline.from_json(EMPTY).to_json())
     assert deck.scene().curves == {}
-
-
-EMPTY = '{"format": "mudline-deck/1", "source": "", "units": "user", "sections": []}'

@@ -17,8 +17,8 @@ from mudline.contact.compiled import driver as compiled_driver
 from mudline.contact.compiled.functions import edition
 from mudline.contact.laws import law_named
 from mudline.contact.laws.base import NormalLaw
-from mudline.contact.numpy_driver import Batch
 from mudline.contact.plan import Backend, Choice
+from mudline.contact.positions import Batch
 from tests.contact.builders import CURVE, LINEAR, at_depths, chain, everything, friction, journey
 from tests.processes import TIMEOUT
 

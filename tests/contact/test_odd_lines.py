@@ -10,7 +10,7 @@ import pytest
 from mudline.contact import ContactInput, ContactModel
 from mudline.contact.arrays import FloatArray
 from mudline.contact.seabed import PlanesSeabed
-from mudline.contact.vectors import directions_of
+from mudline.contact.tangent import directions_of
 from tests.contact.builders import LINEAR, at_depths, chain, drawn, friction, on, trench, walk
 
 

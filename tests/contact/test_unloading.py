@@ -19,6 +19,8 @@ from mudline.contact.laws.unloading import UnloadingHistory, line_stiffness, on_
 from mudline.curves import ForceCurve
 from tests.contact.builders import CURVE, LINEAR, NONE, apart, at_depths, chain, on
 
+EPSILON = float(np.finfo(np.float64).eps)
+
 
 class Reaction(NamedTuple):
     """What one element does in a step."""
@@ -240,7 +242,8 @@ def test_reaction_lies_between_nothing_and_the_virgin_path(
         assert 0.0 <= force <= virgin(curve, z) * (1.0 + 1e-9) + 1e-9
         assert z > history.bottom.item() or force == 0.0
         assert not (z == history.z_max.item() and force != history.force_max.item())
-        assert 0.0 <= bottom <= history.bottom.item() <= history.z_max.item()
+        assert history.bottom.item() <= history.z_max.item()
+        assert 0.0 <= bottom <= history.bottom.item() * (1.0 + 4.0 * EPSILON)  # two lines of one slope round apart
         bottom = history.bottom.item()
 
 

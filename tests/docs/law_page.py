@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import isnan
 
-from mudline.contact.laws import Law, known_laws, law_named
+from mudline.contact.laws import BUILT_IN, Law, law_named
 from mudline.contact.laws.base import Parameter
 
 _HEAD = """\
@@ -18,7 +18,7 @@ in [contact.md](contact.md). This page is made from the program.
 
 def law_page() -> str:
     """The page."""
-    return "\n".join([_HEAD, *(_section(law_named(name)) for name in known_laws())])
+    return "\n".join([_HEAD, *(_section(law_named(name)) for name in BUILT_IN)])
 
 
 def _section(law: Law) -> str:

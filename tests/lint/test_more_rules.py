@@ -162,6 +162,8 @@ def test_a_steep_end() -> None:
     assert found(points((0, 0), (1, 1), (2, 101.1)), "CRV008") == [("CRV008", 6, 2)]
     assert found(points((0, 0), (1, 1), (2, 1), (3, 200)), "CRV008") == [("CRV008", 7, 2)]
     assert found(points((0, 0), (1, 1000)), "CRV008") == []
+    assert found(points((0, 0), (1, 1000), (2, 1001), (3, 1201)), "CRV008") == [("CRV008", 7, 2)]
+    assert found(points((0, 0), (1, 1), (2, 91), (3, 1000)), "CRV008") == []
     assert found(points((0, 0), (1, 1), (2, 1)), "CRV008", "CRV013") == [("CRV013", 6, 2)]
 
 

@@ -95,6 +95,8 @@ def test_submerged_weight() -> None:
     assert np.isnan(submerged_weight(scene_of(dry))).all()
     assumed = deck(METRIC, "").replace("500.0, 1025.0, 9.81", "500.0")
     np.testing.assert_allclose(submerged_weight(scene_of(assumed)), WEIGHT, rtol=1e-14)
+    later = deck(METRIC, "*OCEAN\n 500.0, 1025.0, 3.7\n")
+    np.testing.assert_allclose(submerged_weight(scene_of(later)), WEIGHT * 3.7 / 9.81, rtol=1e-14)
 
 
 def test_widths_of_linear_laws() -> None:
@@ -220,6 +222,11 @@ def test_friction_of_properties_has_mobilisation_lengths() -> None:
     assert np.isnan(friction["axial_stiffness"]).all()
     assert np.isnan(friction["lateral_stiffness"]).all()
     assert np.isnan(friction["angle"]).all()
+    uneven = deck(METRIC, LINEAR + " FRICTION=0.3, 0.5\n")
+    for number, place in ((2, 1.0), (3, 3.0), (4, 4.0)):
+        uneven = uneven.replace(f" {number}, -0.05, {10.0 * (number - 1)}\n", f" {number}, -0.05, {place}\n")
+    lengths = scene_of(uneven).contact_input().assigned["friction"]["axial_mobilisation"]
+    assert lengths[:5].tolist() == [1.0, 1.0, 1.0, 1.0, 3.048]
     surface = made_law("*ELASTIC SURFACE\n 50000, 0.3, 0.5, , , , 1.5, 2.5\n", "friction")
     assert surface.rows.tolist() == list(range(11))
 

@@ -44,6 +44,11 @@ def test_a_block_is_taken_whole() -> None:
     assert laws(NEW + " SET=ALL\n STIFFNESS=1\n SET=a\n FRICTION=0.3\n") == "-----lllll"
 
 
+def test_a_block_whose_law_cannot_be_known_takes_that_of_the_surface_away() -> None:
+    scene = scene_of(BASE + "*ELASTIC SURFACE\n 500\n*SEABED PROPERTIES\n SET=a\n FRICTION=0.3\n")
+    assert stiffnesses(scene) == [None] * 5 + [500.0] * 5
+
+
 def test_blocks_of_several_keywords_follow_each_other() -> None:
     text = NEW + " SET=ALL\n STIFFNESS=1\n*OCEAN\n 9\n*SEABED PROPERTIES\n SET=b\n STIFFNESS=Clay\n"
     assert laws(text) == "lllcccccll"

@@ -9,7 +9,7 @@ import pytest
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import Deck
 from mudline.diagnostics import DeckError, Diagnostic
-from mudline.variations.planning import Plan, plan
+from mudline.variations.planning import ExpansionPlan, plan
 
 MODEL = """\
 $MODEL
@@ -52,7 +52,7 @@ def deck(content: str | bytes, name: str = "study.keyxm", folder: Path | None = 
     return load_bytes(data, name, folder=folder)
 
 
-def planned(variations: str, combinations: str = " DESCRIPTION=all, FILENAME=%Period%\n") -> Plan:
+def planned(variations: str, combinations: str = " DESCRIPTION=all, FILENAME=%Period%\n") -> ExpansionPlan:
     return plan(deck(text(variations, combinations)))
 
 

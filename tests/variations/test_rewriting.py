@@ -16,7 +16,7 @@ from mudline.keywords.values import Equation
 from mudline.linting.engine import lint_bytes
 from mudline.linting.selection import select
 from mudline.variations.names import path_fault
-from mudline.variations.planning import Plan, plan
+from mudline.variations.planning import ExpansionPlan, plan
 from mudline.variations.targets import parameter_field
 from tests.samples import SAMPLES
 from tests.variations.decks import MODEL, PARAMETERS, deck, only, refused, text
@@ -25,7 +25,7 @@ ALL = " DESCRIPTION=d, FILENAME=%Period%\n"
 WAVES = " NAME=Waves\n PARA=Period, VALUE=09, =[1+Twice]\n"
 
 
-def contents(found: Plan) -> list[str]:
+def contents(found: ExpansionPlan) -> list[str]:
     return [found.content(new).decode() for new in found.decks]
 
 

@@ -17,7 +17,7 @@ from mudline.cli.terminal import reason, tell
 from mudline.cli.writing import write_bytes, write_text
 from mudline.variations.manifest import MANIFEST, manifest_text
 from mudline.variations.output import conflicts, lacking
-from mudline.variations.planning import Plan, plan
+from mudline.variations.planning import ExpansionPlan, plan
 
 _MOST_TOLD = 5
 _NOT_COPIED = "{}: the deck names it and it is not copied: put it beside the new decks"
@@ -79,7 +79,7 @@ def _tell_some(messages: list[str]) -> None:
         tell(f"and {len(messages) - _MOST_TOLD} more of the same")
 
 
-def _write(planned: Plan, folder: Path, view: View) -> None:
+def _write(planned: ExpansionPlan, folder: Path, view: View) -> None:
     count = f"{len(planned.decks)} deck{'' if len(planned.decks) == 1 else 's'}"
     if not view.quiet:
         tell(f"{planned.source}: {count} to write into {folder.as_posix()}")

@@ -33,6 +33,7 @@ def refuse(part: ContactResult, speed: FloatArray | None, first_step: int, table
     """
     for step in range(len(part.depth)):
         _refuse_step(part.step(step), None if speed is None else speed[step], first_step + step, tables)
+        refuse_pulling(part.steps(step, step + 1), first_step + step, tables)
 
 
 def _refuse_step(part: ContactResult, speed: FloatArray | None, step: int, tables: Tables) -> None:

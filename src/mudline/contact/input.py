@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from mudline.contact.arrays import BoolArray, FloatArray, IdArray, IndexArray
 from mudline.contact.errors import ElementError
 from mudline.contact.laws import Law, NormalLaw, law_named
+from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:  # a scene without curves does not load them, nor does a flat seabed load other shapes
     from mudline.contact.seabed import Seabed
@@ -52,6 +53,8 @@ class LawAssignment:
     rows: IndexArray
     parameters: Mapping[str, ArrayLike] = field(default_factory=dict)
 
+    __repr__ = short_repr
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class AssignedLaw:
@@ -60,6 +63,8 @@ class AssignedLaw:
     law: Law
     rows: IndexArray
     parameters: dict[str, FloatArray]
+
+    __repr__ = short_repr
 
     def __getitem__(self, name: str) -> FloatArray:
         return self.parameters[name]
@@ -116,6 +121,8 @@ class ContactInput:
     left_out: Mapping[str, str] = field(default_factory=dict)
     assigned: dict[str, AssignedLaw] = field(init=False, repr=False)
     """The laws that some element or node has, by name."""
+
+    __repr__ = short_repr
 
     def __post_init__(self) -> None:
         nodes, elements = len(self.node_ids), len(self.element_ids)

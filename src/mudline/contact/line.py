@@ -120,7 +120,7 @@ class Line:
         return total
 
     def _add_turned(self, total: FloatArray, values: FloatArray, begin: int) -> None:
-        """Add up anew at nodes where both elements begin or both end."""
+        """Add up again at nodes where both elements begin or both end."""
         nodes = np.flatnonzero(self.senses[self.start[:-1][np.diff(self.start) == 2] + 1] < 0.0)
         nodes = np.flatnonzero(np.diff(self.start) == 2)[nodes]
         low, high = np.searchsorted(nodes, [begin, begin + total.shape[1]])
@@ -129,7 +129,7 @@ class Line:
         total[:, nodes[low:high] - begin] = (0.0 + values[:, one]) - values[:, other]
 
     def _add_at_junctions(self, total: FloatArray, values: FloatArray, begin: int) -> None:
-        """Add up anew where three elements or more meet, in the order that is promised."""
+        """Add up again where three elements or more meet, in the order that is promised."""
         low, high = np.searchsorted(self._junctions, [begin, begin + total.shape[1]])
         for node in self._junctions[low:high].tolist():
             sums = np.zeros(len(total))

@@ -12,12 +12,13 @@ from numpy.typing import ArrayLike
 from mudline.contact.arrays import BoolArray, FloatArray
 from mudline.contact.checks import is_finite, refuse, refuse_pulling
 from mudline.contact.input import ContactInput
-from mudline.contact.numpy_driver import Batch, NumpyDriver
+from mudline.contact.numpy_driver import NumpyDriver
 from mudline.contact.plan import Backend, Choice, Plan, make_plan
-from mudline.contact.positions import as_mask, as_series, as_times, as_velocities, read_steps
+from mudline.contact.positions import Batch, as_mask, as_series, as_times, as_velocities, read_steps
 from mudline.contact.result import ContactResult, blank_result
 from mudline.contact.seabed import FlatSeabed, Seabed
 from mudline.contact.tables import ContactState, Tables
+from mudline.short_repr import counted, outline, short_repr
 
 if TYPE_CHECKING:
     from mudline.contact.compiled.driver import CompiledDriver
@@ -30,6 +31,9 @@ class Stepped(NamedTuple):
 
     start: int
     result: ContactResult
+
+    def __repr__(self) -> str:
+        return short_repr(self)
 
 
 class ContactModel:
@@ -64,6 +68,12 @@ class ContactModel:
             self.plan: Plan = make_plan(given, self._tables, self._choice)
             self._numpy = NumpyDriver(self._tables, self._seabed)
         self._compiled: CompiledDriver | None = None
+
+    def __repr__(self) -> str:
+        nodes, elements = len(self.input.node_ids), len(self.input.element_ids)
+        size = f"{counted(nodes, 'node')}, {counted(elements, 'element')}"
+        stages = ", ".join(stage.stage for stage in self.plan if stage.active)
+        return outline("ContactModel", size, stages, self.plan.steps)
 
     def evaluate(
         self,

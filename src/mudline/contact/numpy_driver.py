@@ -7,13 +7,14 @@ everything came out finite, and what did not.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mudline.contact import vectors
 from mudline.contact.arrays import BoolArray, FloatArray, as_range, taken
-from mudline.contact.numpy_elements import Elements
+from mudline.contact.numpy_elements import Elements, Work
+from mudline.contact.positions import Batch
 from mudline.contact.result import ContactResult
 from mudline.contact.seabed.base import FlatSeabed, Seabed
 from mudline.contact.tables import ContactState, Tables, rows_within
@@ -29,36 +30,6 @@ _WIDTH = 4096
 """Elements or nodes in a range of a long line, at least: over a few steps what belongs to them stays in caches."""
 _MOST = 2**20
 """Nodes times steps of a batch, at most."""
-
-
-class Batch(NamedTuple):
-    """Steps to be evaluated.
-
-    Attributes:
-        points: (steps, n, 3) positions, NaN for nodes without one.
-        speed: (steps, n) velocities along the normals; None where nothing asks for them.
-        laid: (n, 3) positions of the first step of the series.
-    """
-
-    points: FloatArray
-    speed: FloatArray | None
-    laid: FloatArray
-
-
-class Work(NamedTuple):
-    """What elements leave for nodes: values (steps, m + 2), between two columns of zeros.
-
-    Attributes:
-        planes: three (steps, n) coordinates; none where nothing moves sideways.
-        load: half of the force of each element.
-        tangent: components of the unit direction of each element, those in the plane of a horizontal seabed alone.
-        lateral: the same of the lateral force on each of its nodes.
-    """
-
-    planes: list[FloatArray]
-    load: FloatArray
-    tangent: list[FloatArray]
-    lateral: list[FloatArray]
 
 
 class NumpyDriver:
@@ -300,7 +271,7 @@ class Nodes:
         away = laid.away(laid.beside(self.begin, self._trench), [taken(place, at) for place in places]).vector
         lateral = tuple(taken(axis, at) for axis in across)
         offset = self._plane.dot(lateral, away[3 - len(lateral) :])
-        added = resistance(self._trench, self._tables.given.tables, offset, taken(pressing, at))
+        added = resistance(self._trench, offset, taken(pressing, at))
         found = np.zeros(pressing.shape), np.zeros(pressing.shape)
         for whole, outward in zip(found, (offset > 0.0, offset < 0.0), strict=True):
             share = np.where(outward, added, 0.0)

@@ -15,7 +15,7 @@ from mudline.contact.vectors import in_plane, units
 if TYPE_CHECKING:
     from mudline.contact.laws.suction import SuctionHistory, SuctionLaw
     from mudline.contact.laws.unloading import UnloadingHistory
-    from mudline.contact.numpy_driver import Batch, Work
+    from mudline.contact.positions import Batch
 
 Values = tuple[FloatArray, FloatArray, FloatArray]
 """Force, slope and stiffness (steps, k)."""
@@ -23,6 +23,22 @@ Values = tuple[FloatArray, FloatArray, FloatArray]
 
 _Pulled = tuple[IndexArray, IndexArray, FloatArray, FloatArray]
 """Where there is suction: steps, columns, uplifts at breakout and cyclic factors."""
+
+
+class Work(NamedTuple):
+    """What elements leave for nodes: values (steps, m + 2), between two columns of zeros.
+
+    Attributes:
+        planes: three (steps, n) coordinates; none where nothing moves sideways.
+        load: half of the force of each element.
+        tangent: components of the unit direction of each element, those in the plane of a horizontal seabed alone.
+        lateral: the same of the lateral force on each of its nodes.
+    """
+
+    planes: list[FloatArray]
+    load: FloatArray
+    tangent: list[FloatArray]
+    lateral: list[FloatArray]
 
 
 class _Group(NamedTuple):

@@ -17,6 +17,7 @@ import numpy as np
 from mudline.contact.arrays import FloatArray
 from mudline.contact.input import ContactInput, LawKind
 from mudline.contact.tables import Tables
+from mudline.short_repr import outline
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -47,6 +48,15 @@ class Plan:
     def steps(self) -> str:
         """How time steps are taken."""
         return "one step after the other" if self.history else "all steps at once"
+
+    def __repr__(self) -> str:
+        left_out = ", ".join(stage.stage for stage in self.stages if not stage.active)
+        return outline(
+            "Plan",
+            ", ".join(stage.stage for stage in self.stages if stage.active),
+            f"without {left_out}" if left_out else "",
+            self.steps,
+        )
 
     def __iter__(self) -> Iterator[Stage]:
         return iter(self.stages)

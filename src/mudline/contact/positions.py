@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,6 +11,20 @@ from mudline.contact.arrays import BoolArray, FloatArray, IdArray
 from mudline.contact.errors import PositionError
 
 RealArray = NDArray[np.floating[Any] | np.integer[Any]]
+
+
+class Batch(NamedTuple):
+    """Steps to be evaluated.
+
+    Attributes:
+        points: (steps, n, 3) positions, NaN for nodes without one.
+        speed: (steps, n) velocities along the normals; None where nothing asks for them.
+        laid: (n, 3) positions of the first step of the series.
+    """
+
+    points: FloatArray
+    speed: FloatArray | None
+    laid: FloatArray
 
 
 def as_series(positions: ArrayLike, nodes: int) -> RealArray:

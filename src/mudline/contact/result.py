@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from mudline.contact.arrays import BoolArray, FloatArray, StateArray
 from mudline.contact.tables import Tables
+from mudline.short_repr import outline
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -59,6 +60,12 @@ class ContactResult:
     friction: FloatArray | None = None
     friction_state: StateArray | None = None
     rigid: BoolArray | None = None
+
+    def __repr__(self) -> str:
+        optional = ("state", "regularised", "friction", "friction_state", "rigid")
+        present = ", ".join(name for name in optional if getattr(self, name) is not None)
+        shapes = f"elements {self.depth.shape}, nodes {self.gap.shape}"
+        return outline("ContactResult", shapes, f"with {present}" if present else "")
 
     @property
     def restrained(self) -> BoolArray | None:

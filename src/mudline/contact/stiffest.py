@@ -27,6 +27,7 @@ from mudline.contact.input import AssignedLaw
 from mudline.contact.laws.suction import SuctionLaw, breakout_uplift, maximum_force
 from mudline.contact.result import ContactResult
 from mudline.contact.tables import NormalRows, Tables, steepest_anywhere
+from mudline.short_repr import outline, short_repr
 
 
 class LawStiffness(NamedTuple):
@@ -41,11 +42,17 @@ class LawStiffness(NamedTuple):
     damping: FloatArray
     per: Literal["length", "node"]
 
+    def __repr__(self) -> str:
+        return short_repr(self)
+
 
 class Stiffest(NamedTuple):
     """All laws of a model."""
 
     laws: tuple[LawStiffness, ...]
+
+    def __repr__(self) -> str:
+        return outline("Stiffest", ", ".join(law.law for law in self.laws) or "no laws")
 
     def __getitem__(self, law: str | int | slice) -> LawStiffness:  # type: ignore[override]
         """Return a law by its name; KeyError when the model does not have it."""

@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
 
-from mudline.contact.arrays import BoolArray, FloatArray, IndexArray, SmallIndexArray, StateArray
+from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.contact.input import AssignedLaw, ContactInput
 from mudline.contact.laws import NormalLaw
 from mudline.contact.laws.base import Reaction, Value
 from mudline.contact.line import Line
+from mudline.short_repr import outline
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
@@ -43,6 +44,12 @@ class ContactState:
     suction: SuctionHistory | None = None
     friction: FrictionHistory | None = None
     touchdown: FloatArray | None = None
+
+    def __repr__(self) -> str:
+        when = "before the first step" if self.positions is None else f"after a step of {len(self.positions)} nodes"
+        names = ("unloading", "suction", "friction", "touchdown")
+        held = ", ".join(name for name in names if getattr(self, name) is not None)
+        return outline(f"ContactState {when}", held or "nothing to remember")
 
     def copied(self) -> ContactState:
         """Return a state whose arrays may be written; positions stay as they are."""
@@ -110,46 +117,6 @@ class FrictionRows(NamedTuple):
     turned: IndexArray
     cosine: FloatArray
     sine: FloatArray
-
-
-class TrenchRows(NamedTuple):
-    """What trenches add to the lateral limits of nodes, a row (k,) for each trench that a node lies in.
-
-    Attributes:
-        nodes: (k,) ascending.
-        start: (n + 1,) rows start[i] to start[i + 1] are those of node i.
-        kind: PEAK, WALL or TABLE.
-        inner, outer: half widths. steepness: 1 over half of their difference.
-        amount: peak force, coefficient of the normal force on the wall, or half length for a table.
-        table: which one, -1 for none.
-        line: row in `lines` of a straight centreline; -1 for the line as it was laid.
-        lines: (c, 4) place and direction (Y, Z) of each straight centreline.
-    """
-
-    nodes: IndexArray
-    start: IndexArray
-    kind: StateArray
-    inner: FloatArray
-    outer: FloatArray
-    steepness: FloatArray
-    amount: FloatArray
-    table: SmallIndexArray
-    line: SmallIndexArray
-    lines: FloatArray
-
-    def some(self, rows: IndexArray | slice) -> TrenchRows:
-        """Return some rows, which have no starts."""
-        return self._replace(
-            nodes=self.nodes[rows],
-            start=self.start[:0],
-            kind=self.kind[rows],
-            inner=self.inner[rows],
-            outer=self.outer[rows],
-            steepness=self.steepness[rows],
-            amount=self.amount[rows],
-            table=self.table[rows],
-            line=self.line[rows],
-        )
 
 
 class Tables:

@@ -15,7 +15,8 @@ import numpy as np
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.contact.result import ContactResult
 from mudline.contact.tables import ContactState, Tables
-from mudline.contact.vectors import Directions, directions_of
+from mudline.contact.vectors import in_plane, turned_3, units
+from mudline.short_repr import short_repr
 
 
 class Triples(NamedTuple):
@@ -25,6 +26,9 @@ class Triples(NamedTuple):
     columns: IndexArray
     values: FloatArray
     size: int
+
+    def __repr__(self) -> str:
+        return short_repr(self)
 
     def dense(self) -> FloatArray:
         """Return the matrix as an array, for small ones."""
@@ -38,6 +42,9 @@ class Tangent(NamedTuple):
 
     by_position: Triples
     by_velocity: Triples
+
+    def __repr__(self) -> str:
+        return short_repr(self)
 
 
 class _Blocks:
@@ -236,11 +243,13 @@ def _slide(step: _Step) -> _Sliding:
     if history is None:
         raise TypeError("the state has no friction: it belongs to another model")
     if tables.trench is not None:
-        from mudline.contact.trenches import added_limit  # noqa: PLC0415 - most friction has no trench
+        from mudline.contact.trenches import LaidCentreline, added_limit  # noqa: PLC0415 - most friction has no trench
 
         laid = step.points if step.before.laid is None else step.before.laid
         trial = slide(law, history, places, directions.axes, compression).trial[:, 1]
-        added = added_limit(tables, laid, places, directions.axes, np.maximum(compression, 0.0), trial > 0.0)
+        line = LaidCentreline(laid, tables.line)
+        pressed, forward = np.maximum(compression, 0.0), trial > 0.0
+        added = added_limit(tables.trench, line, places, directions.axes, pressed, forward)
         gradient, by_angle = added.gradient, added.by_angle
         extra = ExtraLimit(added.force, np.ones(len(places)), added.by_normal_force, np.where(trial > 0.0, 1.0, -1.0))
     found = slide(law, history, places, directions.axes, compression, extra)
@@ -321,3 +330,42 @@ def _outer(one: FloatArray, other: FloatArray) -> FloatArray:
 def _size(vectors: FloatArray) -> FloatArray:
     size: FloatArray = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
     return size
+
+
+class Directions(NamedTuple):
+    """Directions of nodes (n,) in one step.
+
+    axes: u1 and u2, each (n, 3).
+    follows: (n,) nodes whose directions turn with the line.
+    senses: (m, 2) how the direction of each element counts at its ends.
+    size: (n,) length of the projection of the sum of the elements' directions.
+    """
+
+    axes: tuple[FloatArray, FloatArray]
+    follows: BoolArray
+    senses: FloatArray
+    size: FloatArray
+
+
+def directions_of(tables: Tables, points: FloatArray, normals: FloatArray) -> Directions:
+    """Return the directions of nodes at `points` (n, 3) with unit normals (n, 3)."""
+    line, nodes = tables.line, len(points)
+    with np.errstate(all="ignore"):
+        spans = [points[line.second, axis] - points[line.first, axis] for axis in range(3)]
+        unit = units(spans)
+        total = np.stack([line.sums(_padded(axis), 0, nodes, directed=True)[0] for axis in unit], axis=1)
+        flat = total - (total * normals).sum(axis=1)[:, None] * normals
+        along = np.stack(in_plane(tuple(total.T), tuple(normals.T)), axis=1)
+        follows = np.ones(nodes, np.bool_)
+        friction = tables.friction
+        if friction is not None and friction.turned.size:
+            there = tuple(normals[friction.turned].T)
+            along[friction.turned] = np.stack(turned_3(friction.cosine, friction.sine, there), axis=1)
+            follows[friction.turned] = False
+        senses = np.ones((len(line.first), 2))
+        senses[line.elements, line.sides] = line.senses
+    return Directions((along, np.cross(normals, along)), follows, senses, np.sqrt((flat * flat).sum(axis=1)))
+
+
+def _padded(values: FloatArray) -> FloatArray:
+    return np.concatenate([[0.0], values, [0.0]])[None]

@@ -6,7 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
+from mudline.contact.arrays import BoolArray, FloatArray, IndexArray, SmallIndexArray, StateArray
+from mudline.contact.errors import ElementError
 from mudline.contact.input import AssignedLaw, ContactInput
 from mudline.contact.laws.trench import (
     PEAK,
@@ -22,10 +23,51 @@ from mudline.contact.laws.trench import (
     wall_coefficient,
 )
 from mudline.contact.line import Line
-from mudline.contact.tables import Tables, TrenchRows
 from mudline.contact.vectors import LEAST_SQUARE
 
 _ENDS = ("start_y", "start_z", "end_y", "end_z")
+
+
+class TrenchRows(NamedTuple):
+    """What trenches add to the lateral limits of nodes, a row (k,) for each trench that a node lies in.
+
+    Attributes:
+        nodes: (k,) ascending.
+        start: (n + 1,) rows start[i] to start[i + 1] are those of node i.
+        kind: PEAK, WALL or TABLE.
+        inner, outer: half widths. steepness: 1 over half of their difference.
+        amount: peak force, coefficient of the normal force on the wall, or half length for a table.
+        table: which one, -1 for none.
+        line: row in `lines` of a straight centreline; -1 for the line as it was laid.
+        lines: (c, 4) place and direction (Y, Z) of each straight centreline.
+        tables: (rows, 2) offsets and resistances of each table.
+    """
+
+    nodes: IndexArray
+    start: IndexArray
+    kind: StateArray
+    inner: FloatArray
+    outer: FloatArray
+    steepness: FloatArray
+    amount: FloatArray
+    table: SmallIndexArray
+    line: SmallIndexArray
+    lines: FloatArray
+    tables: tuple[FloatArray, ...]
+
+    def some(self, rows: IndexArray | slice) -> TrenchRows:
+        """Return some rows, which have no starts."""
+        return self._replace(
+            nodes=self.nodes[rows],
+            start=self.start[:0],
+            kind=self.kind[rows],
+            inner=self.inner[rows],
+            outer=self.outer[rows],
+            steepness=self.steepness[rows],
+            amount=self.amount[rows],
+            table=self.table[rows],
+            line=self.line[rows],
+        )
 
 
 def trench_rows(given: ContactInput, friction: FloatArray) -> TrenchRows:
@@ -35,6 +77,7 @@ def trench_rows(given: ContactInput, friction: FloatArray) -> TrenchRows:
 
     Raises:
         ValueError: the wall of a trench locks itself: mu2 tan(theta) >= 1.
+        ElementError: half of an element's length times the resistance overflows.
     """
     columns = [_of_law(given, kind, friction) for kind in (PEAK, WALL, TABLE)]
     nodes, keys, ends, amounts = (np.concatenate(parts) for parts in zip(*columns, strict=True))
@@ -58,6 +101,7 @@ def trench_rows(given: ContactInput, friction: FloatArray) -> TrenchRows:
         rows[:, 4].astype(np.int32),
         rows[:, 5].astype(np.int32),
         np.ascontiguousarray(np.column_stack([lines[:, :2], direction])),
+        given.tables,
     )
 
 
@@ -87,6 +131,9 @@ def _of_law(
             amounts.append(half)
         else:
             amounts.append(_wall(given, law, end, friction) * half / _lengths(given)[end])
+        if not np.isfinite(amounts[-1]).all():
+            element = int(given.element_ids[law.rows[np.flatnonzero(~np.isfinite(amounts[-1]))[0]]])
+            raise ElementError(f"element {element}: the resistance of its trench overflows", element)
     nodes = ends.T.reshape(-1).astype(np.float64)
     return nodes, np.concatenate([keys, keys]), np.concatenate([lines, lines]), np.concatenate(amounts)
 
@@ -265,9 +312,7 @@ def _foot(points: list[FloatArray], piece: _Pieces) -> tuple[FloatArray, list[Fl
     return share, away, square
 
 
-def resistance(
-    trench: TrenchRows, tables: tuple[FloatArray, ...], offset: FloatArray, normal_force: FloatArray
-) -> FloatArray:
+def resistance(trench: TrenchRows, offset: FloatArray, normal_force: FloatArray) -> FloatArray:
     """What each row (steps, k) adds to the lateral limit at its offset under a normal force."""
     distance = np.abs(offset)
     found = trench.amount * peak_share(distance, trench.inner, trench.outer, trench.steepness)
@@ -278,7 +323,7 @@ def resistance(
     found = np.where(walls, trench.amount * normal_force * on, found)
     for index in np.unique(trench.table[trench.kind == TABLE]).tolist():
         here = (trench.kind == TABLE) & (trench.table == index)
-        found[:, here] = trench.amount[here] * tabulated(tables[index], distance[:, here])
+        found[:, here] = trench.amount[here] * tabulated(trench.tables[index], distance[:, here])
     return np.asarray(found)
 
 
@@ -286,11 +331,11 @@ def tabulated(table: FloatArray, distance: FloatArray) -> FloatArray:
     """Resistance per unit length of a table (rows, 2) at distances from the centreline."""
     columns = table_rows(table)
     row = table_row(columns, distance)
-    held = np.maximum(distance, columns[0][0])
+    held = np.minimum(np.maximum(distance, columns[0][0]), columns[0][-1])
     return np.asarray(in_table(held, columns[0][row], columns[1][row], columns[2][row]))
 
 
-def slopes(trench: TrenchRows, tables: tuple[FloatArray, ...], offset: FloatArray) -> tuple[FloatArray, FloatArray]:
+def slopes(trench: TrenchRows, offset: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Derivatives of `resistance` by the distance and by the normal force, (k,) each, for one step."""
     distance = np.abs(offset)
     kind, inner, outer, amount = trench.kind, trench.inner, trench.outer, trench.amount
@@ -298,7 +343,7 @@ def slopes(trench: TrenchRows, tables: tuple[FloatArray, ...], offset: FloatArra
     by_normal = np.where(kind == WALL, amount * on_wall(distance, inner, outer), 0.0)
     for index in np.unique(trench.table[kind == TABLE]).tolist():
         here: BoolArray = (kind == TABLE) & (trench.table == index)
-        columns = table_rows(tables[index])
+        columns = table_rows(trench.tables[index])
         slope = np.where(distance[here] < columns[0][0], 0.0, columns[2][table_row(columns, distance[here])])
         by_distance[here] = amount[here] * slope
     return by_distance, by_normal
@@ -318,19 +363,16 @@ class AddedLimit(NamedTuple):
 
 
 def added_limit(
-    tables: Tables,
-    laid: FloatArray,
+    whole: TrenchRows,
+    line: LaidCentreline,
     points: FloatArray,
     axes: tuple[FloatArray, FloatArray],
     normal_force: FloatArray,
     forward: BoolArray,
 ) -> AddedLimit:
     """Return what trenches add at `points` (n, 3); `forward` (n,) marks nodes pulled along +u2."""
-    count, whole = len(points), tables.trench
+    count = len(points)
     found = AddedLimit(np.zeros(count), np.zeros(count), np.zeros((count, 3)), np.zeros(count))
-    if whole is None:
-        return found
-    line = LaidCentreline(laid, tables.line)
     rank = np.arange(len(whole.nodes)) - np.searchsorted(whole.nodes, whole.nodes)
     for place in range(int(rank.max(initial=-1)) + 1):
         rows = whole.some(np.flatnonzero(rank == place))
@@ -339,8 +381,8 @@ def added_limit(
         away, lateral = np.stack([axis[0] for axis in where.vector], axis=1), axes[1][at]
         offset = (away * lateral).sum(axis=1)
         side = np.where((offset > 0.0) == forward[at], 1.0, 0.0) * (offset != 0.0)
-        by_distance, by_normal = slopes(rows, tables.given.tables, offset)
-        found.force[at] += side * resistance(rows, tables.given.tables, offset[None], normal_force[at][None])[0]
+        by_distance, by_normal = slopes(rows, offset)
+        found.force[at] += side * resistance(rows, offset[None], normal_force[at][None])[0]
         found.by_normal_force[at] += side * by_normal
         slope = side * by_distance * np.sign(offset)
         found.gradient[at] += slope[:, None] * _offset_gradient(line, rows, beside, where, lateral)

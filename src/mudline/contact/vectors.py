@@ -11,9 +11,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from mudline.contact.arrays import BoolArray, FloatArray
+from mudline.contact.arrays import FloatArray
 from mudline.contact.laws.base import Value, where
-from mudline.contact.tables import Tables
 
 Vector = tuple[Value, ...]
 
@@ -209,42 +208,3 @@ def units(spans: list[FloatArray]) -> list[FloatArray]:
         square = rescale(spans, square)
     share = tangent_share(square)
     return [span * share for span in spans]
-
-
-class Directions(NamedTuple):
-    """Directions of nodes (n,) in one step.
-
-    axes: u1 and u2, each (n, 3).
-    follows: (n,) nodes whose directions turn with the line.
-    senses: (m, 2) how the direction of each element counts at its ends.
-    size: (n,) length of the projection of the sum of the elements' directions.
-    """
-
-    axes: tuple[FloatArray, FloatArray]
-    follows: BoolArray
-    senses: FloatArray
-    size: FloatArray
-
-
-def directions_of(tables: Tables, points: FloatArray, normals: FloatArray) -> Directions:
-    """Return the directions of nodes at `points` (n, 3) with unit normals (n, 3)."""
-    line, nodes = tables.line, len(points)
-    with np.errstate(all="ignore"):
-        spans = [points[line.second, axis] - points[line.first, axis] for axis in range(3)]
-        unit = units(spans)
-        total = np.stack([line.sums(_padded(axis), 0, nodes, directed=True)[0] for axis in unit], axis=1)
-        flat = total - (total * normals).sum(axis=1)[:, None] * normals
-        along = np.stack(in_plane(tuple(total.T), tuple(normals.T)), axis=1)
-        follows = np.ones(nodes, np.bool_)
-        friction = tables.friction
-        if friction is not None and friction.turned.size:
-            there = tuple(normals[friction.turned].T)
-            along[friction.turned] = np.stack(turned_3(friction.cosine, friction.sine, there), axis=1)
-            follows[friction.turned] = False
-        senses = np.ones((len(line.first), 2))
-        senses[line.elements, line.sides] = line.senses
-    return Directions((along, np.cross(normals, along)), follows, senses, np.sqrt((flat * flat).sum(axis=1)))
-
-
-def _padded(values: FloatArray) -> FloatArray:
-    return np.concatenate([[0.0], values, [0.0]])[None]

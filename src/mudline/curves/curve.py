@@ -25,8 +25,10 @@ from mudline.curves.law import NumpyLaw, mend, mended, refuse_infinite
 from mudline.curves.points import checked_points, difference_quotient
 from mudline.curves.search import search_for
 from mudline.curves.work import lent
+from mudline.short_repr import cut
 
 _SHOWN_POINTS = 8
+_LONGEST_POINTS = 120
 
 
 class ForceCurve:
@@ -207,9 +209,12 @@ class ForceCurve:
 
     def __repr__(self) -> str:
         count = len(self.ratios)
-        pairs = list(zip(self.ratios.tolist(), self.forces.tolist(), strict=True))
-        shown = repr(pairs) if count <= _SHOWN_POINTS else f"<{count} points from {pairs[0]} to {pairs[-1]}>"
-        return f"ForceCurve({shown}, name={self.name!r})"
+        ends = [(float(self.ratios[end]), float(self.forces[end])) for end in (0, -1)]
+        shown = f"<{count} points from {ends[0]} to {ends[1]}>"
+        if count <= _SHOWN_POINTS:
+            pairs = repr(list(zip(self.ratios.tolist(), self.forces.tolist(), strict=True)))
+            shown = pairs if len(pairs) <= _LONGEST_POINTS else shown
+        return f"ForceCurve({shown}, name={self.name if self.name is None else cut(self.name, 60)!r})"
 
 
 def _checked_out(out: tuple[FloatArray, FloatArray], shape: tuple[int, ...]) -> tuple[FloatArray, FloatArray]:

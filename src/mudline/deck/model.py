@@ -5,11 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, NamedTuple, Protocol, Self
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, Self
 
 from mudline.diagnostics import Blocks, Code, DeckError, Diagnostic, Edit, Fix, Problem, Repair, Severity, Where
 from mudline.keywords.model import Block, Comment, Part
 from mudline.keywords.values import Text
+from mudline.short_repr import counted, cut, listed, outline
+
+if TYPE_CHECKING:
+    from mudline.scene.model import Scene
 
 
 class Opaque(Part):
@@ -28,6 +32,10 @@ class Section:
     comments: list[Comment] = field(default_factory=list)
     lines: list[str] = field(default_factory=list)
 
+    def __repr__(self) -> str:
+        keywords = list(dict.fromkeys(block.keyword for block in self.blocks))
+        return outline(f"Section {cut(self.name, 40)!r}", counted(len(self.blocks), "block"), listed(keywords))
+
 
 class Range(NamedTuple):
     """Lines and columns from 1, the end exclusive."""
@@ -40,6 +48,9 @@ class Range(NamedTuple):
 
 _LONGEST = 1000
 """Characters of a message; names of the deck stand in it, and may be of any length."""
+
+_INTERNAL = frozenset({"alone", "diagnose", "folder_of", "origin", "own_sections", "problems", "require"})
+"""What the rest of the program uses of a deck; `dir` leaves it out."""
 
 START = Range(1, 1, 1, 1)
 
@@ -82,10 +93,21 @@ class Nowhere:
 
 @dataclass
 class Deck:
-    """The models of one file. `file` is the name for messages, `source` the file's own name.
+    """A deck: its sections and blocks as validated models, equations as written.
 
-    `folder` is where files that the deck names are looked for; None for a deck that came from no path: nothing is then
-    read but the deck itself. `units` is "metric", "imperial" or "user". `problems` holds what reading noticed.
+    `mudline.read`, `mudline.from_keyword`, `mudline.from_json` and `mudline.from_yaml` make decks.
+
+    Attributes:
+        file: name of the file in messages.
+        source: the file's own name, without its folder.
+        units: unit system of all numbers: "metric", "imperial" or "user".
+        preamble: lines before the first section.
+        sections: `$SECTION`s in the order of the file, with their blocks.
+        comments: comments before sections.
+        problems: what reading noticed; `require` raises those that are errors.
+        origin: tells where in the file a value stands.
+        folder: where files that the deck names are looked for; None for a deck that came from no path: nothing is then
+            read but the deck itself.
     """
 
     file: str
@@ -97,6 +119,55 @@ class Deck:
     problems: list[Problem] = field(default_factory=list, compare=False)
     origin: Origin = field(default_factory=Nowhere, compare=False, repr=False)
     folder: Path | None = field(default=None, compare=False)
+
+    def __repr__(self) -> str:
+        parts = [self.units, counted(len(self.sections), "section"), counted(self._count_blocks(), "block")]
+        if errors := len(self._errors()):
+            parts.append(counted(errors, "error"))
+        return outline(f"{type(self).__name__} {cut(self.file, 80)!r}", ", ".join(parts))
+
+    def __dir__(self) -> list[str]:
+        return [name for name in super().__dir__() if name not in _INTERNAL]
+
+    def _count_blocks(self) -> int:
+        return sum(len(section.blocks) for section in self.sections)
+
+    def to_json(self) -> str:
+        """Return the deck as JSON text; nothing but layout is lost."""
+        from mudline.deck.json_form import to_json  # noqa: PLC0415 - the module of a form is loaded where it is used
+
+        return to_json(self.alone)
+
+    def to_yaml(self) -> str:
+        """Return the deck as YAML 1.2 text; nothing but layout is lost."""
+        from mudline.deck.yaml_form import to_yaml  # noqa: PLC0415 - as in to_json
+
+        return to_yaml(self.alone)
+
+    def to_keyword(self) -> str:
+        """Return the deck as keyword text.
+
+        Raises:
+            DeckError: a name, comment or raw line cannot stand in a keyword file.
+        """
+        from mudline.deck.keyword_form import to_keyword  # noqa: PLC0415 - as in to_json
+
+        return to_keyword(self.alone)
+
+    def scene(self) -> Scene:
+        """Return the deck resolved: equations evaluated, sets expanded, diameters, lengths and laws as arrays.
+
+        Raises:
+            DeckError: the deck has errors on which a result depends.
+        """
+        from mudline.scene.build import resolve  # noqa: PLC0415 - the one way up: a deck that is read knows no physics
+
+        return resolve(self.alone).require()
+
+    @property
+    def alone(self) -> Deck:
+        """The deck without those that it continues."""
+        return self
 
     @property
     def own_sections(self) -> Sequence[Section]:
@@ -144,7 +215,9 @@ class Deck:
 
     def require(self) -> Self:
         """The deck itself; raises DeckError when something in it could not be read."""
-        errors = [problem for problem in self.problems if problem.weight is Severity.ERROR]
-        if errors:
+        if errors := self._errors():
             raise DeckError(self.diagnose(errors))
         return self
+
+    def _errors(self) -> list[Problem]:
+        return [problem for problem in self.problems if problem.weight is Severity.ERROR]

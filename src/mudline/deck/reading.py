@@ -13,6 +13,7 @@ from mudline.diagnostics import Problem, Span, Where
 from mudline.keywords import catalogue
 from mudline.keywords.model import Comment
 from mudline.keywords.reader import BlockReader, ReadBlock, read_block
+from mudline.short_repr import short_repr
 from mudline.syntax.fields import trimmed
 from mudline.syntax.source import Source
 from mudline.syntax.tree import Kind, Leaf, RawBlock, RawSection, SyntaxTree, parse
@@ -25,6 +26,8 @@ class TextOrigin:
     tree: SyntaxTree
     heads: dict[Where, Span] = field(default_factory=dict)
     read: dict[tuple[int, int], ReadBlock] = field(default_factory=dict)
+
+    __repr__ = short_repr
 
     @property
     def source(self) -> Source:

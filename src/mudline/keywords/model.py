@@ -26,6 +26,7 @@ from mudline.keywords.listing import AS_TABLES, Listing, read_table
 from mudline.keywords.lists import checked_by_parts
 from mudline.keywords.table import LARGEST_WHOLE, Cell, Column, Table
 from mudline.keywords.values import Count, Equation, Kind, Label, Text
+from mudline.short_repr import with_fields
 
 _MOST_KEYS = 100
 
@@ -124,11 +125,20 @@ class Comment(BaseModel):
     before: Count
     text: Text
 
+    def __repr__(self) -> str:
+        return with_fields(self, [("before", self.before), ("text", self.text)])
+
 
 class Part(BaseModel):
     """Anything with declared fields."""
 
     model_config = ConfigDict(extra="forbid", populate_by_name=True, serialize_by_alias=True, defer_build=True)
+
+    def __repr__(self) -> str:
+        given = ((name, getattr(self, name, None)) for name in type(self).model_fields if name != "comments")
+        return with_fields(self, ((name, value) for name, value in given if value is not None))
+
+    __str__ = __repr__
 
     @model_validator(mode="before")
     @classmethod

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from operator import itemgetter
 
 from mudline.diagnostics import Span
+from mudline.short_repr import short_repr
 from mudline.syntax.rows import line_spans, row_fields
 
 Path = tuple[str | int, ...]
@@ -26,6 +27,8 @@ class Places:
     runs: dict[Path, list[tuple[int, Span]]] = field(default_factory=dict)
     damaged: set[Path] = field(default_factory=set)
     _lines: dict[Span, array[int]] = field(default_factory=dict)
+
+    __repr__ = short_repr
 
     def find(self, path: Path) -> Span:
         """The span of a value; where it has none (it was left out), that of the nearest thing around it."""

@@ -18,6 +18,7 @@ from mudline.keywords.model import Block, Layout, Part, layout, row_format
 from mudline.keywords.places import Places
 from mudline.keywords.remarks import one_a_line
 from mudline.keywords.text import hint, instead, nearest, shown, suggestion
+from mudline.short_repr import short_repr
 from mudline.syntax.fields import first_key, trimmed
 from mudline.syntax.rows import line_spans
 from mudline.syntax.tree import Kind, Leaf, RawBlock
@@ -37,6 +38,8 @@ class ReadBlock:
     trailing: list[str] = field(default_factory=list)
     lost: int = 0
     whole: tuple[str, int] | None = None
+
+    __repr__ = short_repr
 
     @property
     def places(self) -> Places:

@@ -19,6 +19,7 @@ from mudline.scene.elements import distances
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices, Mask
 from mudline.scene.positions import Positions
+from mudline.short_repr import counted, cut, outline, short_repr
 
 Tension = Literal["keep", "cut"]
 
@@ -31,6 +32,8 @@ class Prepared:
     model: ContactModel
     lengths_from_positions: int
 
+    __repr__ = short_repr
+
 
 @dataclass(frozen=True, slots=True)
 class Part:
@@ -38,6 +41,8 @@ class Part:
 
     start: int
     result: ContactResult
+
+    __repr__ = short_repr
 
     @property
     def count(self) -> int:
@@ -64,6 +69,11 @@ class Evaluation:
     time: Floats | None = None
     velocities: NDArray[np.floating] | None = None
     lengths_from_positions: int = 0
+
+    def __repr__(self) -> str:
+        elements, nodes = counted(len(self.elements), "element"), counted(len(self.nodes), "node")
+        size = f"{self.scene.units}, {counted(self.steps, 'step')}, {elements}, {nodes}"
+        return outline(f"Evaluation of {cut(self.scene.deck.file, 80)!r}", size)
 
     @property
     def steps(self) -> int:

@@ -13,6 +13,7 @@ from mudline.scene.context import Context
 from mudline.scene.given import number
 from mudline.scene.laws import LawTable
 from mudline.scene.numbering import Floats, Indices
+from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:
     from mudline.keywords.common import Surface
@@ -38,6 +39,9 @@ class BedValues(NamedTuple):
     suction: float = _UNKNOWN
     extent: float = _UNKNOWN
 
+    def __repr__(self) -> str:
+        return short_repr(self)
+
 
 NOTHING = BedValues()
 
@@ -53,6 +57,8 @@ class Bed:
     values: Sequence[BedValues]
     places: Sequence[Where]
     of_element: Indices
+
+    __repr__ = short_repr
 
     def column(self, name: str) -> Floats:
         """One of the fields of `BedValues` for all elements: (m,), or (m, 2) for those of two directions."""

@@ -20,6 +20,7 @@ from mudline.keywords.model import ListRow
 from mudline.scene.continued import ContinuedDeck
 from mudline.scene.harvest import LAID, definers, harvested_labels, harvested_sets, may_define
 from mudline.scene.numbering import LARGEST
+from mudline.short_repr import short_repr
 from mudline.syntax.tree import canonical_name, mark_of
 
 MOST_TOLD = 1000
@@ -54,6 +55,8 @@ class Context:
     _told: dict[str, int] = field(default_factory=dict)
     _compared: int = 0
     _placeless: set[tuple[int, int]] = field(default_factory=set)
+
+    __repr__ = short_repr
 
     def __post_init__(self) -> None:
         for i, section in enumerate(self.deck.sections):

@@ -10,6 +10,7 @@ from typing import Any
 from mudline.deck.model import Deck, Origin, Range, Section
 from mudline.diagnostics import Blocks, Diagnostic, Problem, Where
 from mudline.keywords.model import Block
+from mudline.short_repr import short_repr
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,6 +24,8 @@ class Base:
     sections: dict[int, Section]
     problems: tuple[Problem, ...]
 
+    __repr__ = short_repr
+
     @property
     def errors(self) -> list[Problem]:
         """What keeps its model from being used."""
@@ -34,6 +37,8 @@ class BaseProblem(Problem):
     """A problem of a deck that is continued, in that deck's own terms."""
 
     deck: Deck | None = None
+
+    __repr__ = short_repr
 
 
 def lent(problem: Problem, deck: Deck) -> BaseProblem:
@@ -56,6 +61,8 @@ class ContinuedOrigin:
     origin: Origin
     own: int
     borrowed: Sequence[tuple[Deck, int]]
+
+    __repr__ = short_repr
 
     def lender(self, where: Where) -> tuple[Deck, Where] | None:
         """The deck that a value was taken from, and its place there; None for one of the deck itself."""
@@ -91,7 +98,7 @@ class ContinuedOrigin:
         return origin.written(inner)
 
 
-@dataclass
+@dataclass(repr=False)
 class ContinuedDeck(Deck):
     """A deck whose last sections are those of the models that it continues; its own keep their numbers.
 
@@ -100,6 +107,22 @@ class ContinuedDeck(Deck):
 
     bases: tuple[Base, ...] = ()
     incomplete: bool = False
+
+    @property
+    def alone(self) -> Deck:
+        """The deck without those that it continues."""
+        origin = self.origin.origin if isinstance(self.origin, ContinuedOrigin) else self.origin
+        return Deck(
+            file=self.file,
+            source=self.source,
+            units=self.units,
+            preamble=self.preamble,
+            sections=[*self.own_sections],
+            comments=self.comments,
+            problems=self.problems,
+            origin=origin,
+            folder=self.folder,
+        )
 
     @property
     def own_sections(self) -> Sequence[Section]:

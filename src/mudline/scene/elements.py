@@ -24,6 +24,7 @@ from mudline.scene.numbering import (
     whole_numbers,
 )
 from mudline.scene.repeats import tell_repeats
+from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:
     from mudline.keywords.library.element import ElementPattern, ElementRows, Elements
@@ -36,6 +37,8 @@ class ElementTable:
     numbered: Numbered
     nodes: Indices
     length: Floats
+
+    __repr__ = short_repr
 
 
 def read_elements(context: Context, nodes: Numbered, external: ExternalElements | None = None) -> ElementTable:

@@ -12,6 +12,7 @@ from mudline.diagnostics import Where
 from mudline.scene.context import Context
 from mudline.scene.numbering import Indices, Mask
 from mudline.scene.sets import NamedSet, Sets, later_wins
+from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:
     from mudline.keywords.model import Record
@@ -27,6 +28,8 @@ class Extension:
     places: list[Where]
     sets: list[NamedSet | None]
     of_element: Indices
+
+    __repr__ = short_repr
 
 
 def read_extensions(context: Context, sets: Sets, count: int) -> dict[str, Extension]:

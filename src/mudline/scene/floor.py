@@ -17,6 +17,7 @@ from mudline.scene.deck_files import file_name, find_file
 from mudline.scene.given import number
 from mudline.scene.numbering import Floats
 from mudline.scene.profile_file import COMPILED, ProfileError, read_profile
+from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:
     from mudline.keywords.common import Surface
@@ -66,6 +67,8 @@ class Floor:
     missing: str = ""
     where: Where = field(default_factory=Where)
     unreadable: tuple[tuple[Where, str], ...] = ()
+
+    __repr__ = short_repr
 
     def same(self, other: Floor) -> bool:
         """Whether both are the same bed, number by number; files of points that are not known must be the same file."""

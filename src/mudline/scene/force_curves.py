@@ -13,6 +13,7 @@ from mudline.keywords.table import Table
 from mudline.keywords.text import shown
 from mudline.scene.context import MOST_TOLD, Context
 from mudline.scene.numbering import Floats, Indices, Mask
+from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:
     from mudline.curves import ForceCurve
@@ -40,6 +41,8 @@ class SceneCurve:
     whole: bool
     embedment: bool
     named: bool
+
+    __repr__ = short_repr
 
     def point(self, index: int) -> Where:
         """Where a point of `points` stands."""

@@ -15,6 +15,7 @@ from mudline.scene.context import Context
 from mudline.scene.force_curves import SceneCurve, set_name
 from mudline.scene.numbering import Indices
 from mudline.scene.sets import NamedSet, Sets, later_wins
+from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:
     from mudline.keywords.library.elastic_surface import ElasticSurface
@@ -39,6 +40,8 @@ class Grant:
     curve: int = NOTHING
     unknown: bool = False
 
+    __repr__ = short_repr
+
 
 @dataclass(slots=True)
 class LawTable:
@@ -55,6 +58,8 @@ class LawTable:
     covered: Indices = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
     referenced: set[str] = field(default_factory=set)
     types: dict[str, list[Where]] = field(default_factory=dict)
+
+    __repr__ = short_repr
 
     @property
     def uncertain(self) -> bool:

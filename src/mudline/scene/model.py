@@ -18,6 +18,7 @@ from mudline.deck.model import Deck
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Blocks, DeckError, Problem, Severity, Where
 from mudline.scene.bed import Bed
+from mudline.scene.by_name import ByName
 from mudline.scene.checks.running import checked
 from mudline.scene.contact_parts.build import laws_of, seabed_of, table_of
 from mudline.scene.contact_parts.refused import RefusedError
@@ -32,10 +33,38 @@ from mudline.scene.numbering import Floats, Ids, Indices, Mask, Numbered
 from mudline.scene.refusals import refusals
 from mudline.scene.section_weight import submerged_weight
 from mudline.scene.sections import SectionTable
-from mudline.scene.sets import Sets
+from mudline.scene.sets import Sets, set_key
+from mudline.short_repr import counted, cut, outline, short_repr
 
 if TYPE_CHECKING:
     from mudline.curves import ForceCurve
+
+
+_INTERNAL = frozenset(
+    [
+        "bed",
+        "blocking",
+        "context",
+        "errors",
+        "extensions",
+        "findings",
+        "floor",
+        "grant",
+        "law_arrays",
+        "law_name",
+        "laws",
+        "nodal",
+        "nodes",
+        "noticed",
+        "problems",
+        "require",
+        "require_evaluable",
+        "section_table",
+        "set_table",
+        "table",
+    ]
+)
+"""What the rest of the program uses of a scene; `dir` leaves it out."""
 
 
 class LawArrays(NamedTuple):
@@ -46,13 +75,27 @@ class LawArrays(NamedTuple):
     curves: tuple[ForceCurve, ...]
     linear_stiffness: Floats
 
+    def __repr__(self) -> str:
+        return short_repr(self)
+
 
 @dataclass
 class Scene:
-    """Nodes (n), elements (m), sets, sections and laws of a deck, in the deck's units.
+    """Nodes (n), elements (m), sets, curves and laws of a deck as arrays, in the deck's units; X is up.
 
-    `deck` has its equations evaluated. `noticed` is what went wrong while it was resolved; `problems` has that and what
-    the checks find, `findings` what reading noticed too. `require` refuses a scene with errors.
+    `Deck.scene` makes scenes; `contact` makes the evaluator.
+
+    Attributes:
+        deck: the deck with its equations evaluated.
+        nodes: definitions of the nodes.
+        table: definitions of the elements.
+        set_table: sets as indices.
+        section_table: cross-sections of the elements.
+        laws: what gives each element its normal law.
+        bed: friction, lateral stiffness and suction of each element.
+        extensions: what the extension keywords say of each element, by keyword.
+        floor: shape of the seabed.
+        noticed: what went wrong while the deck was resolved.
     """
 
     deck: Deck
@@ -65,6 +108,20 @@ class Scene:
     extensions: dict[str, Extension]
     floor: Floor
     noticed: list[Problem]
+
+    def __repr__(self) -> str:
+        counts = [
+            counted(len(self.node_ids), "node"),
+            counted(len(self.element_ids), "element"),
+            counted(len(self.set_table.named), "set"),
+            counted(len(self.curves), "curve"),
+        ]
+        if errors := len(self.errors()):
+            counts.append(counted(errors, "error"))
+        return outline(f"Scene of {cut(self.deck.file, 80)!r}", ", ".join([self.units, *counts]))
+
+    def __dir__(self) -> list[str]:
+        return [name for name in super().__dir__() if name not in _INTERNAL]
 
     @property
     def context(self) -> Context:
@@ -107,13 +164,14 @@ class Scene:
         return self.section_table.diameter
 
     @cached_property
-    def sets(self) -> dict[str, Ids]:
-        """Element numbers of every set, by its name as first written; ALL included."""
-        return {entry.name: self.element_ids[entry.elements] for entry in self.set_table.named.values()}
+    def sets(self) -> ByName[Ids]:
+        """Element numbers (k,) of every set by its name, found without case; ALL included."""
+        named = self.set_table.named.values()
+        return ByName("set", ((entry.name, self.element_ids[entry.elements]) for entry in named), set_key)
 
     @cached_property
-    def curves(self) -> dict[str, ForceCurve]:
-        """The force-embedment curves by name; one of `*EMBEDMENT` has the name of its set.
+    def curves(self) -> ByName[ForceCurve]:
+        """The force-embedment curves by name, found without case; one of `*EMBEDMENT` has the name of its set.
 
         Of two curves of one name the later one holds, a named one before that of a set.
         """
@@ -122,7 +180,7 @@ class Scene:
             before = held.get(folded(entry.name))
             if entry.named and (before is None or before.embedment or not entry.embedment):
                 held[folded(entry.name)] = entry
-        return {entry.name: entry.curve for entry in held.values() if entry.curve is not None}
+        return ByName("curve", ((entry.name, entry.curve) for entry in held.values() if entry.curve is not None))
 
     def grant(self, element: int) -> Grant | None:
         """What gives the element of an index its law."""

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mudline.diagnostics import Where
+from mudline.short_repr import short_repr
 
 Ids = NDArray[np.int64]
 Indices = NDArray[np.intp]
@@ -44,6 +45,8 @@ class Batch:
     table: str = ""
     rows: Indices | None = None
 
+    __repr__ = short_repr
+
     def place(self, index: int) -> Where:
         """Where a definition of the batch stands."""
         if not self.table:
@@ -63,6 +66,8 @@ class Gathered:
     _ids: Ids = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
     _rows: Indices = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
     _recent: dict[int, int] = field(default_factory=dict)
+
+    __repr__ = short_repr
 
     def add(self, batch: Batch) -> None:
         """Take in a batch."""
@@ -137,6 +142,8 @@ class Numbered:
     starts: Indices
     batches: list[Batch]
     _order: tuple[Indices, Ids] | None = None
+
+    __repr__ = short_repr
 
     def __len__(self) -> int:
         return len(self.ids)

@@ -12,6 +12,7 @@ from mudline.diagnostics import DeckError
 from mudline.scene.array_file import Series, load_npy, load_npz
 from mudline.scene.csv_file import NumericTable, data_error, read_numeric_csv
 from mudline.scene.numbering import Floats, Ids, Indices, Mask, Numbered
+from mudline.short_repr import short_repr
 
 _AXES = ("x", "y", "z")
 _VELOCITIES = ("vx", "vy", "vz")
@@ -32,6 +33,8 @@ class Positions:
     time: Floats | None
     velocities: NDArray[np.floating] | None = None
     timed: bool = True
+
+    __repr__ = short_repr
 
     @property
     def missing(self) -> int:

@@ -13,6 +13,7 @@ from mudline.scene.context import Context
 from mudline.scene.external import ExternalElements
 from mudline.scene.numbering import Floats, Indices, Mask, Numbered
 from mudline.scene.sets import NamedSet, Sets, later_wins
+from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:
     from mudline.keywords.library.geometric_sets import GeometricSet, GeometricSets
@@ -46,6 +47,8 @@ class SectionTable:
     diameter: Floats
     faulty: Mask
     open: bool
+
+    __repr__ = short_repr
 
 
 def read_sections(

@@ -18,12 +18,18 @@ from mudline.scene.context import Context
 from mudline.scene.external import ExternalElements
 from mudline.scene.harvest import bare
 from mudline.scene.numbering import Ids, Indices, Numbered
+from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:
     from mudline.keywords.library.element_sets import ElementRange, ElementSet, ElementSets, SetList
 
 ALL = "all"
 _NOTHING = np.zeros(0, dtype=np.intp)
+
+
+def set_key(name: str) -> str:
+    """Return the name of a set as names of sets compare: without case, blanks, quotes and braces."""
+    return folded(bare(name))
 
 
 @dataclass(slots=True)
@@ -38,6 +44,8 @@ class NamedSet:
     where: Where | None
     open: bool = False
 
+    __repr__ = short_repr
+
 
 @dataclass(slots=True)
 class Sets:
@@ -46,6 +54,8 @@ class Sets:
     context: Context
     elements: Numbered
     named: dict[str, NamedSet] = field(default_factory=dict)
+
+    __repr__ = short_repr
 
     @property
     def everything(self) -> NamedSet:

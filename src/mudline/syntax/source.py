@@ -9,6 +9,7 @@ from functools import cached_property
 
 from mudline.codes import SYN012
 from mudline.diagnostics import Problem, Severity, Span
+from mudline.short_repr import short_repr
 
 _BOM = b"\xef\xbb\xbf"
 _LINE_END = re.compile(r"\r\n|\r|\n")
@@ -44,6 +45,8 @@ class Source:
     bom: bool = False
     readable: bool = True
     problems: tuple[Problem, ...] = field(default=(), compare=False)
+
+    __repr__ = short_repr
 
     @classmethod
     def from_bytes(cls, data: bytes, name: str) -> Source:

@@ -13,6 +13,7 @@ from lark import Lark
 
 from mudline.diagnostics import Span
 from mudline.resources import grammar_file
+from mudline.short_repr import short_repr
 from mudline.syntax.source import CONTROLS, Source
 
 _BLANKS = re.compile(r"[ \t]+")
@@ -47,6 +48,8 @@ class RawBlock:
     name: str
     leaves: list[Leaf] = field(default_factory=list)
 
+    __repr__ = short_repr
+
 
 @dataclass(slots=True)
 class RawSection:
@@ -57,6 +60,8 @@ class RawSection:
     leaves: list[Leaf] = field(default_factory=list)
     blocks: list[RawBlock] = field(default_factory=list)
 
+    __repr__ = short_repr
+
 
 @dataclass(frozen=True, slots=True)
 class SyntaxTree:
@@ -65,6 +70,8 @@ class SyntaxTree:
     source: Source
     preamble: RawSection
     sections: tuple[RawSection, ...]
+
+    __repr__ = short_repr
 
     def leaves(self) -> Iterator[Leaf]:
         """Every leaf, in the order of the text."""

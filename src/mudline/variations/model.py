@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from mudline.diagnostics import Where
+from mudline.short_repr import short_repr
 
 MOST_DECKS = 100_000
 """Decks that one deck may describe; more are refused, as they are a mistake."""
@@ -52,3 +53,5 @@ class PlannedDeck:
     variations: Sequence[str]
     values: Mapping[str, str]
     actions: Sequence[Action] = field(default=(), repr=False)
+
+    __repr__ = short_repr

@@ -7,10 +7,10 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from mudline.variations.manifest import MANIFEST
-from mudline.variations.planning import Plan
+from mudline.variations.planning import ExpansionPlan
 
 
-def conflicts(folder: Path, planned: Plan, source: Path | None, *, force: bool) -> list[str]:
+def conflicts(folder: Path, planned: ExpansionPlan, source: Path | None, *, force: bool) -> list[str]:
     """Why files of a plan may not be written into a folder, as sentences; `force` lets files be overwritten.
 
     Links are not followed out of the folder, and the source itself is never overwritten.
@@ -21,7 +21,7 @@ def conflicts(folder: Path, planned: Plan, source: Path | None, *, force: bool) 
         return [f"{folder.as_posix()}: cannot be looked at: {str(error).lower()}"]
 
 
-def lacking(folder: Path, planned: Plan) -> list[str]:
+def lacking(folder: Path, planned: ExpansionPlan) -> list[str]:
     """The files that the new decks name and that do not stand where one of them would look."""
     parents = {(folder / deck.path).parent for deck in planned.decks} if planned.companions else set()
     return [
@@ -31,7 +31,7 @@ def lacking(folder: Path, planned: Plan) -> list[str]:
     ]
 
 
-def _conflicts(folder: Path, planned: Plan, source: Path | None, *, force: bool) -> Iterator[str]:
+def _conflicts(folder: Path, planned: ExpansionPlan, source: Path | None, *, force: bool) -> Iterator[str]:
     if folder.exists() and not folder.is_dir():
         yield f"{folder.as_posix()}: is a file: the decks need a folder"
         return

@@ -14,6 +14,7 @@ from mudline.deck.model import Deck
 from mudline.deck.reading import read_source
 from mudline.diagnostics import DeckError, Problem, Severity, Where
 from mudline.keywords.text import shown, suggestion
+from mudline.short_repr import short_repr
 from mudline.syntax.source import Source
 from mudline.variations.cases import CaseReader
 from mudline.variations.companions import companions
@@ -31,7 +32,7 @@ _MOST_TOLD = 20
 
 
 @dataclass(frozen=True, slots=True)
-class Plan:
+class ExpansionPlan:
     """The decks in the order of `*COMBINATIONS`, and what makes their texts.
 
     `source` is the name of the file that they come from, `notes` are remarks for a reader. `companions` are files
@@ -43,6 +44,8 @@ class Plan:
     rewriter: Rewriter
     notes: Sequence[str] = ()
     companions: Sequence[str] = ()
+
+    __repr__ = short_repr
 
     def content(self, planned: PlannedDeck) -> bytes:
         """The content of a planned deck."""
@@ -64,7 +67,7 @@ class _Group:
         return prod(len(cases.rows) for cases in self.cases)
 
 
-def plan(deck: Deck) -> Plan:
+def plan(deck: Deck) -> ExpansionPlan:
     """The decks that a deck describes.
 
     Raises DeckError for a deck with errors, and for what cannot be done: a parameter that is not defined, parameters
@@ -82,7 +85,7 @@ class _Planner:
         self.rewriter = Rewriter(self.text, self.targets)
         self.problems: list[Problem] = []
 
-    def plan(self) -> Plan:
+    def plan(self) -> ExpansionPlan:
         reader = CaseReader(self.text, self.targets)
         variations = reader.read()
         self.problems += self.targets.parameters.problems + reader.problems
@@ -98,7 +101,7 @@ class _Planner:
         self._raise_any()
         self._readable(decks)
         self._raise_any()
-        return Plan(PurePath(self.deck.file).name, decks, self.rewriter, self._notes(), companions(self.text))
+        return ExpansionPlan(PurePath(self.deck.file).name, decks, self.rewriter, self._notes(), companions(self.text))
 
     def _tell(self, message: str, where: Where) -> None:
         self.problems.append(Problem(EXP001, message, None, None, where))

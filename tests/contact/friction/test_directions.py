@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 from mudline.contact import vectors
 from mudline.contact.arrays import FloatArray
 from mudline.contact.tables import Tables
-from mudline.contact.vectors import directions_of, in_plane
+from mudline.contact.tangent import directions_of
+from mudline.contact.vectors import in_plane
 from tests.contact.builders import LINEAR, chain, friction
 
 UP = np.array([[1.0, 0.0, 0.0]])

@@ -33,8 +33,8 @@ from mudline.contact.compiled.tables import (
     what_there_is,
 )
 from mudline.contact.laws import NormalLaw, base
-from mudline.contact.numpy_driver import Batch
 from mudline.contact.plan import Choice
+from mudline.contact.positions import Batch
 from mudline.contact.result import ContactResult
 from mudline.contact.seabed.base import FlatSeabed, Seabed
 from mudline.contact.tables import ContactState, Tables

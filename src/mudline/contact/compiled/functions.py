@@ -269,7 +269,8 @@ def table_resistance(rows: Array, begin: int, end: int, distance: float) -> floa
     row = passed(rows[0], begin, end - 1, distance)
     if distance > rows[0, end - 1]:
         row = end - 1
-    value: float = in_table(np.maximum(distance, rows[0, begin]), rows[0, row], rows[1, row], rows[2, row])
+    held = np.minimum(np.maximum(distance, rows[0, begin]), rows[0, end - 1])
+    value: float = in_table(held, rows[0, row], rows[1, row], rows[2, row])
     return value
 
 

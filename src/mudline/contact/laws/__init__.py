@@ -28,6 +28,8 @@ _LAWS: dict[str, str | Law] = {
     "trench wall": "trench:TRENCH_WALL",
 }
 """Module and name of each law, or the law itself once it was asked for."""
+BUILT_IN = tuple(_LAWS)
+"""Names of the laws of this package; others are added with `register`."""
 
 
 def known_laws() -> tuple[str, ...]:

@@ -15,6 +15,7 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray
+from mudline.short_repr import short_repr
 
 Value = Any
 """A float or an array of floats: what expressions take and give."""
@@ -97,6 +98,8 @@ class Law:
     equation: str = ""
     source: str = ""
 
+    __repr__ = short_repr
+
 
 def _never(*parameters: Value) -> Value:
     """Contact begins at the mudline."""
@@ -118,3 +121,5 @@ class NormalLaw(Law):
     reaction: Reaction | None = None
     steepest: Callable[..., Value] | None = None
     onset: Callable[..., Value] = field(default=_never)
+
+    __repr__ = short_repr

@@ -27,6 +27,7 @@ import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, StateArray
 from mudline.contact.laws.base import Law, Parameter, Value, where
+from mudline.short_repr import short_repr
 
 _SMALLEST = float(np.nextafter(0.0, 1.0))
 
@@ -122,6 +123,8 @@ class FrictionHistory:
 
     stick_points: FloatArray
     states: StateArray
+
+    __repr__ = short_repr
 
     @classmethod
     def initial(cls, active: BoolArray) -> FrictionHistory:

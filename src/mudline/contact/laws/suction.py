@@ -26,6 +26,7 @@ import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray, StateArray
 from mudline.contact.laws.base import Law, Parameter, Value, where
+from mudline.short_repr import short_repr
 
 FORCE_EXPONENT = 0.18
 DEPTH_EXPONENT = 0.26
@@ -227,6 +228,8 @@ class SuctionHistory:
 
     flags: StateArray
     numbers: FloatArray
+
+    __repr__ = short_repr
 
     @property
     def armed(self) -> BoolArray:

@@ -56,7 +56,10 @@ def wall_coefficient(depth: FloatArray, bottom: FloatArray, upper: FloatArray, f
 
 
 def in_table(distance: Value, offset: Value, resistance: Value, slope: Value) -> Value:
-    """Return the resistance per unit length behind the row of a table with this offset, resistance and slope."""
+    """Return the resistance per unit length behind the row of a table with this offset, resistance and slope.
+
+    A distance below the first offset, or beyond the last, is taken as that offset.
+    """
     return resistance + slope * (distance - offset)
 
 
@@ -68,7 +71,7 @@ def table_rows(table: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
 
 
 def table_row(table: tuple[FloatArray, FloatArray, FloatArray], distance: FloatArray) -> IndexArray:
-    """Return the row (...,) that holds at each distance; below the first it is held at its offset by the caller."""
+    """Return the row (...,) that holds at each distance; see `in_table`."""
     offset = table[0]
     inside = np.searchsorted(offset[1:-1], distance, side="right")
     found: IndexArray = np.where(distance > offset[-1], len(offset) - 1, inside)

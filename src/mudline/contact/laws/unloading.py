@@ -21,6 +21,7 @@ import numpy as np
 
 from mudline.contact.arrays import FloatArray
 from mudline.contact.laws.base import Law, Parameter, Value, where
+from mudline.short_repr import short_repr
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -32,6 +33,8 @@ class UnloadingHistory:
     """
 
     numbers: FloatArray
+
+    __repr__ = short_repr
 
     @property
     def z_max(self) -> FloatArray:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mudline.contact.arrays import FloatArray, IndexArray
+from mudline.short_repr import outline
 
 LARGEST = 1e150
 """Largest magnitude of a coordinate of a floor: differences and squares stay finite."""
@@ -58,6 +59,9 @@ class Seabed(ABC):
 
     faceted: bool = True
     same_normal: FloatArray | None = None
+
+    def __repr__(self) -> str:
+        return outline(type(self).__name__, self.describe())
 
     @abstractmethod
     def locate(self, points: FloatArray, gap: FloatArray, normal: FloatArray) -> None:

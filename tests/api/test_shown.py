@@ -1,0 +1,193 @@
+"""What a session shows: representations of a line or two, `dir`, and completion."""
+
+from __future__ import annotations
+
+import pickle
+import rlcompleter
+import subprocess
+import sys
+from collections.abc import Iterator
+from itertools import islice
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import mudline
+from mudline.contact.seabed import SlopingSeabed
+from mudline.deck.loading import load_bytes
+from mudline.keywords.model import Comment
+from mudline.results.evaluation import evaluate_scene
+from mudline.scene.build import resolve
+from mudline.short_repr import LONGEST, brief, cut, listed, short_repr
+from tests.cli.decks import BAD_NUMBER, CLEAN, ILLEGAL
+from tests.processes import TIMEOUT
+
+SAMPLES = Path(__file__).parents[2] / "samples"
+DECKS = sorted(path.name for path in SAMPLES.glob("*.keyx*") if path.name not in {"broken.keyxm", "lines-deck.keyxm"})
+
+USED = {
+    "mudline": "Deck Scene ContactModel ContactResult ContactState Plan ForceCurve read lint from_keyword",
+    "deck": "blocks file keywords scene sections source to_json to_keyword to_yaml units",
+    "scene": "contact coordinates curves deck diameter element_ids element_nodes law_names law_sets length node_ids "
+    "sets units",
+    "contact": "evaluate initial_state input plan step stiffest stream tangent",
+    "result": "contact depth force friction gap normal_force ratio reaction slope state step stiffness",
+    "state": "copied friction positions suction touchdown unloading",
+    "curve": "evaluate extrapolated forces name ratios ratios_at_force segment slopes",
+}
+INTERNAL = {
+    "deck": "alone diagnose folder_of origin own_sections require",
+    "scene": "bed context extensions floor grant laws nodes section_table set_table table",
+}
+
+
+def own(thing: object) -> bool:
+    return type(thing).__module__.startswith("mudline")
+
+
+def inside(thing: object) -> Iterator[object]:
+    """What hangs on an object: attributes, values of a mapping, items."""
+    if own(thing):
+        yield from (getattr(thing, name) for name in object.__dir__(thing) if not name.startswith(("_", "model_")))
+    if isinstance(thing, dict):
+        yield from thing.values()
+    if isinstance(thing, list | tuple):
+        yield from islice(thing, 20)
+
+
+def reached(starts: list[object]) -> list[object]:
+    """All objects of mudline that can be reached from some."""
+    waiting, known, found = list(starts), {}, []
+    while waiting:
+        thing = waiting.pop()
+        if id(thing) in known or not (own(thing) or isinstance(thing, dict | list | tuple)):
+            continue
+        known[id(thing)] = thing
+        found += [thing] if own(thing) else []
+        waiting += inside(thing)
+    return found
+
+
+def held(deck: mudline.Deck) -> list[object]:
+    """The objects that a user makes from a deck."""
+    scene = deck.scene()
+    contact = scene.contact()
+    still = np.zeros_like(scene.coordinates)
+    result, state = contact.step(scene.coordinates, still, contact.initial_state(), 0.1)
+    series = np.repeat(scene.coordinates[np.newaxis], 2, axis=0)
+    parts = list(contact.stream(series, times=np.arange(2.0)))
+    tangent = contact.tangent(scene.coordinates, still, contact.initial_state(), 0.1)
+    evaluation = evaluate_scene(scene)
+    begin = contact.initial_state()
+    more = [contact.stiffest(), evaluation, scene.law_arrays(), *parts]
+    return [deck, scene, contact, result, begin, state, tangent, *more]
+
+
+@pytest.mark.parametrize("name", DECKS)
+def test_every_object_is_shown_in_two_lines(name: str) -> None:
+    found = reached(held(mudline.read(SAMPLES / name)))
+    assert len(found) > 100
+    shown = {type(thing).__qualname__: repr(thing) for thing in found if not isinstance(thing, type)}
+    assert {kind: text for kind, text in shown.items() if len(text) > 240 or text.count("\n") > 1} == {}
+    assert {kind: text for kind, text in shown.items() if " at 0x" in text} == {}
+
+
+def test_representations_of_the_main_objects(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(SAMPLES)
+    deck = mudline.read("scr-touchdown.keyxm")
+    scene = deck.scene()
+    contact = scene.contact()
+    assert repr(deck) == "<Deck 'scr-touchdown.keyxm': metric, 3 sections, 16 blocks>"
+    assert repr(scene) == "<Scene of 'scr-touchdown.keyxm': metric, 201 nodes, 200 elements, 7 sets, 2 curves>"
+    assert repr(contact) == (
+        "<ContactModel: 201 nodes, 200 elements; floor, normal law, friction, assembly; one step after the other>"
+    )
+    result = contact.evaluate(np.zeros((4, 201, 3)))
+    assert repr(result) == "<ContactResult: elements (4, 200), nodes (4, 201); with friction, friction_state>"
+    assert repr(contact.plan) == (
+        "<Plan: floor, normal law, friction, assembly; without smoothing, unloading, suction, lateral, trench; "
+        "one step after the other>"
+    )
+    before = contact.initial_state()
+    _, after = contact.step(scene.coordinates, None, before)
+    assert repr(before) == "<ContactState before the first step: friction>"
+    assert repr(after) == "<ContactState after a step of 201 nodes: friction>"
+    assert repr(evaluate_scene(scene)) == (
+        "<Evaluation of 'scr-touchdown.keyxm': metric, 1 step, 200 elements, 201 nodes>"
+    )
+    assert repr(contact.stiffest()) == "<Stiffest: curve, friction>"
+
+
+def test_representations_where_there_is_little() -> None:
+    contact = mudline.from_keyword(CLEAN).scene().contact()
+    assert repr(contact.initial_state()) == "<ContactState before the first step: nothing to remember>"
+    assert repr(contact.evaluate()) == "<ContactResult: elements (2,), nodes (3,)>"
+    assert repr(SlopingSeabed(5.0)).startswith("<SlopingSeabed: plane through the origin, slope 5 deg")
+
+
+def test_errors_are_counted(tmp_path: Path) -> None:
+    path = tmp_path / "bad.keyxm"
+    path.write_text(BAD_NUMBER, encoding="utf-8")
+    (finding,) = mudline.lint(path)
+    assert repr(finding).startswith("<Diagnostic: error ")
+    with pytest.raises(mudline.DeckError) as caught:
+        mudline.read(path)
+    assert repr(caught.value).startswith("<DeckError: 1 diagnostic; ")
+    assert repr(mudline.DeckError([])) == "<DeckError: 0 diagnostics>"
+    again = pickle.loads(pickle.dumps(caught.value))  # noqa: S301 - our own bytes
+    assert (again.diagnostics, str(again)) == (caught.value.diagnostics, str(caught.value))
+
+
+def test_errors_of_a_deck_and_a_scene_are_counted() -> None:
+    assert repr(load_bytes(BAD_NUMBER.encode(), "a")).endswith(", 1 error>")
+    assert ", 1 error" in repr(resolve(load_bytes(ILLEGAL.encode(), "a")))
+
+
+def test_values_in_short() -> None:
+    assert brief("x" * 100) == repr("x" * 35 + "...")
+    assert brief((1, "a")) == "(1, 'a')"
+    assert brief((1,)) == "(1,)"
+    assert brief((1, 2, 3, 4, 5)) == "5 items"
+    assert brief([]) == "[]"
+    assert brief({1: 2}) == "1 item"
+    assert brief(np.zeros((2, 3))) == "<float64 (2, 3)>"
+    assert brief(mudline.Severity.ERROR) == "ERROR"
+    assert brief(mudline.from_keyword(CLEAN).scene().curves) == "<ByName of 1>"
+    assert cut("abcdef", 5) == "ab..."
+    assert listed([]) == ""
+    assert short_repr(3) == "int()"
+    long = Comment(before=1, text="x" * 5000)
+    assert len(repr(long)) < LONGEST
+    curve = mudline.ForceCurve([(index + 1 / 3, index + 1 / 7) for index in range(8)], "c" * 500)
+    assert len(repr(curve)) < LONGEST
+
+
+@pytest.mark.parametrize("name", USED)
+def test_dir_and_completion_show_what_is_needed(name: str) -> None:
+    deck = mudline.read(SAMPLES / "full-cycle.keyxm")
+    scene = deck.scene()
+    contact = scene.contact()
+    things = {
+        "mudline": mudline,
+        "deck": deck,
+        "scene": scene,
+        "contact": contact,
+        "result": contact.evaluate(),
+        "state": contact.initial_state(),
+        "curve": scene.curves["soft clay"],
+    }
+    used = set(USED[name].split())
+    assert used <= set(dir(things[name]))
+    assert set(INTERNAL.get(name, "").split()).isdisjoint(dir(things[name]))
+    completer = rlcompleter.Completer(things)
+    offered = [completer.complete(f"{name}.", index) for index in range(200)]
+    assert used <= {word.removeprefix(f"{name}.").rstrip("()") for word in offered if word}
+
+
+def test_importing_the_package_loads_nothing_else() -> None:
+    program = (
+        "import sys, mudline; print(sorted(name for name in sys.modules if name.startswith(('mudline', 'numpy'))))"
+    )
+    ran = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=TIMEOUT, check=True)
+    assert ran.stdout.strip() == "['mudline']"
