@@ -52,6 +52,6 @@ class Side:
     def require(self) -> None:
         """Raise DeckError for what could not be read, and for equations without a value."""
         self.scene.deck.require()
-        unknown = [problem for problem in self.scene.problems if problem.code in _NO_VALUE]
+        unknown = [problem for problem in self.scene.noticed if problem.code in _NO_VALUE]
         if unknown:
             raise DeckError(self.scene.deck.diagnose(unknown))
