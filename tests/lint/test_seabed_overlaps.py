@@ -144,6 +144,11 @@ def test_deep_nodes_below_any_bed(lines: str, expected: int) -> None:
     assert len(found(PIPE + lines, "SBD022")) == expected
 
 
+def test_five_times_a_diameter_may_overflow() -> None:
+    huge = PIPE.replace("0.25, 0.22", "1.0E308, 0.22").replace("-0.05", "-1.0E100")
+    assert found(huge + PROPERTIES + " STIFFNESS=5000.0\n", "SBD022") == []
+
+
 @pytest.mark.parametrize(
     ("type_", "points_", "expected"),
     [

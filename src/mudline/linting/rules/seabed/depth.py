@@ -63,7 +63,7 @@ def deep_node(context: LintContext) -> Iterator[Problem]:
     if not (scene.laws.types or scene.laws.grants) or scene.deck.keywords().intersection(_SOIL):
         return
     depth = depths(scene)
-    thinnest = np.fmin.reduce(scene.diameter, initial=np.inf)
+    thinnest = float(np.fmin.reduce(scene.diameter, initial=np.inf))  # of Python: a product may overflow
     if thinnest > 0.0 and np.fmax.reduce(depth, initial=-np.inf) <= _DEEPEST * thinnest:
         return
     with np.errstate(over="ignore", invalid="ignore"):
