@@ -14,7 +14,8 @@ from mudline.linting.globs import matches
     [
         ("\nselct = []", ":2: there is no key 'selct': did you mean select?"),
         ('select = [\n "REF",\n "REF9999"]', ":3: select: 'REF9999' names no rule"),
-        ('fail-on = "warn"', ":1: fail-on cannot be 'warn': did you mean warning?"),
+        ('fail-on = "warn"', ":1: fail-on cannot be 'warn': choose from error, warning, info"),
+        ('fail-on = "warnign"', ":1: fail-on cannot be 'warnign': did you mean warning?"),
         ("dialect = 3", ":1: dialect cannot be 3: write one of mudline, flexcom"),
         ('exclude = "old"', ":1: exclude must be a list of texts"),
         ("severity = 1", ":1: severity must be a table, not 1"),

@@ -14,6 +14,7 @@ from mudline.deck.model import Deck
 from mudline.deck.reading import read_source
 from mudline.diagnostics import DeckError, Problem, Severity, Where
 from mudline.keywords.text import shown, suggestion
+from mudline.spelling import Effort
 from mudline.syntax.source import Source
 from mudline.variations.cases import CaseReader
 from mudline.variations.companions import companions
@@ -81,6 +82,7 @@ class _Planner:
         self.namer = Namer(deck, self.targets)
         self.rewriter = Rewriter(self.text, self.targets)
         self.problems: list[Problem] = []
+        self.effort = Effort()
 
     def plan(self) -> Plan:
         reader = CaseReader(self.text, self.targets)
@@ -136,10 +138,10 @@ class _Planner:
                 elif key == "all":
                     called |= variations
                 else:
-                    known = [cases.name for cases in variations.values()]
+                    known = (cases.name for cases in variations.values())
+                    near = suggestion(unquoted(name), known, self.effort)
                     place = where._replace(path=(*where.path, "variations", index, "names", number))
-                    message = f"there is no variation {shown(unquoted(name))}{suggestion(unquoted(name), known)}"
-                    self._tell(f"{message}: define it in *VARIATION", place)
+                    self._tell(f"there is no variation {shown(unquoted(name))}{near}: define it in *VARIATION", place)
         return list((called if combination.variations else variations).values())
 
     def _sound(self, group: _Group) -> bool:
