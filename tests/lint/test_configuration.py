@@ -6,7 +6,6 @@ from pathlib import Path
 import pytest
 
 from mudline.linting.configuration import ConfigurationError, Search, read_configuration
-from mudline.linting.globs import matches
 
 
 @pytest.mark.parametrize(
@@ -46,22 +45,3 @@ def test_the_nearest_file_counts_and_one_without_a_table_does_not(tmp_path: Path
         ["REF"],
         {"select": 3},
     )
-
-
-@pytest.mark.parametrize(
-    ("path", "pattern", "expected"),
-    [
-        ("a/b/x.das", "*.das", True),
-        ("a/b/x.das", "b", True),
-        ("a/b/x.das", "b/", True),
-        ("a/b", "b/", False),
-        ("a/b/x.das", "/b", False),
-        ("a/b/x.das", "a/*.das", False),
-        ("a/b/x.das", "a/**/*.das", True),
-        ("a/x.das", "a/**/*.das", True),
-        ("a/b/x.das", "a/**", True),
-        ("a/b/x.das", "?.das", True),
-    ],
-)
-def test_patterns(path: str, pattern: str, *, expected: bool) -> None:
-    assert matches(path, [pattern]) is expected
