@@ -169,7 +169,8 @@ class Parameters:
             self.values[name] = definition.value
             return []
         try:
-            expression = self._parse(definition.value, definition.where)
+            expression = definition.expression or self._parse(definition.value, definition.where)
+            definition.expression = expression
             used = [folded(other) for other in expression.names if folded(other) in self.definitions]
             waiting = [other for other in used if other not in self.values]
             if self.failed.intersection(used):

@@ -14,6 +14,8 @@ from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
 from mudline.scene.context import MOST_TOLD
+from mudline.scene.model import Scene
+from mudline.scene.numbering import Indices, blocks_of
 
 if TYPE_CHECKING:
     from mudline.keywords.library.geometric_sets import GeometricSet, GeometricSets
@@ -231,9 +233,7 @@ def zero_length_element(context: LintContext) -> Iterator[Problem]:
     Finds: 9:2
     """
     scene = context.scene
-    known = np.flatnonzero((scene.element_nodes >= 0).all(axis=1))
-    first, second = scene.element_nodes[known].T
-    same = known[(scene.coordinates[first] == scene.coordinates[second]).all(axis=1)]
+    same = _at_one_place(scene)
     joints = scene.deck.keywords().intersection(_POINT_ELEMENTS)
     hint = f", or keep it if *{min(joints)} makes it one without length" if joints else ""
     told: set[Where] = set()
@@ -246,3 +246,13 @@ def zero_length_element(context: LintContext) -> Iterator[Problem]:
         nodes = f"both its ends are node {one}" if one == other else f"nodes {one} and {other} lie at one place"
         message = f"element {scene.element_ids[index]} has no length, {nodes}: correct it{hint}"
         yield Problem(GEO004, message, None, Severity.WARNING if joints else None, where)
+
+
+def _at_one_place(scene: Scene) -> Indices:
+    """The elements whose nodes have the same coordinates."""
+    found = [np.zeros(0, dtype=np.intp)]
+    for block in blocks_of(len(scene.element_ids)):
+        known = np.flatnonzero((scene.element_nodes[block] >= 0).all(axis=1)) + block.start
+        first, second = scene.element_nodes[known].T
+        found.append(known[(scene.coordinates[first] == scene.coordinates[second]).all(axis=1)])
+    return np.concatenate(found)
