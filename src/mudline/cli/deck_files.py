@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path, PurePath
 
-from mudline.cli.inputs import SUFFIXES, Inputs, collect
+from mudline.cli.inputs import SUFFIXES, Inputs, collect_taken
 from mudline.deck.loading import form_of
 
 _MARK = b"mudline-deck/"
@@ -15,18 +15,19 @@ _HEAD = 4096
 
 def collect_any_form(paths: Sequence[str], stdin_name: str, *, gitignore: bool) -> Inputs:
     """Files as given; directories searched for decks in any form, in sorted order; `-` for standard input."""
-    return collect(paths, stdin_name, _is_deck, gitignore=gitignore)
+    return collect_taken(paths, stdin_name, _is_deck, gitignore=gitignore)
 
 
 def _is_deck(path: PurePath) -> bool:
     """Whether a file is one by its suffix, or by what it says; a file that cannot be opened is to be told of."""
-    if path.suffix.lower() in SUFFIXES:
-        return True
-    if form_of(path.name) == "keyword":
+    known = path.suffix.lower() in SUFFIXES
+    if not known and form_of(path.name) == "keyword":
         return False
     file = Path(path)
     if file.exists() and not file.is_file():
         return False
+    if known:
+        return True
     try:
         with file.open("rb") as stream:
             return _MARK in stream.read(_HEAD)

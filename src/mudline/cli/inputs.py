@@ -81,10 +81,19 @@ def collect(
 
     `gitignore` leaves out of a search what `.gitignore` files hide.
     """
+
+    def taken(path: PurePath) -> bool:
+        return wanted(path) and os.path.isfile(path)  # noqa: PTH113 - Path raises for a name that is too long
+
+    return collect_taken(paths, stdin_name, taken, gitignore=gitignore)
+
+
+def collect_taken(paths: Sequence[str], stdin_name: str, taken: Wanted, *, gitignore: bool) -> Inputs:
+    """As `collect`, where `taken` also says whether a path is a file."""
     found = Inputs()
     for given in paths:
         if os.path.isdir(given):  # noqa: PTH112 - Path raises for a name that is too long or may not be looked at
-            take_directory(Search(given, gitignore), found, wanted)
+            _directory(Search(given, gitignore), found, taken)
         else:
             found.files.append(_single(given, stdin_name))
     found.files = list(dict.fromkeys(found.files))
@@ -99,11 +108,9 @@ def _slashed(path: str) -> str:
     return path.replace(os.sep, "/")
 
 
-def take_directory(search: Search, found: Inputs, wanted: Wanted) -> None:
-    """Add the wanted files of a directory, and tell what cannot be looked at."""
+def _directory(search: Search, found: Inputs, taken: Wanted) -> None:
     given = search.given
-    paths = sorted(path for path in search.paths() if wanted(path))
-    decks = [path for path in paths if os.path.isfile(path)]  # noqa: PTH113 - as above
+    decks = sorted(path for path in search.paths() if taken(path))
     for error in search.unreadable:
         found.fail(f"{_slashed(str(error.filename))}: {reason(error)}")
     if not decks and not search.unreadable:
