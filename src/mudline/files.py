@@ -4,11 +4,16 @@ from __future__ import annotations
 
 import errno
 import os
-import tempfile
+import secrets
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import BinaryIO
+
+_CREATE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0) | getattr(os, "O_NOFOLLOW", 0)
+_NEW = 0o666
+_PRIVATE = 0o600
+"""Of a file that replaces another: until it has the permissions of the other one, nobody else reads it."""
 
 
 def write_atomically(path: Path, data: bytes | Iterable[bytes]) -> None:
@@ -36,14 +41,15 @@ def replacement(path: Path) -> Iterator[BinaryIO]:
         raise OSError(errno.ELOOP, os.strerror(errno.ELOOP), str(path))
     if target.exists() and not os.access(target, os.W_OK):
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(path))
-    handle, name = tempfile.mkstemp(prefix=f".{target.name[:40]}.", dir=target.parent)
-    temporary = Path(name)
+    kept = target.stat().st_mode & 0o7777 if target.exists() else None
+    handle, temporary = _new_beside(target, _NEW if kept is None else _PRIVATE)
     try:
         with os.fdopen(handle, "wb") as stream:
             yield stream
             stream.flush()
             os.fsync(stream.fileno())
-        temporary.chmod(target.stat().st_mode & 0o7777 if target.exists() else 0o666 & ~_umask())
+        if kept is not None:
+            temporary.chmod(kept)
         temporary.replace(target)
     except BaseException:
         with suppress(OSError):
@@ -51,8 +57,9 @@ def replacement(path: Path) -> Iterator[BinaryIO]:
         raise
 
 
-def _umask() -> int:
-    """The process's mask for new files, which can only be read by setting it."""
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
+def _new_beside(target: Path, mode: int) -> tuple[int, Path]:
+    """An open new file in the folder of another one; the system takes its mask for new files off the mode."""
+    while True:
+        path = target.with_name(f".{target.name[:40]}.{secrets.token_hex(8)}")
+        with suppress(FileExistsError):
+            return os.open(path, _CREATE, mode), path

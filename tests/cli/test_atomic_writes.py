@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import secrets
 from collections.abc import Iterator
 from pathlib import Path
 from unittest.mock import Mock
@@ -105,3 +106,10 @@ def test_long_name(folder: Path) -> None:
     name = "n" * 250
     write_atomically(folder / name, b"x")
     assert [path.name for path in folder.iterdir()] == [name]
+
+
+def test_name_of_the_temporary_file_may_be_taken(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (folder / ".a.taken").write_bytes(b"another's")
+    monkeypatch.setattr(secrets, "token_hex", Mock(side_effect=["taken", "free"]))
+    write_atomically(folder / "a", b"x")
+    assert {path.name: path.read_bytes() for path in folder.iterdir()} == {"a": b"x", ".a.taken": b"another's"}

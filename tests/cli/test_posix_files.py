@@ -7,10 +7,12 @@ import stat
 import subprocess
 import sys
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
 
 from mudline.cli.inputs import collect
+from mudline.files import replacement, write_atomically
 from tests.cli.conftest import Place
 from tests.cli.decks import CLEAN
 from tests.cli.runner import run
@@ -46,6 +48,23 @@ def test_new_file_has_the_permissions_of_the_process(place: Place, folder: Path,
     finally:
         os.umask(before)
     assert mode(folder / "out.json") == 0o666 & ~mask
+
+
+def test_the_mask_of_the_process_is_left_alone(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(os, "umask", Mock(side_effect=AssertionError("another thread may be making a file")))
+    write_atomically(folder / "new", b"x")
+    write_atomically(folder / "new", b"y")
+    assert (folder / "new").read_bytes() == b"y"
+
+
+def test_new_content_of_a_private_file_is_never_open_to_others(folder: Path) -> None:
+    (folder / "out").write_bytes(b"old")
+    (folder / "out").chmod(0o600)
+    with replacement(folder / "out") as stream:
+        (temporary,) = set(folder.iterdir()) - {folder / "out"}
+        assert mode(temporary) == 0o600
+        stream.write(b"new")
+    assert (mode(folder / "out"), (folder / "out").read_bytes()) == (0o600, b"new")
 
 
 def test_link_stays_a_link(place: Place, folder: Path) -> None:

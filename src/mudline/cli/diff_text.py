@@ -10,7 +10,8 @@ from rich.text import Text
 
 from mudline.cli.console import console, say
 from mudline.cli.options import View
-from mudline.comparison.model import Difference, Value, ranges
+from mudline.comparison.model import Difference, Value
+from mudline.comparison.spans import spans_of, text_of
 from mudline.linting.output.visible import visible
 
 MOST = 20
@@ -55,7 +56,7 @@ def _runs(group: str, differences: Sequence[Difference]) -> tuple[list[Text], li
         numbers = [number for one in differences if one.kind == kind and (number := _number(one)) is not None]
         if len(numbers) >= _FEW:
             mark, style = _MARKS[kind]
-            text = f"  {mark} {ranges(np.array(numbers, dtype=np.int64))}: {len(numbers)} {group}"
+            text = f"  {mark} {text_of(spans_of(np.array(numbers, dtype=np.int64)))}: {len(numbers)} {group}"
             lines.append(Text(text, style=style))
             left = [one for one in left if one.kind != kind or _number(one) is None]
     return lines, left

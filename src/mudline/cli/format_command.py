@@ -25,15 +25,16 @@ from mudline.syntax.source import Source
 @options.paths
 @click.option("--check", is_flag=True, help="Write nothing; name the files that would change, and exit with 1 if any.")
 @click.option("--diff", is_flag=True, help="Write nothing; print what would change, and exit with 1 if anything.")
+@options.every_file
 @options.stdin_name
 @options.common
-def command(*, paths: tuple[str, ...], check: bool, diff: bool, stdin_name: str, view: View) -> int:
+def command(*, paths: tuple[str, ...], check: bool, diff: bool, every_file: bool, stdin_name: str, view: View) -> int:
     """Rewrite decks in canonical layout, in place: the same deck, line for line, its comments kept.
 
     PATHS are decks, directories (searched for *.keyx, *.keyxm, *.keyxi and *.das) or - for standard input, whose deck
     is printed. A deck with an error is reported and left as it is.
     """
-    inputs = collect(paths, stdin_name)
+    inputs = collect(paths, stdin_name, gitignore=not every_file)
     run = _Run(inputs, view, check=check, diff=diff)
     for file, data in inputs.contents():
         run.add(file, data)

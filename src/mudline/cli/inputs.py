@@ -12,6 +12,7 @@ from pathlib import Path, PurePath
 import click
 
 from mudline.cli.exits import WRONG_USAGE
+from mudline.cli.searching import Search
 from mudline.cli.terminal import reason, tell
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import Deck
@@ -73,12 +74,26 @@ def is_deck(path: PurePath) -> bool:
     return path.suffix.lower() in SUFFIXES
 
 
-def collect(paths: Sequence[str], stdin_name: str = "<stdin>", wanted: Wanted = is_deck) -> Inputs:
-    """Files as given; directories searched for wanted files, in sorted order; `-` for standard input."""
+def collect(
+    paths: Sequence[str], stdin_name: str = "<stdin>", wanted: Wanted = is_deck, *, gitignore: bool = True
+) -> Inputs:
+    """Files as given; directories searched for wanted files, in sorted order; `-` for standard input.
+
+    `gitignore` leaves out of a search what `.gitignore` files hide.
+    """
+
+    def taken(path: PurePath) -> bool:
+        return wanted(path) and os.path.isfile(path)  # noqa: PTH113 - Path raises for a name that is too long
+
+    return collect_taken(paths, stdin_name, taken, gitignore=gitignore)
+
+
+def collect_taken(paths: Sequence[str], stdin_name: str, taken: Wanted, *, gitignore: bool) -> Inputs:
+    """As `collect`, where `taken` also says whether a path is a file."""
     found = Inputs()
     for given in paths:
         if os.path.isdir(given):  # noqa: PTH112 - Path raises for a name that is too long or may not be looked at
-            _directory(given, found, wanted)
+            _directory(Search(given, gitignore), found, taken)
         else:
             found.files.append(_single(given, stdin_name))
     found.files = list(dict.fromkeys(found.files))
@@ -93,18 +108,16 @@ def _slashed(path: str) -> str:
     return path.replace(os.sep, "/")
 
 
-def _directory(given: str, found: Inputs, wanted: Wanted) -> None:
-    unreadable: list[OSError] = []
-    walk = os.walk(given, onerror=unreadable.append)
-    paths = [PurePath(folder, name) for folder, _, names in walk for name in names]
-    decks = sorted(path for path in paths if wanted(path) and os.path.isfile(path))  # noqa: PTH113 - as above
-    for error in unreadable:
+def _directory(search: Search, found: Inputs, taken: Wanted) -> None:
+    given = search.given
+    decks = sorted(path for path in search.paths() if taken(path))
+    for error in search.unreadable:
         found.fail(f"{_slashed(str(error.filename))}: {reason(error)}")
-    if not decks and not unreadable:
-        found.fail(f"{given}: no deck in this directory (looked for {', '.join(sorted(SUFFIXES))})")
+    if not decks and not search.unreadable:
+        hidden = "; --no-gitignore takes what a .gitignore hides" if search.hidden else ""
+        found.fail(f"{given}: no deck in this directory (looked for {', '.join(sorted(SUFFIXES))}{hidden})")
     start = "" if given == "." else _slashed(given).rstrip("/") + "/"
-    for path in decks:
-        found.files.append(Input(start + path.relative_to(given).as_posix(), str(path)))
+    found.files += [Input(start + path.relative_to(given).as_posix(), str(path)) for path in decks]
 
 
 def load(given: str, *, form: str | None = None, units: str | None = None, stdin_name: str = "<stdin>") -> Deck:

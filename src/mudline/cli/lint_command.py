@@ -73,6 +73,7 @@ def _words(given: tuple[str, ...]) -> tuple[str, ...]:
 )
 @click.option("--no-cache", "uncached", is_flag=True, help="Look at every deck, and remember nothing of it.")
 @click.option("--watch", is_flag=True, help="Lint again whenever a deck or a configuration changes, until Ctrl-C.")
+@options.every_file
 @options.stdin_name
 @options.units
 @options.common
@@ -97,6 +98,7 @@ def command(
     jobs: int,
     uncached: bool,
     watch: bool,
+    every_file: bool,
     stdin_name: str,
     units: str | None,
     view: View,
@@ -114,7 +116,7 @@ def command(
     def once() -> int:
         configured = Configured(config, isolated)
         known = _baseline(baseline, recording=recording)
-        inputs = collect(paths, stdin_name, configured.wanted)
+        inputs = collect(paths, stdin_name, configured.wanted, gitignore=not every_file)
         aside = diff or (fix and any(file.path is None for file in inputs.files))
         report = Report(told, view, statistics=statistics, aside=aside, fixing=fixing is not Fixing.NONE)
         effort = Effort(jobs, not uncached)

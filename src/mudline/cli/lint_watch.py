@@ -15,6 +15,7 @@ import click
 from mudline.cli.inputs import STDIN, is_deck
 from mudline.cli.lint_outputs import TEXT, Outputs
 from mudline.cli.options import View
+from mudline.cli.searching import GITIGNORE
 from mudline.cli.terminal import tell
 
 WAIT = 0.3
@@ -22,6 +23,7 @@ WAIT = 0.3
 
 _LOOKS = 10
 _CONFIGURATIONS = ("mudline.toml", "pyproject.toml")
+_RULES = (*_CONFIGURATIONS, GITIGNORE)
 _PRINTED = (TEXT, "concise")
 
 State = dict[str, tuple[int, int]]
@@ -60,7 +62,7 @@ class Watched:
             _look(path, found)
         for folder in folders:
             for place in Path(folder, "-").parents:
-                for name in _CONFIGURATIONS:
+                for name in _RULES:
                     _look(str(place / name), found)
         for file in (file for path in self.paths for file in _files(path)):
             _look(file, found)
@@ -103,7 +105,7 @@ def _files(given: str) -> Iterator[str]:
     """The files of a folder and below; for a file, the decks beside it, which it may continue."""
     if _is_folder(given):
         for folder, _, names in os.walk(given):
-            yield from (os.path.join(folder, name) for name in names if is_deck(Path(name)) or name in _CONFIGURATIONS)  # noqa: PTH118 - many files
+            yield from (os.path.join(folder, name) for name in names if is_deck(Path(name)) or name in _RULES)  # noqa: PTH118 - many files
         return
     folder = os.path.dirname(given) or "."  # noqa: PTH120 - as above
     try:

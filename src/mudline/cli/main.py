@@ -6,7 +6,6 @@ import errno
 import os
 import sys
 from collections.abc import Sequence
-from difflib import get_close_matches
 from importlib import import_module
 from typing import cast
 
@@ -18,6 +17,7 @@ from mudline.cli import streams
 from mudline.cli.exits import CLOSED_PIPE, FOUND, WRONG_USAGE
 from mudline.cli.terminal import reason, tell
 from mudline.linting.plugins import PluginError
+from mudline.spelling import nearest
 
 COMPLETION = "_MUDLINE_COMPLETE"
 """The variable by which a shell asks for completions, as click describes."""
@@ -54,8 +54,8 @@ class _Commands(click.Group):
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
         if args[0] not in COMMANDS:
-            near = get_close_matches(args[0], self.list_commands(ctx), 1)
-            hint = f": did you mean {near[0]}?" if near else ""
+            near = nearest(args[0], self.list_commands(ctx))
+            hint = f": did you mean {near}?" if near else ""
             ctx.fail(f"there is no command {args[0]!r}{hint}")
         return super().resolve_command(ctx, args)
 

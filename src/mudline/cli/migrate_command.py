@@ -35,6 +35,7 @@ _MOST_TOLD = 20
     is_flag=True,
     help="Evaluate the old and the new deck first, and write only when all their laws agree bit by bit.",
 )
+@options.every_file
 @options.stdin_name
 @options.units
 @options.common
@@ -44,6 +45,7 @@ def command(
     output: str | None,
     diff: bool,
     proved: bool,
+    every_file: bool,
     stdin_name: str,
     units: str | None,
     view: View,
@@ -53,7 +55,7 @@ def command(
     PATHS are decks, directories, or - for standard input, whose new text is printed. Comments stay, as does every byte
     outside the legacy blocks. A deck that the new family cannot say is left as it is, with the reason.
     """
-    inputs = collect(paths, stdin_name)
+    inputs = collect(paths, stdin_name, gitignore=not every_file)
     if output is not None and len(inputs.files) > 1:
         raise click.UsageError("-o takes one deck; without it decks are rewritten where they stand")
     code = DONE

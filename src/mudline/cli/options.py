@@ -58,6 +58,10 @@ deck = click.argument("deck", metavar="DECK", shell_complete=_files)
 
 paths = click.argument("paths", nargs=-1, required=True, metavar="PATHS...", shell_complete=_files)
 
+every_file = click.option(
+    "--no-gitignore", "every_file", is_flag=True, help="Take from directories what a .gitignore hides, too."
+)
+
 stdin_name = click.option(
     "--stdin-filename",
     "stdin_name",

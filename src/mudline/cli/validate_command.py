@@ -26,6 +26,7 @@ from mudline.linting.registry import rules
 @click.command("validate")
 @options.paths
 @options.output_format("text", "json", "csv")
+@options.every_file
 @options.stdin_name
 @options.units
 @options.common
@@ -33,6 +34,7 @@ def command(
     *,
     paths: tuple[str, ...],
     output_format: str,
+    every_file: bool,
     stdin_name: str,
     units: str | None,
     view: View,
@@ -44,7 +46,7 @@ def command(
     PATHS are decks, directories (searched for *.keyx, *.keyxm, *.keyxi, *.das, and for JSON and YAML files that begin
     as decks do) or - for standard input. Of many decks -q shows the table without the errors.
     """
-    inputs = collect_any_form(paths, stdin_name)
+    inputs = collect_any_form(paths, stdin_name, gitignore=not every_file)
     total = Total()
     shown = looked_at(view) and (output_format == "text" or not sys.stdout.isatty())
     with Progress(len(inputs.files), view, shown=shown) as progress:

@@ -10,9 +10,10 @@ from typing import Any, cast
 import numpy as np
 
 from mudline.comparison.flat import record_values
-from mudline.comparison.model import Difference, Tolerance, Value, plain, ranges
+from mudline.comparison.model import Difference, Tolerance, Value, plain
 from mudline.comparison.numbered import common
 from mudline.comparison.side import Side
+from mudline.comparison.spans import spans_of, text_of
 from mudline.contact.input import LawKind
 from mudline.diagnostics import Where
 from mudline.keywords.model import Record
@@ -49,15 +50,16 @@ def _differ(
     if not len(here):
         return
     first, second = read(one), read(other)
-    pairs = np.column_stack([first.of_element[here], second.of_element[there]])
-    kinds, which = np.unique(pairs, axis=0, return_inverse=True)
-    ids = one.scene.element_ids[here]
-    for number, (i, j) in enumerate(kinds.tolist()):
+    width = len(second.entries) + 1
+    pairs = (first.of_element[here] + 1) * width + second.of_element[there] + 1
+    starts = np.append(0, np.flatnonzero(pairs[1:] != pairs[:-1]) + 1)  # neighbours mostly follow the same
+    for pair in sorted(set(pairs[starts].tolist())):
+        i, j = pair // width - 1, pair % width - 1
         old, new = _entry(first, i), _entry(second, j)
         names = [name for name in dict.fromkeys([*old, *new]) if not tolerance.values(old.get(name), new.get(name))]
         if not names:
             continue
-        elements = ranges(ids[which.reshape(-1) == number])
+        elements = text_of(spans_of(one.scene.element_ids[here[pairs == pair]]))
         lines = (one.line(first.places[i]) if i >= 0 else None, other.line(second.places[j]) if j >= 0 else None)
         for name in names:
             where = f"elements {elements}/{group}" + (f"/{name}" if name else "")

@@ -69,14 +69,3 @@ def plain(value: float) -> Value:
     if math.isfinite(value):
         return value
     return None if math.isnan(value) else str(value)
-
-
-def ranges(numbers: NDArray[np.int64]) -> str:
-    """Whole numbers in short: `1-20, 25`."""
-    ordered = np.unique(numbers)
-    if not len(ordered):
-        return ""
-    breaks = np.flatnonzero(np.diff(ordered) != 1)
-    firsts = ordered[np.append(0, breaks + 1)].tolist()
-    lasts = ordered[np.append(breaks, len(ordered) - 1)].tolist()
-    return ", ".join(str(a) if a == b else f"{a}-{b}" for a, b in zip(firsts, lasts, strict=True))

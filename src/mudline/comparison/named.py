@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 
-from mudline.comparison.model import Difference, Kind, Tolerance, Value, plain, ranges
+from mudline.comparison.model import Difference, Kind, Tolerance, Value, plain
 from mudline.comparison.side import Side
+from mudline.comparison.spans import NO_SPANS, Spans, spans_of, spans_of_run, text_of, union
 from mudline.deck.parameters import Definition, folded
 from mudline.diagnostics import Where
 from mudline.keywords.values import Label
 from mudline.scene.force_curves import SceneCurve
-from mudline.scene.numbering import MOST_GENERATED, Floats, Ids, Indices
+from mudline.scene.numbering import MOST_GENERATED, Floats, Indices
 from mudline.scene.sets import NamedSet
 
 _KINDS = {False: "curves", True: "curves of sets"}
@@ -41,6 +43,20 @@ def _plain(value: float | str | None) -> Value:
     return plain(value) if isinstance(value, float) else value
 
 
+@dataclass(frozen=True, slots=True)
+class _Members:
+    """What a set holds: numbers, and words for what has none."""
+
+    numbers: Spans
+    words: tuple[str, ...] = ()
+
+    def same(self, other: _Members) -> bool:
+        return self.words == other.words and np.array_equal(self.numbers, other.numbers)
+
+
+_NO_MEMBERS = _Members(NO_SPANS)
+
+
 def sets(one: Side, other: Side) -> Iterator[Difference]:
     """Members of the element sets; ALL is what the elements are."""
     first, second = one.scene.set_table.named, other.scene.set_table.named
@@ -52,20 +68,25 @@ def sets(one: Side, other: Side) -> Iterator[Difference]:
         before = _members(one, old.elements) if old else None
         after = _members(other, new.elements) if new else None
         if old and new and (old.open or new.open or not (len(old.elements) and len(new.elements))):
-            before, after = written.get(name, ""), others.get(name, "")
-        if old is None or new is None or before != after:
+            before, after = written.get(name, _NO_MEMBERS), others.get(name, _NO_MEMBERS)
+        if before is None or after is None or not before.same(after):
             lines = one.line(_place(old)), other.line(_place(new))
             title = (old or new or NamedSet(name, np.zeros(0, dtype=np.intp), None)).name
-            yield Difference(_kind(old, new), "element sets", f"element sets/{title}", before, after, *lines)
+            texts = _text(before), _text(after)
+            yield Difference(_kind(old, new), "element sets", f"element sets/{title}", *texts, *lines)
 
 
-def _members(side: Side, indices: Indices) -> str:
-    return ranges(side.scene.element_ids[indices])
+def _text(members: _Members | None) -> str | None:
+    return None if members is None else ", ".join(filter(None, [text_of(members.numbers), *members.words]))
 
 
-def _written(side: Side) -> dict[str, str]:
+def _members(side: Side, indices: Indices) -> _Members:
+    return _Members(spans_of(side.scene.element_ids[indices]))
+
+
+def _written(side: Side) -> dict[str, _Members]:
     """What sets hold by their lines: for those with elements that the deck does not show."""
-    numbers: dict[str, list[Ids]] = {}
+    numbers: dict[str, list[Spans]] = {}
     words: dict[str, set[str]] = {}
     for _, block in side.scene.deck.blocks("ELEMENT SETS"):
         for entry in block.sets:
@@ -77,21 +98,18 @@ def _written(side: Side) -> dict[str, str]:
                     words[name].add(f"SUBSET={folded(str(subset))}")
                 listed = getattr(member, "elements", None) or []
                 words[name] |= {folded(item) for item in listed if isinstance(item, Label)}
-                numbers[name].append(np.array([item for item in listed if isinstance(item, int)], dtype=np.int64))
+                whole = [item for item in listed if isinstance(item, int)]
+                numbers[name].append(spans_of(np.array(whole, dtype=np.int64)))
                 if given := getattr(member, "generate", None):
                     numbers[name].append(_generated(given.start, given.end, given.increment))
-    return {name: ", ".join(filter(None, [ranges(_joined(numbers[name])), *sorted(words[name])])) for name in numbers}
+    return {name: _Members(union(numbers[name]), tuple(sorted(words[name]))) for name in numbers}
 
 
-def _joined(parts: list[Ids]) -> Ids:
-    return np.concatenate(parts) if parts else np.zeros(0, dtype=np.int64)
-
-
-def _generated(start: object, end: object, step: object) -> Ids:
+def _generated(start: object, end: object, step: object) -> Spans:
     step = 1 if step is None else step
     if not (isinstance(start, int) and isinstance(end, int) and isinstance(step, int)) or step < 1:
-        return np.zeros(0, dtype=np.int64)
-    return np.arange(start, min(end, start + MOST_GENERATED * step) + 1, step, dtype=np.int64)
+        return NO_SPANS
+    return spans_of_run(start, min(end, start + MOST_GENERATED * step), step)
 
 
 def curves(one: Side, other: Side, tolerance: Tolerance) -> Iterator[Difference]:

@@ -11,6 +11,7 @@ from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.expression import Expression, ExpressionError, UndefinedName, UnknownFunction, evaluate, parse
 from mudline.keywords.text import shown, suggestion
 from mudline.keywords.values import Equation
+from mudline.spelling import Effort
 from mudline.syntax.rows import read_number
 
 if TYPE_CHECKING:
@@ -79,6 +80,7 @@ class Parameters:
     values: dict[str, Value] = field(default_factory=dict)
     failed: set[str] = field(default_factory=set)
     problems: list[Problem] = field(default_factory=list)
+    _effort: Effort = field(default_factory=Effort)
 
     def __post_init__(self) -> None:
         for where, block in self.deck.blocks("PARAMETERS", "PREPROCESSOR"):
@@ -167,7 +169,8 @@ class Parameters:
             self.values[name] = definition.value
             return []
         try:
-            expression = self._parse(definition.value, definition.where)
+            expression = definition.expression or self._parse(definition.value, definition.where)
+            definition.expression = expression
             used = [folded(other) for other in expression.names if folded(other) in self.definitions]
             waiting = [other for other in used if other not in self.values]
             if self.failed.intersection(used):
@@ -198,8 +201,9 @@ class Parameters:
             return evaluate(expression, lambda name: self.values[folded(name)])
         except UndefinedName as error:
             word = expression.text[error.start : error.end]
-            known = [definition.name for definition in self.definitions.values()]
-            message = f"parameter {word} is not defined{suggestion(word, known)}: define it in *PARAMETERS"
+            known = (definition.name for definition in self.definitions.values())
+            near = suggestion(word, known, self._effort)
+            message = f"parameter {word} is not defined{near}: define it in *PARAMETERS"
             raise NoValueError(Problem(REF013, message, None, None, where)) from error
         except UnknownFunction as error:
             problem = _problem(SYN017, equation, error, where)

@@ -20,9 +20,9 @@ from mudline.keywords.text import (
     hint,
     instead,
     mixed_commas,
-    nearest,
     read_value,
 )
+from mudline.spelling import nearest
 from mudline.syntax.fields import Field, Group, read_line, split, trimmed
 from mudline.syntax.rows import blank_separated
 

@@ -6,7 +6,7 @@ from collections.abc import Collection
 from itertools import takewhile
 
 from mudline.keywords import catalogue
-from mudline.keywords.text import nearest
+from mudline.spelling import Effort, nearest
 
 _SAME_BEGINNING = 0.8
 """Share of the longer of two names that has to be the same from its first letter on."""
@@ -17,10 +17,10 @@ def meant_section(name: str) -> str:
     return nearest(name, catalogue.SECTIONS) or _begun(name, catalogue.SECTIONS) or _before(name, catalogue.SECTIONS)
 
 
-def meant_keyword(keyword: str) -> str:
+def meant_keyword(keyword: str, effort: Effort | None = None) -> str:
     """The keyword that an unknown one was to be, or ""."""
     known = catalogue.keywords()
-    return nearest(keyword, known) or _begun(keyword, known) or _before(keyword, catalogue.read_keywords())
+    return nearest(keyword, known, effort) or _begun(keyword, known) or _before(keyword, catalogue.read_keywords())
 
 
 def meant_in(keyword: str, section: str) -> str:
@@ -31,12 +31,13 @@ def meant_in(keyword: str, section: str) -> str:
 
 def words_behind(name: str, near: str) -> bool:
     """Whether a name is a known one with words behind it."""
-    return name.startswith((f"{near} ", f"{near},"))
+    return name.startswith(near) and name[len(near) : len(near) + 1] in (" ", ",")
 
 
 def _begun(name: str, known: Collection[str]) -> str:
     """The known name with the longest beginning in common, when that is nearly all of both."""
-    common, near = max((_common(name, other), other) for other in known)
+    head = name[: int(_SAME_BEGINNING * len(name))]
+    common, near = max(((_common(name, other), other) for other in known if other.startswith(head)), default=(0, ""))
     return near if common >= _SAME_BEGINNING * max(len(name), len(near)) else ""
 
 

@@ -17,8 +17,9 @@ from mudline.keywords.grammar import END, ROW, Content, Mismatch
 from mudline.keywords.model import Block, Layout, Part, layout, row_format
 from mudline.keywords.places import Places
 from mudline.keywords.remarks import one_a_line
-from mudline.keywords.text import hint, instead, nearest, shown, suggestion
+from mudline.keywords.text import hint, instead, shown, suggestion
 from mudline.short_repr import short_repr
+from mudline.spelling import nearest
 from mudline.syntax.fields import first_key, trimmed
 from mudline.syntax.rows import line_spans
 from mudline.syntax.tree import Kind, Leaf, RawBlock

@@ -11,6 +11,7 @@ from mudline.diagnostics import Problem, Repair, Span
 from mudline.keywords.model import Slot, layout
 from mudline.keywords.table import LARGEST_WHOLE, not_whole
 from mudline.keywords.values import Equation, Kind, Label
+from mudline.spelling import Effort, nearest
 from mudline.syntax.fields import Field, split
 from mudline.syntax.rows import read_number, spells_number
 
@@ -115,22 +116,14 @@ def shown(text: str) -> str:
     return repr(text if len(text) <= 60 else text[:57] + "...")
 
 
-def nearest(word: str, known: Iterable[str]) -> str:
-    """The nearest known word within two edits (one for a short word), or nothing."""
-    wanted = word.casefold()
-    most = 1 if len(wanted) < 5 else 2
-    near = min(((edits(wanted, name.casefold(), most), name) for name in known), default=(most + 1, ""))
-    return near[1] if near[0] <= most else ""
-
-
 def hint(near: str) -> str:
     """` (did you mean X?)`, or nothing where no word is near."""
     return f" (did you mean {near}?)" if near else ""
 
 
-def suggestion(word: str, known: Iterable[str]) -> str:
+def suggestion(word: str, known: Iterable[str], effort: Effort | None = None) -> str:
     """` (did you mean X?)` for the nearest known word within two edits (one for a short word), or nothing."""
-    return hint(nearest(word, known))
+    return hint(nearest(word, known, effort))
 
 
 def instead(near: str, span: Span) -> Repair | None:
@@ -141,24 +134,6 @@ def instead(near: str, span: Span) -> Repair | None:
 def in_braces(text: str, span: Span) -> Repair:
     """The repair that makes a label of a text."""
     return Repair("unsafe", "put the label in braces", ((span, "{" + text + "}"),))
-
-
-def edits(one: str, other: str, most: int) -> int:
-    """Letters to change, insert, drop or swap with a neighbour to make one word of the other; `most` + 1 if more."""
-    if abs(len(one) - len(other)) > most:
-        return most + 1
-    before: list[int] = []
-    row = list(range(len(other) + 1))
-    for i, letter in enumerate(one, 1):
-        two_before, before, row = before, row, [i]
-        for j, target in enumerate(other, 1):
-            cost = min(before[j] + 1, row[j - 1] + 1, before[j - 1] + (letter != target))
-            if i > 1 and j > 1 and letter == other[j - 2] and one[i - 2] == target:
-                cost = min(cost, two_before[j - 2] + 1)
-            row.append(cost)
-        if min(row) > most:
-            return most + 1
-    return min(row[-1], most + 1)
 
 
 def decimal_comma(values: list[Field], kinds: list[Kind | None], fewest: int) -> Problem | None:

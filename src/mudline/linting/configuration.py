@@ -6,11 +6,11 @@ import re
 import tomllib
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
 from mudline.linting.selection import UnknownRule, select
+from mudline.spelling import nearest
 
 Values = dict[str, Any]
 
@@ -136,8 +136,8 @@ class _Reading:
 
 
 def _hint(word: str, choices: Iterable[str]) -> str:
-    near = get_close_matches(word.lower().replace("_", "-"), choices, 1)
-    return f": did you mean {near[0]}?" if near else f": choose from {', '.join(choices)}"
+    near = nearest(word.replace("_", "-"), choices)
+    return f": did you mean {near}?" if near else f": choose from {', '.join(choices)}"
 
 
 class Search:

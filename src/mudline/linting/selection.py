@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from difflib import get_close_matches
 
 from mudline.linting.registry import Rule, find, rules
+from mudline.spelling import nearest
 
 
 class UnknownRule(ValueError):  # noqa: N818 - the name of the fault, as callers catch it
@@ -40,5 +40,5 @@ def _hint(word: str) -> str:
     if word.isalpha():  # a code has digits: this was to be a beginning
         codes = sorted({code.rstrip("0123456789") for code in codes})
     slugs = [rule.code.slug for rule in rules()]
-    near = get_close_matches(word.lower(), slugs, 1) or get_close_matches(word.upper(), codes, 1)
-    return f": did you mean {near[0]}?" if near else ": `mudline rules` lists all rules"
+    near = nearest(word, slugs) or nearest(word, codes)
+    return f": did you mean {near}?" if near else ": `mudline rules` lists all rules"

@@ -18,8 +18,8 @@ from mudline.deck.model import Deck, Opaque
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import Code, DeckError, Problem, Repair, Severity, Span, Where
 from mudline.keywords.model import Part, layout
-from mudline.keywords.text import edits
 from mudline.linting.registry import Rule, find, rules
+from mudline.spelling import nearest
 from mudline.syntax.source import Source
 from mudline.syntax.tree import Kind, Leaf
 
@@ -37,8 +37,6 @@ _NOWHERE = ("outside",)
 """The scope of what stands in no block."""
 _NOTHING = ("nothing",)
 """The scope of a comment that has nothing to hold for."""
-_FAR = 2
-"""Letters in which a word may differ from the one that was meant."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,7 +103,7 @@ class Suppressions:
         for directive in self.directives:
             for number, word in enumerate(directive.words):
                 if not word.codes:
-                    near = _nearest(word.text)
+                    near = nearest(word.text, _names())
                     hint = f"did you mean {near}?" if near else "`mudline rules` lists all rules; remove it"
                     repair = self._replacing(word, near) if near else self._removing(directive, number, "unsafe")
                     yield self._problem(f"{word.text!r} names no rule: {hint}", word.span, directive.where, repair)
@@ -256,9 +254,8 @@ def _directive(text: str, leaf: Span, where: Where, found: Suppressions) -> Dire
         return None
     name = order.group().lower()
     if name not in _PLACES:
-        near = [known for known in _PLACES if edits(name, known, _FAR) <= _FAR]
-        if near:
-            found.misspelt.append((Word(order.group(), Span(*order.span()), frozenset()), near[0], where))
+        if near := nearest(name, _PLACES):
+            found.misspelt.append((Word(order.group(), Span(*order.span()), frozenset()), near, where))
         return None
     end = leaf.start + len(text[slice(*leaf)].rstrip())
     reason = _REASON.search(text[order.end() : end])
@@ -277,8 +274,7 @@ def _word(match: re.Match[str]) -> Word:
     return Word(match.group(), Span(*match.span()), frozenset(rule.code.code for rule in find(match.group())))
 
 
-def _nearest(word: str) -> str:
-    """The code or slug that was meant, or ""."""
-    pairs = [(rule.code.code, word.upper()) for rule in rules()] + [(rule.code.slug, word.lower()) for rule in rules()]
-    distance, name = min((edits(given, known, _FAR), known) for known, given in pairs)
-    return name if distance <= _FAR else ""
+def _names() -> Iterator[str]:
+    """The codes and slugs of all rules."""
+    for rule in rules():
+        yield from (rule.code.code, rule.code.slug)

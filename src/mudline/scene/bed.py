@@ -12,7 +12,7 @@ from mudline.diagnostics import Where
 from mudline.scene.context import Context
 from mudline.scene.given import number
 from mudline.scene.laws import LawTable
-from mudline.scene.numbering import Floats, Indices
+from mudline.scene.numbering import Floats, Indices, looked_up, one_index
 from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:
@@ -72,15 +72,24 @@ def read_bed(context: Context, laws: LawTable) -> Bed:
     surfaces = list(_surfaces(context))
     values = [entry for _, entry in surfaces]
     places = [where for where, _ in surfaces]
-    of_element = np.full(len(laws.covered), len(surfaces) - 1, dtype=np.intp)
-    for index in np.flatnonzero(np.bincount(laws.covered[laws.covered >= 0])).tolist():
+    position_of = np.full(len(laws.grants) + 1, len(surfaces) - 1, dtype=np.intp)
+    for index in _present(laws.covered):
         where = laws.grants[index].where
         block = cast("SeabedProperties", context.deck.sections[where.section].blocks[where.block])
         position = cast("int", where.path[1])
-        of_element[laws.covered == index] = len(values)
+        position_of[index] = len(values)
         values.append(_of_set(block.sets[position]))
         places.append(where._replace(path=("sets", position)))
-    return Bed(values, places, of_element)
+    return Bed(values, places, looked_up(position_of, laws.covered))
+
+
+def _present(covered: Indices) -> list[int]:
+    """The indices that there are, without -1, in ascending order."""
+    index = one_index(covered)
+    if index is not None:
+        return [index] * (index >= 0)
+    found: list[int] = np.flatnonzero(np.bincount(covered[covered >= 0])).tolist()
+    return found
 
 
 def _two(part: Part | None, name: str) -> tuple[float, float]:

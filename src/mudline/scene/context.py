@@ -6,7 +6,6 @@ import sys
 from bisect import bisect_left
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field, replace
-from difflib import get_close_matches
 from functools import cached_property
 from typing import Any, cast
 
@@ -21,6 +20,7 @@ from mudline.scene.continued import ContinuedDeck
 from mudline.scene.harvest import LAID, definers, harvested_labels, harvested_sets, may_define
 from mudline.scene.numbering import LARGEST
 from mudline.short_repr import short_repr
+from mudline.spelling import Effort, nearest
 from mudline.syntax.tree import canonical_name, mark_of
 
 MOST_TOLD = 1000
@@ -28,15 +28,6 @@ MOST_TOLD = 1000
 
 MORE = f"and more of the same: the first {MOST_TOLD} are listed"
 """The message of the finding behind them."""
-
-_NEAR = 0.75
-_LONGEST_MISSPELT = 256
-_MOST_COMPARED = 200_000
-
-
-def _nearest(word: str, known: Collection[str]) -> str:
-    """The known word that is spelt nearly as `word`, or ""."""
-    return next(iter(get_close_matches(word, known, 1, _NEAR)), "")
 
 
 @dataclass
@@ -53,8 +44,8 @@ class Context:
     unread: set[str] = field(default_factory=set)
     doubtful: dict[str, list[tuple[int, int]]] = field(default_factory=dict)
     _told: dict[str, int] = field(default_factory=dict)
-    _compared: int = 0
     _placeless: set[tuple[int, int]] = field(default_factory=set)
+    _effort: Effort = field(default_factory=Effort)
 
     __repr__ = short_repr
 
@@ -106,17 +97,11 @@ class Context:
 
     def astray(self, keyword: str) -> str:
         """A keyword that stands where it is not read, or is misspelt, in words; "" when there is none."""
-        return next((place for name, place in self._astray if name == keyword), "")
+        return self._astray.get(keyword, "")
 
     def near(self, word: str, known: Collection[str]) -> str:
-        """The name among `known`, all of them folded, that is spelt nearly as `word`, or "".
-
-        Comparing takes time: a deck with very many unknown names gets suggestions for the first of them only.
-        """
-        self._compared += len(known)
-        if len(word) > _LONGEST_MISSPELT or self._compared > _MOST_COMPARED:
-            return ""
-        return _nearest(folded(word), [name for name in known if len(name) <= _LONGEST_MISSPELT])
+        """The name among `known`, all of them folded, that is spelt nearly as `word`, or ""."""
+        return nearest(folded(word), known, self._effort)
 
     def disturbed(self, where: Where) -> bool:
         """Whether something at this place, or a line below it, could not be used."""
@@ -223,20 +208,26 @@ class Context:
         return {(place.line, place.column) for place in map(self.deck.origin.place, problems)}
 
     @cached_property
-    def _astray(self) -> list[tuple[str, str]]:
-        """Keywords that stand where they are not read: outside any section, in a wrong one, or misspelt."""
+    def _astray(self) -> dict[str, str]:
+        """Keywords that stand where they are not read: outside any section, in a wrong one, or misspelt.
+
+        Each with the first of its places, in words.
+        """
         outside = [canonical_name(line) for line in self.deck.preamble if mark_of(line) == "*"]
-        found = [(name, f"the *{name} before the first section") for name in outside]
-        for section in self.deck.sections:
-            for block in section.blocks:
-                found += self._meant(section.name, block.keyword) if isinstance(block, Opaque) else ()
+        found = {name: f"the *{name} before the first section" for name in outside}
+        opaque = (
+            (one.name, block.keyword) for one in self.deck.sections for block in one.blocks if isinstance(block, Opaque)
+        )
+        effort = Effort()
+        for section, keyword in dict.fromkeys(opaque):
+            for name, place in self._meant(section, keyword, effort):
+                found.setdefault(name, place)
         return found
 
-    def _meant(self, section: str, keyword: str) -> Iterator[tuple[str, str]]:
+    def _meant(self, section: str, keyword: str, effort: Effort) -> Iterator[tuple[str, str]]:
         sections = catalogue.sections_of(keyword)
         if sections is None and section == "MODEL":
-            near = meant_keyword(keyword) or _nearest(keyword, catalogue.keywords())
-            yield near, f"*{keyword}, which is not known,"
+            yield meant_keyword(keyword, effort), f"*{keyword}, which is not known,"
         elif sections and section not in sections:
             for name in (keyword, meant_in(keyword, section)):
                 yield name, f"the *{keyword} in ${section}, where it does not belong,"

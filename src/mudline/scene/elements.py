@@ -19,8 +19,11 @@ from mudline.scene.numbering import (
     Batch,
     Floats,
     Gathered,
+    Ids,
     Indices,
+    Mask,
     Numbered,
+    blocks_of,
     whole_numbers,
 )
 from mudline.scene.repeats import tell_repeats
@@ -127,31 +130,43 @@ def _pattern_fault(gathered: Gathered, master: int, count: int, step: int) -> st
 
 def _join(context: Context, elements: Numbered, nodes: Numbered) -> Indices:
     """Node indices; each end that names an undefined node is told, a generator's once."""
-    given = np.abs(elements.values) <= 2 * LARGEST
-    numbers = np.where(given, elements.values, 0).astype(np.int64)
-    indices = np.where(given, nodes.indices(numbers), -1)
-    missing = given & (indices < 0)
-    if not missing.any():
+    indices = np.empty(elements.values.shape, dtype=np.intp)
+    found: list[Indices] = []
+    for block in blocks_of(len(elements)):
+        given, numbers = _node_numbers(elements.values[block])
+        indices[block] = np.where(given, nodes.indices(numbers), -1)
+        lost = np.argwhere(given & (indices[block] < 0))
+        lost[:, 0] += block.start
+        found.append(lost)
+    lost = np.concatenate(found) if found else np.zeros((0, 2), dtype=np.intp)
+    if not len(lost):
         return indices
-    lost = np.argwhere(missing)
     batches = elements.batches_of(elements.rows[lost[:, 0]])
     generators = np.array([not batch.table for batch in elements.batches], dtype=bool)[batches]
     _, firsts = np.unique(np.where(generators, batches, -1 - np.arange(len(lost))), return_index=True)
     for index, end in lost[np.sort(firsts)[: MOST_TOLD + 1]].tolist():
         where = elements.where(index)
-        message = f"element {elements.ids[index]} ends at node {numbers[index, end]}, which is not defined: define it"
+        number = int(elements.values[index, end])
+        message = f"element {elements.ids[index]} ends at node {number}, which is not defined: define it"
         generated = not elements.batches[elements.batches_of(int(elements.rows[index]))].table
         place = where if generated else where._replace(path=(*where.path, end + 1))
-        problem = context.missing(REF006, message, place, "NODE", int(numbers[index, end]))
+        problem = context.missing(REF006, message, place, "NODE", number)
         context.note(replace(problem, blocks=Blocks.ALWAYS))
     return indices
+
+
+def _node_numbers(values: Floats) -> tuple[Mask, Ids]:
+    """Where values are numbers of nodes, and these; 0 elsewhere."""
+    given = np.abs(values) <= 2 * LARGEST
+    return given, np.where(given, values, 0).astype(np.int64)
 
 
 def _lengths(ends: Indices, coordinates: Floats) -> Floats:
     """Distances between the nodes, NaN where one is not known."""
     length = np.full(len(ends), np.nan)
-    known = (ends >= 0).all(axis=1)
-    length[known] = distances(coordinates[ends[known, 0]], coordinates[ends[known, 1]])
+    for block in blocks_of(len(ends)):
+        known = np.flatnonzero((ends[block] >= 0).all(axis=1)) + block.start
+        length[known] = distances(coordinates[ends[known, 0]], coordinates[ends[known, 1]])
     return length
 
 

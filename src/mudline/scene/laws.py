@@ -13,7 +13,7 @@ from mudline.deck.parameters import folded
 from mudline.diagnostics import Where
 from mudline.scene.context import Context
 from mudline.scene.force_curves import SceneCurve, set_name
-from mudline.scene.numbering import Indices
+from mudline.scene.numbering import Indices, looked_up
 from mudline.scene.sets import NamedSet, Sets, later_wins
 from mudline.short_repr import short_repr
 
@@ -81,10 +81,13 @@ def read_laws(context: Context, sets: Sets, named: list[SceneCurve], by_set: lis
     laws.grants = legacy + new
     laws.of_element = later_wins([grant.set_ for grant in legacy], count)
     wins = later_wins([grant.set_ for grant in new], count)
-    laws.covered = np.where(wins >= 0, wins + len(legacy), NOTHING)
+    laws.covered = looked_up(np.array([*range(len(legacy), len(laws.grants)), NOTHING], dtype=np.intp), wins)
     gives = np.array([*(grant.kind is not LawKind.NONE or grant.unknown for grant in laws.grants), False])
-    replaced = gives[laws.covered]
-    laws.of_element[replaced] = laws.covered[replaced]
+    replaced = looked_up(gives, laws.covered)
+    if replaced.all():
+        laws.of_element = laws.covered
+    elif replaced.any():
+        laws.of_element = np.where(replaced, laws.covered, laws.of_element)
     return laws
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, cast
 from mudline.codes import REF001, REF005, REF006
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Code, Severity, Where
-from mudline.keywords.text import edits, shown
+from mudline.keywords.text import shown
 from mudline.keywords.values import Label
 from mudline.scene.context import Context
 from mudline.scene.harvest import bare, may_label
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 
 _PATHS = "LINE PATHS"
 _GROUPS = "LINE SECTION GROUPS"
-_SLIPS = 2
 _MARKS = re.compile(r"[0-9]+|\b\w{1,2}\b")
 """Numbers and words of one or two letters: things of a kind are told apart by them."""
 
@@ -61,8 +60,8 @@ def check_label(context: Context, code: Code, label: str, where: Where) -> None:
 
 
 def _is_slip(name: str, near: str) -> bool:
-    """Whether a name is another one with a slip of the pen: {End 2} or {End B} is none of {End 1} or {End A}."""
-    return edits(name, near, _SLIPS) <= _SLIPS and _MARKS.findall(name) == _MARKS.findall(near)
+    """Whether one of two names that are spelt nearly alike is a slip of the pen: {End 2} is none of {End 1}."""
+    return _MARKS.findall(name) == _MARKS.findall(near)
 
 
 def _check_name(context: Context, what: tuple[str, str, str], name: str, where: Where, known: dict[str, str]) -> None:

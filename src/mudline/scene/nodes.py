@@ -11,7 +11,7 @@ from mudline.codes import REF006, REF010
 from mudline.diagnostics import Severity, Where
 from mudline.scene.context import Context
 from mudline.scene.external import ExternalElements
-from mudline.scene.numbering import MOST_GENERATED, Batch, Floats, Gathered, Numbered, whole_numbers
+from mudline.scene.numbering import MOST_GENERATED, Batch, Floats, Gathered, Numbered, blocks_of, whole_numbers
 from mudline.scene.repeats import tell_repeats
 
 if TYPE_CHECKING:
@@ -28,9 +28,10 @@ class _Line:
     def place(self, first: Floats, last: Floats) -> None:
         """Evenly spaced, exactly so where the spacing is a whole number."""
         count = len(self.batch.ids)
-        steps = np.arange(1, count + 1)[:, np.newaxis]
-        with np.errstate(over="ignore", invalid="ignore"):
-            self.batch.values[:] = first + (last - first) * steps / (count + 1)
+        for block in blocks_of(count):
+            steps = np.arange(block.start + 1, block.stop + 1)[:, np.newaxis]
+            with np.errstate(over="ignore", invalid="ignore"):
+                self.batch.values[block] = first + (last - first) * steps / (count + 1)
 
 
 def read_nodes(context: Context, external: ExternalElements | None = None) -> Numbered:

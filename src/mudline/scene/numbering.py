@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import weakref
 from bisect import bisect_right
-from dataclasses import dataclass, field
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +27,46 @@ LARGEST = 2**53
 """The largest whole number that a field may hold."""
 
 _FEW = 4096
+_FEW_RUNS = 8
+_AT_ONCE = 1 << 17
+
+_Run = tuple[Indices, Ids]
+"""Indices, and their numbers in ascending order."""
+
+_Kind = TypeVar("_Kind", bound=np.generic)
+_shared: weakref.ref[Indices] | None = None
+
+
+def identity(count: int) -> Indices:
+    """0, 1, 2, ... up to `count` of them, not to be written to: all that are in use share their memory."""
+    global _shared  # noqa: PLW0603 - without an owner, so that it is freed with the last one that uses it
+    known = _shared() if _shared is not None else None
+    if known is None or len(known) < count:
+        known = np.arange(count, dtype=np.intp)
+        known.flags.writeable = False
+        _shared = weakref.ref(known)
+    return known[:count]
+
+
+def constant(value: int, count: int) -> Indices:
+    """One index `count` times, not to be written to: it takes the memory of one."""
+    return np.broadcast_to(np.intp(value), count)
+
+
+def one_index(indices: Indices) -> int | None:
+    """The index that `constant` indices all are, None for other indices."""
+    return int(indices[0]) if len(indices) and indices.strides == (0,) else None
+
+
+def looked_up(table: NDArray[_Kind], indices: Indices) -> NDArray[_Kind]:
+    """`table[indices]`, not to be written to; for constant indices it takes the memory of one."""
+    index = one_index(indices)
+    return table[indices] if index is None else np.broadcast_to(table[index], len(indices))
+
+
+def blocks_of(count: int) -> Iterator[slice]:
+    """Slices of at most some thousand rows: what is computed on the way is no larger than they are."""
+    return (slice(start, min(start + _AT_ONCE, count)) for start in range(0, count, _AT_ONCE))
 
 
 def whole_numbers(column: Floats) -> tuple[Ids, Mask]:
@@ -112,9 +156,11 @@ class Gathered:
         ids = np.concatenate([batch.ids for batch in self.batches] or [np.zeros(0, dtype=np.int64)])
         values = np.concatenate([batch.values for batch in self.batches] or [np.zeros((0, width))])
         starts = np.array(self._starts, dtype=np.intp)
-        if (np.diff(ids) > 0).all():
-            rows = np.arange(len(ids), dtype=np.intp)
-            return Numbered(ids, values, rows, rows, rows[:0], starts, self.batches, (rows, ids))
+        if _all_different(ids):
+            rows = identity(len(ids))
+            bounds = zip(self.batches, self._starts, self._starts[1:], strict=False)
+            self.batches = [replace(batch, ids=ids[a:b], values=values[a:b]) for batch, a, b in bounds]
+            return Numbered(ids, values, rows, rows, rows[:0], starts, self.batches)
         order = np.argsort(ids, kind="stable")
         new = np.append(True, np.diff(ids[order]) > 0)
         begins = np.flatnonzero(new)
@@ -141,7 +187,7 @@ class Numbered:
     repeats: Indices
     starts: Indices
     batches: list[Batch]
-    _order: tuple[Indices, Ids] | None = None
+    _runs: list[_Run] | None = None
 
     __repr__ = short_repr
 
@@ -169,22 +215,44 @@ class Numbered:
 
     def indices(self, ids: Ids) -> Indices:
         """Indices of numbers, -1 for those not defined."""
-        if not len(self.ids):
-            return np.full(ids.shape, -1, dtype=np.intp)
-        order, ordered = self._sorted()
-        at = np.minimum(np.searchsorted(ordered, ids), len(ordered) - 1)
-        return np.where(ordered[at] == ids, order[at], -1)
+        found = np.full(ids.shape, -1, dtype=np.intp)
+        for order, ordered in self._ascending():
+            at = np.minimum(np.searchsorted(ordered, ids), len(ordered) - 1)
+            np.copyto(found, order[at], where=ordered[at] == ids)
+        return found
 
     def between(self, start: int, end: int, step: int) -> Indices:
         """Indices of the numbers start, start + step, ... up to end, in ascending order."""
-        order, ordered = self._sorted()
+        parts = [self._part(run, start, end, step) for run in self._ascending()]
+        found = parts[0] if len(parts) == 1 else np.concatenate([np.zeros(0, dtype=np.intp), *parts])
+        return found if _is_ascending(found) else np.sort(found)
+
+    def _part(self, run: _Run, start: int, end: int, step: int) -> Indices:
+        order, ordered = run
         first, last = np.searchsorted(ordered, [start, end + 1])
         found = order[first:last]
-        return np.sort(found if step == 1 else found[(ordered[first:last] - start) % step == 0])
+        return found if step == 1 else found[(ordered[first:last] - start) % step == 0]
 
-    def _sorted(self) -> tuple[Indices, Ids]:
-        """Indices in ascending order of their numbers, and the numbers in that order."""
-        if self._order is None:
-            order = np.argsort(self.ids, kind="stable")
-            self._order = (order, self.ids[order])
-        return self._order
+    def _ascending(self) -> list[_Run]:
+        """The numbers in ascending order: as they stand if they make few runs, which takes no memory, else sorted."""
+        if self._runs is None:
+            begins = np.flatnonzero(self.ids[1:] <= self.ids[:-1]) + 1
+            if len(begins) < _FEW_RUNS:
+                rows = identity(len(self.ids))
+                bounds = pairwise([0, *begins.tolist(), len(self.ids)])
+                self._runs = [(rows[a:b], self.ids[a:b]) for a, b in bounds if b > a]
+            else:
+                order = np.argsort(self.ids, kind="stable")
+                self._runs = [(order, self.ids[order])]
+        return self._runs
+
+
+def _is_ascending(numbers: Ids | Indices) -> bool:
+    return bool((numbers[1:] > numbers[:-1]).all())
+
+
+def _all_different(ids: Ids) -> bool:
+    if _is_ascending(ids):
+        return True
+    ordered = np.sort(ids)
+    return bool((ordered[1:] != ordered[:-1]).all())

@@ -11,7 +11,7 @@ import numpy as np
 from mudline.diagnostics import Where
 from mudline.scene.context import Context
 from mudline.scene.external import ExternalElements
-from mudline.scene.numbering import Floats, Indices, Mask, Numbered
+from mudline.scene.numbering import Floats, Indices, Mask, Numbered, looked_up
 from mudline.scene.sets import NamedSet, Sets, later_wins
 from mudline.short_repr import short_repr
 
@@ -64,10 +64,11 @@ def read_sections(
             holders.append(None if name is None else sets.find(name, place._replace(path=(*place.path, "set"))))
             sections.append(_section(context, entry, place))
     of_element = later_wins(holders, len(elements))
-    diameter = np.array([*(section.diameter for section in sections), math.nan])[of_element]
+    diameter = looked_up(np.array([*(section.diameter for section in sections), math.nan]), of_element)
     unread = None in holders or "GEOMETRIC SETS" in context.unread
-    faulty = np.array([*(section.faulty for section in sections), unread])[of_element]
+    faulty = looked_up(np.array([*(section.faulty for section in sections), unread]), of_element)
     if external is not None:
+        diameter, faulty = diameter.copy(), faulty.copy()
         at = elements.indices(external.ids)
         given = ~np.isnan(external.diameter)
         diameter[at[given]] = external.diameter[given]

@@ -17,7 +17,7 @@ from mudline.keywords.text import shown
 from mudline.scene.context import Context
 from mudline.scene.external import ExternalElements
 from mudline.scene.harvest import bare
-from mudline.scene.numbering import Ids, Indices, Numbered
+from mudline.scene.numbering import Ids, Indices, Numbered, constant, identity
 from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:
@@ -95,7 +95,7 @@ class _Reader:
     def read(self) -> Sets:
         named = self.sets.named
         context = self.context
-        everything = np.arange(len(self.elements), dtype=np.intp)
+        everything = identity(len(self.elements))
         named[ALL] = NamedSet("ALL", everything, None, open=bool(context.definers or context.restart))
         for where, block in context.deck.blocks("ELEMENT SETS"):
             for index, entry in enumerate(cast("ElementSets", block).sets):
@@ -259,12 +259,16 @@ def _union(parts: list[Indices]) -> Indices:
 
 
 def later_wins(holders: Sequence[NamedSet | None], count: int) -> Indices:
-    """For each of `count` elements the index of the last holder that has it, -1 where none has.
+    """For each of `count` elements the index of the last holder that has it, -1 where none has; not to be written to.
 
     A set that holds several things counts with the last of them only: sets named very often cost no more for it.
     """
-    winner = np.full(count, -1, dtype=np.intp)
     last = {id(holder.elements): index for index, holder in enumerate(holders) if holder is not None}
-    for index in sorted(last.values()):
+    order = sorted(last.values())
+    whole = [index for index in order if len(cast("NamedSet", holders[index]).elements) == count]
+    if not order or order[-1:] == whole[-1:]:
+        return constant(order[-1] if order else -1, count)
+    winner = np.full(count, -1, dtype=np.intp)
+    for index in order:
         winner[cast("NamedSet", holders[index]).elements] = index
     return winner

@@ -15,6 +15,7 @@ from mudline.deck.reading import read_source
 from mudline.diagnostics import DeckError, Problem, Severity, Where
 from mudline.keywords.text import shown, suggestion
 from mudline.short_repr import short_repr
+from mudline.spelling import Effort
 from mudline.syntax.source import Source
 from mudline.variations.cases import CaseReader
 from mudline.variations.companions import companions
@@ -84,6 +85,7 @@ class _Planner:
         self.namer = Namer(deck, self.targets)
         self.rewriter = Rewriter(self.text, self.targets)
         self.problems: list[Problem] = []
+        self.effort = Effort()
 
     def plan(self) -> ExpansionPlan:
         reader = CaseReader(self.text, self.targets)
@@ -139,10 +141,10 @@ class _Planner:
                 elif key == "all":
                     called |= variations
                 else:
-                    known = [cases.name for cases in variations.values()]
+                    known = (cases.name for cases in variations.values())
+                    near = suggestion(unquoted(name), known, self.effort)
                     place = where._replace(path=(*where.path, "variations", index, "names", number))
-                    message = f"there is no variation {shown(unquoted(name))}{suggestion(unquoted(name), known)}"
-                    self._tell(f"{message}: define it in *VARIATION", place)
+                    self._tell(f"there is no variation {shown(unquoted(name))}{near}: define it in *VARIATION", place)
         return list((called if combination.variations else variations).values())
 
     def _sound(self, group: _Group) -> bool:

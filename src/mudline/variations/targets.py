@@ -14,6 +14,7 @@ from mudline.diagnostics import Problem, Span, Where
 from mudline.keywords.model import Block
 from mudline.keywords.text import shown, suggestion
 from mudline.keywords.values import Equation
+from mudline.spelling import Effort
 from mudline.syntax.fields import split
 from mudline.syntax.rows import read_number
 from mudline.variations.names import unquoted
@@ -50,6 +51,7 @@ class Targets:
         self.deck = deck
         self.parameters = Parameters(deck)
         self._targets: dict[str, Target] = {}
+        self._effort = Effort()
         for where, block in deck.blocks("PARAMETERS", "PREPROCESSOR"):
             for index, parameter in enumerate(cast("Block_", block).parameters):
                 place = where._replace(path=("parameters", index, "value"))
@@ -75,7 +77,7 @@ class Targets:
         """That a parameter is not there."""
         if folded(name) in self._targets:
             return None
-        hint = suggestion(name, [target.name for target in self._targets.values()])
+        hint = suggestion(name, (target.name for target in self._targets.values()), self._effort)
         message = f"parameter {shown(name)} is not defined{hint}: define it in *PARAMETERS"
         return Problem(REF013, message, None, None, where)
 

@@ -10,7 +10,8 @@ from mudline.deck.model import Deck, Opaque
 from mudline.deck.parameters import Parameters, folded
 from mudline.diagnostics import Problem, Severity, Where
 from mudline.keywords import catalogue
-from mudline.keywords.text import hint, nearest, shown, suggestion
+from mudline.keywords.text import hint, shown, suggestion
+from mudline.spelling import Effort, nearest
 from mudline.syntax.tree import canonical_name
 from mudline.variations.names import name_key, placeholders, unquoted
 
@@ -34,9 +35,10 @@ def undefined_parameters(deck: Deck) -> Iterator[Problem]:
     """What PARA= and a `%name%` of a folder or file name, and `*PARAMETERS` does not define."""
     named = [*_varied(deck), *_in_names(deck)]
     known = _parameters(deck) if named else None
+    effort = Effort()
     for name, where in named:
         if known is not None and folded(name) not in known:
-            near = suggestion(name, known.values())
+            near = suggestion(name, known.values(), effort)
             message = f"parameter {shown(name)} is not defined{near}: define it in *PARAMETERS"
             yield Problem(REF013, message, where=where)
 
@@ -53,35 +55,38 @@ def undefined_variations(deck: Deck) -> Iterator[Problem]:
     if None in variations:
         return
     known = {name_key(name): unquoted(name) for name in variations if name is not None}
+    effort = Effort()
     for name, where in called:
         if name_key(name) not in known and name_key(name) != _ALL:
-            near = suggestion(unquoted(name), known.values())
+            near = suggestion(unquoted(name), known.values(), effort)
             message = f"there is no variation {shown(unquoted(name))}{near}: define it in *VARIATION"
             yield Problem(REF001, message, where=where)
 
 
 def misspelt_keywords(deck: Deck) -> Iterator[Problem]:
     """What KEYWORD= of an action says and is not known, but spelt nearly as a keyword that is: a warning."""
+    effort = Effort()
     for varied, where in _actions(deck):
         words = cast("list[str] | None", varied.keyword) or ()
         name = canonical_name("*" + ",".join(map(unquoted, words)))
-        if near := _meant(name, catalogue.keywords()):
+        if near := _meant(name, catalogue.keywords(), effort):
             message = f"keyword *{name} is not known{hint(near)}: correct it"
             yield Problem(SYN009, message, None, Severity.WARNING, where._replace(path=(*where.path, "keyword", 0)))
 
 
 def misspelt_sections(deck: Deck) -> Iterator[Problem]:
     """What SECTION= of an action says and is not known, but spelt nearly as a section that is: a warning."""
+    effort = Effort()
     for varied, where in _actions(deck):
         name = canonical_name("$" + unquoted(varied.section or "").removeprefix("$"))
-        if near := _meant(name, catalogue.SECTIONS):
+        if near := _meant(name, catalogue.SECTIONS, effort):
             message = f"section ${name} is not known{hint(near)}: correct it"
             yield Problem(SYN010, message, None, Severity.WARNING, where._replace(path=(*where.path, "section")))
 
 
-def _meant(name: str, known: Collection[str]) -> str:
+def _meant(name: str, known: Collection[str], effort: Effort) -> str:
     """The known name that is spelt nearly as one that is not known, or ""."""
-    return "" if not name or name in known else nearest(name, known)
+    return "" if not name or name in known else nearest(name, known, effort)
 
 
 def _actions(deck: Deck) -> Iterator[tuple[VariedBlock, Where]]:

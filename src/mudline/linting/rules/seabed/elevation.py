@@ -6,7 +6,7 @@ import numpy as np
 
 from mudline.scene.floor import Floor, FloorKind
 from mudline.scene.model import Scene
-from mudline.scene.numbering import Floats
+from mudline.scene.numbering import Floats, blocks_of
 
 _VERTICAL = 90.0
 
@@ -26,7 +26,10 @@ def depths(scene: Scene) -> Floats:
             return _below_planes(floor, x, y, z)
         if floor.kind in (FloorKind.FLAT, FloorKind.SLOPING):
             slope = np.radians(floor.slope)
-            return np.asarray(_along(floor.direction, y, z) * np.sin(slope) - x * np.cos(slope))
+            found = np.empty(len(x))
+            for block in blocks_of(len(x)):
+                found[block] = _along(floor.direction, y[block], z[block]) * np.sin(slope) - x[block] * np.cos(slope)
+            return found
         if floor.missing or floor.points.size == 0 or floor.interpolation != "LINEAR":
             return np.full(len(x), np.nan)
         if floor.kind is FloorKind.SURFACE:

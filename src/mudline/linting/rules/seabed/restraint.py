@@ -13,7 +13,7 @@ from mudline.linting.registry import rule
 from mudline.scene.checks.laws import SBD004
 from mudline.scene.floor import FloorKind
 from mudline.scene.model import Scene
-from mudline.scene.numbering import Floats, Indices
+from mudline.scene.numbering import Floats, Indices, blocks_of
 
 SBD006 = Code("SBD006", "no-vertical-restraint", Severity.WARNING)
 
@@ -109,9 +109,10 @@ def _lying(scene: Scene, elements: Indices) -> Iterator[Problem]:
     uncertain = scene.laws.uncertain or "SEABED PROPERTIES" in scene.context.unread
     if uncertain or scene.floor.kind is not FloorKind.FLAT or scene.deck.keywords().intersection(_SOIL):
         return
-    depth = _depths(scene, elements)
     seabed = bool(scene.laws.types or scene.laws.grants)
-    lying = elements[(depth >= 0.0) if seabed else (depth > 0.0)]
+    lies = np.greater_equal if seabed else np.greater
+    parts = (elements[block] for block in blocks_of(len(elements)))
+    lying = np.concatenate([part[lies(_depths(scene, part), 0.0)] for part in parts])
     if lying.size:
         where = "at or below" if seabed else "below"
         which = _which(scene, lying[0], lying.size, "lies", "lie")
@@ -121,9 +122,11 @@ def _lying(scene: Scene, elements: Indices) -> Iterator[Problem]:
 
 def _depths(scene: Scene, elements: Indices) -> Floats:
     """Mean depths of the two nodes; NaN where one is not known."""
+    depths = np.full(len(elements), np.nan)
     ends = scene.element_nodes[elements]
-    heights = np.append(scene.coordinates[:, 0], np.nan)[ends]  # index -1, an unknown node, is the last one
-    depths: Floats = 0.0 - (0.5 * heights[:, 0] + 0.5 * heights[:, 1])
+    known = (ends >= 0).all(axis=1)
+    heights = scene.coordinates[ends[known], 0]
+    depths[known] = 0.0 - (0.5 * heights[:, 0] + 0.5 * heights[:, 1])
     return depths
 
 

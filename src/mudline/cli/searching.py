@@ -1,0 +1,93 @@
+"""The files in a searched directory, without those that its `.gitignore` files hide."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path, PurePath
+from typing import NamedTuple
+
+from mudline.patterns import Pattern, read_pattern
+
+GITIGNORE = ".gitignore"
+
+
+class _Rules(NamedTuple):
+    """The patterns of a `.gitignore`, the last first.
+
+    They are for paths from its own folder: `above` stands before a path from the searched directory, or the first
+    `below` letters of it are left out.
+    """
+
+    above: str
+    below: int
+    patterns: Sequence[Pattern]
+
+    def hides(self, path: str, *, folder: bool) -> bool | None:
+        """Whether a path from the searched directory is hidden; None where no pattern says anything of it."""
+        own = self.above + path[self.below :]
+        return next((not one.negated for one in self.patterns if one.fits(own, folder=folder)), None)
+
+
+@dataclass(slots=True)
+class Search:
+    """A search of a directory and all below it; links to directories are not followed.
+
+    `unreadable` collects what cannot be looked at, `hidden` says whether a `.gitignore` hid anything. Like git, the
+    search also honours the `.gitignore` files above the directory in the same repository; like ripgrep, it honours them
+    for what lies in the directory, not for the directory itself, which was asked for.
+    """
+
+    given: str
+    gitignore: bool = True
+    unreadable: list[OSError] = field(default_factory=list)
+    hidden: bool = False
+
+    def paths(self) -> Iterator[PurePath]:
+        """The files, in no order."""
+        rules = {self.given: self._above() if self.gitignore else []}
+        for folder, folders, files in os.walk(self.given, onerror=self.unreadable.append):
+            found = rules.pop(folder)
+            if self.gitignore:
+                start = self._start(folder)
+                if GITIGNORE in files:
+                    found = [*self._read(Path(folder), "", len(start)), *found]
+                folders[:] = [
+                    name for name in folders if name != ".git" and not self._hides(found, start + name, folder=True)
+                ]
+                files[:] = [name for name in files if not self._hides(found, start + name, folder=False)]
+            rules.update((os.path.join(folder, name), found) for name in folders)  # noqa: PTH118 - as os.walk does
+            yield from (PurePath(folder, name) for name in files)
+
+    def _start(self, folder: str) -> str:
+        """What stands before the names in a folder, from the searched directory."""
+        inside = folder[len(self.given) :].replace(os.sep, "/").strip("/")
+        return f"{inside}/" if inside else ""
+
+    def _hides(self, rules: Sequence[_Rules], path: str, *, folder: bool) -> bool:
+        said = next((hides for one in rules if (hides := one.hides(path, folder=folder)) is not None), False)
+        self.hidden |= said
+        return said
+
+    def _above(self) -> list[_Rules]:
+        """The rules above the directory, the nearest first."""
+        here = Path(os.path.abspath(self.given))  # noqa: PTH100 - links stay what they are called
+        found: list[_Rules] = []
+        for folder in (here, *here.parents):
+            if folder != here:
+                found += self._read(folder, f"{here.relative_to(folder).as_posix()}/", 0)
+            if (folder / ".git").exists():
+                return found
+        return []
+
+    def _read(self, folder: Path, above: str, below: int) -> list[_Rules]:
+        """The rules of a folder, if it has any."""
+        path = folder / GITIGNORE
+        try:
+            text = os.fsdecode(path.read_bytes()) if path.is_file() else ""
+        except OSError as error:
+            self.unreadable.append(error)
+            return []
+        patterns = [pattern for line in text.split("\n") if (pattern := read_pattern(line))]
+        return [_Rules(above, below, patterns[::-1])] if patterns else []

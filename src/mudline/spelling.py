@@ -1,0 +1,73 @@
+"""The known name that a misspelt one was to be: one measure, with a bound, for every message."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+_SHORT = 5
+_LONGEST = 256
+_MOST = 250_000
+
+
+@dataclass(slots=True)
+class Effort:
+    """What may still be spent on comparing names, in letters: the misspelt words that share it cost no more together.
+
+    Where it ends there is no suggestion: very many misspelt words get one for the first of them only.
+    """
+
+    left: int = _MOST
+
+
+def nearest(word: str, known: Iterable[str], effort: Effort | None = None) -> str:
+    """Return the nearest known name within two edits (one for a short word), or ""; case does not matter."""
+    effort = Effort() if effort is None else effort
+    wanted = word.casefold()
+    if len(wanted) > _LONGEST or effort.left < 0:
+        return ""
+    most = 1 if len(wanted) < _SHORT else 2
+    found: list[tuple[int, str]] = []
+    for name in known:
+        other = name.casefold()
+        close = abs(len(other) - len(wanted)) <= most
+        effort.left -= len(wanted) + 1 if close else 1
+        if effort.left < 0:
+            return ""
+        if close and (distance := edits(wanted, other, most)) <= most:
+            most = distance
+            found.append((distance, name))
+    return min(found, default=(0, ""))[1]
+
+
+def edits(one: str, other: str, most: int) -> int:
+    """Letters to change, insert, drop or swap with a neighbour to make one word of the other; `most` + 1 if more.
+
+    Only the diagonals within `most` of the main one are computed: letter j of `other` is at j - i + `most` in row i.
+    """
+    far = most + 1
+    if abs(len(one) - len(other)) > most:
+        return far
+    start = next((i for i, pair in enumerate(zip(one, other, strict=False)) if pair[0] != pair[1]), None)
+    if start is None:
+        return abs(len(one) - len(other))
+    one, other = one[start:], other[start:]
+    width = 2 * most + 1
+    # A row has one place more, which is also the one before its first, and stays far.
+    before: list[int] = []
+    row = [far] * most + list(range(far)) + [far]
+    for i, letter in enumerate(one, 1):
+        two_before, before, row = before, row, [far] * (width + 1)
+        for k in range(max(0, most - i), min(width, len(other) + most - i + 1)):
+            j = i + k - most
+            if j == 0:
+                row[k] = i
+                continue
+            target = other[j - 1]
+            cost = min(before[k + 1] + 1, row[k - 1] + 1, before[k] + (letter != target))
+            if i > 1 and j > 1 and letter == other[j - 2] and one[i - 2] == target:
+                cost = min(cost, two_before[k] + 1)
+            row[k] = cost
+        if min(row) > most:
+            return far
+    return min(row[len(other) - len(one) + most], far)

@@ -1,0 +1,76 @@
+"""Numbers as spans of consecutive ones, and sets that are compared by them."""
+
+from __future__ import annotations
+
+import tracemalloc
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mudline.comparison.comparing import compare
+from mudline.comparison.spans import NO_SPANS, Spans, spans_of, spans_of_run, text_of, union
+from mudline.deck.loading import load_bytes
+from mudline.scene.build import resolve
+
+NUMBERS = st.lists(st.integers(-30, 30))
+RUNS = st.lists(st.tuples(st.integers(-30, 30), st.integers(-30, 30), st.integers(1, 4)))
+
+
+def listed(spans: Spans) -> set[int]:
+    return {number for first, last in spans.tolist() for number in range(first, last + 1)}
+
+
+def check(spans: Spans, numbers: set[int]) -> None:
+    assert listed(spans) == numbers
+    assert (spans[1:, 0] - spans[:-1, 1] > 1).all()
+
+
+@given(NUMBERS)
+def test_numbers_in_any_order(numbers: list[int]) -> None:
+    check(spans_of(np.array(numbers, dtype=np.int64)), set(numbers))
+
+
+@given(NUMBERS, RUNS)
+def test_unions(numbers: list[int], runs: list[tuple[int, int, int]]) -> None:
+    parts = [spans_of_run(start, end, step) for start, end, step in runs]
+    wanted = {number for start, end, step in runs for number in range(start, end + 1, step)}
+    check(union([*parts, spans_of(np.array(numbers, dtype=np.int64))]), wanted | set(numbers))
+    check(union(parts), wanted)
+
+
+@pytest.mark.parametrize(
+    ("spans", "text"),
+    [
+        (NO_SPANS, ""),
+        (spans_of_run(1, 20, 1), "1-20"),
+        (spans_of_run(1, 0, 1), ""),
+        (spans_of_run(1, 6, 2), "1, 3, 5"),
+        (union([spans_of_run(1, 20, 1), spans_of_run(25, 25, 1), spans_of_run(3, 21, 1)]), "1-21, 25"),
+    ],
+)
+def test_text(spans: Spans, text: str) -> None:
+    assert text_of(spans) == text
+
+
+def test_a_long_text_is_one_text() -> None:
+    assert text_of(spans_of_run(0, 400_000, 2)) == ", ".join(map(str, range(0, 400_001, 2)))
+
+
+def test_generated_sets_are_not_listed() -> None:
+    """Ten million numbers are 80 MB."""
+    text = "$MODEL\n*LINES\n x\n*ELEMENT SETS\n SET=A\n GEN=1, {end}\n SET=B\n GEN=1, 10000000\n 7, 8, {{L}}\n"
+    before, after = (
+        resolve(load_bytes(text.format(end=end).encode(), "deck.keyxm")) for end in ("9000000", "10000000")
+    )
+    tracemalloc.start()
+    try:
+        found = compare(before, after)
+        _, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert [(one.where, one.before, one.after) for one in found] == [
+        ("element sets/A", "1-9000000", "1-10000000"),
+    ]
+    assert peak < 5_000_000

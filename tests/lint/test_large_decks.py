@@ -1,0 +1,95 @@
+"""What a deck that is generated costs: memory for the arrays of its scene, and little more on the way."""
+
+from __future__ import annotations
+
+import tracemalloc
+
+import numpy as np
+import pytest
+
+from mudline.deck.loading import load_bytes
+from mudline.diagnostics import Where
+from mudline.linting.context import LintContext
+from mudline.linting.engine import problems_in
+from mudline.linting.registry import rules
+from mudline.scene import numbering
+from mudline.scene.build import resolve
+from mudline.scene.numbering import blocks_of, constant, identity, looked_up, one_index
+
+COUNT = 400_000
+LAWS = (
+    "*GEOMETRIC SETS\n OPTION=RIGID\n SET=pipe\n 207.0E9, 79.6E9, 0.4064, 0.3682, 7850.0\n"
+    "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=pipe\n STIFFNESS=100.0E3\n"
+)
+
+
+def generated(count: int, more: str = "") -> bytes:
+    nodes = f"*NODE\n 1, -0.1, 0.0\n {count + 1}, -0.1, {float(count)}\n GEN=1, {count + 1}\n"
+    elements = f"*ELEMENT\n 1, 1, 2\n GEN=1, {count}\n*ELEMENT SETS\n SET=pipe\n GEN=1, {count}\n"
+    return f"$MODEL\n*OCEAN\n 500.0, 1025.0, 9.81\n{nodes}{elements}{more}".encode()
+
+
+@pytest.mark.parametrize("more", ["", LAWS])
+def test_memory_of_linting(more: str) -> None:
+    """An element and a node need 80 bytes: two numbers, coordinates, ends and their nodes, a length, an index."""
+    problems_in(LintContext(load_bytes(generated(10, more), "deck.keyxm")), rules())  # modules are loaded once
+    tracemalloc.start()
+    try:
+        found = problems_in(LintContext(load_bytes(generated(COUNT, more), "deck.keyxm")), rules())
+        _, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert {problem.code.code for problem in found} <= {"SBD006"}
+    assert peak < 140 * COUNT
+
+
+def test_elements_of_one_law_share_it() -> None:
+    scene = resolve(load_bytes(generated(1000, LAWS), "deck.keyxm"))
+    assert one_index(scene.laws.of_element) == 0
+    assert scene.diameter.tolist() == [0.4064] * 1000
+    assert scene.set_table.everything.elements.base is not None
+
+
+def test_constant_indices() -> None:
+    table = np.array([1.0, 2.0, np.nan])
+    for index in (0, 1, -1):
+        np.testing.assert_array_equal(looked_up(table, constant(index, 4)), np.full(4, table[index]))
+        assert one_index(constant(index, 4)) == index
+    np.testing.assert_array_equal(looked_up(table, np.array([1, 0])), [2.0, 1.0])
+    assert one_index(np.array([0, 0])) is None
+    assert one_index(constant(3, 0)) is None
+
+
+def test_identities_share_their_memory_while_they_are_used() -> None:
+    small, large = identity(10), identity(20)
+    again = identity(15)
+    assert (small.tolist(), again.tolist()) == (list(range(10)), list(range(15)))
+    assert np.shares_memory(large, again)
+    with pytest.raises(ValueError, match="read-only"):
+        large[0] = 1
+
+
+def test_blocks_cover_all_rows(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(numbering, "_AT_ONCE", 4)
+    rows = np.arange(10)
+    assert [rows[block].tolist() for block in blocks_of(10)] == [[0, 1, 2, 3], [4, 5, 6, 7], [8, 9]]
+    assert list(blocks_of(0)) == []
+
+
+def test_numbers_in_many_orders(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The same scene, whether numbers make few ascending runs or many."""
+    chosen = np.random.default_rng(1)
+    for runs in (0, 8):
+        monkeypatch.setattr(numbering, "_FEW_RUNS", runs)
+        for _ in range(20):
+            ids = chosen.permutation(40)[:20]
+            gathered = numbering.Gathered()
+            for part in np.array_split(ids, 3):
+                gathered.add(numbering.Batch(part, part[:, np.newaxis].astype(np.float64), Where()))
+            numbered = gathered.settle(1)
+            asked = np.arange(-1, 41)
+            expected = [ids.tolist().index(number) if number in ids else -1 for number in asked.tolist()]
+            assert numbered.indices(asked).tolist() == expected
+            for step in (1, 3):
+                wanted = [i for i, number in enumerate(ids.tolist()) if number in range(5, 30, step)]
+                assert numbered.between(5, 29, step).tolist() == wanted

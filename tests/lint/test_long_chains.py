@@ -1,0 +1,56 @@
+"""Chains of definitions, each of which needs the next: their length is no depth of the interpreter's stack."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+import mudline
+from tests.growth import TWOFOLD, call_growth
+
+MODEL = "$MODEL\n*NODE\n 1, 0.0, 0.0\n 2, 0.0, 1.0\n*ELEMENT\n 1, 1, 2\n"
+SHORT, LONG = 1500, 3000
+
+
+def sets(count: int, step: int) -> str:
+    """Sets of which each has the one `step` further as its part; the last has an element."""
+    order = range(count) if step > 0 else range(count, 0, -1)
+    links = "".join(f" SET=S{i}\n SUBSET=S{i + step}\n" for i in order)
+    return f"{MODEL}*ELEMENT SETS\n{links} SET=S{count if step > 0 else 0}\n 1\n"
+
+
+def parameters(count: int, step: int) -> str:
+    """Parameters of which each is defined by the one `step` further."""
+    order = range(count) if step > 0 else range(count, 0, -1)
+    links = "".join(f" p{i}, =[p{i + step} + 1]\n" for i in order)
+    return f"$PREPROCESSOR\n*PARAMETERS\n{links} p{count if step > 0 else 0}, 1.0\n{MODEL}"
+
+
+def closed(text: str, count: int) -> str:
+    """A chain whose last link leads back to its first."""
+    return text.replace(f" SET=S{count}\n 1\n", f" SET=S{count}\n SUBSET=S0\n").replace(
+        f"p{count}, 1.0", f"p{count}, =[p0]"
+    )
+
+
+def codes(text: str, folder: Path) -> list[str]:
+    path = folder / "deck.keyxm"
+    path.write_text(text, encoding="utf-8")
+    return [found.code for found in mudline.lint(path)]
+
+
+@pytest.mark.parametrize("chain", [sets, parameters])
+@pytest.mark.parametrize("step", [1, -1])
+def test_work_is_as_long_as_the_chain(chain: Callable[[int, int], str], step: int, tmp_path: Path) -> None:
+    paths = [tmp_path / f"{count}.keyxm" for count in (SHORT, LONG)]
+    for path in paths:
+        path.write_text(chain(int(path.stem), step), encoding="utf-8")
+        assert not [found for found in mudline.lint(path) if found.code.startswith("REF")]
+    assert call_growth(lambda path: list(mudline.lint(path)), *paths) < TWOFOLD
+
+
+@pytest.mark.parametrize(("chain", "code"), [(sets, "REF008"), (parameters, "REF014")])
+def test_a_chain_without_an_end_is_told_once(chain: Callable[[int, int], str], code: str, tmp_path: Path) -> None:
+    assert codes(closed(chain(LONG, 1), LONG), tmp_path).count(code) == 1

@@ -1,0 +1,135 @@
+"""Patterns of paths: what they fit, as git and pathspec say, and what matching costs."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+from pathspec import GitIgnoreSpec
+
+from mudline.patterns import matches, read_pattern
+from tests.growth import TWOFOLD, call_growth
+
+PIECES = ["a", "b", "*", "*", "?", "**", "/", "/", "[ab]", "[a-c]", "[]a]", r"\a", r"\*", "ab", ".x", " ", "!", "#"]
+PAIRS = 5000
+
+
+@pytest.mark.parametrize(
+    ("path", "pattern", "expected"),
+    [
+        ("a/b/x.das", "*.das", True),
+        ("a/b/x.das", "b", True),
+        ("a/b/x.das", "b/", True),
+        ("a/b", "b/", False),
+        ("a/b/x.das", "/b", False),
+        ("a/b/x.das", "/a", True),
+        ("ab", "/a", False),
+        ("a/b/x.das", "a/*.das", False),
+        ("a/b/x.das", "a/**/*.das", True),
+        ("a/x.das", "a/**/*.das", True),
+        ("a/b/c/x", "a/**/**/x", True),
+        ("a/b/x.das", "a/**", True),
+        ("a", "a/**", False),
+        ("a", "/**", True),
+        ("a/b", "**/b", True),
+        ("a/b/x.das", "?.das", True),
+        ("rev-7.das", "rev-[0-9].das", True),
+        ("rev-x.das", "rev-[!0-9].das", True),
+        ("rev-7.das", "rev-[^0-9].das", False),
+        ("rev-].das", "rev-[]x].das", True),
+        ("rev--.das", "rev-[a-].das", True),
+        (r"rev-].das", r"rev-[\]].das", True),
+        ("rev-7.das", "rev-[[:digit:]x].das", True),
+        ("rev-7.das", "rev-[[:letter:]].das", False),
+        ("rev-[7.das", "rev-[7.das", False),
+        (":.das", "[[:].das", True),
+        ("a/b", "a[!x]b", False),
+        ("a/b", "a?b", False),
+        ("*.das", r"\*.das", True),
+        ("x.das", r"\*.das", False),
+        ("x\\", "x\\", False),
+        ("#x", "#x", False),
+        ("#x", r"\#x", True),
+        ("!x", r"\!x", True),
+        ("x", "!x", False),
+        ("x ", "x ", False),
+        ("x ", r"x\ ", True),
+        ("x\\", r"x\\ ", True),
+        ("x", "x\r\n", True),
+        ("x", "", False),
+        ("x", "/", False),
+    ],
+)
+def test_what_a_pattern_fits(path: str, pattern: str, *, expected: bool) -> None:
+    assert matches(path, [pattern]) is expected
+
+
+@pytest.mark.parametrize(
+    ("name", "inside", "outside"),
+    [
+        ("alnum", "a7", "-"),
+        ("alpha", "a", "7"),
+        ("blank", " \t", "a"),
+        ("cntrl", "\x01\x7f", "a"),
+        ("digit", "7", "a"),
+        ("graph", "a!", " "),
+        ("lower", "a", "A"),
+        ("print", "a ", "\x01"),
+        ("punct", "!]", "a"),
+        ("space", " \t", "a"),
+        ("upper", "A", "a"),
+        ("xdigit", "aF7", "g"),
+    ],
+)
+def test_named_classes(name: str, inside: str, outside: str) -> None:
+    assert all(matches(f"x{char}y", [f"x[[:{name}:]]y"]) for char in inside)
+    assert not any(matches(f"x{char}y", [f"x[[:{name}:]]y"]) for char in outside)
+
+
+def test_the_last_pattern_that_fits_counts() -> None:
+    assert matches("a/old.das", ["*.das", "!new.das"])
+    assert not matches("a/new.das", ["*.das", "!new.das"])
+    assert matches("a/new.das", ["!new.das", "*.das"])
+    assert matches("a/new.das", ["a/", "!new.das"])
+
+
+def test_folders_are_told_from_files() -> None:
+    pattern = read_pattern("b/")
+    assert pattern is not None
+    assert pattern.fits("a/b", folder=True)
+    assert not pattern.fits("a/b", folder=False)
+    assert not pattern.fits("a/b/c", folder=True)
+
+
+def test_pathspec_says_the_same() -> None:
+    """It lets `[!a]` take a "/", and drops a first `./`, where git does neither: such pairs are not made."""
+    chosen = random.Random(1)  # noqa: S311 - the same pairs each time
+    fitted = 0
+    for _ in range(PAIRS):
+        pattern = "".join(chosen.choices(PIECES, k=chosen.randint(1, 7)))
+        path = "/".join(
+            "".join(chosen.choices("aabbcx* ", k=chosen.randint(1, 3))) for _ in range(chosen.randint(1, 4))
+        )
+        try:
+            expected = GitIgnoreSpec.from_lines([pattern]).match_file(path)
+        except ValueError:  # a backslash at the end, or nothing behind "!": these fit nothing
+            expected = False
+        assert matches(path, [pattern]) == expected, (pattern, path)
+        fitted += expected
+    assert fitted > PAIRS // 50
+
+
+@pytest.mark.parametrize(
+    "pattern",
+    ["*a*a*a*a*a*a*b", "**/a/**/a/**/a/**/b", "a*/*a*/*a*/**/b", "?" * 40 + "*b", "[a-z]*[a-z]*[a-z]*b"],
+)
+def test_many_stars_cost_no_more_than_the_path_is_long(pattern: str) -> None:
+    paths = [f"{'a' * count}/a{'/a' * count}b" for count in (2000, 4000)]
+    for given in (paths, [f"{path}b" for path in paths]):
+        assert call_growth(lambda path: matches(path, [pattern]), *given) < TWOFOLD
+    assert not matches("a" * 5000, [pattern])
+
+
+def test_a_long_pattern_is_no_harm() -> None:
+    assert not matches("a" * 2000, ["*a" * 2000 + "*b"])
+    assert matches("a" * 2000, ["*a" * 1500])
