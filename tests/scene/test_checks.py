@@ -7,7 +7,7 @@ import pkgutil
 import pytest
 
 import mudline.scene.checks as checks_package
-from mudline.diagnostics import Blocks, DeckError
+from mudline.diagnostics import Blocks, DeckError, Severity
 from mudline.scene.checks.running import MODULES, all_checks
 from tests.scene.decks import PIPE, STEEL, scene_of
 
@@ -51,6 +51,15 @@ def test_an_element_that_ends_at_a_word_is_refused_at_the_word() -> None:
     scene = scene_of(PIPE + " 20, 1, End\n" + LINEAR)
     assert [(one.code.code, one.blocking) for one in scene.findings] == [("SYN016", Blocks.ALWAYS)]
     with pytest.raises(DeckError, match="SYN016"):
+        scene.contact()
+
+
+def test_a_wall_that_locks_itself_is_refused_though_a_deck_before_may_give_another_friction() -> None:
+    trench = " FRICTION=0.3, 0.6\n*SEABED TRENCH\n SET=ALL\n GEOMETRY=5.0, 1.0, 3.0\n MODEL=WALL\n"
+    scene = scene_of(PIPE + STEEL + LINEAR + trench + "$LOAD CASE\n*RESTART\n LAST=static\n")
+    (found,) = scene.problems
+    assert (found.code.code, found.weight, found.blocking) == ("EXT003", Severity.WARNING, Blocks.ALWAYS)
+    with pytest.raises(DeckError, match="EXT003"):
         scene.contact()
 
 

@@ -23,7 +23,7 @@ _KEYWORD = "SEABED TRENCH"
 _SIZES = ("depth", "bottom_width", "upper_width")
 _LEAST_ROWS = 2
 _LOCKED = "mu2 tan(theta) must be below 1, else the wall of the trench locks itself"
-_HIDDEN = "; the friction of elements that this deck does not show may hold them"
+_HIDDEN = "; sets or lines that this deck does not show may give them another friction"
 
 
 @check(EXT003)
@@ -76,15 +76,18 @@ def bad_trench(scene: Scene) -> Iterator[Problem]:
                 f"{found.size} elements (first: {scene.element_ids[found[0]]}) have a trench and no lateral friction "
                 "spring: give *SEABED FRICTION for them"
             )
-            place = where._replace(path=(*where.path, "set"))
-            if _uncertain(scene):
-                yield Problem(EXT003, message + _HIDDEN, None, Severity.WARNING, place, blocks=Blocks.ALWAYS)
-            else:
-                yield Problem(EXT003, message, where=place)
+            yield _of_friction(scene, message, where._replace(path=(*where.path, "set")))
         held = np.flatnonzero((extension.of_element == index) & locked)
         if held.size:
             message = f"{_LOCKED}: {held.size} elements (first: {scene.element_ids[held[0]]})"
-            yield Problem(EXT003, message, where=where._replace(path=(*where.path, "geometry")))
+            yield _of_friction(scene, message, where._replace(path=(*where.path, "geometry")))
+
+
+def _of_friction(scene: Scene, message: str, where: Where) -> Problem:
+    """What is wrong with the friction of elements, which may have another one than this deck shows."""
+    if _uncertain(scene):
+        return Problem(EXT003, message + _HIDDEN, None, Severity.WARNING, where, blocks=Blocks.ALWAYS)
+    return Problem(EXT003, message, where=where)
 
 
 def _entries(scene: Scene) -> list[TrenchSet]:
@@ -134,7 +137,7 @@ def _without_spring(scene: Scene) -> tuple[Mask, Mask]:
 
     friction = friction_of(scene)
     bare: Mask = (extension.of_element >= 0) & ~_sprung(scene, friction)
-    return bare, nothing if _uncertain(scene) else _self_locking(scene, friction)
+    return bare, _self_locking(scene, friction)
 
 
 def _unread(scene: Scene) -> bool:
