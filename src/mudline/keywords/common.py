@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar
 
-from mudline.keywords.model import Block, Row, about, rows
+from mudline.keywords.model import Block, Row, Successor, about, rows
 from mudline.keywords.table import Table
 from mudline.keywords.values import Real
 
-CHARACTERISTIC_LENGTH = "10 ft or 3.048 m"
 CONSTANT_FRICTION = (
     "no meaning: the manual names the field and says neither what it does nor its unit, so the value is kept and no "
     "friction is computed from it"
@@ -17,6 +16,7 @@ SUCTION_STIFFNESS = (
     "the unit, which the manual does not give: that of the linear stiffness, a force per unit length for each length "
     "that the pipe rises"
 )
+_CHARACTERISTIC_LENGTH = "10 ft or 3.048 m"
 _PER_LENGTH = "the force is per unit length, as is the linear stiffness that the curve stands in for"
 _SLOPE = "a line of one value is a slope, one of two a point of the profile: nothing else tells them apart"
 NO_SET = (
@@ -28,6 +28,8 @@ POINTS = "points of the curve in any order; at least two"
 
 class CurvePoint(Row):
     """A point of a force-embedment curve."""
+
+    unordered: ClassVar[bool] = True
 
     ratio: Annotated[Real, about("embedment ratio: mean depth of the element's nodes over external diameter", unit="-")]
     force: Annotated[
@@ -43,12 +45,45 @@ class CurvePoint(Row):
 class ProfilePoint(Row):
     """A point of an inline profile."""
 
+    unordered: ClassVar[bool] = True
+
     y: Annotated[Real, about("horizontal coordinate Y", unit="L")]
     elevation: Annotated[Real, about("elevation of the bed there", unit="L")]
 
 
+class FrictionCoefficients(Row):
+    """Friction coefficients of a legacy surface."""
+
+    longitudinal: Annotated[
+        Real | None, about("longitudinal friction coefficient", unit="-", default="0", at_least=0)
+    ] = None
+    transverse: Annotated[Real | None, about("transverse friction coefficient", unit="-", default="0", at_least=0)] = (
+        None
+    )
+
+
+class FrictionLengths(Row):
+    """What else a legacy surface says of friction."""
+
+    longitudinal_length: Annotated[
+        Real | None,
+        about("largest longitudinal characteristic length", unit="L", default=_CHARACTERISTIC_LENGTH, above=0),
+    ] = None
+    transverse_length: Annotated[
+        Real | None,
+        about("largest transverse characteristic length", unit="L", default=_CHARACTERISTIC_LENGTH, above=0),
+    ] = None
+    constant: Annotated[Real | None, about("constant friction force coefficient", inferred=CONSTANT_FRICTION)] = None
+    longitudinal_mobilisation: Annotated[Real | None, about("longitudinal mobilisation length", unit="L", above=0)] = (
+        None
+    )
+    transverse_mobilisation: Annotated[Real | None, about("transverse mobilisation length", unit="L", above=0)] = None
+
+
 class Surface(Block):
     """A legacy surface: a line of properties, then a slope or a profile."""
+
+    superseded_by: ClassVar[tuple[Successor, ...]] = (Successor("SEABED PROPERTIES"), Successor("SEABED PROFILE"))
 
     properties: Annotated[Row, about("properties of the surface")]
     slope: Annotated[

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 from functools import cache
 from types import NoneType, UnionType
@@ -22,6 +22,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import CoreSchema, core_schema
 
 from mudline.diagnostics import Code
+from mudline.keywords.kept import Names
 from mudline.keywords.listing import AS_TABLES, Listing, read_table
 from mudline.keywords.lists import checked_by_parts
 from mudline.keywords.table import LARGEST_WHOLE, Cell, Column, Table
@@ -29,10 +30,15 @@ from mudline.keywords.values import Count, Equation, Kind, Label, Text
 
 _MOST_KEYS = 100
 
+Defined = Literal["nodes", "elements", "sets", "curves", "parameters"]
+
 
 @dataclass(frozen=True, slots=True)
 class About:
-    """What a field means. Units in F (force), L, M, T, deg; "-" is dimensionless. `inferred` names our deduction."""
+    """What a field means. Units in F (force), L, M, T, deg; "-" is dimensionless. `inferred` names our deduction.
+
+    `names` says what a text in the field is the name of: that it exists is then checked.
+    """
 
     meaning: str
     unit: str = ""
@@ -41,6 +47,7 @@ class About:
     above: float | None = None
     at_most: float | None = None
     inferred: str = ""
+    names: Names | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,7 +151,12 @@ class Part(BaseModel):
 
 
 class Row(Part):
-    """A line of positional fields, or the values behind a KEY=."""
+    """A line of positional fields, or the values behind a KEY=.
+
+    `unordered` says of a row of a table that the order of the rows has no meaning.
+    """
+
+    unordered: ClassVar[bool] = False
 
 
 class ListRow(Row):
@@ -193,17 +205,49 @@ class Record(Part):
         return layout(cls).row_names[0]
 
 
+@dataclass(frozen=True, slots=True)
+class Successor:
+    """A keyword that supersedes another one; with `key`, by that setting."""
+
+    keyword: str
+    key: str = ""
+
+    def __str__(self) -> str:
+        return f"{self.key}= of *{self.keyword}" if self.key else f"*{self.keyword}"
+
+
 class Block(Record):
     """A keyword with its data. The class variables are its declaration.
 
-    `sections` are those where it belongs; `tabular` keeps runs of numeric lines whole, as arrays; `slashes` says that
-    /.../ is one field; `example` is a block that reads without a finding. `unpublished` are the codes of faults that
-    may be a form which is not public: a block in which one is found is kept as it is, without a finding. Where it
-    depends on more than the code, `other_form` says so.
+    How it is read: `sections` are those where it belongs, `passes_in` those where a keyword of this name passes
+    through; `tabular` keeps runs of numeric lines whole, as arrays; `slashes` says that /.../ is one field; `example`
+    is a block that reads without a finding. `unpublished` are the codes of faults that may be a form which is not
+    public: a block in which one is found is kept as it is, without a finding. Where it depends on more than the code,
+    `other_form` says so.
+
+    Which keyword it is: `superseded_by` newer ones, of which each `supersedes` older ones; an `extension` is mudline's
+    own; `plans_decks` says that its lines are about decks to be made, which do not have it.
+
+    What it does: `defines` is what its records define by number or name; `makes` are the keywords of what things
+    outside the deck, which its lines are about, may define. With `later_wins` an element follows the last record whose
+    SET= holds it, and that record as a whole. `carried` are the fields that a block has from the block before it, where
+    it does not give them. `seabed_type` is the type of seabed that a legacy surface is. `soil_springs` hold elements in
+    the soil.
     """
 
     names: ClassVar[tuple[str, ...]]
     sections: ClassVar[tuple[str, ...]] = ("MODEL",)
+    passes_in: ClassVar[tuple[str, ...]] = ()
+    superseded_by: ClassVar[tuple[Successor, ...]] = ()
+    supersedes: ClassVar[bool] = False
+    extension: ClassVar[bool] = False
+    plans_decks: ClassVar[bool] = False
+    defines: ClassVar[Defined | None] = None
+    makes: ClassVar[tuple[str, ...]] = ()
+    later_wins: ClassVar[bool] = False
+    carried: ClassVar[tuple[str, ...]] = ()
+    seabed_type: ClassVar[Literal["", "RIGID", "ELASTIC"]] = ""
+    soil_springs: ClassVar[bool] = False
     summary: ClassVar[str]
     tabular: ClassVar[bool] = False
     slashes: ClassVar[bool] = False
@@ -312,6 +356,42 @@ def layout(part: type[Part]) -> Layout:
         else:
             found.columns.append(slot)
     return found
+
+
+@cache
+def _naming(part: type[Part], what: Names) -> tuple[Slot, ...]:
+    """The fields that name a thing of a kind, and those with parts that have one."""
+    return tuple(slot for slot in layout(part).slots if slot.about.names is what or _leads_to(slot, what))
+
+
+def _leads_to(slot: Slot, what: Names) -> bool:
+    return any(_naming(part, what) for part in (slot.row, *slot.record.values()) if part)
+
+
+def names_given(part: Part, what: Names) -> Iterator[tuple[tuple[str | int, ...], str]]:
+    """The names of things of a kind that a part gives, with their paths; what is not a text is no name."""
+    for slot in _naming(type(part), what):
+        value = getattr(part, slot.name, None)
+        if isinstance(value, Part):
+            yield from (((slot.json, *path), name) for path, name in names_given(value, what))
+        elif isinstance(value, str) and not isinstance(value, Equation):
+            yield (slot.json,), value
+        elif isinstance(value, list):
+            for index, item in enumerate(value):
+                if isinstance(item, Part):
+                    yield from (((slot.json, index, *path), name) for path, name in names_given(item, what))
+
+
+@cache
+def set_slots(block: type[Block]) -> tuple[tuple[Slot, Slot], ...]:
+    """The lists of a block whose records go by element set, each with the field of these that names it."""
+    return tuple(
+        (slot, named)
+        for slot in layout(block).slots
+        for record in slot.record.values()
+        for named in layout(record).slots
+        if named.about.names is Names.SET
+    )
 
 
 def columns_of(slot: Slot) -> list[Column]:

@@ -6,6 +6,7 @@ from typing import Annotated, ClassVar
 
 from mudline.codes import SYN001, SYN004, SYN005
 from mudline.diagnostics import Code
+from mudline.keywords.kept import Names
 from mudline.keywords.model import Record, Row, about, rows, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Ident, Name, Real
@@ -18,6 +19,8 @@ POINTS = "points of the curve: resistance and displacement"
 
 class SoilPoint(Row):
     """A point of a curve: resistance first."""
+
+    unordered: ClassVar[bool] = True
 
     resistance: Annotated[
         Real, about("soil resistance; it comes first", unit="F/L", inferred="P is per unit length, as T is")
@@ -42,4 +45,4 @@ class NodeCurve(Record):
 
 
 SoilCurves = list[DepthCurve | NodeCurve]
-CurvesFile = Annotated[Name | None, setting("FILE", "file with the curves, instead of lines")]
+CurvesFile = Annotated[Name | None, setting("FILE", "file with the curves, instead of lines", names=Names.FILE)]

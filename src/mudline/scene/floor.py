@@ -18,6 +18,7 @@ from mudline.scene.deck_files import file_name, find_file
 from mudline.scene.given import number
 from mudline.scene.numbering import Floats
 from mudline.scene.profile_file import COMPILED, ProfileError, read_profile
+from mudline.scene.surfaces import surfaces
 
 if TYPE_CHECKING:
     from mudline.keywords.common import Surface
@@ -79,9 +80,8 @@ class Floor:
 def read_floor(context: Context) -> Floor:
     """The bed of a deck: the last `*SEABED PLANES`, else the last `*SEABED PROFILE`, else that of the surface."""
     found = Floor()
-    for keyword in ("RIGID SURFACE", "ELASTIC SURFACE"):
-        for where, block in context.deck.blocks(keyword):
-            found = _surface(cast("Surface", block), where, found)
+    for where, surface in surfaces(context.deck):
+        found = _surface(surface, where, found)
     for where, block in context.deck.blocks("SEABED PROFILE"):
         found = _profile(context, cast("SeabedProfile", block), where)
     planes = [

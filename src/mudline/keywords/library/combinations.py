@@ -47,6 +47,7 @@ class Combinations(Block):
 
     rule: ClassVar[str] = "combinations"
     names: ClassVar[tuple[str, ...]] = ("COMBINATIONS",)
+    plans_decks: ClassVar[bool] = True
     sections: ClassVar[tuple[str, ...]] = ("PREPROCESSOR",)
     summary: ClassVar[str] = "The decks that `mudline expand` makes from variations, and the names of their files."
     example: ClassVar[str] = (

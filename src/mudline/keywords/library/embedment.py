@@ -7,7 +7,8 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from mudline.keywords.common import NO_SET, POINTS, CurvePoint
-from mudline.keywords.model import Block, Record, rows, setting
+from mudline.keywords.kept import Names
+from mudline.keywords.model import Block, Defined, Record, Successor, rows, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Name
 
@@ -18,7 +19,7 @@ class EmbedmentCurve(Record):
     rule: ClassVar[str] = "embedment_curve"
     set_name: Annotated[
         Name | None,
-        setting("SET", "element set of the curve", default="ALL", inferred=NO_SET),
+        setting("SET", "element set of the curve", default="ALL", inferred=NO_SET, names=Names.SET),
     ] = Field(default=None, alias="set")
     points: Annotated[Table, rows(CurvePoint, POINTS)]
 
@@ -28,6 +29,11 @@ class Embedment(Block):
 
     rule: ClassVar[str] = "embedment"
     names: ClassVar[tuple[str, ...]] = ("EMBEDMENT",)
+    superseded_by: ClassVar[tuple[Successor, ...]] = (
+        Successor("SEABED STIFFNESS"),
+        Successor("SEABED PROPERTIES", "STIFFNESS"),
+    )
+    defines: ClassVar[Defined | None] = "curves"
     summary: ClassVar[str] = (
         "Force-embedment curves of an elastic seabed, by element set (superseded by *SEABED STIFFNESS)."
     )

@@ -45,6 +45,7 @@ class LinePathSections(Block):
 
     rule: ClassVar[str] = "line_path_sections"
     names: ClassVar[tuple[str, ...]] = ("LINE PATH SECTIONS",)
+    makes: ClassVar[tuple[str, ...]] = ("NODE", "ELEMENT", "ELEMENT SETS")
     summary: ClassVar[str] = "Sections of the lines of *LINE PATHS: element sets by distance along the line."
     example: ClassVar[str] = (
         "*LINE PATH SECTIONS\n"

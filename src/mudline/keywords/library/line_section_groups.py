@@ -50,6 +50,7 @@ class LineSectionGroups(Block):
 
     rule: ClassVar[str] = "line_section_groups"
     names: ClassVar[tuple[str, ...]] = ("LINE SECTION GROUPS",)
+    makes: ClassVar[tuple[str, ...]] = ("NODE", "ELEMENT", "ELEMENT SETS")
     summary: ClassVar[str] = "Groups of line sections, one behind the other, for the REPEAT= of *LINE PATH SECTIONS."
     example: ClassVar[str] = (
         "*LINE SECTION GROUPS\n"

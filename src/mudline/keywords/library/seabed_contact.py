@@ -6,6 +6,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
+from mudline.keywords.kept import Names
 from mudline.keywords.model import Block, Record, setting
 from mudline.keywords.values import Name, Real
 
@@ -14,7 +15,7 @@ class ContactSet(Record):
     """What one SET= gets, taken whole."""
 
     rule: ClassVar[str] = "contact_set"
-    set_name: Annotated[Name, setting("SET", "element set")] = Field(alias="set")
+    set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
     nodal_stiffness: Annotated[
         Real | None,
         setting(
@@ -46,6 +47,8 @@ class SeabedContact(Block):
 
     rule: ClassVar[str] = "seabed_contact"
     names: ClassVar[tuple[str, ...]] = ("SEABED CONTACT",)
+    extension: ClassVar[bool] = True
+    later_wins: ClassVar[bool] = True
     summary: ClassVar[str] = "Nodal normal stiffness, and smoothing of linear contact laws, by element set (extension)."
     example: ClassVar[str] = "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=50000.0\n SMOOTHING=0.005\n FORM=CENTRED\n"
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated, ClassVar, Literal
 
 from mudline.keywords.common import POINTS, CurvePoint
-from mudline.keywords.model import Block, Record, rows, setting
+from mudline.keywords.model import Block, Defined, Record, rows, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Name
 
@@ -23,6 +23,8 @@ class SeabedStiffness(Block):
 
     rule: ClassVar[str] = "seabed_stiffness"
     names: ClassVar[tuple[str, ...]] = ("SEABED STIFFNESS",)
+    supersedes: ClassVar[bool] = True
+    defines: ClassVar[Defined | None] = "curves"
     summary: ClassVar[str] = "Force-embedment curves of an elastic seabed, by name."
     tabular: ClassVar[bool] = True
     example: ClassVar[str] = "*SEABED STIFFNESS\n CURVE=clay\n 0.0, 0.0\n 0.1, 1200.0\n 0.5, 10000.0\n"

@@ -7,6 +7,7 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from mudline.diagnostics import Code
+from mudline.keywords.kept import Names
 from mudline.keywords.model import Block, Record, setting
 from mudline.keywords.soil import OTHER_FORMS, CurvesFile, SoilCurves
 from mudline.keywords.values import Name
@@ -16,7 +17,7 @@ class AxialSprings(Record):
     """The curves of a set."""
 
     rule: ClassVar[str] = "axial_springs"
-    set_name: Annotated[Name | None, setting("SET", "element set that the curves hold for")] = Field(
+    set_name: Annotated[Name | None, setting("SET", "element set that the curves hold for", names=Names.SET)] = Field(
         default=None, alias="set"
     )
     file: CurvesFile = None
@@ -31,6 +32,7 @@ class AxialSoil(Block):
     summary: ClassVar[str] = (
         "Axial soil springs by set and depth: points of resistance T and displacement z, resistance first."
     )
+    soil_springs: ClassVar[bool] = True
     tabular: ClassVar[bool] = True
     unpublished: ClassVar[tuple[Code, ...]] = OTHER_FORMS
     example: ClassVar[str] = (

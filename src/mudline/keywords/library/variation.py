@@ -6,6 +6,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import model_validator
 
+from mudline.keywords.kept import Names
 from mudline.keywords.model import Block, ListRow, Record, about, setting
 from mudline.keywords.values import Name, Real
 
@@ -65,6 +66,7 @@ class VariedBlock(Record):
             inline=True,
             behind="ACTION",
             inferred="beside the deck; with or without the *KEYWORD line; without FILE= that line alone is added",
+            names=Names.FILE,
         ),
     ] = None
     section: Annotated[
@@ -87,6 +89,7 @@ class Variation(Block):
 
     rule: ClassVar[str] = "variation"
     names: ClassVar[tuple[str, ...]] = ("VARIATION",)
+    plans_decks: ClassVar[bool] = True
     sections: ClassVar[tuple[str, ...]] = ("PREPROCESSOR",)
     summary: ClassVar[str] = "What varies from deck to deck: values of parameters, blocks that come and go."
     example: ClassVar[str] = (

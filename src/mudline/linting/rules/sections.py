@@ -11,6 +11,7 @@ import numpy as np
 from mudline.contact.input import LawKind
 from mudline.deck.model import Deck
 from mudline.diagnostics import Code, Problem, Severity, Where
+from mudline.keywords.catalogue import ZERO_LENGTH
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
 from mudline.scene.context import MOST_TOLD
@@ -36,8 +37,6 @@ _CURVES = {
 }
 """Which numbers of the property line a curve stands in for; the setting that names the curve."""
 _NAMES = {"eiyy": "EIyy", "eizz": "EIzz", "gj": "GJ", "ea": "EA", "e": "E"}
-_POINT_ELEMENTS = ("FLEX JOINTS", "HINGE", "SPRING ELEMENT", "DAMPER")
-"""Keywords whose elements may have no length."""
 
 
 def _sections(deck: Deck) -> Iterator[tuple[Where, GeometricSet]]:
@@ -234,7 +233,7 @@ def zero_length_element(context: LintContext) -> Iterator[Problem]:
     known = np.flatnonzero((scene.element_nodes >= 0).all(axis=1))
     first, second = scene.element_nodes[known].T
     same = known[(scene.coordinates[first] == scene.coordinates[second]).all(axis=1)]
-    joints = scene.deck.keywords().intersection(_POINT_ELEMENTS)
+    joints = scene.deck.keywords().intersection(ZERO_LENGTH)
     hint = f", or keep it if *{min(joints)} makes it one without length" if joints else ""
     told: set[Where] = set()
     for index in same[:MOST_TOLD].tolist():

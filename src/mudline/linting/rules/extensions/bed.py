@@ -12,7 +12,7 @@ from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
 from mudline.scene.context import MOST_TOLD
-from mudline.scene.extensions import BY_SET
+from mudline.scene.surfaces import surfaces
 
 if TYPE_CHECKING:
     from mudline.keywords.library.seabed_planes import PlaneBounds, SeabedPlanes
@@ -61,13 +61,12 @@ def extension_needs_elastic(context: LintContext) -> Iterator[Problem]:
         return
     supplier = "" if "RIGID" in types else reading.supplier("ELASTIC SURFACE")
     what = "the seabed is rigid" if "RIGID" in types else "the model has none"
-    for keyword in (*BY_SET, "SEABED PLANES"):
-        for where, _ in scene.deck.blocks(keyword):
-            message = f"*{keyword} needs an elastic seabed, and {what}: write *SEABED PROPERTIES with TYPE=ELASTIC"
-            if supplier:
-                yield Problem(EXT001, f"{message}; {supplier}", None, Severity.WARNING, where)
-            else:
-                yield Problem(EXT001, message, where=where)
+    for where, block in scene.deck.blocks_that(lambda declared: declared.extension):
+        message = f"*{block.keyword} needs an elastic seabed, and {what}: write *SEABED PROPERTIES with TYPE=ELASTIC"
+        if supplier:
+            yield Problem(EXT001, f"{message}; {supplier}", None, Severity.WARNING, where)
+        else:
+            yield Problem(EXT001, message, where=where)
 
 
 @rule(EXT002)
@@ -107,10 +106,9 @@ def floor_conflict(context: LintContext) -> Iterator[Problem]:
     deck = context.scene.deck
     planes = [where for where, _ in deck.blocks("SEABED PLANES")]
     others = [where for where, _ in deck.blocks("SEABED PROFILE")]
-    for keyword in ("RIGID SURFACE", "ELASTIC SURFACE"):
-        for where, block in deck.blocks(keyword):
-            if getattr(block, "slope", None) is not None or getattr(block, "profile", None) is not None:
-                others.append(where)
+    for where, surface in surfaces(deck):
+        if surface.slope is not None or surface.profile is not None:
+            others.append(where)
     if planes and others:
         places = [place for place in (planes[0], min(others)) if place.section < len(deck.own_sections)]
         message = "the bed is given by *SEABED PLANES and by a profile or slope too: remove one of them"

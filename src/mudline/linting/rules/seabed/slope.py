@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
+from mudline.scene.surfaces import surfaces
 
 SBD011 = Code("SBD011", "profile-needs-elastic", Severity.ERROR)
 SBD012 = Code("SBD012", "steep-slope", Severity.ERROR)
@@ -102,8 +103,8 @@ def steep_slope(context: LintContext) -> Iterator[Problem]:
 
 
 def _slopes(context: LintContext) -> Iterator[tuple[Where, float]]:
-    for keyword in ("RIGID SURFACE", "ELASTIC SURFACE", "SEABED PROFILE"):
-        for where, block in context.scene.deck.blocks(keyword):
-            slope = getattr(block, "slope", None)
-            if isinstance(slope, float | int):
-                yield where._replace(path=("slope",)), float(slope)
+    deck = context.scene.deck
+    for where, block in (*surfaces(deck), *deck.blocks("SEABED PROFILE")):
+        slope = getattr(block, "slope", None)
+        if isinstance(slope, float | int):
+            yield where._replace(path=("slope",)), float(slope)
