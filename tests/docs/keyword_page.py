@@ -67,9 +67,6 @@ _COMPUTED = {
 }
 """Where the page on the evaluator says what a keyword does."""
 
-_OWN = "(extension)"
-"""How the summary of a keyword says that the language does not have it elsewhere."""
-
 
 def keyword_pages() -> dict[str, str]:
     """The text of every page by its path in the repository."""
@@ -151,8 +148,7 @@ def _rules(declared: Declared) -> str:
 
 
 def _certain(block: type[Block]) -> str:
-    own = _OWN in block.summary
-    says = "This keyword is mudline's own: the page defines it" if own else "What this page says is certain"
+    says = "This keyword is mudline's own: the page defines it" if block.extension else "What this page says is certain"
     if found := inferences(block):
         return "\n".join([f"{says}, but for what is inferred:", "", *(f"* {each}" for each in found)])
     return f"{says}. Nothing is inferred."
