@@ -53,20 +53,6 @@ _CERTAIN = """## Certain and inferred
 {text}
 """
 
-_COMPUTED = {
-    "SEABED PROFILE": "shapes-of-the-seabed",
-    "SEABED PLANES": "shapes-of-the-seabed",
-    "SEABED STIFFNESS": "normal-laws",
-    "EMBEDMENT": "normal-laws",
-    "SEABED PROPERTIES": "normal-laws",
-    "SEABED CONTACT": "smoothing",
-    "SEABED UNLOADING": "unloading",
-    "SEABED SUCTION": "suction",
-    "SEABED FRICTION": "friction",
-    "SEABED TRENCH": "trenches",
-}
-"""Where the page on the evaluator says what a keyword does."""
-
 
 def keyword_pages() -> dict[str, str]:
     """The text of every page by its path in the repository."""
@@ -116,8 +102,8 @@ def _of_model(block: type[Block]) -> Iterator[str]:
     for caption, table in tables(block):
         yield "\n".join([*([caption, ""] if caption else []), *table, ""])
     yield _EXAMPLE.format(example=block.example.rstrip("\n"))
-    if place := _COMPUTED.get(block.names[0]):
-        yield f"What is computed from it: [the contact evaluator](../contact.md#{place}).\n"
+    if block.computed_in:
+        yield f"What is computed from it: [the contact evaluator](../contact.md#{block.computed_in}).\n"
     yield _rules(block)
     yield _CERTAIN.format(text=_certain(block))
 

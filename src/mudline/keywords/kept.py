@@ -14,6 +14,7 @@ class Names(Enum):
     SETS = "one or more element sets"
     CURVE = "a force-embedment curve"
     FILE = "a file"
+    DECK = "the deck before"
 
 
 LINE_SETS: Mapping[str, Names] = {

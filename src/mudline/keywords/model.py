@@ -232,7 +232,7 @@ class Block(Record):
     outside the deck, which its lines are about, may define. With `later_wins` an element follows the last record whose
     SET= holds it, and that record as a whole. `carried` are the fields that a block has from the block before it, where
     it does not give them. `seabed_type` is the type of seabed that a legacy surface is. `soil_springs` hold elements in
-    the soil.
+    the soil. What is computed from it is said under the heading `computed_in` of the page on the contact evaluator.
     """
 
     names: ClassVar[tuple[str, ...]]
@@ -248,6 +248,7 @@ class Block(Record):
     carried: ClassVar[tuple[str, ...]] = ()
     seabed_type: ClassVar[Literal["", "RIGID", "ELASTIC"]] = ""
     soil_springs: ClassVar[bool] = False
+    computed_in: ClassVar[str] = ""
     summary: ClassVar[str]
     tabular: ClassVar[bool] = False
     slashes: ClassVar[bool] = False

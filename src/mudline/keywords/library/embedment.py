@@ -34,6 +34,7 @@ class Embedment(Block):
         Successor("SEABED PROPERTIES", "STIFFNESS"),
     )
     defines: ClassVar[Defined | None] = "curves"
+    computed_in: ClassVar[str] = "normal-laws"
     summary: ClassVar[str] = (
         "Force-embedment curves of an elastic seabed, by element set (superseded by *SEABED STIFFNESS)."
     )

@@ -49,6 +49,7 @@ class SeabedContact(Block):
     names: ClassVar[tuple[str, ...]] = ("SEABED CONTACT",)
     extension: ClassVar[bool] = True
     later_wins: ClassVar[bool] = True
+    computed_in: ClassVar[str] = "smoothing"
     summary: ClassVar[str] = "Nodal normal stiffness, and smoothing of linear contact laws, by element set (extension)."
     example: ClassVar[str] = "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=50000.0\n SMOOTHING=0.005\n FORM=CENTRED\n"
 

@@ -56,6 +56,7 @@ class SeabedFriction(Block):
     names: ClassVar[tuple[str, ...]] = ("SEABED FRICTION",)
     extension: ClassVar[bool] = True
     later_wins: ClassVar[bool] = True
+    computed_in: ClassVar[str] = "friction"
     summary: ClassVar[str] = "Friction in two directions with constant tangential springs, by element set (extension)."
     example: ClassVar[str] = (
         "*SEABED FRICTION\n SET=ALL\n COEFFICIENTS=0.3, 0.6\n STIFFNESS=20000.0, 40000.0\n DIRECTIONS=AXIAL\n"

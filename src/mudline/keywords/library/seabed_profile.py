@@ -22,6 +22,7 @@ class SeabedProfile(Block):
     rule: ClassVar[str] = "seabed_profile"
     names: ClassVar[tuple[str, ...]] = ("SEABED PROFILE",)
     supersedes: ClassVar[bool] = True
+    computed_in: ClassVar[str] = "shapes-of-the-seabed"
     summary: ClassVar[str] = "A bed that is not flat: a uniform slope, or a profile from a file; without it X = 0."
     example: ClassVar[str] = "*SEABED PROFILE\n TYPE=SLOPING\n DIRECTION=30.0\n SLOPE=2.5\n"
 

@@ -88,6 +88,7 @@ class SeabedProperties(Block):
     supersedes: ClassVar[bool] = True
     later_wins: ClassVar[bool] = True
     carried: ClassVar[tuple[str, ...]] = ("type_",)
+    computed_in: ClassVar[str] = "normal-laws"
     summary: ClassVar[str] = (
         "Rigid or elastic seabed; stiffness, friction, lateral resistance and suction by element set."
     )

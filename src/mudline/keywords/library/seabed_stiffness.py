@@ -25,6 +25,7 @@ class SeabedStiffness(Block):
     names: ClassVar[tuple[str, ...]] = ("SEABED STIFFNESS",)
     supersedes: ClassVar[bool] = True
     defines: ClassVar[Defined | None] = "curves"
+    computed_in: ClassVar[str] = "normal-laws"
     summary: ClassVar[str] = "Force-embedment curves of an elastic seabed, by name."
     tabular: ClassVar[bool] = True
     example: ClassVar[str] = "*SEABED STIFFNESS\n CURVE=clay\n 0.0, 0.0\n 0.1, 1200.0\n 0.5, 10000.0\n"

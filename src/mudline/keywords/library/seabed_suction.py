@@ -91,6 +91,7 @@ class SeabedSuction(Block):
     names: ClassVar[tuple[str, ...]] = ("SEABED SUCTION",)
     extension: ClassVar[bool] = True
     later_wins: ClassVar[bool] = True
+    computed_in: ClassVar[str] = "suction"
     summary: ClassVar[str] = "Resistance of the seabed to uplift, with mobilisation, plateau and breakout (extension)."
     example: ClassVar[str] = "*SEABED SUCTION\n SET=ALL\n COHESION=5000.0\n CUTOFF=0.2, 0.8\n"
 

@@ -93,6 +93,7 @@ class SeabedTrench(Block):
     extension: ClassVar[bool] = True
     later_wins: ClassVar[bool] = True
     tabular: ClassVar[bool] = True
+    computed_in: ClassVar[str] = "trenches"
     summary: ClassVar[str] = "Lateral resistance of the walls of a trench, by element set (extension)."
     example: ClassVar[str] = "*SEABED TRENCH\n SET=ALL\n GEOMETRY=0.5, 1.0, 3.0\n PEAK=2000.0\n CENTRELINE=LAID\n"
 

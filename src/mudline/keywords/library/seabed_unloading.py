@@ -29,6 +29,7 @@ class SeabedUnloading(Block):
     names: ClassVar[tuple[str, ...]] = ("SEABED UNLOADING",)
     extension: ClassVar[bool] = True
     later_wins: ClassVar[bool] = True
+    computed_in: ClassVar[str] = "unloading"
     summary: ClassVar[str] = (
         "The full cycle of penetration, unloading and re-penetration: stiffness on reversal (extension)."
     )
