@@ -8,7 +8,7 @@ from mudline.deck.model import Deck
 from mudline.diagnostics import Where
 
 if TYPE_CHECKING:
-    from mudline.keywords.common import Surface
+    from mudline.keywords.surface import Surface
 
 
 def surfaces(deck: Deck) -> list[tuple[Where, Surface]]:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Literal
 
-from mudline.keywords.common import SUCTION_STIFFNESS, FrictionCoefficients, FrictionLengths, Surface
+from mudline.keywords.common import SUCTION_STIFFNESS
 from mudline.keywords.model import Row, about
+from mudline.keywords.surface import FrictionCoefficients, FrictionLengths, Surface
 from mudline.keywords.values import Real
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Literal
 
-from mudline.keywords.common import FrictionCoefficients, FrictionLengths, Surface
 from mudline.keywords.model import about
+from mudline.keywords.surface import FrictionCoefficients, FrictionLengths, Surface
 
 
 class RigidProperties(FrictionLengths, FrictionCoefficients):
