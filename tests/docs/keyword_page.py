@@ -102,8 +102,8 @@ def _of_model(block: type[Block]) -> Iterator[str]:
     for caption, table in tables(block):
         yield "\n".join([*([caption, ""] if caption else []), *table, ""])
     yield _EXAMPLE.format(example=block.example.rstrip("\n"))
-    if block.computed_in:
-        yield f"What is computed from it: [the contact evaluator](../contact.md#{block.computed_in}).\n"
+    if block.facts.computed_in:
+        yield f"What is computed from it: [the contact evaluator](../contact.md#{block.facts.computed_in}).\n"
     yield _rules(block)
     yield _CERTAIN.format(text=_certain(block))
 
@@ -134,7 +134,11 @@ def _rules(declared: Declared) -> str:
 
 
 def _certain(block: type[Block]) -> str:
-    says = "This keyword is mudline's own: the page defines it" if block.extension else "What this page says is certain"
+    says = (
+        "This keyword is mudline's own: the page defines it"
+        if block.facts.extension
+        else "What this page says is certain"
+    )
     if found := inferences(block):
         return "\n".join([f"{says}, but for what is inferred:", "", *(f"* {each}" for each in found)])
     return f"{says}. Nothing is inferred."

@@ -30,6 +30,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
+from mudline.keywords.facts import Facts
 from mudline.keywords.kept import Names
 from mudline.keywords.model import Block, Record, about, setting
 from mudline.keywords.values import Name, Real
@@ -52,8 +53,7 @@ class SeabedAnchor(Block):
 
     rule: ClassVar[str] = "seabed_anchor"
     names: ClassVar[tuple[str, ...]] = ("SEABED ANCHOR",)
-    extension: ClassVar[bool] = True
-    later_wins: ClassVar[bool] = True
+    facts: ClassVar[Facts] = Facts(extension=True, later_wins=True)
     summary: ClassVar[str] = "Anchors by element set (extension)."
     example: ClassVar[str] = "*SEABED ANCHOR\\n SET=ALL\\n SPACING=12.0\\n"
 

@@ -78,10 +78,10 @@ def test_the_index_of_the_catalogue_says_what_the_classes_say() -> None:
 
 def test_facts_fit_each_other() -> None:
     blocks = [catalogue.load(module) for module in catalogue.modules()]
-    newer = {successor.keyword for block in blocks for successor in block.superseded_by}
-    assert newer == {block.names[0] for block in blocks if block.supersedes}
+    newer = {successor.keyword for block in blocks for successor in block.facts.superseded_by}
+    assert newer == {block.names[0] for block in blocks if block.facts.supersedes}
     for block in blocks:
-        assert ("(extension)" in block.summary) == block.extension
-        assert ("superseded by" in block.summary) == bool(block.superseded_by)
-        assert {*block.carried} <= set(block.model_fields)
-        assert not block.later_wins or set_slots(block)
+        assert ("(extension)" in block.summary) == block.facts.extension
+        assert ("superseded by" in block.summary) == bool(block.facts.superseded_by)
+        assert {*block.facts.carried} <= set(block.model_fields)
+        assert not block.facts.later_wins or set_slots(block)

@@ -64,7 +64,7 @@ def _modelled(side: Side) -> dict[_Name, list[tuple[Where, Block]]]:
     for i, section in enumerate(side.scene.deck.sections):
         for j, block in enumerate(section.blocks):
             name = (titles[i], block.keyword)
-            if isinstance(block, Block) and not block.defines:
+            if isinstance(block, Block) and not block.facts.defines:
                 found.setdefault(name, []).append((Where(i, j), block))
     return found
 

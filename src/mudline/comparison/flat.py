@@ -10,7 +10,7 @@ from mudline.comparison.side import Side
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Where
 from mudline.keywords.kept import Names
-from mudline.keywords.model import Block, ListRow, Part, Record, Slot, columns_of, layout
+from mudline.keywords.model import Block, ListRow, Part, Record, Rows, Slot, columns_of, layout
 from mudline.keywords.table import Cell, Table
 from mudline.keywords.values import Equation, Kind
 from mudline.keywords.writer import field_text, joined
@@ -31,7 +31,7 @@ Flat: TypeAlias = dict[str, Entry]
 
 def flatten(side: Side, blocks: list[tuple[Where, Block]]) -> Flat:
     """All values of the blocks of a keyword; records with a name are found by it, whatever block they stand in."""
-    return _Flattening(side, later_wins=any(block.later_wins for _, block in blocks)).blocks(blocks)
+    return _Flattening(side, later_wins=any(block.facts.later_wins for _, block in blocks)).blocks(blocks)
 
 
 def record_values(side: Side, record: Record, where: Where) -> Flat:
@@ -80,7 +80,7 @@ class _Flattening:
             if not lists:
                 found |= self._apart(own)
                 continue
-            for name in block.carried:
+            for name in block.facts.carried:
                 path = name.rstrip("_")
                 carried |= {path: own[path]} if path in own else {}
                 own = {**carried, **own}
@@ -170,7 +170,7 @@ class _Flattening:
 def _table(table: Table, slot: Slot, where: Where, path: str) -> Iterator[tuple[str, Entry]]:
     """The rows of a table; points in ascending order."""
     rows = [(cells, index) for index, cells in enumerate(table.rows(columns_of(slot)))]
-    if slot.row and slot.row.unordered:
+    if isinstance(slot.about, Rows) and slot.about.unordered:
         rows.sort(
             key=lambda item: [
                 (cell is None, str(cell) if isinstance(cell, str) else "", _number(cell)) for cell in item[0]

@@ -223,7 +223,7 @@ def in_order(keywords: Iterable[str]) -> list[str]:
 def sections_of(keyword: str) -> tuple[str, ...] | None:
     """The sections where a keyword belongs; () when not confirmed, None for an unknown keyword."""
     if (found := declared(keyword)) is not None:
-        return found.sections + found.passes_in
+        return found.sections + found.facts.passes_in
     if keyword in _KEPT:
         held = _load_kept(_KEPT[keyword])
         return _ANY if held.sections_inferred else held.sections
@@ -233,25 +233,25 @@ def sections_of(keyword: str) -> tuple[str, ...] | None:
 def is_extension(keyword: str) -> bool:
     """Whether a keyword is mudline's own."""
     found = declared(keyword)
-    return found is not None and found.extension
+    return found is not None and found.facts.extension
 
 
 def is_superseded(keyword: str) -> bool:
     """Whether newer keywords take the place of a keyword."""
     found = declared(keyword)
-    return found is not None and bool(found.superseded_by)
+    return found is not None and bool(found.facts.superseded_by)
 
 
 def supersedes(keyword: str) -> bool:
     """Whether a keyword takes the place of older ones."""
     found = declared(keyword)
-    return found is not None and found.supersedes
+    return found is not None and found.facts.supersedes
 
 
 def holds_in_soil(keyword: str) -> bool:
     """Whether a keyword gives soil springs."""
     found = declared(keyword)
-    return found is not None and found.soil_springs
+    return found is not None and found.facts.soil_springs
 
 
 def begins_keyword(text: str) -> bool:

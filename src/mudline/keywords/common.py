@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar
+from typing import Annotated
 
 from mudline.keywords.model import Row, about
 from mudline.keywords.values import Real
@@ -25,8 +25,6 @@ POINTS = "points of the curve in any order; at least two"
 
 class CurvePoint(Row):
     """A point of a force-embedment curve."""
-
-    unordered: ClassVar[bool] = True
 
     ratio: Annotated[Real, about("embedment ratio: mean depth of the element's nodes over external diameter", unit="-")]
     force: Annotated[

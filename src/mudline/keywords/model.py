@@ -22,6 +22,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import CoreSchema, core_schema
 
 from mudline.diagnostics import Code
+from mudline.keywords.facts import Facts
 from mudline.keywords.kept import Names
 from mudline.keywords.listing import AS_TABLES, Listing, read_table
 from mudline.keywords.lists import checked_by_parts
@@ -29,8 +30,6 @@ from mudline.keywords.table import LARGEST_WHOLE, Cell, Column, Table
 from mudline.keywords.values import Count, Equation, Kind, Label, Text
 
 _MOST_KEYS = 100
-
-Defined = Literal["nodes", "elements", "sets", "curves", "parameters"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,9 +63,10 @@ class Setting(About):
 
 @dataclass(frozen=True, slots=True)
 class Rows(About):
-    """A field that is a table; `row` declares its columns."""
+    """A field that is a table; `row` declares its columns. The order of `unordered` rows has no meaning."""
 
     row: type[Row] | None = None
+    unordered: bool = False
 
     def columns(self) -> list[Column]:
         """The columns of the table."""
@@ -119,9 +119,9 @@ def setting(key: str, meaning: str, **details: Any) -> Setting:
     return Setting(meaning, key=key, **details)
 
 
-def rows(row: type[Row], meaning: str) -> Rows:
+def rows(row: type[Row], meaning: str, *, unordered: bool = False) -> Rows:
     """A table field."""
-    return Rows(meaning, row=row)
+    return Rows(meaning, row=row, unordered=unordered)
 
 
 class Comment(BaseModel):
@@ -151,12 +151,7 @@ class Part(BaseModel):
 
 
 class Row(Part):
-    """A line of positional fields, or the values behind a KEY=.
-
-    `unordered` says of a row of a table that the order of the rows has no meaning.
-    """
-
-    unordered: ClassVar[bool] = False
+    """A line of positional fields, or the values behind a KEY=."""
 
 
 class ListRow(Row):
@@ -205,50 +200,18 @@ class Record(Part):
         return layout(cls).row_names[0]
 
 
-@dataclass(frozen=True, slots=True)
-class Successor:
-    """A keyword that supersedes another one; with `key`, by that setting."""
-
-    keyword: str
-    key: str = ""
-
-    def __str__(self) -> str:
-        return f"{self.key}= of *{self.keyword}" if self.key else f"*{self.keyword}"
-
-
 class Block(Record):
     """A keyword with its data. The class variables are its declaration.
 
-    How it is read: `sections` are those where it belongs, `passes_in` those where a keyword of this name passes
-    through; `tabular` keeps runs of numeric lines whole, as arrays; `slashes` says that /.../ is one field; `example`
-    is a block that reads without a finding. `unpublished` are the codes of faults that may be a form which is not
-    public: a block in which one is found is kept as it is, without a finding. Where it depends on more than the code,
-    `other_form` says so.
-
-    Which keyword it is: `superseded_by` newer ones, of which each `supersedes` older ones; an `extension` is mudline's
-    own; `plans_decks` says that its lines are about decks to be made, which do not have it.
-
-    What it does: `defines` is what its records define by number or name; `makes` are the keywords of what things
-    outside the deck, which its lines are about, may define. With `later_wins` an element follows the last record whose
-    SET= holds it, and that record as a whole. `carried` are the fields that a block has from the block before it, where
-    it does not give them. `seabed_type` is the type of seabed that a legacy surface is. `soil_springs` hold elements in
-    the soil. What is computed from it is said under the heading `computed_in` of the page on the contact evaluator.
+    `sections` are those where it belongs; `facts` is what else is known of it; `tabular` keeps runs of numeric lines
+    whole, as arrays; `slashes` says that /.../ is one field; `example` is a block that reads without a finding.
+    `unpublished` are the codes of faults that may be a form which is not public: a block in which one is found is kept
+    as it is, without a finding. Where it depends on more than the code, `other_form` says so.
     """
 
     names: ClassVar[tuple[str, ...]]
     sections: ClassVar[tuple[str, ...]] = ("MODEL",)
-    passes_in: ClassVar[tuple[str, ...]] = ()
-    superseded_by: ClassVar[tuple[Successor, ...]] = ()
-    supersedes: ClassVar[bool] = False
-    extension: ClassVar[bool] = False
-    plans_decks: ClassVar[bool] = False
-    defines: ClassVar[Defined | None] = None
-    makes: ClassVar[tuple[str, ...]] = ()
-    later_wins: ClassVar[bool] = False
-    carried: ClassVar[tuple[str, ...]] = ()
-    seabed_type: ClassVar[Literal["", "RIGID", "ELASTIC"]] = ""
-    soil_springs: ClassVar[bool] = False
-    computed_in: ClassVar[str] = ""
+    facts: ClassVar[Facts] = Facts()
     summary: ClassVar[str]
     tabular: ClassVar[bool] = False
     slashes: ClassVar[bool] = False

@@ -20,8 +20,6 @@ POINTS = "points of the curve: resistance and displacement"
 class SoilPoint(Row):
     """A point of a curve: resistance first."""
 
-    unordered: ClassVar[bool] = True
-
     resistance: Annotated[
         Real, about("soil resistance; it comes first", unit="F/L", inferred="P is per unit length, as T is")
     ]
@@ -33,7 +31,7 @@ class DepthCurve(Record):
 
     rule: ClassVar[str] = "depth_curve"
     depth: Annotated[Real, setting("DEPTH", "depth below the mudline, negative above it", unit="L")]
-    points: Annotated[Table, rows(SoilPoint, POINTS)]
+    points: Annotated[Table, rows(SoilPoint, POINTS, unordered=True)]
 
 
 class NodeCurve(Record):
@@ -41,7 +39,7 @@ class NodeCurve(Record):
 
     rule: ClassVar[str] = "node_curve"
     node: Annotated[Ident, setting("NODE", "node that the curve belongs to", inferred="in place of DEPTH=")]
-    points: Annotated[Table, rows(SoilPoint, POINTS)]
+    points: Annotated[Table, rows(SoilPoint, POINTS, unordered=True)]
 
 
 SoilCurves = list[DepthCurve | NodeCurve]

@@ -5,18 +5,18 @@ from __future__ import annotations
 from typing import Annotated, ClassVar
 
 from mudline.keywords.common import CONSTANT_FRICTION
-from mudline.keywords.model import Block, Row, Successor, about, rows
+from mudline.keywords.facts import Successor
+from mudline.keywords.model import Block, Row, about, rows
 from mudline.keywords.table import Table
 from mudline.keywords.values import Real
 
 _CHARACTERISTIC_LENGTH = "10 ft or 3.048 m"
 _SLOPE = "a line of one value is a slope, one of two a point of the profile: nothing else tells them apart"
+SUCCESSORS = (Successor("SEABED PROPERTIES"), Successor("SEABED PROFILE"))
 
 
 class ProfilePoint(Row):
     """A point of an inline profile."""
-
-    unordered: ClassVar[bool] = True
 
     y: Annotated[Real, about("horizontal coordinate Y", unit="L")]
     elevation: Annotated[Real, about("elevation of the bed there", unit="L")]
@@ -54,8 +54,6 @@ class FrictionLengths(Row):
 class Surface(Block):
     """A legacy surface: a line of properties, then a slope or a profile."""
 
-    superseded_by: ClassVar[tuple[Successor, ...]] = (Successor("SEABED PROPERTIES"), Successor("SEABED PROFILE"))
-
     properties: Annotated[Row, about("properties of the surface")]
     slope: Annotated[
         Real | None,
@@ -67,7 +65,8 @@ class Surface(Block):
         ),
     ] = None
     profile: Annotated[
-        Table | None, rows(ProfilePoint, "arbitrary profile: Y and elevation, a line of two values a point")
+        Table | None,
+        rows(ProfilePoint, "arbitrary profile: Y and elevation, a line of two values a point", unordered=True),
     ] = None
 
     example: ClassVar[str]

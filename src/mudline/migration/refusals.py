@@ -26,7 +26,7 @@ def superseded_blocks(deck: Deck) -> list[tuple[Where, Block]]:
 
 def surfaces(deck: Deck) -> list[tuple[Where, Surface]]:
     """The legacy surfaces of a deck, in the order of the file."""
-    return list(deck.blocks_that(lambda declared: declared.seabed_type))
+    return list(deck.blocks_that(lambda declared: declared.facts.seabed_type))
 
 
 def refusals(deck: Deck, continued_by: Sequence[str] = ()) -> Iterator[Problem]:

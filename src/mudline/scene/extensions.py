@@ -35,7 +35,7 @@ def read_extensions(context: Context, sets: Sets, count: int) -> dict[str, Exten
 
 
 def _goes_by_set(declared: type[Block]) -> bool:
-    return declared.extension and declared.later_wins
+    return declared.facts.extension and declared.facts.later_wins
 
 
 def with_nodal_stiffness(contact: Extension) -> Mask:

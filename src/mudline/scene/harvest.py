@@ -31,7 +31,7 @@ def definers(deck: Deck) -> list[str]:
 def is_laid(keyword: str) -> bool:
     """Whether a keyword is read, and the lines that it is about make things which the deck does not show."""
     declared = catalogue.declared(keyword)
-    return declared is not None and bool(declared.makes)
+    return declared is not None and bool(declared.facts.makes)
 
 
 def may_define(definer: str, keyword: str) -> str:
@@ -50,8 +50,10 @@ def may_label(definer: str) -> bool:
 
 
 def _makes(keyword: str) -> tuple[str, ...]:
-    found = catalogue.declared(keyword) or catalogue.kept_of("MODEL", keyword)
-    return found.makes if found else ()
+    if declared := catalogue.declared(keyword):
+        return declared.facts.makes
+    kept = catalogue.kept_of("MODEL", keyword)
+    return kept.makes if kept else ()
 
 
 def harvested_sets(deck: Deck) -> dict[str, str]:
@@ -91,7 +93,7 @@ def _sets(block: Block | Opaque) -> Iterator[str]:
         kept = catalogue.kept_of("MODEL", block.keyword)
         if kept and kept.harvest:
             yield from _given_in_lines(block.lines, kept.harvest)
-    elif block.makes:
+    elif block.facts.makes:
         yield from _given_in_parts(block)
 
 

@@ -19,7 +19,7 @@ from mudline.scene.sets import Sets
 def check_references(context: Context, sets: Sets, laws: LawTable, *, with_soil: bool) -> None:
     """Every name of a set or a curve; those of soil springs on demand."""
     for block, where, name in _given(context, Names.SET):
-        if with_soil or not block.soil_springs:
+        if with_soil or not block.facts.soil_springs:
             sets.check(name, where)
     curves = {folded(curve.name): curve.name for curve in laws.curves if curve.named and not curve.embedment}
     for _, where, name in _given(context, Names.CURVE):

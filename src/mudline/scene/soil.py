@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 def check_soil(context: Context, nodes: Numbered) -> None:
     """Every NODE= of soil springs against the nodes of the deck."""
     named = NamedNodes(context, nodes)
-    for where, block in context.deck.blocks_that(lambda declared: declared.soil_springs):
+    for where, block in context.deck.blocks_that(lambda declared: declared.facts.soil_springs):
         for i, springs in enumerate(cast("LateralSoil", block).sets):
             for j, curve in enumerate(springs.curves):
                 named.add(getattr(curve, "node", None), where._replace(path=("sets", i, "curves", j, "node")))

@@ -13,5 +13,5 @@ if TYPE_CHECKING:
 
 def surfaces(deck: Deck) -> list[tuple[Where, Surface]]:
     """The rigid surfaces of a deck, then the elastic ones, each in the order of the file; the last one holds."""
-    found = deck.blocks_that(lambda declared: declared.seabed_type)
-    return sorted(found, key=lambda placed: placed[1].seabed_type == "ELASTIC")
+    found = deck.blocks_that(lambda declared: declared.facts.seabed_type)
+    return sorted(found, key=lambda placed: placed[1].facts.seabed_type == "ELASTIC")

@@ -42,7 +42,7 @@ class Rewriter:
             for index, section in enumerate(self.tree.sections)
             if section.name == "PREPROCESSOR"
             for number, block in enumerate(section.blocks)
-            if (declared := catalogue.block_class(section.name, block.name)) and declared.plans_decks
+            if (declared := catalogue.block_class(section.name, block.name)) and declared.facts.plans_decks
         )
 
     def content(self, planned: PlannedDeck) -> bytes:

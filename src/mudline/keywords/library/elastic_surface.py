@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Annotated, ClassVar, Literal
 
 from mudline.keywords.common import SUCTION_STIFFNESS
+from mudline.keywords.facts import Facts
 from mudline.keywords.model import Row, about
-from mudline.keywords.surface import FrictionCoefficients, FrictionLengths, Surface
+from mudline.keywords.surface import SUCCESSORS, FrictionCoefficients, FrictionLengths, Surface
 from mudline.keywords.values import Real
 
 
@@ -39,7 +40,7 @@ class ElasticSurface(Surface):
 
     rule: ClassVar[str] = "elastic_surface"
     names: ClassVar[tuple[str, ...]] = ("ELASTIC SURFACE",)
-    seabed_type: ClassVar[Literal["", "RIGID", "ELASTIC"]] = "ELASTIC"
+    facts: ClassVar[Facts] = Facts(superseded_by=SUCCESSORS, seabed_type="ELASTIC")
     summary: ClassVar[str] = "Elastic seabed: stiffness, friction, slope or profile (superseded by *SEABED PROPERTIES)."
     example: ClassVar[str] = "*ELASTIC SURFACE\n 50000.0, 0.3, 0.5\n"
 

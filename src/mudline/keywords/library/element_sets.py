@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Literal
 
-from mudline.keywords.model import Block, Defined, ListRow, Record, about, setting
+from mudline.keywords.facts import Facts
+from mudline.keywords.model import Block, ListRow, Record, about, setting
 from mudline.keywords.values import Ident, Name, Whole
 
 
@@ -50,8 +51,7 @@ class ElementSets(Block):
 
     rule: ClassVar[str] = "element_sets"
     names: ClassVar[tuple[str, ...]] = ("ELEMENT SETS",)
-    passes_in: ClassVar[tuple[str, ...]] = ("CLEAR", "DATABASE POSTPROCESSING", "POSTPROCESSING")
-    defines: ClassVar[Defined | None] = "sets"
+    facts: ClassVar[Facts] = Facts(passes_in=("CLEAR", "DATABASE POSTPROCESSING", "POSTPROCESSING"), defines="sets")
     summary: ClassVar[str] = "Named groups of elements; ALL is predefined."
     example: ClassVar[str] = "*ELEMENT SETS\n SET=Riser\n 1, 2, 3\n GEN=10, 20, 2\n SET=Everything\n SUBSET=Riser\n"
 

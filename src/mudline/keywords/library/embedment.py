@@ -7,8 +7,9 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from mudline.keywords.common import NO_SET, POINTS, CurvePoint
+from mudline.keywords.facts import Facts, Successor
 from mudline.keywords.kept import Names
-from mudline.keywords.model import Block, Defined, Record, Successor, rows, setting
+from mudline.keywords.model import Block, Record, rows, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Name
 
@@ -21,7 +22,7 @@ class EmbedmentCurve(Record):
         Name | None,
         setting("SET", "element set of the curve", default="ALL", inferred=NO_SET, names=Names.SET),
     ] = Field(default=None, alias="set")
-    points: Annotated[Table, rows(CurvePoint, POINTS)]
+    points: Annotated[Table, rows(CurvePoint, POINTS, unordered=True)]
 
 
 class Embedment(Block):
@@ -29,12 +30,14 @@ class Embedment(Block):
 
     rule: ClassVar[str] = "embedment"
     names: ClassVar[tuple[str, ...]] = ("EMBEDMENT",)
-    superseded_by: ClassVar[tuple[Successor, ...]] = (
-        Successor("SEABED STIFFNESS"),
-        Successor("SEABED PROPERTIES", "STIFFNESS"),
+    facts: ClassVar[Facts] = Facts(
+        superseded_by=(
+            Successor("SEABED STIFFNESS"),
+            Successor("SEABED PROPERTIES", "STIFFNESS"),
+        ),
+        defines="curves",
+        computed_in="normal-laws",
     )
-    defines: ClassVar[Defined | None] = "curves"
-    computed_in: ClassVar[str] = "normal-laws"
     summary: ClassVar[str] = (
         "Force-embedment curves of an elastic seabed, by element set (superseded by *SEABED STIFFNESS)."
     )

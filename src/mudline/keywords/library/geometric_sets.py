@@ -6,6 +6,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field, model_validator
 
+from mudline.keywords.facts import Facts
 from mudline.keywords.kept import Names
 from mudline.keywords.model import Block, Record, Row, about, setting
 from mudline.keywords.values import Name, Real
@@ -127,7 +128,7 @@ class GeometricSets(Block):
 
     rule: ClassVar[str] = "geometric_sets"
     names: ClassVar[tuple[str, ...]] = ("GEOMETRIC SETS",)
-    later_wins: ClassVar[bool] = True
+    facts: ClassVar[Facts] = Facts(later_wins=True)
     summary: ClassVar[str] = "Stiffness, mass and diameters of element sets, in one of four formats."
     example: ClassVar[str] = "*GEOMETRIC SETS\n OPTION=RIGID\n SET=ALL\n 207.0E9, 79.9E9, 0.3239, 0.2731, 7850.0\n"
 

@@ -7,6 +7,7 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from mudline.diagnostics import Code
+from mudline.keywords.facts import Facts
 from mudline.keywords.kept import Names
 from mudline.keywords.model import Block, Record, setting
 from mudline.keywords.soil import OTHER_FORMS, CurvesFile, SoilCurves
@@ -34,10 +35,10 @@ class LateralSoil(Block):
 
     rule: ClassVar[str] = "p_y"
     names: ClassVar[tuple[str, ...]] = ("P-Y",)
+    facts: ClassVar[Facts] = Facts(soil_springs=True)
     summary: ClassVar[str] = (
         "Lateral soil springs by set and depth: points of resistance P and displacement y, resistance first."
     )
-    soil_springs: ClassVar[bool] = True
     tabular: ClassVar[bool] = True
     unpublished: ClassVar[tuple[Code, ...]] = OTHER_FORMS
     example: ClassVar[str] = (

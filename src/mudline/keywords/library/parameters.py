@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Literal
 
-from mudline.keywords.model import Block, Defined, Record, about
+from mudline.keywords.facts import Facts
+from mudline.keywords.model import Block, Record, about
 from mudline.keywords.values import Name, RealOrName
 
 
@@ -27,8 +28,8 @@ class Parameters(Block):
 
     rule: ClassVar[str] = "parameters"
     names: ClassVar[tuple[str, ...]] = ("PARAMETERS",)
-    defines: ClassVar[Defined | None] = "parameters"
     sections: ClassVar[tuple[str, ...]] = ("PREPROCESSOR",)
+    facts: ClassVar[Facts] = Facts(defines="parameters")
     summary: ClassVar[str] = "Named values for equations, and for the variations of a deck."
     slashes: ClassVar[bool] = True
     example: ClassVar[str] = (

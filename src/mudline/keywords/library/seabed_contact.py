@@ -6,6 +6,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
+from mudline.keywords.facts import Facts
 from mudline.keywords.kept import Names
 from mudline.keywords.model import Block, Record, setting
 from mudline.keywords.values import Name, Real
@@ -47,9 +48,7 @@ class SeabedContact(Block):
 
     rule: ClassVar[str] = "seabed_contact"
     names: ClassVar[tuple[str, ...]] = ("SEABED CONTACT",)
-    extension: ClassVar[bool] = True
-    later_wins: ClassVar[bool] = True
-    computed_in: ClassVar[str] = "smoothing"
+    facts: ClassVar[Facts] = Facts(extension=True, later_wins=True, computed_in="smoothing")
     summary: ClassVar[str] = "Nodal normal stiffness, and smoothing of linear contact laws, by element set (extension)."
     example: ClassVar[str] = "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=50000.0\n SMOOTHING=0.005\n FORM=CENTRED\n"
 

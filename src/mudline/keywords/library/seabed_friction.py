@@ -6,6 +6,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
+from mudline.keywords.facts import Facts
 from mudline.keywords.kept import Names
 from mudline.keywords.model import Block, Record, Row, about, setting
 from mudline.keywords.values import Name, Real
@@ -54,9 +55,7 @@ class SeabedFriction(Block):
 
     rule: ClassVar[str] = "seabed_friction"
     names: ClassVar[tuple[str, ...]] = ("SEABED FRICTION",)
-    extension: ClassVar[bool] = True
-    later_wins: ClassVar[bool] = True
-    computed_in: ClassVar[str] = "friction"
+    facts: ClassVar[Facts] = Facts(extension=True, later_wins=True, computed_in="friction")
     summary: ClassVar[str] = "Friction in two directions with constant tangential springs, by element set (extension)."
     example: ClassVar[str] = (
         "*SEABED FRICTION\n SET=ALL\n COEFFICIENTS=0.3, 0.6\n STIFFNESS=20000.0, 40000.0\n DIRECTIONS=AXIAL\n"

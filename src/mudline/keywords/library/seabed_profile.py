@@ -6,6 +6,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field, model_validator
 
+from mudline.keywords.facts import Facts
 from mudline.keywords.kept import Names
 from mudline.keywords.model import Block, setting
 from mudline.keywords.values import Name, Real
@@ -21,8 +22,7 @@ class SeabedProfile(Block):
 
     rule: ClassVar[str] = "seabed_profile"
     names: ClassVar[tuple[str, ...]] = ("SEABED PROFILE",)
-    supersedes: ClassVar[bool] = True
-    computed_in: ClassVar[str] = "shapes-of-the-seabed"
+    facts: ClassVar[Facts] = Facts(supersedes=True, computed_in="shapes-of-the-seabed")
     summary: ClassVar[str] = "A bed that is not flat: a uniform slope, or a profile from a file; without it X = 0."
     example: ClassVar[str] = "*SEABED PROFILE\n TYPE=SLOPING\n DIRECTION=30.0\n SLOPE=2.5\n"
 

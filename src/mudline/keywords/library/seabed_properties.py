@@ -7,6 +7,7 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from mudline.keywords.common import CONSTANT_FRICTION, NO_SET, SUCTION_STIFFNESS
+from mudline.keywords.facts import Facts
 from mudline.keywords.kept import Names
 from mudline.keywords.model import Block, Record, Row, about, setting
 from mudline.keywords.values import Name, Real, RealOrName
@@ -85,10 +86,7 @@ class SeabedProperties(Block):
 
     rule: ClassVar[str] = "seabed_properties"
     names: ClassVar[tuple[str, ...]] = ("SEABED PROPERTIES",)
-    supersedes: ClassVar[bool] = True
-    later_wins: ClassVar[bool] = True
-    carried: ClassVar[tuple[str, ...]] = ("type_",)
-    computed_in: ClassVar[str] = "normal-laws"
+    facts: ClassVar[Facts] = Facts(supersedes=True, later_wins=True, carried=("type_",), computed_in="normal-laws")
     summary: ClassVar[str] = (
         "Rigid or elastic seabed; stiffness, friction, lateral resistance and suction by element set."
     )

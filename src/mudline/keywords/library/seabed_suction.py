@@ -6,6 +6,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
+from mudline.keywords.facts import Facts
 from mudline.keywords.kept import Names
 from mudline.keywords.model import Block, Record, Row, about, setting
 from mudline.keywords.values import Name, Real
@@ -89,9 +90,7 @@ class SeabedSuction(Block):
 
     rule: ClassVar[str] = "seabed_suction"
     names: ClassVar[tuple[str, ...]] = ("SEABED SUCTION",)
-    extension: ClassVar[bool] = True
-    later_wins: ClassVar[bool] = True
-    computed_in: ClassVar[str] = "suction"
+    facts: ClassVar[Facts] = Facts(extension=True, later_wins=True, computed_in="suction")
     summary: ClassVar[str] = "Resistance of the seabed to uplift, with mobilisation, plateau and breakout (extension)."
     example: ClassVar[str] = "*SEABED SUCTION\n SET=ALL\n COHESION=5000.0\n CUTOFF=0.2, 0.8\n"
 

@@ -6,6 +6,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field, ValidationInfo, field_validator
 
+from mudline.keywords.facts import Facts
 from mudline.keywords.kept import Names
 from mudline.keywords.model import Block, Record, Row, about, rows, setting
 from mudline.keywords.table import Table
@@ -90,10 +91,8 @@ class SeabedTrench(Block):
 
     rule: ClassVar[str] = "seabed_trench"
     names: ClassVar[tuple[str, ...]] = ("SEABED TRENCH",)
-    extension: ClassVar[bool] = True
-    later_wins: ClassVar[bool] = True
+    facts: ClassVar[Facts] = Facts(extension=True, later_wins=True, computed_in="trenches")
     tabular: ClassVar[bool] = True
-    computed_in: ClassVar[str] = "trenches"
     summary: ClassVar[str] = "Lateral resistance of the walls of a trench, by element set (extension)."
     example: ClassVar[str] = "*SEABED TRENCH\n SET=ALL\n GEOMETRY=0.5, 1.0, 3.0\n PEAK=2000.0\n CENTRELINE=LAID\n"
 

@@ -6,6 +6,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
+from mudline.keywords.facts import Facts
 from mudline.keywords.kept import Names
 from mudline.keywords.model import Block, Record, setting
 from mudline.keywords.values import Name, Real
@@ -27,9 +28,7 @@ class SeabedUnloading(Block):
 
     rule: ClassVar[str] = "seabed_unloading"
     names: ClassVar[tuple[str, ...]] = ("SEABED UNLOADING",)
-    extension: ClassVar[bool] = True
-    later_wins: ClassVar[bool] = True
-    computed_in: ClassVar[str] = "unloading"
+    facts: ClassVar[Facts] = Facts(extension=True, later_wins=True, computed_in="unloading")
     summary: ClassVar[str] = (
         "The full cycle of penetration, unloading and re-penetration: stiffness on reversal (extension)."
     )

@@ -7,6 +7,7 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from mudline.diagnostics import Code
+from mudline.keywords.facts import Facts
 from mudline.keywords.kept import Names
 from mudline.keywords.model import Block, Record, setting
 from mudline.keywords.soil import OTHER_FORMS, CurvesFile, SoilCurves
@@ -29,10 +30,10 @@ class AxialSoil(Block):
 
     rule: ClassVar[str] = "t_z"
     names: ClassVar[tuple[str, ...]] = ("T-Z",)
+    facts: ClassVar[Facts] = Facts(soil_springs=True)
     summary: ClassVar[str] = (
         "Axial soil springs by set and depth: points of resistance T and displacement z, resistance first."
     )
-    soil_springs: ClassVar[bool] = True
     tabular: ClassVar[bool] = True
     unpublished: ClassVar[tuple[Code, ...]] = OTHER_FORMS
     example: ClassVar[str] = (

@@ -44,9 +44,9 @@ def superseded_keyword(context: LintContext) -> Iterator[Problem]:
 
     Finds: 7:1
     """
-    found = context.deck.blocks_that(lambda declared: declared.superseded_by)
+    found = context.deck.blocks_that(lambda declared: declared.facts.superseded_by)
     for number, (where, block) in enumerate(found):
-        newer = " and ".join(map(str, block.superseded_by))
+        newer = " and ".join(map(str, block.facts.superseded_by))
         message = f"*{block.keyword} is superseded by {newer}: `mudline migrate` rewrites the deck"
         yield Problem(LEG001, message, where=where, repair=None if number else _migration(context))
 

@@ -61,7 +61,7 @@ def extension_needs_elastic(context: LintContext) -> Iterator[Problem]:
         return
     supplier = "" if "RIGID" in types else reading.supplier("ELASTIC SURFACE")
     what = "the seabed is rigid" if "RIGID" in types else "the model has none"
-    for where, block in scene.deck.blocks_that(lambda declared: declared.extension):
+    for where, block in scene.deck.blocks_that(lambda declared: declared.facts.extension):
         message = f"*{block.keyword} needs an elastic seabed, and {what}: write *SEABED PROPERTIES with TYPE=ELASTIC"
         if supplier:
             yield Problem(EXT001, f"{message}; {supplier}", None, Severity.WARNING, where)

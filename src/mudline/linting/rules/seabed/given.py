@@ -56,7 +56,7 @@ def _each(context: LintContext) -> Iterator[Given]:
     deck = context.scene.deck
     for where, surface in surfaces(deck):
         place = where._replace(path=("properties",))
-        yield Given(getattr(surface, "properties", None), place, surface.seabed_type, legacy=True)
+        yield Given(getattr(surface, "properties", None), place, surface.facts.seabed_type, legacy=True)
     for where, properties, type_ in typed_blocks(context.scene.context):
         for index, entry in enumerate(properties.sets):
             yield Given(entry, where._replace(path=("sets", index)), type_, legacy=False)
