@@ -53,23 +53,6 @@ _CERTAIN = """## Certain and inferred
 {text}
 """
 
-_COMPUTED = {
-    "SEABED PROFILE": "shapes-of-the-seabed",
-    "SEABED PLANES": "shapes-of-the-seabed",
-    "SEABED STIFFNESS": "normal-laws",
-    "EMBEDMENT": "normal-laws",
-    "SEABED PROPERTIES": "normal-laws",
-    "SEABED CONTACT": "smoothing",
-    "SEABED UNLOADING": "unloading",
-    "SEABED SUCTION": "suction",
-    "SEABED FRICTION": "friction",
-    "SEABED TRENCH": "trenches",
-}
-"""Where the page on the evaluator says what a keyword does."""
-
-_OWN = "(extension)"
-"""How the summary of a keyword says that the language does not have it elsewhere."""
-
 
 def keyword_pages() -> dict[str, str]:
     """The text of every page by its path in the repository."""
@@ -119,8 +102,8 @@ def _of_model(block: type[Block]) -> Iterator[str]:
     for caption, table in tables(block):
         yield "\n".join([*([caption, ""] if caption else []), *table, ""])
     yield _EXAMPLE.format(example=block.example.rstrip("\n"))
-    if place := _COMPUTED.get(block.names[0]):
-        yield f"What is computed from it: [the contact evaluator](../contact.md#{place}).\n"
+    if block.facts.computed_in:
+        yield f"What is computed from it: [the contact evaluator](../contact.md#{block.facts.computed_in}).\n"
     yield _rules(block)
     yield _CERTAIN.format(text=_certain(block))
 
@@ -151,8 +134,11 @@ def _rules(declared: Declared) -> str:
 
 
 def _certain(block: type[Block]) -> str:
-    own = _OWN in block.summary
-    says = "This keyword is mudline's own: the page defines it" if own else "What this page says is certain"
+    says = (
+        "This keyword is mudline's own: the page defines it"
+        if block.facts.extension
+        else "What this page says is certain"
+    )
     if found := inferences(block):
         return "\n".join([f"{says}, but for what is inferred:", "", *(f"* {each}" for each in found)])
     return f"{says}. Nothing is inferred."

@@ -10,7 +10,6 @@ from hypothesis import strategies as st
 
 from mudline.deck.loading import load_bytes
 from mudline.scene.build import resolve
-from mudline.scene.harvest import LAID
 from tests.reading.spellings import names, texts
 from tests.scene.decks import all_told, messages, scene_of, told
 
@@ -117,13 +116,14 @@ def test_sections_that_could_not_be_read() -> None:
 
 # ------------------------------------------------------------------------------------------------------------ any lines
 
+_LAID = ("LINE PATH SECTIONS", "LINE SECTION GROUPS")
 _KEPT = ("LINES", "LINE PATHS", "LINE LOCATIONS", "CABLE", "NODE,CURVILINEAR")
 _KEYS = ["LINE", "NAME", "SECTION", "ADDITIONAL", "REPEAT", "SET", "SUBSET", "STIFFNESS"]
 _line = st.one_of(
     texts,
     st.builds(lambda key, text: f" {key}={text}", st.sampled_from(_KEYS), names | texts),
     st.builds(lambda one, other: f" 1, {{{one}}}, {other}", names, names),
-    st.sampled_from([*_KEPT, *LAID, *LAID, "ELEMENT", "ELEMENT SETS", "SEABED PROPERTIES"]).map("*{}".format),
+    st.sampled_from([*_KEPT, *_LAID, *_LAID, "ELEMENT", "ELEMENT SETS", "SEABED PROPERTIES"]).map("*{}".format),
 )
 
 

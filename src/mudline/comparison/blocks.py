@@ -13,10 +13,6 @@ from mudline.deck.model import Opaque
 from mudline.diagnostics import Where
 from mudline.keywords.model import Block
 
-_RESOLVED = {
-    *(("MODEL", name) for name in ("NODE", "ELEMENT", "ELEMENT SETS", "SEABED STIFFNESS", "EMBEDMENT")),
-    ("PREPROCESSOR", "PARAMETERS"),
-}
 _ONE_IN_ALL = ("MODEL", "PREPROCESSOR")
 """Sections of which several make one."""
 _COMMENT = re.compile(r"[Cc](?:(?:[ \t]|[-*=#_.~+]{2}).*)?$")
@@ -30,8 +26,8 @@ def blocks(one: Side, other: Side, tolerance: Tolerance) -> Iterator[Difference]
     """Modelled blocks by their values, the others by their data lines."""
     first, second = _modelled(one), _modelled(other)
     for name in dict.fromkeys([*first, *second]):
-        before = flatten(one, name[1], first.get(name, []))
-        after = flatten(other, name[1], second.get(name, []))
+        before = flatten(one, first.get(name, []))
+        after = flatten(other, second.get(name, []))
         found = flat_differences(_group(name), (one, before), (other, after), tolerance)
         yield from _presence(name, (one, first), (other, second), found)
     lines, others = _lines(one), _lines(other)
@@ -68,7 +64,7 @@ def _modelled(side: Side) -> dict[_Name, list[tuple[Where, Block]]]:
     for i, section in enumerate(side.scene.deck.sections):
         for j, block in enumerate(section.blocks):
             name = (titles[i], block.keyword)
-            if isinstance(block, Block) and name not in _RESOLVED:
+            if isinstance(block, Block) and not block.facts.defines:
                 found.setdefault(name, []).append((Where(i, j), block))
     return found
 

@@ -9,23 +9,13 @@ from mudline.comparison.model import Value, plain
 from mudline.comparison.side import Side
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Where
-from mudline.keywords.model import Block, ListRow, Part, Record, Slot, columns_of, layout
+from mudline.keywords.kept import Names
+from mudline.keywords.model import Block, ListRow, Part, Record, Rows, Slot, columns_of, layout
 from mudline.keywords.table import Cell, Table
 from mudline.keywords.values import Equation, Kind
 from mudline.keywords.writer import field_text, joined
 
-_UNORDERED = ("points", "profile")
-"""Tables whose rows are points, in any order."""
-
 _KEYS = ("set", "name", "curve")
-_CARRIED = {"SEABED PROPERTIES": ("type_",)}
-"""Settings that a block has from the block before it, where it does not give them."""
-
-LATER_HOLDS = frozenset(
-    {"GEOMETRIC SETS", "SEABED PROPERTIES", "SEABED CONTACT", "SEABED SUCTION"}
-    | {"SEABED UNLOADING", "SEABED FRICTION", "SEABED TRENCH"}
-)
-"""Keywords of which a later record of a set replaces an earlier one, whole."""
 
 
 class Entry(NamedTuple):
@@ -39,14 +29,14 @@ class Entry(NamedTuple):
 Flat: TypeAlias = dict[str, Entry]
 
 
-def flatten(side: Side, keyword: str, blocks: list[tuple[Where, Block]]) -> Flat:
+def flatten(side: Side, blocks: list[tuple[Where, Block]]) -> Flat:
     """All values of the blocks of a keyword; records with a name are found by it, whatever block they stand in."""
-    return _Flattening(side, keyword).blocks(blocks)
+    return _Flattening(side, later_wins=any(block.facts.later_wins for _, block in blocks)).blocks(blocks)
 
 
-def record_values(side: Side, keyword: str, record: Record, where: Where) -> Flat:
-    """The values of one record without the name that it is found by."""
-    flattening = _Flattening(side, keyword)
+def record_values(side: Side, record: Record, where: Where) -> Flat:
+    """The values of one record that an element follows, without the name that it is found by."""
+    flattening = _Flattening(side, later_wins=True)
     key = key_slot(type(record))
     found: Flat = {}
     flattening.part(record, where, "", found, leave_out=key.name if key else "")
@@ -54,8 +44,9 @@ def record_values(side: Side, keyword: str, record: Record, where: Where) -> Fla
 
 
 def key_slot(record: type[Record]) -> Slot | None:
-    """The field that a record of a list is found by: its set, name or curve."""
-    slots = (slot for slot in layout(record).slots if not slot.row and not slot.many)
+    """The field that a record of a list is found by: its set, or its own name."""
+    own = (None, Names.SET)
+    slots = (slot for slot in layout(record).slots if not slot.row and not slot.many and slot.about.names in own)
     return next((s for s in slots if s.kind is Kind.NAME and {s.json, s.key.casefold()} & set(_KEYS)), None)
 
 
@@ -74,9 +65,9 @@ def _cells(row: ListRow) -> list[Cell]:
 
 
 class _Flattening:
-    def __init__(self, side: Side, keyword: str) -> None:
+    def __init__(self, side: Side, *, later_wins: bool) -> None:
         self.side = side
-        self.keyword = keyword
+        self.later_wins = later_wins
         self.counts: dict[str, int] = {}
 
     def blocks(self, blocks: list[tuple[Where, Block]]) -> Flat:
@@ -89,7 +80,7 @@ class _Flattening:
             if not lists:
                 found |= self._apart(own)
                 continue
-            for name in _CARRIED.get(self.keyword, ()):
+            for name in block.facts.carried:
                 path = name.rstrip("_")
                 carried |= {path: own[path]} if path in own else {}
                 own = {**carried, **own}
@@ -158,7 +149,7 @@ class _Flattening:
         name = _identity(record) if key is None else getattr(record, key.name, None)
         title = folded(str(name)) if name is not None else "all" if key and key.json == "set" else str(index + 1)
         self.side.names.setdefault(title, "ALL" if name is None and title == "all" else str(name or title))
-        if self.keyword in LATER_HOLDS:
+        if self.later_wins:
             if start + title in found:
                 for path in [path for path in found if path == start + title or path.startswith(f"{start}{title}/")]:
                     del found[path]
@@ -179,7 +170,7 @@ class _Flattening:
 def _table(table: Table, slot: Slot, where: Where, path: str) -> Iterator[tuple[str, Entry]]:
     """The rows of a table; points in ascending order."""
     rows = [(cells, index) for index, cells in enumerate(table.rows(columns_of(slot)))]
-    if slot.name in _UNORDERED:
+    if isinstance(slot.about, Rows) and slot.about.unordered:
         rows.sort(
             key=lambda item: [
                 (cell is None, str(cell) if isinstance(cell, str) else "", _number(cell)) for cell in item[0]

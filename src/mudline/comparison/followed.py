@@ -84,8 +84,8 @@ def _law(scene: Scene, grant: Grant) -> _Values:
     return {} if grant.kind is LawKind.NONE else {"": scene.law_name(grant)}
 
 
-def _record(side: Side, keyword: str, record: Record, where: Where) -> _Values:
-    return {path: entry.shown for path, entry in record_values(side, keyword, record, where).items()}
+def _record(side: Side, record: Record, where: Where) -> _Values:
+    return {path: entry.shown for path, entry in record_values(side, record, where).items()}
 
 
 def _sections(side: Side) -> _Followed:
@@ -94,7 +94,7 @@ def _sections(side: Side) -> _Followed:
     entries = []
     for where in places:
         block = cast("Any", side.scene.deck.sections[where.section].blocks[where.block])
-        values = _record(side, "GEOMETRIC SETS", block.sets[where.path[1]], where)
+        values = _record(side, block.sets[where.path[1]], where)
         values.pop("option", None)  # the property line has the name of its format
         entries.append(values)
     return _Followed(entries, places, table.of_element)
@@ -119,4 +119,4 @@ def _extension(side: Side, keyword: str) -> _Followed:
     if found is None:
         return _Followed([], [], np.full(len(side.scene.element_ids), -1, dtype=np.intp))
     pairs = zip(found.entries, found.places, strict=True)
-    return _Followed([_record(side, keyword, entry, place) for entry, place in pairs], found.places, found.of_element)
+    return _Followed([_record(side, entry, place) for entry, place in pairs], found.places, found.of_element)

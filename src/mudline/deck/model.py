@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, Self
@@ -187,6 +187,14 @@ class Deck:
             if found.name == section:
                 for j, block in enumerate(found.blocks):
                     if block.keyword == keyword and isinstance(block, Block):
+                        yield Where(i, j), block
+
+    def blocks_that(self, fact: Callable[[type[Block]], object], section: str = "MODEL") -> Iterator[tuple[Where, Any]]:
+        """The modelled blocks whose declaration has a fact, in all sections of a name, in the order of the file."""
+        for i, found in enumerate(self.sections):
+            if found.name == section:
+                for j, block in enumerate(found.blocks):
+                    if isinstance(block, Block) and fact(type(block)):
                         yield Where(i, j), block
 
     def keywords(self, section: str = "MODEL") -> set[str]:

@@ -8,8 +8,6 @@ from mudline.deck.model import Deck
 from mudline.keywords.model import Comment
 from mudline.keywords.table import Table
 
-_CURVES = ("SEABED STIFFNESS", "EMBEDMENT")
-
 
 def sort_curves(deck: Deck) -> list[str]:
     """Sort the points of every curve in place, comments before a point going with it.
@@ -17,15 +15,14 @@ def sort_curves(deck: Deck) -> list[str]:
     Returns the names of curves that were left as they are, because a ratio in them is an equation.
     """
     left: list[str] = []
-    for keyword in _CURVES:
-        for _, block in deck.blocks(keyword):
-            for curve in block.curves:
-                if any(column == 0 for _, column in curve.points.words):
-                    left.append(getattr(curve, "name", None) or curve.set_name or "ALL")
-                    continue
-                order = np.argsort(curve.points.values[:, 0], kind="stable")
-                curve.comments = _moved(curve.comments, order.tolist())
-                curve.points = _sorted(curve.points, order)
+    for _, block in deck.blocks_that(lambda declared: declared.facts.defines == "curves"):
+        for curve in block.curves:
+            if any(column == 0 for _, column in curve.points.words):
+                left.append(getattr(curve, "name", None) or curve.set_name or "ALL")
+                continue
+            order = np.argsort(curve.points.values[:, 0], kind="stable")
+            curve.comments = _moved(curve.comments, order.tolist())
+            curve.points = _sorted(curve.points, order)
     return left
 
 

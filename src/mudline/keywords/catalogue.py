@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import cache
 from importlib import import_module
 from typing import cast
@@ -32,45 +33,45 @@ SECTIONS = (
 )
 
 _MODULES = {
-    ("ANALYSIS", "UNITS"): "units",
-    ("PREPROCESSOR", "PARAMETERS"): "parameters",
-    ("PREPROCESSOR", "VARIATION"): "variation",
-    ("PREPROCESSOR", "COMBINATIONS"): "combinations",
-    ("MODEL", "OCEAN"): "ocean",
-    ("MODEL", "NODE"): "node",
-    ("MODEL", "ELEMENT"): "element",
-    ("MODEL", "ELEMENT SETS"): "element_sets",
-    ("MODEL", "LINE SECTION GROUPS"): "line_section_groups",
-    ("MODEL", "LINE PATH SECTIONS"): "line_path_sections",
-    ("MODEL", "GEOMETRIC SETS"): "geometric_sets",
-    ("MODEL", "SEABED PROPERTIES"): "seabed_properties",
-    ("MODEL", "SEABED STIFFNESS"): "seabed_stiffness",
-    ("MODEL", "SEABED PROFILE"): "seabed_profile",
-    ("MODEL", "SEABED PLANES"): "seabed_planes",
-    ("MODEL", "SEABED CONTACT"): "seabed_contact",
-    ("MODEL", "SEABED SUCTION"): "seabed_suction",
-    ("MODEL", "SEABED UNLOADING"): "seabed_unloading",
-    ("MODEL", "SEABED FRICTION"): "seabed_friction",
-    ("MODEL", "SEABED TRENCH"): "seabed_trench",
-    ("MODEL", "EMBEDMENT"): "embedment",
-    ("MODEL", "ELASTIC SURFACE"): "elastic_surface",
-    ("MODEL", "RIGID SURFACE"): "rigid_surface",
-    ("MODEL", "P-Y"): "p_y",
-    ("MODEL", "T-Z"): "t_z",
-    ("LOAD CASE", "RESTART"): "restart",
-    ("LOAD CASE", "TIME"): "time",
-    ("LOAD CASE", "BOUNDARY"): "boundary",
-    ("LOAD CASE", "FRICTION"): "friction",
-    ("MODES", "FRICTION"): "friction",
+    "UNITS": "units",
+    "PARAMETERS": "parameters",
+    "VARIATION": "variation",
+    "COMBINATIONS": "combinations",
+    "OCEAN": "ocean",
+    "NODE": "node",
+    "ELEMENT": "element",
+    "ELEMENT SETS": "element_sets",
+    "LINE PATH SECTIONS": "line_path_sections",
+    "LINE SECTION GROUPS": "line_section_groups",
+    "GEOMETRIC SETS": "geometric_sets",
+    "SEABED PROPERTIES": "seabed_properties",
+    "SEABED STIFFNESS": "seabed_stiffness",
+    "SEABED PROFILE": "seabed_profile",
+    "SEABED PLANES": "seabed_planes",
+    "SEABED CONTACT": "seabed_contact",
+    "SEABED SUCTION": "seabed_suction",
+    "SEABED UNLOADING": "seabed_unloading",
+    "SEABED FRICTION": "seabed_friction",
+    "SEABED TRENCH": "seabed_trench",
+    "ELASTIC SURFACE": "elastic_surface",
+    "RIGID SURFACE": "rigid_surface",
+    "EMBEDMENT": "embedment",
+    "P-Y": "p_y",
+    "T-Z": "t_z",
+    "RESTART": "restart",
+    "TIME": "time",
+    "BOUNDARY": "boundary",
+    "FRICTION": "friction",
 }
+"""The module of each keyword whose lines are read; what it says of the keyword is written nowhere else."""
 
 _KEPT = {
-    ("MODEL", "LINES"): "lines",
-    ("MODEL", "LINE PATHS"): "line_paths",
-    ("MODEL", "LINE LOCATIONS"): "line_locations",
-    ("MODEL", "CABLE"): "cable",
-    ("MODEL", "NODE,CURVILINEAR"): "node_curvilinear",
-    ("LOAD CASE", "NO FRICTION"): "no_friction",
+    "LINES": "lines",
+    "LINE PATHS": "line_paths",
+    "LINE LOCATIONS": "line_locations",
+    "CABLE": "cable",
+    "NODE,CURVILINEAR": "node_curvilinear",
+    "NO FRICTION": "no_friction",
 }
 """Keywords whose lines are kept, and of which a module says what they are for."""
 
@@ -164,14 +165,19 @@ _OPAQUE: dict[str, tuple[str, ...]] = {
 }
 """Keywords that are recognised and kept as they are; no sections: known to exist, section not confirmed."""
 
-_ALSO_OPAQUE_IN = {"ELEMENT SETS": ("CLEAR", *_POST)}
-_UNCONFIRMED = ("NO FRICTION",)
-"""Keywords with a module whose section is not confirmed."""
+ZERO_LENGTH = ("FLEX JOINTS", "HINGE", "SPRING ELEMENT", "DAMPER")
+"""Keywords whose elements may have no length."""
 
 
 def block_class(section: str, keyword: str) -> type[Block] | None:
     """The declaration of a keyword in a section, or None when it is kept as it is."""
-    module = _MODULES.get((section, keyword))
+    found = declared(keyword)
+    return found if found is not None and section in found.sections else None
+
+
+def declared(keyword: str) -> type[Block] | None:
+    """The declaration of a keyword, whatever section it stands in, or None when its lines are not read."""
+    module = _MODULES.get(keyword)
     return load(module) if module else None
 
 
@@ -183,8 +189,9 @@ def load(module: str) -> type[Block]:
 
 def kept_of(section: str, keyword: str) -> Kept | None:
     """What is known of a keyword that is kept as it is, or None when that is its name at most."""
-    module = _KEPT.get((section, keyword))
-    return _load_kept(module) if module else None
+    module = _KEPT.get(keyword)
+    found = _load_kept(module) if module else None
+    return found if found is not None and section in found.sections else None
 
 
 @cache
@@ -194,28 +201,57 @@ def _load_kept(module: str) -> Kept:
 
 def kept_keywords(section: str) -> list[str]:
     """The keywords of a section that `kept_of` knows, in the order of the catalogue."""
-    return [keyword for where, keyword in _KEPT if where == section]
+    return [keyword for keyword in _KEPT if kept_of(section, keyword)]
 
 
 def kept() -> list[Kept]:
     """Every keyword that `kept_of` knows, in the order of the catalogue."""
-    return [_load_kept(module) for module in dict.fromkeys(_KEPT.values())]
+    return [_load_kept(module) for module in _KEPT.values()]
 
 
 def modules() -> list[str]:
     """Names of all library modules, in the order of the catalogue."""
-    return list(dict.fromkeys(_MODULES.values()))
+    return list(_MODULES.values())
 
 
-@cache
+def in_order(keywords: Iterable[str]) -> list[str]:
+    """Those of the keywords of which more is known than the name, in the order of the catalogue."""
+    given = set(keywords)
+    return [keyword for keyword in (*_MODULES, *_KEPT) if keyword in given]
+
+
 def sections_of(keyword: str) -> tuple[str, ...] | None:
     """The sections where a keyword belongs; () when not confirmed, None for an unknown keyword."""
-    if keyword in _UNCONFIRMED:
-        return _ANY
-    declared = tuple(section for section, name in (*_MODULES, *_KEPT) if name == keyword)
-    if declared:
-        return declared + _ALSO_OPAQUE_IN.get(keyword, ())
+    if (found := declared(keyword)) is not None:
+        return found.sections + found.facts.passes_in
+    if keyword in _KEPT:
+        held = _load_kept(_KEPT[keyword])
+        return _ANY if held.sections_inferred else held.sections
     return _OPAQUE.get(keyword)
+
+
+def is_extension(keyword: str) -> bool:
+    """Whether a keyword is mudline's own."""
+    found = declared(keyword)
+    return found is not None and found.facts.extension
+
+
+def is_superseded(keyword: str) -> bool:
+    """Whether newer keywords take the place of a keyword."""
+    found = declared(keyword)
+    return found is not None and bool(found.facts.superseded_by)
+
+
+def supersedes(keyword: str) -> bool:
+    """Whether a keyword takes the place of older ones."""
+    found = declared(keyword)
+    return found is not None and found.facts.supersedes
+
+
+def holds_in_soil(keyword: str) -> bool:
+    """Whether a keyword gives soil springs."""
+    found = declared(keyword)
+    return found is not None and found.facts.soil_springs
 
 
 def begins_keyword(text: str) -> bool:
@@ -226,10 +262,10 @@ def begins_keyword(text: str) -> bool:
 @cache
 def keywords() -> tuple[str, ...]:
     """Every known keyword."""
-    return tuple(sorted({name for _, name in (*_MODULES, *_KEPT)} | set(_OPAQUE)))
+    return tuple(sorted({*_MODULES, *_KEPT, *_OPAQUE}))
 
 
 @cache
 def read_keywords() -> tuple[str, ...]:
     """Every keyword of which more is known than its name."""
-    return tuple(sorted({name for _, name in (*_MODULES, *_KEPT)}))
+    return tuple(sorted({*_MODULES, *_KEPT}))

@@ -1,14 +1,12 @@
-"""Fields that several keywords share."""
+"""What the keywords of the seabed share."""
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar
+from typing import Annotated
 
-from mudline.keywords.model import Block, Row, about, rows
-from mudline.keywords.table import Table
+from mudline.keywords.model import Row, about
 from mudline.keywords.values import Real
 
-CHARACTERISTIC_LENGTH = "10 ft or 3.048 m"
 CONSTANT_FRICTION = (
     "no meaning: the manual names the field and says neither what it does nor its unit, so the value is kept and no "
     "friction is computed from it"
@@ -18,7 +16,6 @@ SUCTION_STIFFNESS = (
     "that the pipe rises"
 )
 _PER_LENGTH = "the force is per unit length, as is the linear stiffness that the curve stands in for"
-_SLOPE = "a line of one value is a slope, one of two a point of the profile: nothing else tells them apart"
 NO_SET = (
     "lines before any SET= are read as those of SET=ALL, since the manual's default set of a force-embedment curve is "
     "every element on the seabed"
@@ -38,35 +35,3 @@ class CurvePoint(Row):
             inferred=_PER_LENGTH,
         ),
     ]
-
-
-class ProfilePoint(Row):
-    """A point of an inline profile."""
-
-    y: Annotated[Real, about("horizontal coordinate Y", unit="L")]
-    elevation: Annotated[Real, about("elevation of the bed there", unit="L")]
-
-
-class Surface(Block):
-    """A legacy surface: a line of properties, then a slope or a profile."""
-
-    properties: Annotated[Row, about("properties of the surface")]
-    slope: Annotated[
-        Real | None,
-        about(
-            "slope of the bed about the origin",
-            unit="deg",
-            default="flat",
-            inferred=_SLOPE,
-        ),
-    ] = None
-    profile: Annotated[
-        Table | None, rows(ProfilePoint, "arbitrary profile: Y and elevation, a line of two values a point")
-    ] = None
-
-    example: ClassVar[str]
-
-    @classmethod
-    def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:
-        """The first line holds the properties; then one value is a slope, two are a point of the profile."""
-        return "properties" if number == 0 else "slope" if fields == 1 else "profile"

@@ -12,6 +12,9 @@ class Names(Enum):
 
     SET = "an element set"
     SETS = "one or more element sets"
+    CURVE = "a force-embedment curve"
+    FILE = "a file"
+    DECK = "the deck before"
 
 
 LINE_SETS: Mapping[str, Names] = {
@@ -30,7 +33,8 @@ class Kept:
     `example` shows what its lines may look like, not its format. `certain` and `inferred` say what we know of it and
     what we conclude. `harvest` has the settings that give names; of a SET only the first value is a name. `labels` says
     that any text among its lines may be the label of a node. `makes` are the keywords of what it may define: a thing of
-    these kinds that is missing may come from here.
+    these kinds that is missing may come from here. `sections_inferred` says that its section is not confirmed: in
+    another one it is not reported.
     """
 
     names: tuple[str, ...]
@@ -39,6 +43,7 @@ class Kept:
     certain: str
     inferred: str
     sections: tuple[str, ...] = ("MODEL",)
+    sections_inferred: bool = False
     harvest: Mapping[str, Names] = field(default_factory=dict)
     labels: bool = False
     makes: tuple[str, ...] = ()

@@ -25,8 +25,8 @@ def meant_keyword(keyword: str, effort: Effort | None = None) -> str:
 
 def meant_in(keyword: str, section: str) -> str:
     """The keyword of a section that is spelt nearly as one that does not belong in it, or ""."""
-    here = [name for name in catalogue.keywords() if section in (catalogue.sections_of(name) or ())]
-    return nearest(keyword, here)
+    near = [name for name in catalogue.keywords() if nearest(keyword, [name])]
+    return nearest(keyword, [name for name in near if section in (catalogue.sections_of(name) or ())])
 
 
 def words_behind(name: str, near: str) -> bool:

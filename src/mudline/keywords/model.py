@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 from functools import cache
 from types import NoneType, UnionType
@@ -22,6 +22,8 @@ from pydantic.fields import FieldInfo
 from pydantic_core import CoreSchema, core_schema
 
 from mudline.diagnostics import Code
+from mudline.keywords.facts import Facts
+from mudline.keywords.kept import Names
 from mudline.keywords.listing import AS_TABLES, Listing, read_table
 from mudline.keywords.lists import checked_by_parts
 from mudline.keywords.table import LARGEST_WHOLE, Cell, Column, Table
@@ -33,7 +35,10 @@ _MOST_KEYS = 100
 
 @dataclass(frozen=True, slots=True)
 class About:
-    """What a field means. Units in F (force), L, M, T, deg; "-" is dimensionless. `inferred` names our deduction."""
+    """What a field means. Units in F (force), L, M, T, deg; "-" is dimensionless. `inferred` names our deduction.
+
+    `names` says what a text in the field is the name of: that it exists is then checked.
+    """
 
     meaning: str
     unit: str = ""
@@ -42,6 +47,7 @@ class About:
     above: float | None = None
     at_most: float | None = None
     inferred: str = ""
+    names: Names | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,9 +64,10 @@ class Setting(About):
 
 @dataclass(frozen=True, slots=True)
 class Rows(About):
-    """A field that is a table; `row` declares its columns."""
+    """A field that is a table; `row` declares its columns. The order of `unordered` rows has no meaning."""
 
     row: type[Row] | None = None
+    unordered: bool = False
 
     def columns(self) -> list[Column]:
         """The columns of the table."""
@@ -113,9 +120,9 @@ def setting(key: str, meaning: str, **details: Any) -> Setting:
     return Setting(meaning, key=key, **details)
 
 
-def rows(row: type[Row], meaning: str) -> Rows:
+def rows(row: type[Row], meaning: str, *, unordered: bool = False) -> Rows:
     """A table field."""
-    return Rows(meaning, row=row)
+    return Rows(meaning, row=row, unordered=unordered)
 
 
 class Comment(BaseModel):
@@ -206,14 +213,15 @@ class Record(Part):
 class Block(Record):
     """A keyword with its data. The class variables are its declaration.
 
-    `sections` are those where it belongs; `tabular` keeps runs of numeric lines whole, as arrays; `slashes` says that
-    /.../ is one field; `example` is a block that reads without a finding. `unpublished` are the codes of faults that
-    may be a form which is not public: a block in which one is found is kept as it is, without a finding. Where it
-    depends on more than the code, `other_form` says so.
+    `sections` are those where it belongs; `facts` is what else is known of it; `tabular` keeps runs of numeric lines
+    whole, as arrays; `slashes` says that /.../ is one field; `example` is a block that reads without a finding.
+    `unpublished` are the codes of faults that may be a form which is not public: a block in which one is found is kept
+    as it is, without a finding. Where it depends on more than the code, `other_form` says so.
     """
 
     names: ClassVar[tuple[str, ...]]
     sections: ClassVar[tuple[str, ...]] = ("MODEL",)
+    facts: ClassVar[Facts] = Facts()
     summary: ClassVar[str]
     tabular: ClassVar[bool] = False
     slashes: ClassVar[bool] = False
@@ -322,6 +330,42 @@ def layout(part: type[Part]) -> Layout:
         else:
             found.columns.append(slot)
     return found
+
+
+@cache
+def _naming(part: type[Part], what: Names) -> tuple[Slot, ...]:
+    """The fields that name a thing of a kind, and those with parts that have one."""
+    return tuple(slot for slot in layout(part).slots if slot.about.names is what or _leads_to(slot, what))
+
+
+def _leads_to(slot: Slot, what: Names) -> bool:
+    return any(_naming(part, what) for part in (slot.row, *slot.record.values()) if part)
+
+
+def names_given(part: Part, what: Names) -> Iterator[tuple[tuple[str | int, ...], str]]:
+    """The names of things of a kind that a part gives, with their paths; what is not a text is no name."""
+    for slot in _naming(type(part), what):
+        value = getattr(part, slot.name, None)
+        if isinstance(value, Part):
+            yield from (((slot.json, *path), name) for path, name in names_given(value, what))
+        elif isinstance(value, str) and not isinstance(value, Equation):
+            yield (slot.json,), value
+        elif isinstance(value, list):
+            for index, item in enumerate(value):
+                if isinstance(item, Part):
+                    yield from (((slot.json, index, *path), name) for path, name in names_given(item, what))
+
+
+@cache
+def set_slots(block: type[Block]) -> tuple[tuple[Slot, Slot], ...]:
+    """The lists of a block whose records go by element set, each with the field of these that names it."""
+    return tuple(
+        (slot, named)
+        for slot in layout(block).slots
+        for record in slot.record.values()
+        for named in layout(record).slots
+        if named.about.names is Names.SET
+    )
 
 
 def columns_of(slot: Slot) -> list[Column]:

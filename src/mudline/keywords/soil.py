@@ -6,6 +6,7 @@ from typing import Annotated, ClassVar
 
 from mudline.codes import SYN001, SYN004, SYN005
 from mudline.diagnostics import Code
+from mudline.keywords.kept import Names
 from mudline.keywords.model import Record, Row, about, rows, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Ident, Name, Real
@@ -30,7 +31,7 @@ class DepthCurve(Record):
 
     rule: ClassVar[str] = "depth_curve"
     depth: Annotated[Real, setting("DEPTH", "depth below the mudline, negative above it", unit="L")]
-    points: Annotated[Table, rows(SoilPoint, POINTS)]
+    points: Annotated[Table, rows(SoilPoint, POINTS, unordered=True)]
 
 
 class NodeCurve(Record):
@@ -38,8 +39,8 @@ class NodeCurve(Record):
 
     rule: ClassVar[str] = "node_curve"
     node: Annotated[Ident, setting("NODE", "node that the curve belongs to", inferred="in place of DEPTH=")]
-    points: Annotated[Table, rows(SoilPoint, POINTS)]
+    points: Annotated[Table, rows(SoilPoint, POINTS, unordered=True)]
 
 
 SoilCurves = list[DepthCurve | NodeCurve]
-CurvesFile = Annotated[Name | None, setting("FILE", "file with the curves, instead of lines")]
+CurvesFile = Annotated[Name | None, setting("FILE", "file with the curves, instead of lines", names=Names.FILE)]

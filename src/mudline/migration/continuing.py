@@ -7,12 +7,13 @@ from pathlib import Path
 
 from mudline.deck.loading import load_path
 from mudline.diagnostics import DeckError
-from mudline.migration.refusals import LEGACY
+from mudline.keywords.catalogue import is_superseded
 from mudline.scene.restart import decks_before
 
 _SUFFIXES = frozenset({".keyx", ".keyxm", ".keyxi", ".das"})
 _LARGEST = 50_000_000
-_SEABED = {*LEGACY, "SEABED PROPERTIES", "SEABED STIFFNESS"}
+_NEWER = {"SEABED PROPERTIES", "SEABED STIFFNESS"}
+"""What gives the laws that a migrated deck would meet."""
 
 
 class Continuations:
@@ -46,6 +47,6 @@ class Continuations:
             deck = load_path(file)
         except (OSError, DeckError):
             return  # what cannot be read continues nothing; where it is to be migrated that is told
-        if deck.keywords() & _SEABED:
+        if deck.keywords() & _NEWER or any(map(is_superseded, deck.keywords())):
             for base in decks_before(deck):
                 self.by_base.setdefault(base.resolve(), []).append(file.as_posix())

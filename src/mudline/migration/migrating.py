@@ -14,8 +14,9 @@ from mudline.deck.loading import dump, form_of
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import DeckError, Problem, Severity, Where
+from mudline.keywords.catalogue import is_superseded, supersedes
 from mudline.keywords.model import Record
-from mudline.migration.refusals import LEGACY, refusals
+from mudline.migration.refusals import refusals, superseded_blocks
 from mudline.migration.rewriting import Rewriting, rewrite
 from mudline.scene.build import resolve
 from mudline.scene.model import Scene
@@ -40,7 +41,7 @@ class Migration:
 
 def legacy_blocks(deck: Deck) -> Counter[str]:
     """How many blocks of each legacy keyword the model has."""
-    return Counter({keyword: count for keyword in LEGACY if (count := sum(1 for _ in deck.blocks(keyword)))})
+    return Counter(block.keyword for _, block in superseded_blocks(deck))
 
 
 def migrate(deck: Deck, continued_by: Sequence[str] = ()) -> Migration:
@@ -89,7 +90,7 @@ def _checked(deck: Deck, before: Scene, changed: Deck, made: Rewriting) -> Scene
     for code in (new - expected) - Counter({"REF015": len(made.files)}):
         faults.append(f"it would have a new finding {code}")
     if faults:
-        where = next(where for keyword in LEGACY for where, _ in deck.blocks(keyword))
+        where, _ = superseded_blocks(deck)[0]
         raise DeckError(deck.diagnose([_refused(fault, where) for fault in faults]))
     return after
 
@@ -100,12 +101,11 @@ def _refused(fault: str, where: Where) -> Problem:
 
 def _others(deck: Deck) -> list[object]:
     """Everything but the blocks that a migration touches, without the comments."""
-    touched = (*LEGACY, "SEABED PROPERTIES", "SEABED STIFFNESS", "SEABED PROFILE")
     return [
         (section.name, section.lines, block)
         for section in deck.sections
         for block in section.blocks
-        if section.name != "MODEL" or block.keyword not in touched
+        if section.name != "MODEL" or not (is_superseded(block.keyword) or supersedes(block.keyword))
     ]
 
 

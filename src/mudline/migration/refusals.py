@@ -8,20 +8,25 @@ from typing import Any
 from mudline.codes import MIG001
 from mudline.deck.model import Deck
 from mudline.diagnostics import Problem, Where
-from mudline.keywords.common import Surface
+from mudline.keywords.catalogue import in_order, is_superseded, supersedes
+from mudline.keywords.model import Block
+from mudline.keywords.surface import Surface
 from mudline.keywords.values import Equation
 from mudline.migration.surface import lengths_in_force
 from mudline.syntax.tree import canonical_name
 
-SURFACES = ("ELASTIC SURFACE", "RIGID SURFACE")
-LEGACY = (*SURFACES, "EMBEDMENT")
-_NEW = ("SEABED PROPERTIES", "SEABED STIFFNESS", "SEABED PROFILE")
 _DEFAULT_LENGTH = {"metric": 3.048, "imperial": 10.0}
+
+
+def superseded_blocks(deck: Deck) -> list[tuple[Where, Block]]:
+    """The blocks of superseded keywords: surfaces first, then curves by set."""
+    present = filter(is_superseded, in_order(deck.keywords()))
+    return [found for keyword in present for found in deck.blocks(keyword)]
 
 
 def surfaces(deck: Deck) -> list[tuple[Where, Surface]]:
     """The legacy surfaces of a deck, in the order of the file."""
-    return sorted((found for keyword in SURFACES for found in deck.blocks(keyword)), key=lambda found: found[0])
+    return list(deck.blocks_that(lambda declared: declared.facts.seabed_type))
 
 
 def refusals(deck: Deck, continued_by: Sequence[str] = ()) -> Iterator[Problem]:
@@ -67,7 +72,7 @@ def _other_deck(deck: Deck) -> Iterator[Problem]:
 
 def _continued(deck: Deck, continued_by: Sequence[str]) -> Iterator[Problem]:
     """In a deck that goes on from this one, its keywords would meet other ones than before."""
-    where = next(where for keyword in LEGACY for where, _ in deck.blocks(keyword))
+    where, _ = superseded_blocks(deck)[0]
     for name in continued_by:
         message = f"{name} continues this deck and has seabed keywords of its own, which would meet others: keep both"
         yield _told(message, where)
@@ -79,7 +84,7 @@ def _actions(deck: Deck) -> Iterator[Problem]:
         for i, variation in enumerate(block.variations):
             for j, item in enumerate(variation.blocks):
                 keyword = canonical_name("*" + ",".join(item.keyword))
-                if keyword in (*LEGACY, *_NEW):
+                if is_superseded(keyword) or supersedes(keyword):
                     message = (
                         f"a variation adds or removes *{keyword}, which means another thing then: remove the action"
                     )

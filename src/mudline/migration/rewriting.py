@@ -10,9 +10,9 @@ from typing import cast
 from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Span, Where
-from mudline.keywords.common import Surface
 from mudline.keywords.library.embedment import Embedment
 from mudline.keywords.model import layout
+from mudline.keywords.surface import Surface
 from mudline.migration.names import curve_names
 from mudline.migration.refusals import surfaces
 from mudline.migration.surface import SurfaceLines, lengths_given, surface_lines

@@ -13,10 +13,10 @@ from mudline.scene.context import Context
 from mudline.scene.given import number
 from mudline.scene.laws import LawTable
 from mudline.scene.numbering import Floats, Indices, looked_up, one_index
+from mudline.scene.surfaces import surfaces
 from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:
-    from mudline.keywords.common import Surface
     from mudline.keywords.library.seabed_properties import SeabedProperties, SeabedSet
     from mudline.keywords.model import Part
 
@@ -109,18 +109,17 @@ def _of_set(entry: SeabedSet) -> BedValues:
 
 
 def _surfaces(context: Context) -> Iterator[tuple[Where, BedValues]]:
-    for keyword in ("RIGID SURFACE", "ELASTIC SURFACE"):
-        for where, block in context.deck.blocks(keyword):
-            properties = cast("Surface", block).properties
-            yield (
-                where._replace(path=("properties",)),
-                BedValues(
-                    friction=_two(properties, ""),
-                    mobilisation=_two(properties, "_mobilisation"),
-                    characteristic=_two(properties, "_length"),
-                    constant=number(properties, "constant"),
-                    lateral=number(properties, "lateral"),
-                    suction=number(properties, "suction_stiffness"),
-                    extent=number(properties, "suction_extent"),
-                ),
-            )
+    for where, surface in surfaces(context.deck):
+        properties = surface.properties
+        yield (
+            where._replace(path=("properties",)),
+            BedValues(
+                friction=_two(properties, ""),
+                mobilisation=_two(properties, "_mobilisation"),
+                characteristic=_two(properties, "_length"),
+                constant=number(properties, "constant"),
+                lateral=number(properties, "lateral"),
+                suction=number(properties, "suction_stiffness"),
+                extent=number(properties, "suction_extent"),
+            ),
+        )

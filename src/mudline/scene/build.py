@@ -16,6 +16,7 @@ from mudline.scene.laws import read_laws
 from mudline.scene.line_checks import check_lines
 from mudline.scene.model import Scene
 from mudline.scene.nodes import read_nodes
+from mudline.scene.references import check_references
 from mudline.scene.restart import continued
 from mudline.scene.sections import read_sections
 from mudline.scene.sets import read_sets
@@ -44,7 +45,8 @@ def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:
     extensions = read_extensions(context, sets, count)
     floor = read_floor(context)
     check_lines(context)
+    check_references(context, sets, laws, with_soil=external is None)
     if external is None:  # a file of elements does not tell of every node and set
-        check_soil(context, sets, nodes)
+        check_soil(context, nodes)
         check_boundaries(context, nodes)
     return Scene(ready, nodes, elements, sets, sections, laws, bed, extensions, floor, context.problems)

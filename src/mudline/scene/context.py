@@ -17,7 +17,7 @@ from mudline.keywords import catalogue
 from mudline.keywords.likeness import meant_in, meant_keyword
 from mudline.keywords.model import ListRow
 from mudline.scene.continued import ContinuedDeck
-from mudline.scene.harvest import LAID, definers, harvested_labels, harvested_sets, may_define
+from mudline.scene.harvest import definers, harvested_labels, harvested_sets, is_laid, may_define
 from mudline.scene.numbering import LARGEST
 from mudline.short_repr import short_repr
 from mudline.spelling import Effort, nearest
@@ -81,8 +81,7 @@ class Context:
 
     def supplier(self, keyword: str, number: int | None = None) -> str:
         """What could define a thing of a keyword that is missing, in words, or ""; `number` None stands for any."""
-        lost = [definer for definer in LAID if definer in self.unread and keyword == "ELEMENT SETS"]
-        if lost:
+        if keyword == "ELEMENT SETS" and (lost := catalogue.in_order(filter(is_laid, self.unread))):
             return f"a line of *{lost[0]} that could not be used may define it"
         if words := next(filter(None, (may_define(definer, keyword) for definer in self.definers)), ""):
             return words
@@ -98,6 +97,11 @@ class Context:
     def astray(self, keyword: str) -> str:
         """A keyword that stands where it is not read, or is misspelt, in words; "" when there is none."""
         return self._astray.get(keyword, "")
+
+    @property
+    def astray_keywords(self) -> list[str]:
+        """Keywords that stand where they are not read, or are misspelt."""
+        return list(self._astray)
 
     def near(self, word: str, known: Collection[str]) -> str:
         """The name among `known`, all of them folded, that is spelt nearly as `word`, or ""."""

@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
 from mudline.diagnostics import Where
+from mudline.keywords import catalogue
+from mudline.keywords.model import set_slots
 from mudline.scene.context import Context
 from mudline.scene.numbering import Indices, Mask
 from mudline.scene.sets import NamedSet, Sets, later_wins
 from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:
-    from mudline.keywords.model import Record
-
-BY_SET = ("SEABED CONTACT", "SEABED SUCTION", "SEABED UNLOADING", "SEABED FRICTION", "SEABED TRENCH")
+    from mudline.keywords.model import Block, Record
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,9 +32,13 @@ class Extension:
 
 
 def read_extensions(context: Context, sets: Sets, count: int) -> dict[str, Extension]:
-    """What the deck gives, by keyword; keywords that it has not are left out."""
-    present = context.deck.keywords()
-    return {keyword: _read(context, sets, keyword, count) for keyword in BY_SET if keyword in present}
+    """What the deck gives, by keyword in the order of the catalogue; keywords that it has not are left out."""
+    given = {block.keyword for _, block in context.deck.blocks_that(_goes_by_set)}
+    return {keyword: _read(context, sets, keyword, count) for keyword in catalogue.in_order(given)}
+
+
+def _goes_by_set(declared: type[Block]) -> bool:
+    return declared.facts.extension and declared.facts.later_wins
 
 
 def with_nodal_stiffness(contact: Extension) -> Mask:
@@ -47,20 +50,20 @@ def with_nodal_stiffness(contact: Extension) -> Mask:
 
 
 def _read(context: Context, sets: Sets, keyword: str, count: int) -> Extension:
-    found = list(_entries(context, keyword))
-    holders = [_holder(context, sets, entry, where) for entry, where in found]
-    return Extension([entry for entry, _ in found], [where for _, where in found], holders, later_wins(holders, count))
-
-
-def _entries(context: Context, keyword: str) -> Iterator[tuple[Record, Where]]:
+    entries: list[Record] = []
+    places: list[Where] = []
+    holders: list[NamedSet | None] = []
     for where, block in context.deck.blocks(keyword):
-        for index, entry in enumerate(cast("Any", block).sets):
-            yield entry, where._replace(path=("sets", index))
+        for listed, named in set_slots(type(cast("Block", block))):
+            for index, entry in enumerate(getattr(block, listed.name)):
+                entries.append(entry)
+                places.append(where._replace(path=(listed.json, index)))
+                holders.append(_holder(context, sets, getattr(entry, named.name)))
+    return Extension(entries, places, holders, later_wins(holders, count))
 
 
-def _holder(context: Context, sets: Sets, entry: Record, where: Where) -> NamedSet | None:
-    name = getattr(entry, "set_name", None)
+def _holder(context: Context, sets: Sets, name: str | None) -> NamedSet | None:
     if name is None:
         context.unread.add("SEABED PROPERTIES")
         return None
-    return sets.find(name, where._replace(path=(*where.path, "set")))
+    return sets.find(name)

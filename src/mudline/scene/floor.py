@@ -17,12 +17,13 @@ from mudline.scene.deck_files import file_name, find_file
 from mudline.scene.given import number
 from mudline.scene.numbering import Floats
 from mudline.scene.profile_file import COMPILED, ProfileError, read_profile
+from mudline.scene.surfaces import surfaces
 from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:
-    from mudline.keywords.common import Surface
     from mudline.keywords.library.seabed_planes import Plane, SeabedPlanes
     from mudline.keywords.library.seabed_profile import SeabedProfile
+    from mudline.keywords.surface import Surface
 
 _NO_POINTS = np.zeros((0, 2))
 
@@ -83,10 +84,9 @@ class Floor:
 def read_floor(context: Context) -> Floor:
     """The bed of a deck: the last `*SEABED PLANES`, else the last `*SEABED PROFILE`, else that of the surface."""
     found = Floor()
-    for keyword in ("RIGID SURFACE", "ELASTIC SURFACE"):
-        for where, block in context.deck.blocks(keyword):
-            found = _surface(cast("Surface", block), where, found)
     unreadable: list[tuple[Where, str]] = []
+    for where, surface in surfaces(context.deck):
+        found = _surface(surface, where, found)
     for where, block in context.deck.blocks("SEABED PROFILE"):
         found = _profile(context, cast("SeabedProfile", block), where, unreadable)
     planes = [

@@ -14,9 +14,6 @@ from mudline.keywords.model import Block, Part, Row, layout
 from mudline.syntax.fields import read_line
 from mudline.syntax.rows import read_number
 
-LAID = ("LINE PATH SECTIONS", "LINE SECTION GROUPS")
-"""Keywords that are read; the lines that they are about make nodes and elements which the deck does not show."""
-
 _COMMENT = re.compile(r"[Cc](?:[ \t]|[-*=#_.~+]{2}|$)|C[A-Za-z]")
 _KEY = re.compile(r"[ \t]*[A-Za-z][\w \t-]*")
 _PIECE = re.compile(r'(?:[^,"{]++|"[^"]*+"|\{[^}]*+\}|["{].*+)++')
@@ -25,18 +22,25 @@ _WORD = re.compile(r"[^-+.,0-9 \t]")
 
 
 def definers(deck: Deck) -> list[str]:
-    """Keywords of the model that make nodes, elements or sets which the deck does not show."""
-    present = deck.keywords()
-    kept = [keyword for keyword in catalogue.kept_keywords("MODEL") if keyword in present]
-    return [keyword for keyword in kept if _makes(keyword)] + [keyword for keyword in LAID if keyword in present]
+    """Keywords of the model that make nodes, elements or sets which the deck does not show; those not read first."""
+    present = catalogue.in_order(deck.keywords())
+    found = [keyword for keyword in present if _makes(keyword)]
+    return sorted(found, key=is_laid)
+
+
+def is_laid(keyword: str) -> bool:
+    """Whether a keyword is read, and the lines that it is about make things which the deck does not show."""
+    declared = catalogue.declared(keyword)
+    return declared is not None and bool(declared.facts.makes)
 
 
 def may_define(definer: str, keyword: str) -> str:
     """How a definer may define a thing that is a matter of `keyword`, in words; "" when it cannot."""
-    if definer not in LAID:
-        return f"*{definer}, which is not read, may define it" if keyword in _makes(definer) else ""
-    made = keyword in ("NODE", "ELEMENT", "ELEMENT SETS")
-    return f"the lines of *{definer}, which this deck does not show, may define it" if made else ""
+    if keyword not in _makes(definer):
+        return ""
+    if is_laid(definer):
+        return f"the lines of *{definer}, which this deck does not show, may define it"
+    return f"*{definer}, which is not read, may define it"
 
 
 def may_label(definer: str) -> bool:
@@ -46,6 +50,8 @@ def may_label(definer: str) -> bool:
 
 
 def _makes(keyword: str) -> tuple[str, ...]:
+    if declared := catalogue.declared(keyword):
+        return declared.facts.makes
     kept = catalogue.kept_of("MODEL", keyword)
     return kept.makes if kept else ()
 
@@ -87,7 +93,7 @@ def _sets(block: Block | Opaque) -> Iterator[str]:
         kept = catalogue.kept_of("MODEL", block.keyword)
         if kept and kept.harvest:
             yield from _given_in_lines(block.lines, kept.harvest)
-    elif block.keyword in LAID:
+    elif block.facts.makes:
         yield from _given_in_parts(block)
 
 

@@ -113,7 +113,7 @@ def _elastic_surface(context: Context, sets: Sets, laws: LawTable) -> Iterator[G
 
 def _embedment(sets: Sets, laws: LawTable, first: int) -> Iterator[Grant]:
     for index, curve in enumerate(laws.curves[first:], first):
-        found = sets.find(curve.name, curve.title) if curve.named else None
+        found = sets.find(curve.name) if curve.named else None
         yield Grant(
             LawKind.CURVE,
             found or _unknown(curve.name),
@@ -146,7 +146,7 @@ def _properties(context: Context, sets: Sets, laws: LawTable, named: list[SceneC
         for index, entry in enumerate(properties.sets):
             place = where._replace(path=("sets", index))
             name = set_name(context, entry.set_name, place)
-            found = None if name is None else sets.find(name, place._replace(path=(*place.path, "set")))
+            found = None if name is None else sets.find(name)
             yield reading.grant(entry, place, found or _unknown(name))
 
 
@@ -165,16 +165,12 @@ class _Reading:
         stiffness = entry.stiffness
         unread = self.context.disturbed(where)
         if isinstance(stiffness, str):
-            return self._curve(stiffness, place, found, unread=unread)
+            index = self.curves.get(folded(stiffness), NOTHING)
+            unknown = unread or index == NOTHING or not self.laws.curves[index].usable
+            return Grant(LawKind.CURVE, found, place, "new", curve=index, unknown=unknown)
         if self.type_ == "RIGID":
             return Grant(LawKind.RIGID, found, where, "new")
         if stiffness is None:
             return Grant(LawKind.NONE, found, where, "new", unknown=unread or self.type_ is None)
         value = float(stiffness)
         return Grant(LawKind.LINEAR, found, place, "new", value, unknown=unread or not value >= 0)
-
-    def _curve(self, name: str, where: Where, found: NamedSet, *, unread: bool) -> Grant:
-        self.laws.referenced.add(folded(name))
-        index = self.curves.get(folded(name), NOTHING)
-        unknown = unread or index == NOTHING or not self.laws.curves[index].usable
-        return Grant(LawKind.CURVE, found, where, "new", curve=index, unknown=unknown)

@@ -61,7 +61,7 @@ def read_sections(
         for index, entry in enumerate(cast("GeometricSets", block).sets):
             place = where._replace(path=("sets", index))
             name = cast("str | None", entry.set_name)
-            holders.append(None if name is None else sets.find(name, place._replace(path=(*place.path, "set"))))
+            holders.append(None if name is None else sets.find(name))
             sections.append(_section(context, entry, place))
     of_element = later_wins(holders, len(elements))
     diameter = looked_up(np.array([*(section.diameter for section in sections), math.nan]), of_element)

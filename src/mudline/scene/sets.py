@@ -62,16 +62,18 @@ class Sets:
         """The predefined set ALL."""
         return self.named[ALL]
 
-    def find(self, name: str, where: Where) -> NamedSet | None:
-        """The set that a SET= names; None, and a problem, when there is no such set."""
-        found = self.named.get(folded(bare(name)))
-        if found is None:
+    def find(self, name: str) -> NamedSet | None:
+        """The set that a SET= names; None when there is no such set, which `check` tells of."""
+        return self.named.get(folded(bare(name)))
+
+    def check(self, name: str, where: Where) -> None:
+        """Tell of a name at a place that is the name of no set."""
+        if self.find(name) is None:
             near = self.context.near(name, self.named)
             hint = f" (did you mean {self.named[near].name}?)" if near else ""
             advice = advice_on(name) or "define it in *ELEMENT SETS"
             message = f"set {shown(name)} is not defined{hint}: {advice}"
             self.context.tell_missing(REF001, message, where, "ELEMENT SETS")
-        return found
 
 
 def read_sets(context: Context, elements: Numbered, external: ExternalElements | None = None) -> Sets:

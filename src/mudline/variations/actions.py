@@ -20,8 +20,8 @@ from mudline.variations.names import unquoted
 if TYPE_CHECKING:
     from mudline.keywords.library.variation import VariedBlock
 
-PLANNING = ("PARAMETERS", "VARIATION", "COMBINATIONS", "EXCEL VARIATIONS")
-"""Keywords that say what the decks are; they do not come and go themselves."""
+_PLANNING = "PREPROCESSOR"
+"""The section of keywords that say what the decks are; they do not come and go themselves."""
 
 _LARGEST = 64 * 2**20
 
@@ -44,7 +44,7 @@ def action_of(deck: Deck, varied: VariedBlock, where: Where) -> Action | Problem
 
 def _keyword(varied: VariedBlock) -> str:
     keyword = canonical_name("*" + ",".join(unquoted(word) for word in varied.keyword))
-    if keyword in PLANNING:
+    if _PLANNING in (catalogue.sections_of(keyword) or ()):
         raise RefusedError(f"*{keyword} says what the decks are: a variation cannot add or remove it")
     return keyword
 

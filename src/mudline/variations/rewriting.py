@@ -19,9 +19,6 @@ from mudline.syntax.tree import Kind, Leaf, RawBlock
 from mudline.variations.model import PlannedDeck, Removal
 from mudline.variations.targets import Targets
 
-LEFT_OUT = ("VARIATION", "COMBINATIONS")
-"""Keywords that a new deck lacks: it would describe more decks."""
-
 
 def as_text(deck: Deck) -> Deck:
     """The deck as read from keyword text. Raises DeckError for a JSON or YAML deck that cannot be said in it."""
@@ -45,7 +42,7 @@ class Rewriter:
             for index, section in enumerate(self.tree.sections)
             if section.name == "PREPROCESSOR"
             for number, block in enumerate(section.blocks)
-            if block.name in LEFT_OUT
+            if (declared := catalogue.block_class(section.name, block.name)) and declared.facts.plans_decks
         )
 
     def content(self, planned: PlannedDeck) -> bytes:

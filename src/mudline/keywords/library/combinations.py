@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Literal
 
+from mudline.keywords.facts import Facts
 from mudline.keywords.model import Block, Record, setting
 from mudline.keywords.values import Name
 
@@ -48,6 +49,7 @@ class Combinations(Block):
     rule: ClassVar[str] = "combinations"
     names: ClassVar[tuple[str, ...]] = ("COMBINATIONS",)
     sections: ClassVar[tuple[str, ...]] = ("PREPROCESSOR",)
+    facts: ClassVar[Facts] = Facts(plans_decks=True)
     summary: ClassVar[str] = "The decks that `mudline expand` makes from variations, and the names of their files."
     example: ClassVar[str] = (
         "*COMBINATIONS\n DIRECTORY=Soils\n DESCRIPTION=All soils, SUBDIRECTORY=Case %case%, FILENAME=su %su%\n"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Literal
 
+from mudline.keywords.facts import Facts
 from mudline.keywords.model import Block, ListRow, Record, Row, about, rows, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Ident, Real, Whole
@@ -52,6 +53,7 @@ class Elements(Block):
 
     rule: ClassVar[str] = "element"
     names: ClassVar[tuple[str, ...]] = ("ELEMENT",)
+    facts: ClassVar[Facts] = Facts(defines="elements")
     summary: ClassVar[str] = "Elements by number and their two nodes."
     tabular: ClassVar[bool] = True
     example: ClassVar[str] = "*ELEMENT\n 1, 1, 2\n GEN=1, 10\n"

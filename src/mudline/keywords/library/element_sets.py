@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Literal
 
+from mudline.keywords.facts import Facts
 from mudline.keywords.model import Block, ListRow, Record, about, setting
 from mudline.keywords.values import Ident, Name, Whole
 
@@ -50,6 +51,7 @@ class ElementSets(Block):
 
     rule: ClassVar[str] = "element_sets"
     names: ClassVar[tuple[str, ...]] = ("ELEMENT SETS",)
+    facts: ClassVar[Facts] = Facts(passes_in=("CLEAR", "DATABASE POSTPROCESSING", "POSTPROCESSING"), defines="sets")
     summary: ClassVar[str] = "Named groups of elements; ALL is predefined."
     example: ClassVar[str] = "*ELEMENT SETS\n SET=Riser\n 1, 2, 3\n GEN=10, 20, 2\n SET=Everything\n SUBSET=Riser\n"
 

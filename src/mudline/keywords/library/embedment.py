@@ -7,6 +7,8 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from mudline.keywords.common import NO_SET, POINTS, CurvePoint
+from mudline.keywords.facts import Facts, Successor
+from mudline.keywords.kept import Names
 from mudline.keywords.model import Block, Record, rows, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Name
@@ -18,9 +20,9 @@ class EmbedmentCurve(Record):
     rule: ClassVar[str] = "embedment_curve"
     set_name: Annotated[
         Name | None,
-        setting("SET", "element set of the curve", default="ALL", inferred=NO_SET),
+        setting("SET", "element set of the curve", default="ALL", inferred=NO_SET, names=Names.SET),
     ] = Field(default=None, alias="set")
-    points: Annotated[Table, rows(CurvePoint, POINTS)]
+    points: Annotated[Table, rows(CurvePoint, POINTS, unordered=True)]
 
 
 class Embedment(Block):
@@ -28,6 +30,14 @@ class Embedment(Block):
 
     rule: ClassVar[str] = "embedment"
     names: ClassVar[tuple[str, ...]] = ("EMBEDMENT",)
+    facts: ClassVar[Facts] = Facts(
+        superseded_by=(
+            Successor("SEABED STIFFNESS"),
+            Successor("SEABED PROPERTIES", "STIFFNESS"),
+        ),
+        defines="curves",
+        computed_in="normal-laws",
+    )
     summary: ClassVar[str] = (
         "Force-embedment curves of an elastic seabed, by element set (superseded by *SEABED STIFFNESS)."
     )

@@ -6,6 +6,8 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field, model_validator
 
+from mudline.keywords.facts import Facts
+from mudline.keywords.kept import Names
 from mudline.keywords.model import Block, Record, Row, about, setting
 from mudline.keywords.values import Name, Real
 
@@ -82,7 +84,7 @@ class GeometricSet(Record):
         Literal["FLEXIBLE", "RIGID", "MOORING", "TRUSS"] | None,
         setting("OPTION", "format of the property line; holds until it is changed", default="FLEXIBLE"),
     ] = None
-    set_name: Annotated[Name, setting("SET", "element set")] = Field(alias="set")
+    set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
     buoyancy: Annotated[Literal["DISTRIBUTED"] | None, setting("BUOYANCY", "distributed buoyancy", inline=True)] = None
     eiyy_curve: Annotated[Name | None, setting("EIYY", _CURVE.format("EIyy"), inline=True)] = None
     eizz_curve: Annotated[Name | None, setting("EIZZ", _CURVE.format("EIzz"), inline=True)] = None
@@ -126,6 +128,7 @@ class GeometricSets(Block):
 
     rule: ClassVar[str] = "geometric_sets"
     names: ClassVar[tuple[str, ...]] = ("GEOMETRIC SETS",)
+    facts: ClassVar[Facts] = Facts(later_wins=True)
     summary: ClassVar[str] = "Stiffness, mass and diameters of element sets, in one of four formats."
     example: ClassVar[str] = "*GEOMETRIC SETS\n OPTION=RIGID\n SET=ALL\n 207.0E9, 79.9E9, 0.3239, 0.2731, 7850.0\n"
 

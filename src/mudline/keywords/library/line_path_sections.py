@@ -6,6 +6,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
+from mudline.keywords.facts import Facts
 from mudline.keywords.line_parts import AdditionalSets
 from mudline.keywords.model import Block, Record, Row, about, setting
 from mudline.keywords.values import Name, Real
@@ -45,6 +46,7 @@ class LinePathSections(Block):
 
     rule: ClassVar[str] = "line_path_sections"
     names: ClassVar[tuple[str, ...]] = ("LINE PATH SECTIONS",)
+    facts: ClassVar[Facts] = Facts(makes=("NODE", "ELEMENT", "ELEMENT SETS"))
     summary: ClassVar[str] = "Sections of the lines of *LINE PATHS: element sets by distance along the line."
     example: ClassVar[str] = (
         "*LINE PATH SECTIONS\n"

@@ -6,6 +6,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
+from mudline.keywords.facts import Facts
 from mudline.keywords.line_parts import AdditionalSets
 from mudline.keywords.model import Block, Record, Row, about, setting
 from mudline.keywords.values import Name, Real
@@ -50,6 +51,7 @@ class LineSectionGroups(Block):
 
     rule: ClassVar[str] = "line_section_groups"
     names: ClassVar[tuple[str, ...]] = ("LINE SECTION GROUPS",)
+    facts: ClassVar[Facts] = Facts(makes=("NODE", "ELEMENT", "ELEMENT SETS"))
     summary: ClassVar[str] = "Groups of line sections, one behind the other, for the REPEAT= of *LINE PATH SECTIONS."
     example: ClassVar[str] = (
         "*LINE SECTION GROUPS\n"

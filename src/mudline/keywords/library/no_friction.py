@@ -14,4 +14,5 @@ KEPT = Kept(
     certain="Friction acts if any coefficient is not zero; this keyword suppresses it for a run.",
     inferred="It stands in $LOAD CASE and has no lines; in another section it is not told of.",
     sections=("LOAD CASE",),
+    sections_inferred=True,
 )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Literal
 
+from mudline.keywords.facts import Facts
 from mudline.keywords.model import Block, ListRow, Record, Row, about, rows, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Real, Whole
@@ -45,6 +46,7 @@ class Nodes(Block):
 
     rule: ClassVar[str] = "node"
     names: ClassVar[tuple[str, ...]] = ("NODE",)
+    facts: ClassVar[Facts] = Facts(defines="nodes")
     summary: ClassVar[str] = "Nodes by number and coordinates; X is vertical."
     tabular: ClassVar[bool] = True
     example: ClassVar[str] = "*NODE\n 1, 0.0, 0.0\n 11, 0.0, 100.0\n GEN=1, 11\n"

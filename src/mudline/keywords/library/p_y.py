@@ -7,6 +7,8 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from mudline.diagnostics import Code
+from mudline.keywords.facts import Facts
+from mudline.keywords.kept import Names
 from mudline.keywords.model import Block, Record, setting
 from mudline.keywords.soil import OTHER_FORMS, CurvesFile, SoilCurves
 from mudline.keywords.values import Name
@@ -21,7 +23,7 @@ class LateralSprings(Record):
     type_: Annotated[
         Literal["USER"] | None, setting("TYPE", "curves given by points", default="USER", inferred=_OTHERS)
     ] = Field(default=None, alias="type")
-    set_name: Annotated[Name | None, setting("SET", "element set that the curves hold for")] = Field(
+    set_name: Annotated[Name | None, setting("SET", "element set that the curves hold for", names=Names.SET)] = Field(
         default=None, alias="set"
     )
     file: CurvesFile = None
@@ -33,6 +35,7 @@ class LateralSoil(Block):
 
     rule: ClassVar[str] = "p_y"
     names: ClassVar[tuple[str, ...]] = ("P-Y",)
+    facts: ClassVar[Facts] = Facts(soil_springs=True)
     summary: ClassVar[str] = (
         "Lateral soil springs by set and depth: points of resistance P and displacement y, resistance first."
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Literal
 
+from mudline.keywords.facts import Facts
 from mudline.keywords.model import Block, Record, about
 from mudline.keywords.values import Name, RealOrName
 
@@ -28,6 +29,7 @@ class Parameters(Block):
     rule: ClassVar[str] = "parameters"
     names: ClassVar[tuple[str, ...]] = ("PARAMETERS",)
     sections: ClassVar[tuple[str, ...]] = ("PREPROCESSOR",)
+    facts: ClassVar[Facts] = Facts(defines="parameters")
     summary: ClassVar[str] = "Named values for equations, and for the variations of a deck."
     slashes: ClassVar[bool] = True
     example: ClassVar[str] = (

@@ -8,6 +8,7 @@ from pydantic import Field
 
 from mudline.codes import SYN004
 from mudline.diagnostics import Code
+from mudline.keywords.kept import Names
 from mudline.keywords.model import Block, setting
 from mudline.keywords.values import Name
 
@@ -31,6 +32,7 @@ class Restart(Block):
             "LAST",
             "file of the deck before, beside this one; its suffix may be left out",
             inferred="the model of that deck stands before what this deck has of its own",
+            names=Names.DECK,
         ),
     ]
     type_: Annotated[

@@ -6,6 +6,8 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
+from mudline.keywords.facts import Facts
+from mudline.keywords.kept import Names
 from mudline.keywords.model import Block, Record, setting
 from mudline.keywords.values import Name, Real
 
@@ -14,7 +16,7 @@ class ContactSet(Record):
     """What one SET= gets, taken whole."""
 
     rule: ClassVar[str] = "contact_set"
-    set_name: Annotated[Name, setting("SET", "element set")] = Field(alias="set")
+    set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
     nodal_stiffness: Annotated[
         Real | None,
         setting(
@@ -46,6 +48,7 @@ class SeabedContact(Block):
 
     rule: ClassVar[str] = "seabed_contact"
     names: ClassVar[tuple[str, ...]] = ("SEABED CONTACT",)
+    facts: ClassVar[Facts] = Facts(extension=True, later_wins=True, computed_in="smoothing")
     summary: ClassVar[str] = "Nodal normal stiffness, and smoothing of linear contact laws, by element set (extension)."
     example: ClassVar[str] = "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=50000.0\n SMOOTHING=0.005\n FORM=CENTRED\n"
 

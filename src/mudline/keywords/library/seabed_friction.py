@@ -6,6 +6,8 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
+from mudline.keywords.facts import Facts
+from mudline.keywords.kept import Names
 from mudline.keywords.model import Block, Record, Row, about, setting
 from mudline.keywords.values import Name, Real
 
@@ -30,7 +32,7 @@ class FrictionSet(Record):
     """What one SET= gets, taken whole."""
 
     rule: ClassVar[str] = "friction_set"
-    set_name: Annotated[Name, setting("SET", "element set")] = Field(alias="set")
+    set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
     coefficients: Annotated[Coefficients, setting("COEFFICIENTS", "Coulomb coefficients")]
     stiffness: Annotated[TangentialStiffness, setting("STIFFNESS", "tangential springs below the limit")]
     directions: Annotated[
@@ -53,6 +55,7 @@ class SeabedFriction(Block):
 
     rule: ClassVar[str] = "seabed_friction"
     names: ClassVar[tuple[str, ...]] = ("SEABED FRICTION",)
+    facts: ClassVar[Facts] = Facts(extension=True, later_wins=True, computed_in="friction")
     summary: ClassVar[str] = "Friction in two directions with constant tangential springs, by element set (extension)."
     example: ClassVar[str] = (
         "*SEABED FRICTION\n SET=ALL\n COEFFICIENTS=0.3, 0.6\n STIFFNESS=20000.0, 40000.0\n DIRECTIONS=AXIAL\n"

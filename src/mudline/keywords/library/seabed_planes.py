@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Literal
 
+from mudline.keywords.facts import Facts
 from mudline.keywords.model import Block, Record, Row, about, setting
 from mudline.keywords.values import Name, Real
 
@@ -56,6 +57,7 @@ class SeabedPlanes(Block):
 
     rule: ClassVar[str] = "seabed_planes"
     names: ClassVar[tuple[str, ...]] = ("SEABED PLANES",)
+    facts: ClassVar[Facts] = Facts(extension=True, computed_in="shapes-of-the-seabed")
     summary: ClassVar[str] = "A sea floor of several plane surfaces: the highest one at a place is the bed (extension)."
     example: ClassVar[str] = (
         "*SEABED PLANES\n PLANE=shelf\n POINT=0.0, 0.0, 0.0\n SLOPE=0.0\n"

@@ -6,6 +6,8 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field, model_validator
 
+from mudline.keywords.facts import Facts
+from mudline.keywords.kept import Names
 from mudline.keywords.model import Block, setting
 from mudline.keywords.values import Name, Real
 
@@ -20,6 +22,7 @@ class SeabedProfile(Block):
 
     rule: ClassVar[str] = "seabed_profile"
     names: ClassVar[tuple[str, ...]] = ("SEABED PROFILE",)
+    facts: ClassVar[Facts] = Facts(supersedes=True, computed_in="shapes-of-the-seabed")
     summary: ClassVar[str] = "A bed that is not flat: a uniform slope, or a profile from a file; without it X = 0."
     example: ClassVar[str] = "*SEABED PROFILE\n TYPE=SLOPING\n DIRECTION=30.0\n SLOPE=2.5\n"
 
@@ -51,7 +54,11 @@ class SeabedProfile(Block):
     ] = None
     file: Annotated[
         Name | None,
-        setting("FILE", "compiled profile (.fcsbd); a linear 2D one may be a text file of lines `Y, elevation`"),
+        setting(
+            "FILE",
+            "compiled profile (.fcsbd); a linear 2D one may be a text file of lines `Y, elevation`",
+            names=Names.FILE,
+        ),
     ] = None
 
     @model_validator(mode="after")

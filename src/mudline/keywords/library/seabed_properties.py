@@ -7,6 +7,8 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from mudline.keywords.common import CONSTANT_FRICTION, NO_SET, SUCTION_STIFFNESS
+from mudline.keywords.facts import Facts
+from mudline.keywords.kept import Names
 from mudline.keywords.model import Block, Record, Row, about, setting
 from mudline.keywords.values import Name, Real, RealOrName
 
@@ -59,12 +61,18 @@ class SeabedSet(Record):
     """What one SET= gets, taken whole."""
 
     rule: ClassVar[str] = "seabed_set"
-    set_name: Annotated[Name | None, setting("SET", "element set", default="ALL", inferred=NO_SET)] = Field(
-        default=None, alias="set"
+    set_name: Annotated[Name | None, setting("SET", "element set", default="ALL", inferred=NO_SET, names=Names.SET)] = (
+        Field(default=None, alias="set")
     )
     stiffness: Annotated[
         RealOrName | None,
-        setting("STIFFNESS", "linear stiffness per unit length, or the name of a curve", unit="F/L2", at_least=0),
+        setting(
+            "STIFFNESS",
+            "linear stiffness per unit length, or the name of a curve",
+            unit="F/L2",
+            at_least=0,
+            names=Names.CURVE,
+        ),
     ] = None
     friction: Annotated[SeabedFriction | None, setting("FRICTION", "friction coefficients and mobilisation")] = None
     lateral: Annotated[
@@ -78,6 +86,7 @@ class SeabedProperties(Block):
 
     rule: ClassVar[str] = "seabed_properties"
     names: ClassVar[tuple[str, ...]] = ("SEABED PROPERTIES",)
+    facts: ClassVar[Facts] = Facts(supersedes=True, later_wins=True, carried=("type_",), computed_in="normal-laws")
     summary: ClassVar[str] = (
         "Rigid or elastic seabed; stiffness, friction, lateral resistance and suction by element set."
     )

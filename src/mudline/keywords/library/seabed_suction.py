@@ -6,6 +6,8 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
+from mudline.keywords.facts import Facts
+from mudline.keywords.kept import Names
 from mudline.keywords.model import Block, Record, Row, about, setting
 from mudline.keywords.values import Name, Real
 
@@ -47,7 +49,7 @@ class SuctionSet(Record):
     """What one SET= gets, taken whole."""
 
     rule: ClassVar[str] = "suction_set"
-    set_name: Annotated[Name, setting("SET", "element set")] = Field(alias="set")
+    set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
     cohesion: Annotated[
         Real | None,
         setting(
@@ -88,6 +90,7 @@ class SeabedSuction(Block):
 
     rule: ClassVar[str] = "seabed_suction"
     names: ClassVar[tuple[str, ...]] = ("SEABED SUCTION",)
+    facts: ClassVar[Facts] = Facts(extension=True, later_wins=True, computed_in="suction")
     summary: ClassVar[str] = "Resistance of the seabed to uplift, with mobilisation, plateau and breakout (extension)."
     example: ClassVar[str] = "*SEABED SUCTION\n SET=ALL\n COHESION=5000.0\n CUTOFF=0.2, 0.8\n"
 

@@ -6,6 +6,8 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field, ValidationInfo, field_validator
 
+from mudline.keywords.facts import Facts
+from mudline.keywords.kept import Names
 from mudline.keywords.model import Block, Record, Row, about, rows, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Name, Real
@@ -39,7 +41,7 @@ class TrenchSet(Record):
     """What one SET= gets, taken whole."""
 
     rule: ClassVar[str] = "trench_set"
-    set_name: Annotated[Name, setting("SET", "element set")] = Field(alias="set")
+    set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
     geometry: Annotated[TrenchGeometry, setting("GEOMETRY", "depth and widths of the trench")]
     model: Annotated[
         Literal["PEAK", "WALL"] | None,
@@ -89,6 +91,7 @@ class SeabedTrench(Block):
 
     rule: ClassVar[str] = "seabed_trench"
     names: ClassVar[tuple[str, ...]] = ("SEABED TRENCH",)
+    facts: ClassVar[Facts] = Facts(extension=True, later_wins=True, computed_in="trenches")
     tabular: ClassVar[bool] = True
     summary: ClassVar[str] = "Lateral resistance of the walls of a trench, by element set (extension)."
     example: ClassVar[str] = "*SEABED TRENCH\n SET=ALL\n GEOMETRY=0.5, 1.0, 3.0\n PEAK=2000.0\n CENTRELINE=LAID\n"

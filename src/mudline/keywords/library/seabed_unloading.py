@@ -6,6 +6,8 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
+from mudline.keywords.facts import Facts
+from mudline.keywords.kept import Names
 from mudline.keywords.model import Block, Record, setting
 from mudline.keywords.values import Name, Real
 
@@ -14,7 +16,7 @@ class UnloadingSet(Record):
     """What one SET= gets."""
 
     rule: ClassVar[str] = "unloading_set"
-    set_name: Annotated[Name, setting("SET", "element set")] = Field(alias="set")
+    set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
     stiffness: Annotated[
         Real,
         setting("STIFFNESS", "stiffness of unloading and reloading per unit length", unit="F/L2"),
@@ -26,6 +28,7 @@ class SeabedUnloading(Block):
 
     rule: ClassVar[str] = "seabed_unloading"
     names: ClassVar[tuple[str, ...]] = ("SEABED UNLOADING",)
+    facts: ClassVar[Facts] = Facts(extension=True, later_wins=True, computed_in="unloading")
     summary: ClassVar[str] = (
         "The full cycle of penetration, unloading and re-penetration: stiffness on reversal (extension)."
     )

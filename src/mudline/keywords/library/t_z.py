@@ -7,6 +7,8 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from mudline.diagnostics import Code
+from mudline.keywords.facts import Facts
+from mudline.keywords.kept import Names
 from mudline.keywords.model import Block, Record, setting
 from mudline.keywords.soil import OTHER_FORMS, CurvesFile, SoilCurves
 from mudline.keywords.values import Name
@@ -16,7 +18,7 @@ class AxialSprings(Record):
     """The curves of a set."""
 
     rule: ClassVar[str] = "axial_springs"
-    set_name: Annotated[Name | None, setting("SET", "element set that the curves hold for")] = Field(
+    set_name: Annotated[Name | None, setting("SET", "element set that the curves hold for", names=Names.SET)] = Field(
         default=None, alias="set"
     )
     file: CurvesFile = None
@@ -28,6 +30,7 @@ class AxialSoil(Block):
 
     rule: ClassVar[str] = "t_z"
     names: ClassVar[tuple[str, ...]] = ("T-Z",)
+    facts: ClassVar[Facts] = Facts(soil_springs=True)
     summary: ClassVar[str] = (
         "Axial soil springs by set and depth: points of resistance T and displacement z, resistance first."
     )

@@ -6,6 +6,8 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import model_validator
 
+from mudline.keywords.facts import Facts
+from mudline.keywords.kept import Names
 from mudline.keywords.model import Block, ListRow, Record, about, setting
 from mudline.keywords.values import Name, Real
 
@@ -65,6 +67,7 @@ class VariedBlock(Record):
             inline=True,
             behind="ACTION",
             inferred="beside the deck; with or without the *KEYWORD line; without FILE= that line alone is added",
+            names=Names.FILE,
         ),
     ] = None
     section: Annotated[
@@ -88,6 +91,7 @@ class Variation(Block):
     rule: ClassVar[str] = "variation"
     names: ClassVar[tuple[str, ...]] = ("VARIATION",)
     sections: ClassVar[tuple[str, ...]] = ("PREPROCESSOR",)
+    facts: ClassVar[Facts] = Facts(plans_decks=True)
     summary: ClassVar[str] = "What varies from deck to deck: values of parameters, blocks that come and go."
     example: ClassVar[str] = (
         "*VARIATION\n NAME=Soil\n PARA=su, VALUE=2.0, 5.0, 8.0\n PARA=case, GEN=1, 3\n"

@@ -11,12 +11,6 @@ from mudline.syntax.edits import with_line_ends
 
 LEG001 = Code("LEG001", "superseded-keyword", Severity.INFO)
 
-_SUCCESSORS = {
-    "EMBEDMENT": "*SEABED STIFFNESS and STIFFNESS= of *SEABED PROPERTIES",
-    "ELASTIC SURFACE": "*SEABED PROPERTIES and *SEABED PROFILE",
-    "RIGID SURFACE": "*SEABED PROPERTIES and *SEABED PROFILE",
-}
-
 
 @rule(LEG001)
 def superseded_keyword(context: LintContext) -> Iterator[Problem]:
@@ -50,9 +44,10 @@ def superseded_keyword(context: LintContext) -> Iterator[Problem]:
 
     Finds: 7:1
     """
-    found = sorted((where, keyword) for keyword in _SUCCESSORS for where, _ in context.deck.blocks(keyword))
-    for number, (where, keyword) in enumerate(found):
-        message = f"*{keyword} is superseded by {_SUCCESSORS[keyword]}: `mudline migrate` rewrites the deck"
+    found = context.deck.blocks_that(lambda declared: declared.facts.superseded_by)
+    for number, (where, block) in enumerate(found):
+        newer = " and ".join(map(str, block.facts.superseded_by))
+        message = f"*{block.keyword} is superseded by {newer}: `mudline migrate` rewrites the deck"
         yield Problem(LEG001, message, where=where, repair=None if number else _migration(context))
 
 

@@ -20,9 +20,9 @@ from mudline.linting.rules.curves.columns import swapped
 from mudline.scene.checks.sections import format_of
 from mudline.scene.context import MOST_TOLD
 from mudline.scene.model import Scene
+from mudline.scene.surfaces import surfaces
 
 if TYPE_CHECKING:
-    from mudline.keywords.common import Surface
     from mudline.keywords.library.geometric_sets import GeometricSets
     from mudline.keywords.library.ocean import Ocean
     from mudline.keywords.library.seabed_friction import SeabedFriction
@@ -191,9 +191,8 @@ def _large(deck: Deck) -> Iterator[Problem]:
 def _coefficients(deck: Deck) -> Iterator[tuple[Where, object, tuple[str, str]]]:
     """What holds friction coefficients, and the names of the two."""
     both = ("longitudinal", "transverse")
-    for keyword in ("RIGID SURFACE", "ELASTIC SURFACE"):
-        for where, block in deck.blocks(keyword):
-            yield where._replace(path=("properties",)), cast("Surface", block).properties, both
+    for where, surface in surfaces(deck):
+        yield where._replace(path=("properties",)), surface.properties, both
     for where, block in deck.blocks("SEABED PROPERTIES"):
         for index, entry in enumerate(cast("SeabedProperties", block).sets):
             yield where._replace(path=("sets", index, "friction")), entry.friction, both

@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 from mudline.contact.input import LawKind
 from mudline.deck.parameters import folded
-from mudline.diagnostics import Blocks, Code, Problem, Severity
+from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
+from mudline.keywords.kept import Names
 from mudline.keywords.remarks import advice_on
 from mudline.keywords.text import shown
 from mudline.scene.checks.declaring import check
 from mudline.scene.laws import NOTHING
+from mudline.scene.references import given_names
 
 if TYPE_CHECKING:
-    from mudline.keywords.library.seabed_properties import SeabedProperties
-    from mudline.scene.laws import Grant
     from mudline.scene.model import Scene
 
 REF002 = Code("REF002", "undefined-curve", Severity.ERROR)
@@ -55,25 +55,22 @@ def undefined_curve(scene: Scene) -> Iterator[Problem]:
 
     Finds: 10:12
     """
-    grants = scene.laws.grants
-    lost = [i for i, grant in enumerate(grants) if grant.kind is LawKind.CURVE and grant.curve == NOTHING]
-    if not lost:
-        return
     names = {folded(curve.name): curve.name for curve in scene.laws.curves if curve.named and not curve.embedment}
-    for index in lost:
-        name, where = _name(scene, grants[index]), grants[index].where
+    followed: set[Where] | None = None
+    for _, where, name in given_names(scene.deck, Names.CURVE):
+        if folded(name) in names:
+            continue
         near = scene.context.near(name, names)
         hint = f" (did you mean {names[near]}?)" if near else ""
         advice = advice_on(name) or "*SEABED STIFFNESS has no such curve"
         problem = scene.context.missing(
             REF002, f"curve {shown(name)} is not defined{hint}: {advice}", where, "SEABED STIFFNESS"
         )
-        followed = bool((scene.laws.of_element == index).any())
-        yield replace(problem, blocks=Blocks.ALWAYS) if followed else problem
+        followed = _followed(scene) if followed is None else followed
+        yield replace(problem, blocks=Blocks.ALWAYS) if where in followed else problem
 
 
-def _name(scene: Scene, grant: Grant) -> str:
-    """The name in STIFFNESS= of a set of `*SEABED PROPERTIES`."""
-    where = grant.where
-    block = cast("SeabedProperties", scene.deck.sections[where.section].blocks[where.block])
-    return str(block.sets[cast("int", where.path[1])].stiffness)
+def _followed(scene: Scene) -> set[Where]:
+    """Where the names of missing curves stand that elements follow."""
+    lost = (i for i, grant in enumerate(scene.laws.grants) if grant.kind is LawKind.CURVE and grant.curve == NOTHING)
+    return {scene.laws.grants[index].where for index in lost if (scene.laws.of_element == index).any()}

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.scene.checks.declaring import check
-from mudline.scene.extensions import BY_SET
 
 if TYPE_CHECKING:
     from mudline.scene.model import Scene
@@ -51,10 +50,9 @@ def extension_needs_elastic(scene: Scene) -> Iterator[Problem]:
         return
     supplier = "" if "RIGID" in types else reading.supplier("ELASTIC SURFACE")
     what = "the seabed is rigid" if "RIGID" in types else "the model has none"
-    for keyword in (*BY_SET, "SEABED PLANES"):
-        for where, _ in scene.deck.blocks(keyword):
-            message = f"*{keyword} needs an elastic seabed, and {what}: write *SEABED PROPERTIES with TYPE=ELASTIC"
-            if supplier:
-                yield Problem(EXT001, f"{message}; {supplier}", None, Severity.WARNING, where)
-            else:
-                yield Problem(EXT001, message, where=where)
+    for where, block in scene.deck.blocks_that(lambda declared: declared.facts.extension):
+        message = f"*{block.keyword} needs an elastic seabed, and {what}: write *SEABED PROPERTIES with TYPE=ELASTIC"
+        if supplier:
+            yield Problem(EXT001, f"{message}; {supplier}", None, Severity.WARNING, where)
+        else:
+            yield Problem(EXT001, message, where=where)

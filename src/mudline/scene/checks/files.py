@@ -3,22 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from mudline.codes import REF015
 from mudline.deck.model import Deck
 from mudline.deck.parameters import Parameters
 from mudline.diagnostics import Blocks, Problem, Where
-from mudline.keywords.model import Block, Part, Slot, layout
+from mudline.keywords.kept import Names
+from mudline.keywords.model import Block, names_given
 from mudline.keywords.text import shown
 from mudline.scene.checks.declaring import check
 from mudline.scene.deck_files import file_name, find_file
 
 if TYPE_CHECKING:
     from mudline.scene.model import Scene
-
-_KEY = "FILE"
 
 
 @check(REF015)
@@ -45,25 +43,8 @@ def missing_file(scene: Scene) -> Iterator[Problem]:
 
 
 def _files(deck: Deck) -> Iterator[tuple[Where, str]]:
-    """Every FILE= of a keyword with a model."""
+    """Every field of a keyword with a model that names a file."""
     for i, section in enumerate(deck.own_sections):
         for j, block in enumerate(section.blocks):
             if isinstance(block, Block):
-                yield from ((Where(i, j, path), name) for path, name in _named(block))
-
-
-@cache
-def _naming(part: type[Part]) -> tuple[Slot, ...]:
-    """The fields that name a file, and those with records that have one."""
-    found = layout(part).slots
-    return tuple(slot for slot in found if slot.key == _KEY or any(map(_naming, slot.record.values())))
-
-
-def _named(part: Part) -> Iterator[tuple[tuple[str | int, ...], str]]:
-    for slot in _naming(type(part)):
-        value: Any = getattr(part, slot.name, None)
-        if isinstance(value, str) and value:
-            yield (slot.json,), value
-        elif isinstance(value, list):
-            for index, record in enumerate(value):
-                yield from (((slot.json, index, *path), name) for path, name in _named(record))
+                yield from ((Where(i, j, path), name) for path, name in names_given(block, Names.FILE) if name)

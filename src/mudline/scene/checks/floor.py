@@ -14,6 +14,7 @@ from mudline.keywords.text import shown
 from mudline.scene.checks.declaring import check
 from mudline.scene.floor import FloorKind
 from mudline.scene.given import number
+from mudline.scene.surfaces import surfaces
 
 if TYPE_CHECKING:
     from mudline.keywords.library.seabed_planes import PlaneBounds, SeabedPlanes
@@ -106,15 +107,15 @@ def steep_slope(scene: Scene) -> Iterator[Problem]:
 
     Finds: 8:8
     """
-    for keyword in ("RIGID SURFACE", "ELASTIC SURFACE", "SEABED PROFILE"):
-        for where, block in scene.deck.blocks(keyword):
-            slope, place = number(block, "slope"), where._replace(path=("slope",))
-            if abs(slope) >= _VERTICAL:
-                message = f"slope {slope!r}: it must be between -90 and 90 degrees"
-                yield Problem(SBD012, message, where=place)
-            elif abs(slope) > _STEEP:
-                message = f"slope {slope!r} is over 45 degrees, steeper than soil stands: correct it"
-                yield Problem(SBD012, message, None, Severity.WARNING, place)
+    deck = scene.deck
+    for where, block in (*surfaces(deck), *deck.blocks("SEABED PROFILE")):
+        slope, place = number(block, "slope"), where._replace(path=("slope",))
+        if abs(slope) >= _VERTICAL:
+            message = f"slope {slope!r}: it must be between -90 and 90 degrees"
+            yield Problem(SBD012, message, where=place)
+        elif abs(slope) > _STEEP:
+            message = f"slope {slope!r} is over 45 degrees, steeper than soil stands: correct it"
+            yield Problem(SBD012, message, None, Severity.WARNING, place)
 
 
 @check(SBD023)
@@ -187,10 +188,9 @@ def floor_conflict(scene: Scene) -> Iterator[Problem]:
     deck = scene.deck
     planes = [where for where, _ in deck.blocks("SEABED PLANES")]
     others = [where for where, _ in deck.blocks("SEABED PROFILE")]
-    for keyword in ("RIGID SURFACE", "ELASTIC SURFACE"):
-        for where, block in deck.blocks(keyword):
-            if getattr(block, "slope", None) is not None or getattr(block, "profile", None) is not None:
-                others.append(where)
+    for where, surface in surfaces(deck):
+        if surface.slope is not None or surface.profile is not None:
+            others.append(where)
     if planes and others:
         places = [place for place in (planes[0], min(others)) if place.section < len(deck.own_sections)]
         message = "the seabed is given by *SEABED PLANES and by a profile or slope too: remove one of them"

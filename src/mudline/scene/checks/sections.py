@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from mudline.diagnostics import Code, Problem, Severity, Where
+from mudline.keywords.catalogue import ZERO_LENGTH
 from mudline.scene.checks.declaring import check
 from mudline.scene.context import MOST_TOLD
 
@@ -19,7 +20,6 @@ GEO001 = Code("GEO001", "inner-exceeds-outer", Severity.ERROR)
 GEO004 = Code("GEO004", "zero-length-element", Severity.ERROR)
 
 _FORMATS = ("flexible", "rigid", "mooring", "truss")
-_POINT_ELEMENTS = ("FLEX JOINTS", "HINGE", "SPRING ELEMENT", "DAMPER")
 """Keywords whose elements may have no length."""
 
 
@@ -101,7 +101,7 @@ def zero_length_element(scene: Scene) -> Iterator[Problem]:
     same = known[(scene.coordinates[first] == scene.coordinates[second]).all(axis=1)]
     if not same.size:
         return
-    joints = scene.deck.keywords().intersection(_POINT_ELEMENTS)
+    joints = scene.deck.keywords().intersection(ZERO_LENGTH)
     hint = f", or keep it if *{min(joints)} makes it one without length" if joints else ""
     told: set[Where] = set()
     for index in same[: MOST_TOLD + 1].tolist():

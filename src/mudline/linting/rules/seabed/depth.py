@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from mudline.diagnostics import Code, Problem, Severity
+from mudline.keywords.catalogue import holds_in_soil
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
 from mudline.linting.rules.seabed.elevation import depths
@@ -14,7 +15,6 @@ from mudline.linting.rules.seabed.elevation import depths
 SBD022 = Code("SBD022", "deep-node", Severity.WARNING)
 
 _DEEPEST = 5.0
-_SOIL = ("P-Y", "T-Z")
 
 
 @rule(SBD022)
@@ -60,7 +60,7 @@ def deep_node(context: LintContext) -> Iterator[Problem]:
     Finds: 3:2
     """
     scene = context.scene
-    if not (scene.laws.types or scene.laws.grants) or scene.deck.keywords().intersection(_SOIL):
+    if not (scene.laws.types or scene.laws.grants) or any(map(holds_in_soil, scene.deck.keywords())):
         return
     depth = depths(scene)
     thinnest = float(np.fmin.reduce(scene.diameter, initial=np.inf))  # of Python: a product may overflow

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from mudline.diagnostics import Code, Problem, Severity, Where
+from mudline.keywords.catalogue import is_extension, is_superseded, supersedes
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
 from mudline.syntax.rows import read_number
@@ -12,10 +13,6 @@ from mudline.syntax.rows import read_number
 SBD016 = Code("SBD016", "mixed-families", Severity.WARNING)
 SBD017 = Code("SBD017", "curve-named-as-number", Severity.WARNING)
 SBD018 = Code("SBD018", "extension-keyword", Severity.ERROR)
-
-LEGACY = ("RIGID SURFACE", "ELASTIC SURFACE", "EMBEDMENT")
-NEW = ("SEABED PROPERTIES", "SEABED PROFILE", "SEABED STIFFNESS")
-EXTENSIONS = ("PLANES", "CONTACT", "SUCTION", "UNLOADING", "FRICTION", "TRENCH")
 
 
 @rule(SBD016)
@@ -47,18 +44,20 @@ def mixed_families(context: LintContext) -> Iterator[Problem]:
 
     Finds: 4:1
     """
-    legacy, new = _first(context, LEGACY), _first(context, NEW)
+    legacy, new = _first(context, is_superseded), _first(context, supersedes)
     if not legacy or not new:
         return
     own = len(context.scene.deck.own_sections)
     where, keyword = max((place for place in (legacy, new) if place[0].section < own), default=legacy)
-    other = (new if keyword in LEGACY else legacy)[1]
+    other = (new if is_superseded(keyword) else legacy)[1]
     message = f"*{keyword} stands in one model with *{other}: their sum is not documented; keep one family of keywords"
     yield Problem(SBD016, message, where=where)
 
 
-def _first(context: LintContext, keywords: tuple[str, ...]) -> tuple[Where, str] | None:
-    return min(((where, name) for name in keywords for where, _ in context.scene.deck.blocks(name)), default=None)
+def _first(context: LintContext, fact: Callable[[str], bool]) -> tuple[Where, str] | None:
+    deck = context.scene.deck
+    names = filter(fact, deck.keywords())
+    return min(((where, name) for name in names for where, _ in deck.blocks(name)), default=None)
 
 
 @rule(SBD017)
@@ -130,6 +129,6 @@ def extension_keyword(context: LintContext) -> Iterator[Problem]:
         return
     for i, section in enumerate(context.deck.sections):
         for j, block in enumerate(section.blocks):
-            if block.keyword in {f"SEABED {name}" for name in EXTENSIONS}:
+            if is_extension(block.keyword):
                 message = f"*{block.keyword} is an extension that Flexcom does not know: remove it for that program"
                 yield Problem(SBD018, message, where=Where(i, j))

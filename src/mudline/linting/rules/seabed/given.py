@@ -8,6 +8,7 @@ from typing import Any, NamedTuple, cast
 from mudline.diagnostics import Where
 from mudline.linting.context import LintContext
 from mudline.scene.laws import typed_blocks
+from mudline.scene.surfaces import surfaces
 
 _UNKNOWN = float("nan")
 _OF_SET = {
@@ -53,10 +54,9 @@ def _found(context: LintContext) -> list[Given]:
 
 def _each(context: LintContext) -> Iterator[Given]:
     deck = context.scene.deck
-    for keyword in ("RIGID SURFACE", "ELASTIC SURFACE"):
-        for where, block in deck.blocks(keyword):
-            place = where._replace(path=("properties",))
-            yield Given(getattr(block, "properties", None), place, keyword.split()[0], legacy=True)
+    for where, surface in surfaces(deck):
+        place = where._replace(path=("properties",))
+        yield Given(getattr(surface, "properties", None), place, surface.facts.seabed_type, legacy=True)
     for where, properties, type_ in typed_blocks(context.scene.context):
         for index, entry in enumerate(properties.sets):
             yield Given(entry, where._replace(path=("sets", index)), type_, legacy=False)

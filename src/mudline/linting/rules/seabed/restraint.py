@@ -8,6 +8,7 @@ import numpy as np
 
 from mudline.contact.input import LawKind
 from mudline.diagnostics import Code, Problem, Severity
+from mudline.keywords.catalogue import holds_in_soil, is_superseded
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
 from mudline.scene.checks.laws import SBD004
@@ -16,9 +17,6 @@ from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices, blocks_of
 
 SBD006 = Code("SBD006", "no-vertical-restraint", Severity.WARNING)
-
-_LEGACY = ("ELASTIC SURFACE", "RIGID SURFACE", "EMBEDMENT")
-_SOIL = ("P-Y", "T-Z")
 
 
 @rule(SBD006)
@@ -73,9 +71,9 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
     """
     scene = context.scene
     reading = scene.context
-    if reading.restart or any(reading.astray(keyword) for keyword in (*_LEGACY, "SEABED PROPERTIES")):
+    if reading.restart or any(map(is_superseded, reading.astray_keywords)) or reading.astray("SEABED PROPERTIES"):
         return
-    if reading.unread.intersection(_LEGACY) or "SEABED CONTACT" in scene.deck.keywords():
+    if any(map(is_superseded, reading.unread)) or "SEABED CONTACT" in scene.deck.keywords():
         return  # a law that was not read may hold
     if any(context.told(SBD004)):
         return  # that there is no stiffness has been told
@@ -107,7 +105,7 @@ def _lying(scene: Scene, elements: Indices) -> Iterator[Problem]:
     if not elements.size:
         return
     uncertain = scene.laws.uncertain or "SEABED PROPERTIES" in scene.context.unread
-    if uncertain or scene.floor.kind is not FloorKind.FLAT or scene.deck.keywords().intersection(_SOIL):
+    if uncertain or scene.floor.kind is not FloorKind.FLAT or any(map(holds_in_soil, scene.deck.keywords())):
         return
     seabed = bool(scene.laws.types or scene.laws.grants)
     lies = np.greater_equal if seabed else np.greater

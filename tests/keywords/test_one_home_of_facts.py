@@ -1,0 +1,87 @@
+"""No module outside `keywords/` lists keywords to know a fact about them: facts are declared in the keywords' classes.
+
+A module may ask for the one block that it reads: the name is then an argument of one of `ASKING`, a key of what is
+found by keyword, one side of an `in`, or a constant KEYWORD. Anything else needs a reason in `EXCEPTIONS`.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import mudline
+from mudline.keywords import catalogue
+from mudline.keywords.model import set_slots
+
+ROOT = Path(mudline.__file__).parent
+
+ASKING = frozenset({"blocks", "supplier", "astray", "tell_missing", "lost_behind", "get", "add", "setdefault"})
+CONSTANTS = frozenset({"KEYWORD", "_KEYWORD"})
+
+EXCEPTIONS = {
+    "comparison/numbered.py": "asks for the labels in the blocks of nodes and of elements",
+    "linting/rules/seabed/values.py": "the rules EXT003 and EXT009 tell of these values in words of their own",
+    "migration/continuing.py": "the blocks whose laws a migrated surface would meet",
+    "migration/refusals.py": "the blocks that a bed, or a deck that continues another, has instead",
+    "migration/rewriting.py": "writes these blocks",
+    "results/summary.py": "says which of two blocks a curve came from",
+    "scene/context.py": "a lost line of lines defines a set, as it names one",
+    "scene/line_checks.py": "asks for the block of the groups that another one names",
+    "variations/undefined.py": "asks whether the blocks that it reads may stand elsewhere",
+}
+"""Modules that name keywords in another way, and why."""
+
+
+def _named(tree: ast.AST) -> Iterator[tuple[ast.Constant, ast.AST]]:
+    """Every literal that is the name of a keyword, with what it stands in."""
+    known = set(catalogue.keywords())
+    for outer in ast.walk(tree):
+        for inner in ast.iter_child_nodes(outer):
+            if isinstance(inner, ast.Constant) and isinstance(inner.value, str) and inner.value in known:
+                yield inner, outer
+
+
+def _asks(named: ast.Constant, outer: ast.AST) -> bool:
+    match outer:
+        case ast.Call(func=ast.Attribute(attr=called)):
+            return called in ASKING
+        case ast.Subscript(slice=index):
+            return index is named
+        case ast.Compare(ops=[ast.In() | ast.NotIn()], left=left):
+            return left is named
+        case ast.Assign(targets=[ast.Name(id=constant)]):
+            return constant in CONSTANTS
+    return False
+
+
+def _others(module: Path) -> list[str]:
+    tree = ast.parse(module.read_text(encoding="utf-8"))
+    return [f"{named.lineno} {named.value!r}" for named, outer in _named(tree) if not _asks(named, outer)]
+
+
+def test_no_module_lists_keywords_to_know_a_fact() -> None:
+    modules = (path for path in sorted(ROOT.rglob("*.py")) if "keywords" not in path.relative_to(ROOT).parts)
+    found = {path.relative_to(ROOT).as_posix(): others for path in modules if (others := _others(path))}
+    assert {module: others for module, others in found.items() if module not in EXCEPTIONS} == {}
+    assert set(EXCEPTIONS) <= set(found), "an exception that is not needed"
+
+
+def test_the_index_of_the_catalogue_says_what_the_classes_say() -> None:
+    for module in catalogue.modules():
+        block = catalogue.load(module)
+        (name,) = block.names
+        assert block.model_fields["keyword"].default == name
+        assert catalogue.declared(name) is block
+        assert set(block.sections) <= set(catalogue.SECTIONS)
+
+
+def test_facts_fit_each_other() -> None:
+    blocks = [catalogue.load(module) for module in catalogue.modules()]
+    newer = {successor.keyword for block in blocks for successor in block.facts.superseded_by}
+    assert newer == {block.names[0] for block in blocks if block.facts.supersedes}
+    for block in blocks:
+        assert ("(extension)" in block.summary) == block.facts.extension
+        assert ("superseded by" in block.summary) == bool(block.facts.superseded_by)
+        assert {*block.facts.carried} <= set(block.model_fields)
+        assert not block.facts.later_wins or set_slots(block)
