@@ -184,3 +184,8 @@ def test_quotes_around_a_name_do_not_count(defined: str, used: str) -> None:
     deck = PIPE + STEEL + sets + f"*SEABED PROPERTIES\n TYPE=ELASTIC\n SET={used}\n STIFFNESS=1e5\n"
     assert told(deck) == []
     assert scene_of(deck).law_names == ["linear"] * 2 + ["none"] * 8
+
+
+def test_a_set_is_open_if_any_of_its_lines_or_subsets_is() -> None:
+    named = scene_of(SETS + " SET=a\n 1, 99\n 3\n SET=b\n SUBSET=a\n 4\n SET=c\n 5\n").set_table.named
+    assert [named[name].open for name in "abc"] == [True, True, False]
