@@ -138,3 +138,9 @@ def test_a_deck_without_elements_is_empty_and_fine() -> None:
     assert scene.length.tolist() == []
     assert math.isclose(scene.coordinates.sum(), 0.0)
     assert scene.problems == []
+
+
+def test_lengths_whose_squares_under_or_overflow() -> None:
+    for size in (1e-300, 1e-162, 1e-160, 1.0, 1e160, 1e300):
+        deck = f"$MODEL\n*NODE\n 1, 0, 0\n 2, 0, {3 * size!r}, {4 * size!r}\n*ELEMENT\n 1, 1, 2\n"
+        assert scene_of(deck).length[0] == pytest.approx(5 * size, rel=1e-15)
