@@ -164,6 +164,11 @@ def test_long_list_of_keywords_is_folded(place: Place) -> None:
     assert all(len(line) <= 120 for line in lines)
 
 
+def test_length_is_that_of_the_elements_whose_nodes_are_known(place: Place) -> None:
+    outcome = run("show", place(CLEAN.replace(" 3, 0.3, 20.0\n", "")), "--output-format", "json")
+    assert outcome.json()["length"] == 10.0
+
+
 def test_length_that_overflows_is_null(place: Place) -> None:
     deck = CLEAN.replace(" 2, -0.1, 10.0", " 2, -0.1, 1.0E308").replace(" 3, 0.3, 20.0", " 3, 0.3, -1.0E308")
     outcome = run("show", place(deck), "--output-format", "json")
