@@ -14,7 +14,7 @@ REF001 = Code(
     What stands below the SET= would reach no element: no stiffness, no diameter, no curve. Mostly the name is spelt
     differently in two places: case does not count in names, but blanks do. Define the set in *ELEMENT SETS, or correct
     the name. Where *LINES, which makes sets of its own, or the deck that *RESTART continues could define the set, this
-    is a warning. Two more names are told here, as warnings too: a REPEAT= of *LINE PATH SECTIONS that names no group of
+    is a warning. Two more names give warnings here too: a REPEAT= of *LINE PATH SECTIONS that names no group of
     *LINE SECTION GROUPS, and a LINE= there that *LINE PATHS does not name. And a VARIATIONS= of *COMBINATIONS that
     names no variation is an error, as no deck could be made.
 
@@ -105,7 +105,7 @@ REF006 = Code(
     An element or a GEN= uses a node that is not defined.
 
     The element has no place and no length, and nothing can be said of its contact. Correct the number, or define the
-    node. The same is told of nodes that *BOUNDARY holds, of which a range may lack some as a warning, and of NODE= in
+    node. The same holds for nodes that *BOUNDARY holds, of which a range may lack some as a warning, and of NODE= in
     *P-Y and *T-Z. A node that only *LINES or the deck before a *RESTART can define is a warning, and so is a label that
     is spelt nearly as one that stands in *LINES or *LINE LOCATIONS.
 

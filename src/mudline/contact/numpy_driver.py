@@ -184,7 +184,7 @@ class Nodes:
         found = tuple(np.zeros(along[0].shape) for _ in along)
         one = other = np.zeros(along[0].shape)
         if state.friction is not None:
-            one, other = self._rub(part, state.friction, work, axes, laid)
+            one, other = self._friction_forces(part, state.friction, work, axes, laid)
             found = self._plane.blend(along, across, one, other)
         if work.lateral:
             push = tuple(self._tables.line.sums(axis, self.begin, self.end) for axis in work.lateral)
@@ -194,7 +194,7 @@ class Nodes:
             part.friction[:, self._here, 0], part.friction[:, self._here, 1] = one, other
         return found
 
-    def _rub(
+    def _friction_forces(
         self,
         part: ContactResult,
         history: FrictionHistory,

@@ -127,7 +127,7 @@ class CompiledDriver:
             nodes_loop, callable_in_loops, has, tuple(_with_equation(rows.law) for rows in tables.nodal), sources
         )
         self._node_index, self._node_numbers = node_tables(tables)
-        self._ditch = trench_tables(tables)
+        self._trenches = trench_tables(tables)
         line = tables.line
         self._line = tuple(
             read_only(array) for array in (line.start.astype(np.int32), line.elements, line.senses, tables.half)
@@ -191,7 +191,7 @@ class CompiledDriver:
         """Write a range of nodes; return how many values are not finite."""
         return self._node_loop(
             begin, end, *self._line, self._node_index, self._node_numbers, job.points, job.gap, job.normals,
-            job.elements[3], job.work, (*self._ditch, *job.laid), job.states[4:], job.nodes, job.slips,
+            job.elements[3], job.work, (*self._trenches, *job.laid), job.states[4:], job.nodes, job.slips,
         )  # fmt: skip
 
     def _job(self, batch: Batch, part: ContactResult, after: ContactState) -> _Job:

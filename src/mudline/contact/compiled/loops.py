@@ -200,8 +200,8 @@ def _trench_limit(has: Has) -> Callable[..., Any]:
     flat, tables = has.flat, has.tables
     dot = vectors.PLANES[2 if has.flat else 3].dot
 
-    def walls(i: int, total: float, p: Point, across: Array, forward: bool, ditch: Array) -> float:  # noqa: FBT001
-        start, index, table, lines, rows, laid, beside = ditch
+    def walls(i: int, total: float, p: Point, across: Array, forward: bool, trenches: Array) -> float:  # noqa: FBT001
+        start, index, table, lines, rows, laid, beside = trenches
         added = 0.0
         for at in range(start[i], start[i + 1]):
             line, kind, amount = index[at, CENTRELINE], index[at, TRENCH_KIND], table[at, AMOUNT]
@@ -232,11 +232,11 @@ def nodes_loop(wrap: Wrap, has: Has, laws: tuple[tuple[Callable[..., Any], int],
 
     def loop(
         begin: int, end: int, start: Array, elements: Array, senses: Array, half: Array, index: Array, table: Array,
-        points: Array, gap: Array, normals: Array, force: Array, work: Array, ditch: Array, states: Array, out: Array,
-        extra: Array,
+        points: Array, gap: Array, normals: Array, force: Array, work: Array, trenches: Array, states: Array,
+        out: Array, extra: Array,
     ) -> int:  # fmt: skip
         totals, reaction = out
-        rubbing, slipping = extra
+        friction_force, slipping = extra
         tangent, sideways = work
         sticks, sticking = states
         wrong = min(edition, 0)
@@ -297,7 +297,7 @@ def nodes_loop(wrap: Wrap, has: Has, laws: tuple[tuple[Callable[..., Any], int],
                             curved = elliptic and index[i, ELLIPTIC] > 0
                             f1, f2, slip_1, slip_2 = in_limits(t1, t2, l1, l2, curved)
                             if trench and (slip_2 or (curved and slip_1)):  # what sticks without a trench sticks in it
-                                l2 = l2 + walls(i, total, p, across, t2 > 0.0, ditch)
+                                l2 = l2 + walls(i, total, p, across, t2 > 0.0, trenches)
                                 f1, f2, slip_1, slip_2 = in_limits(t1, t2, l1, l2, curved)
                             m1, m2 = slip_distance(slip_1, e1, f1, k1), slip_distance(slip_2, e2, f2, k2)
                             moved = blend(along, across, m1, m2)
@@ -314,7 +314,7 @@ def nodes_loop(wrap: Wrap, has: Has, laws: tuple[tuple[Callable[..., Any], int],
                         sideward = blend(along, across, f1, f2)
                     if lateral:
                         sideward, f1, f2 = added(sideward, push), f1 + dot(along, push), f2 + dot(across, push)
-                    rubbing[step, i, 0], rubbing[step, i, 1] = f1, f2
+                    friction_force[step, i, 0], friction_force[step, i, 1] = f1, f2
 
                 total_force = reacts(total, n, sideward)
                 reaction[step, i, 0], reaction[step, i, 1], reaction[step, i, 2] = total_force

@@ -27,7 +27,7 @@ def undefined_curve(scene: Scene) -> Iterator[Problem]:
     """A STIFFNESS= names a curve that the deck does not define.
 
     The elements of the set have no seabed then. A STIFFNESS= that is no number is taken for the name of a curve, so a
-    slip in a number is told here too. Define the curve in *SEABED STIFFNESS, or correct the name.
+    slip in a number is reported here too. Define the curve in *SEABED STIFFNESS, or correct the name.
 
     Bad:
         $MODEL
