@@ -119,7 +119,7 @@ class Parameters:
         name = cast("str | None", parameter.name)
         if name is None or value is None:
             return
-        if isinstance(value, str) and not isinstance(value, Equation) and value.startswith("/"):
+        if isinstance(value, str) and value.startswith("/"):
             self._define_list(name, value, where)
             return
         self._add(name, value, where)

@@ -120,7 +120,7 @@ class TableBuilder:
         place = row_fields(text, line, len(self.columns))[column].span
         word = raw.words.get((row, column))
         if word:
-            fault = number_fault(word, self.columns[column].label)
+            fault = number_fault(word, self.columns[column].label, self.columns[column].kind)
         if word == "":
             self.builder.short(self.path[:-1], fault, place)
         else:

@@ -9,13 +9,13 @@ from mudline.contact.input import LawKind
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.text import shown
-from mudline.keywords.values import Equation
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
 from mudline.linting.rules.references.removal import removals
 from mudline.syntax.rows import read_number
 
 if TYPE_CHECKING:
+    from mudline.deck.model import Deck
     from mudline.keywords.library.seabed_properties import SeabedProperties
     from mudline.keywords.library.variation import Variation
     from mudline.scene.force_curves import SceneCurve
@@ -85,8 +85,11 @@ def unused_curve(context: LintContext) -> Iterator[Problem]:
 def _chosen_elsewhere(context: LintContext) -> bool:
     """Whether something that is not read, or not fixed, may use curves."""
     scene = context.scene
-    if any(isinstance(stiffness, Equation) for stiffness in _stiffnesses(context)):
-        return True
+    own = zip(
+        _stiffnesses(context.deck), _stiffnesses(scene.deck), strict=False
+    )  # a continued deck has more behind them
+    if any(written is not value for written, value in own):
+        return True  # an equation, whose parameters may be varied
     if any(grant.kind is LawKind.NONE and grant.unknown for grant in scene.laws.grants):
         return True  # a set whose STIFFNESS= could not be read
     if scene.context.astray("SEABED PROPERTIES") or (scene.context.restart and not scene.laws.referenced):
@@ -100,8 +103,8 @@ def _chosen_elsewhere(context: LintContext) -> bool:
     )
 
 
-def _stiffnesses(context: LintContext) -> Iterator[object]:
-    for _, block in context.deck.blocks("SEABED PROPERTIES"):
+def _stiffnesses(deck: Deck) -> Iterator[object]:
+    for _, block in deck.blocks("SEABED PROPERTIES"):
         for entry in cast("SeabedProperties", block).sets:
             yield entry.stiffness
 

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, cast
 from mudline.deck.parameters import folded, list_items
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.text import shown
-from mudline.keywords.values import Equation
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
 from mudline.scene.context import MOST_TOLD
@@ -133,6 +132,6 @@ def _names(parameter: Parameter) -> list[str]:
     name, value = cast("str | None", parameter.name), cast("object", parameter.value)
     if name is None or value is None:
         return []
-    if isinstance(value, str) and not isinstance(value, Equation) and value.startswith("/"):
+    if isinstance(value, str) and value.startswith("/"):
         return [item.name for item in list_items(name, value)[0]]
     return [name]
