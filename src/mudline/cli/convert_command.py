@@ -8,12 +8,9 @@ import click
 
 from mudline.cli import options
 from mudline.cli.exits import DONE
-from mudline.cli.guard import refuses_bad_decks
-from mudline.cli.inputs import STDIN, SUFFIXES, load
+from mudline.cli.inputs import STDIN, SUFFIXES, load, refuses_bad_decks
 from mudline.cli.options import View
-from mudline.cli.streams import emit
-from mudline.cli.terminal import tell
-from mudline.cli.writing import write_text
+from mudline.cli.streams import emit, notify, write_text
 from mudline.deck.loading import FORMS, dump, form_of
 from mudline.deck.sorting import sort_curves
 
@@ -49,7 +46,7 @@ def command(
     read = load(deck, form=source, units=units, stdin_name=stdin_name).require()
     if in_order:
         for name in sort_curves(read):
-            tell(f"curve {name} keeps its order: a ratio in it is an equation")
+            notify(f"curve {name} keeps its order: a ratio in it is an equation")
     text = dump(read, form)
     if output is None or output == STDIN:
         emit([text])
@@ -57,7 +54,7 @@ def command(
     path = Path(output)
     write_text(path, [text])
     if not view.quiet:
-        tell(f"{read.file} -> {path.as_posix()}")
+        notify(f"{read.file} -> {path.as_posix()}")
     return DONE
 
 

@@ -2,26 +2,29 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from mudline.cli import options
 from mudline.cli.exits import DONE, FOUND
-from mudline.cli.guard import refuses_bad_decks
-from mudline.cli.inputs import load
-from mudline.cli.lazy import drawing, printing
+from mudline.cli.inputs import load, refuses_bad_decks
 from mudline.cli.options import View
-from mudline.cli.streams import emit
-from mudline.cli.terminal import tell
-from mudline.cli.writing import writing
+from mudline.cli.streams import emit, emit_json, notify, notify_missing, writing
 from mudline.linting.output.visible import visible
 from mudline.results.csv_lines import csv_lines
-from mudline.results.curves import curve_rows, point_table, static_table, value_table
+from mudline.results.curves import curve_rows, diameters, point_table, static_table, used_curves, value_table
+from mudline.results.numbers import shown
+from mudline.results.units import headed, unit_names
 from mudline.scene.build import resolve
 from mudline.scene.model import Scene
+
+if TYPE_CHECKING:
+    from mudline.cli.printing import Printer
+
+_MOST_DIAMETERS = 3
+_GOES_ON = "Below its first and above its last point a curve goes on with the slope of its end segment."
 
 
 @click.command("curves")
@@ -68,13 +71,13 @@ def command(
     if picture and not _plot(scene, rows, picture):
         return FOUND
     if output_format == "json":
-        emit([json.dumps(rows, indent=1, ensure_ascii=False, allow_nan=False), "\n"])
+        emit_json(rows)
     elif output_format == "csv":
         emit(csv_lines(value_table(rows) if ratios else point_table(rows) if weight is None else static_table(rows)))
     elif rows:
-        printing("curves").print_curves(scene, rows, view)
+        _print_curves(scene, rows, view)
     else:
-        tell(f"{scene.deck.file} has no force-embedment curve")
+        notify(f"{scene.deck.file} has no force-embedment curve")
     return DONE
 
 
@@ -84,11 +87,85 @@ def _picture_form(picture: str) -> str:
 
 def _plot(scene: Scene, rows: list[dict[str, Any]], picture: str) -> bool:
     try:
-        draw = drawing("curve").draw
+        from mudline.results.curve_plot import draw  # noqa: PLC0415 - needs the extra `plot`
     except ImportError:
-        tell("--plot needs matplotlib: pip install mudline[plot]")
+        notify_missing("--plot", "matplotlib", "plot")
         return False
     named = [{**row, "name": visible(row["name"])} for row in rows]
     with writing(Path(picture)) as stream:
         draw(named, scene.units, _picture_form(picture), stream)
     return True
+
+
+def _print_curves(scene: Scene, rows: list[dict[str, Any]], view: View) -> None:
+    """A table of segments for each curve, with what was asked of it."""
+    printer = view.printer()
+    names = unit_names(scene.units)
+    force, slope = headed("force", names.line_force), headed("slope", names.line_force)
+    stiffness = headed("stiffness", names.stiffness)
+    for (index, entry, _), row in zip(used_curves(scene), rows, strict=True):
+        sizes = diameters(scene, index)
+        drawn = sizes if view.verbose or len(sizes) <= _MOST_DIAMETERS else [sizes[0], sizes[-1]]
+        columns = (
+            "from\nratio",
+            "to\nratio",
+            headed("from\nforce", names.line_force),
+            headed("to\nforce", names.line_force),
+            slope,
+            *(headed(f"stiffness\nD={shown(size)}", names.stiffness) for size in drawn),
+        )
+        note = "" if drawn == sizes else f"{len(sizes)} diameters follow this curve: -v shows all"
+        printer.table(_title(row, sizes, embedment=entry.embedment), columns, _segments(row, drawn), note=note)
+        if row["at"]:
+            columns = ("ratio", force, slope, "segment", "extrapolated")
+            printer.table(f"{row['name']} at", columns, [_at(value) for value in row["at"]])
+        if "static" in row:
+            columns = (
+                "ratio",
+                headed("diameter", names.length),
+                headed("depth", names.length),
+                stiffness,
+                "extrapolated",
+            )
+            _print_static(printer, row, columns)
+    printer.line((_GOES_ON, "dim"))
+
+
+def _title(row: dict[str, Any], sizes: list[float], *, embedment: bool) -> str:
+    what = "set" if embedment else "curve"
+    used = "" if sizes else ", not used by an element with a diameter"
+    return f"{what} {row['name']}: {len(row['points'])} points{used}"
+
+
+def _segments(row: dict[str, Any], sizes: list[float]) -> list[tuple[str, ...]]:
+    forces = [force for _, force in row["points"]]
+    return [
+        (
+            shown(segment["from"]),
+            shown(segment["to"]),
+            shown(forces[i]),
+            shown(forces[i + 1]),
+            shown(segment["slope"]),
+            *(shown(segment["slope"] / size) for size in sizes),
+        )
+        for i, segment in enumerate(row["segments"])
+    ]
+
+
+def _at(value: dict[str, Any]) -> tuple[str, ...]:
+    numbers = (shown(value["ratio"]), shown(value["force"]), shown(value["slope"]))
+    return (*numbers, str(value["segment"]), value["extrapolated"] or "")
+
+
+def _print_static(printer: Printer, row: dict[str, Any], columns: tuple[str, ...]) -> None:
+    if not row["static"]:
+        notify(f"curve {row['name']} never carries this weight")
+        return
+    rows: list[tuple[str, ...]] = []
+    for static in row["static"]:
+        ratio, outside = shown(static["ratio"]), static["extrapolated"] or ""
+        rows += [
+            (ratio, shown(each["diameter"]), shown(each["depth"]), shown(each["stiffness"]), outside)
+            for each in static["stiffness"]
+        ] or [(ratio, "", "", "", outside)]
+    printer.table(f"{row['name']}: static embedment", columns, rows)

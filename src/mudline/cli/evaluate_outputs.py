@@ -4,20 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
-from functools import partial
 from importlib import import_module
 from pathlib import Path
-from types import ModuleType
 from typing import BinaryIO, Protocol
 
 import click
 
-from mudline.cli.lazy import drawing
 from mudline.cli.options import View
-from mudline.cli.progress import Progress, looked_at
-from mudline.cli.streams import emit, encoded
-from mudline.cli.terminal import tell
-from mudline.cli.writing import writing
+from mudline.cli.progress import Progress, wants_bar
+from mudline.cli.streams import emit, encoded, notify, notify_missing, writing
 from mudline.linting.output.visible import visible
 from mudline.results.columns import ElementTable, NodeTable
 from mudline.results.evaluation import Evaluation, Part
@@ -30,26 +25,35 @@ PICTURES = ("png", "svg")
 TABLES = (".csv", ".parquet")
 """Suffixes of files with one table: nodes go to a second one."""
 
+_PARQUET = "mudline.results.parquet_file"
+_PLOT = "mudline.results.evaluation_plot"
+_LIBRARIES = {
+    "parquet": ("pyarrow", "parquet", _PARQUET),
+    "png": ("matplotlib", "plot", _PLOT),
+    "svg": ("matplotlib", "plot", _PLOT),
+}
+"""By form: its library, the extra that brings it, and the module that needs it, which is imported when it is used."""
+
 More = Mapping[str, object]
-"""What is known only behind the last step, by its key in JSON."""
+"""What is known only after the last step, by its key in JSON."""
 
 
-class Taker(Protocol):
-    """Takes the results of a few steps after the other."""
+class ResultConsumer(Protocol):
+    """Takes the results of a few steps at a time."""
 
     def take(self, part: Part) -> None:
-        """Some steps."""
+        """Take some steps."""
 
 
-class Sink(Taker, Protocol):
+class Sink(ResultConsumer, Protocol):
     """A file or standard output."""
 
     def finish(self, more: More) -> None:
-        """What stands behind the last step."""
+        """Write what comes after the last step."""
 
 
 class Written:
-    """Text, written as it is spelled by `write`."""
+    """Text of a form, passed to `write`."""
 
     def __init__(self, form: TextForm, write: Callable[[Iterator[str]], None]) -> None:
         self._form, self._write = form, write
@@ -76,20 +80,20 @@ class Packed:
     def finish(self, more: More) -> None:
         """Pack the arrays; an archive has no place for more."""
         del more
-        with Progress(self._archive.count, self._view, shown=looked_at(self._view)) as progress:
+        with Progress(self._archive.count, self._view, shown=wants_bar(self._view)) as progress:
             self._archive.write(self._stream, progress.advance)
 
 
 class Several:
     """Two tables, each in a file of its own."""
 
-    def __init__(self, *takers: Taker) -> None:
-        self._takers = takers
+    def __init__(self, *consumers: ResultConsumer) -> None:
+        self._consumers = consumers
 
     def take(self, part: Part) -> None:
         """Write some steps of each."""
-        for taker in self._takers:
-            taker.take(part)
+        for consumer in self._consumers:
+            consumer.take(part)
 
     def finish(self, more: More) -> None:
         """A table has no place for more."""
@@ -97,7 +101,7 @@ class Several:
 
 
 def form_of(output: str | None, known: Sequence[str]) -> str:
-    """The form of a file by its suffix, "" for no file; raises click.UsageError."""
+    """The form of a file by its suffix, "" without a file; raises click.UsageError."""
     if output is None:
         return ""
     form = Path(output).suffix.lower().removeprefix(".")
@@ -113,37 +117,24 @@ def beside(path: Path) -> Path:
 
 
 def has_library(form: str) -> bool:
-    """Whether the library for a form of files is there; says what to do if not."""
+    """Whether the library for a form of files is installed; reports it if not."""
     if form not in _LIBRARIES:
         return True
-    library, extra, load = _LIBRARIES[form]
+    library, extra, module = _LIBRARIES[form]
     try:
-        load()
+        import_module(module)
     except ImportError:
-        tell(f".{form} needs {library}: pip install 'mudline[{extra}]'")
+        notify_missing(f".{form}", library, extra)
         return False
     return True
 
 
 def draw(data: PlotData, path: Path, view: View) -> None:
-    """Draw what was gathered."""
+    """Draw the results that were collected."""
     with writing(path) as stream:
-        drawing("evaluation").draw(data, path.suffix.lower().removeprefix("."), stream, visible)
+        import_module(_PLOT).draw(data, path.suffix.lower().removeprefix("."), stream, visible)
     if not view.quiet:
-        tell(f"plot -> {path.as_posix()}")
-
-
-def _parquet() -> ModuleType:
-    """The module that writes Parquet; raises ImportError without the extra `parquet`."""
-    return import_module("mudline.results.parquet_file")
-
-
-_LIBRARIES: dict[str, tuple[str, str, Callable[[], ModuleType]]] = {
-    "parquet": ("pyarrow", "parquet", _parquet),
-    "png": ("matplotlib", "plot", partial(drawing, "evaluation")),
-    "svg": ("matplotlib", "plot", partial(drawing, "evaluation")),
-}
-"""By form: what draws or writes it, the extra that brings it, and how it is loaded."""
+        notify(f"plot -> {path.as_posix()}")
 
 
 def printed(form: TextForm) -> Sink:
@@ -153,7 +144,7 @@ def printed(form: TextForm) -> Sink:
 
 @contextmanager
 def files(evaluation: Evaluation, elements: ElementTable, path: Path, view: View) -> Iterator[Sink]:
-    """The file of an evaluation by its suffix, or two files; they are there when all is written, or not at all."""
+    """The file of an evaluation by its suffix, or two files; they exist when all is written, or not at all."""
     suffix, nodes = path.suffix.lower(), NodeTable(evaluation)
     with ExitStack() as opened:
         stream = opened.enter_context(writing(path))
@@ -168,7 +159,7 @@ def files(evaluation: Evaluation, elements: ElementTable, path: Path, view: View
             if suffix == ".csv":
                 yield Several(*(Written(CsvForm(evaluation, table), _to(into)) for table, into in pairs))
             else:
-                make = _parquet().ParquetFile
+                make = import_module(_PARQUET).ParquetFile
                 yield Several(*(opened.enter_context(make(evaluation, table, into)) for table, into in pairs))
 
 
@@ -176,11 +167,11 @@ def _to(stream: BinaryIO) -> Callable[[Iterator[str]], None]:
     return lambda pieces: stream.writelines(map(encoded, pieces))
 
 
-def run(evaluation: Evaluation, takers: Sequence[Taker], view: View, *, bar: bool) -> None:
-    """Evaluate a few steps at a time and hand them on, with a bar while somebody looks on."""
-    with Progress(evaluation.steps, view, shown=bar and looked_at(view)) as progress:
+def run(evaluation: Evaluation, consumers: Sequence[ResultConsumer], view: View, *, bar: bool) -> None:
+    """Evaluate a few steps at a time and pass them on, with a bar on a terminal."""
+    with Progress(evaluation.steps, view, shown=bar and wants_bar(view)) as progress:
         for part in evaluation.parts():
-            for taker in takers:
-                taker.take(part)
+            for consumer in consumers:
+                consumer.take(part)
             for _ in range(part.count):
                 progress.advance()

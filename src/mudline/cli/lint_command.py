@@ -1,28 +1,36 @@
-"""`mudline lint`."""
+"""`mudline lint`: options, the run over all files, and its findings: at once for people, at the end for programs."""
 
 from __future__ import annotations
 
+from contextlib import closing
+from dataclasses import KW_ONLY, dataclass, field, replace
 from pathlib import Path
 
 import click
 
+from mudline import __version__
 from mudline.cli import options
+from mudline.cli.changes import print_changes
 from mudline.cli.exits import DONE, FOUND
-from mudline.cli.inputs import collect
-from mudline.cli.lint_jobs import Effort
-from mudline.cli.lint_outputs import TEXT, outputs
-from mudline.cli.lint_report import Report
-from mudline.cli.lint_run import Run
+from mudline.cli.inputs import Input, Inputs, collect
+from mudline.cli.lint_jobs import Effort, SettingsOf, lint_all
+from mudline.cli.lint_outputs import TEXT, Outputs, outputs
 from mudline.cli.lint_settings import Configured, Given, merged
 from mudline.cli.lint_watch import Watched, refuse, watched
 from mudline.cli.options import View
-from mudline.cli.terminal import reason, tell
-from mudline.cli.writing import write_text
-from mudline.diagnostics import Severity
+from mudline.cli.streams import counted, emit, emit_deck, notify, reason, write_text
+from mudline.deck.loading import form_of
+from mudline.diagnostics import Diagnostic, Severity
+from mudline.files import write_atomically
 from mudline.linting.baseline import Baseline, BaselineError, read_baseline
 from mudline.linting.configuration import Configuration
-from mudline.linting.output.formats import FORMS
+from mudline.linting.lint_file import FileReport, lint_one
+from mudline.linting.output.concise import concise
+from mudline.linting.output.formats import FORMS, form
+from mudline.linting.output.statistics import statistics_lines
+from mudline.linting.output.visible import visible
 from mudline.linting.settings import Fixing
+from mudline.syntax.source import Source
 
 _CODES = "CODE[,CODE...]"
 
@@ -109,32 +117,32 @@ def command(
     """
     fixing = Fixing.NONE if not (fix or diff) else Fixing.UNSAFE if unsafe else Fixing.SAFE
     given = Given(_words(chosen), _words(ignored), _words(also), fail_on, dialect, units, fixing)
-    Configured(config, isolated)  # wrong usage is told once, before anything is watched
-    merged(Configuration(), given)  # a wrong code is told whatever the files are
-    told = outputs(forms)
+    Configured(config, isolated)  # wrong usage is reported once, before anything is watched
+    merged(Configuration(), given)  # a wrong code is reported whatever the files are
+    wanted = outputs(forms)
 
     def once() -> int:
         configured = Configured(config, isolated)
         known = _baseline(baseline, recording=recording)
         inputs = collect(paths, stdin_name, configured.wanted, gitignore=not every_file)
         aside = diff or (fix and any(file.path is None for file in inputs.files))
-        report = Report(told, view, statistics=statistics, aside=aside, fixing=fixing is not Fixing.NONE)
+        report = Report(wanted, view, statistics=statistics, aside=aside, fixing=fixing is not Fixing.NONE)
         effort = Effort(jobs, not uncached)
         run = Run(inputs, lambda file: configured.settings(file, given), report, known, recording, diff, effort)
         run.go()
         if known is not None and baseline is not None:
-            _tell_baseline(known, Path(baseline), view, recording=recording)
+            _report_baseline(known, Path(baseline), view, recording=recording)
         failing = not exit_zero and (report.failing or run.differs)
         return max(inputs.code, FOUND if failing else DONE)
 
     if watch:
-        refuse({"--fix": fix, "--diff": diff, "--write-baseline": recording}, paths, told)
+        refuse({"--fix": fix, "--diff": diff, "--write-baseline": recording}, paths, wanted)
         watched(once, Watched(paths, tuple(path for path in (config, baseline) if path)), view)
     return once()
 
 
 def _baseline(given: str | None, *, recording: bool) -> Baseline | None:
-    """The known findings; none yet when they are to be recorded. Ends the command for a file that is no baseline."""
+    """The known findings; none yet when they are to be recorded. Ends the command for a file that is not a baseline."""
     if given is None:
         if recording:
             raise click.UsageError("--write-baseline needs --baseline FILE: the file to write")
@@ -151,12 +159,156 @@ def _baseline(given: str | None, *, recording: bool) -> Baseline | None:
         raise click.ClickException(message) from error
 
 
-def _tell_baseline(known: Baseline, path: Path, view: View, *, recording: bool) -> None:
-    """Write what was recorded, or tell of what is recorded and no longer there."""
+def _report_baseline(known: Baseline, path: Path, view: View, *, recording: bool) -> None:
+    """Write what was recorded, or report how much of it is no longer found."""
     if recording:
         write_text(path, [known.text()])
         if not view.quiet:
-            count = known.known.total()
-            tell(f"{path.as_posix()}: {count} finding{'s' * (count != 1)} recorded")
+            notify(f"{path.as_posix()}: {counted(known.known.total(), 'finding')} recorded")
     elif view.verbose and (gone := known.gone()):
-        tell(f"{path.as_posix()}: {gone} recorded finding{'s' * (gone != 1)} no longer there: write it again")
+        notify(f"{path.as_posix()}: {counted(gone, 'recorded finding')} no longer there: write it again")
+
+
+@dataclass
+class Run:
+    """All files: fixed decks are written or shown, known findings left out, the others reported.
+
+    With `diff` nothing is written; `differs` says afterwards that something would have been.
+    """
+
+    inputs: Inputs
+    settings_of: SettingsOf
+    report: Report
+    known: Baseline | None = None
+    recording: bool = False
+    diff: bool = False
+    effort: Effort = field(default_factory=Effort)
+    differs: bool = False
+    documents: int = 0
+
+    def go(self) -> None:
+        """Lint all files."""
+        with closing(lint_all(self.inputs, self.settings_of, self.effort)) as results:
+            for file, data, result in results:
+                self._take(file, data, result)
+        if self.documents:
+            notify(f"{counted(self.documents, 'deck')} in JSON or YAML not fixed: only keyword text is")
+        self.report.finish()
+
+    def _take(self, file: Input, data: bytes, result: FileReport) -> None:
+        settings = self.settings_of(file)
+        content = data if result.changed is None else result.changed
+        if settings.fixing is not Fixing.NONE:
+            self.documents += form_of(file.name) != "keyword"
+            if result.note:
+                notify(f"{file.name}: {result.note}")
+            if not self._deliver(file, data, content):
+                unfixed = replace(settings, fixing=Fixing.NONE)
+                content, result = data, lint_one(file.name, data, unfixed, file.folder)
+        found = self._unknown(file, content, list(result.found))
+        self.report.add(file.name, content, found, len(result.fixed), settings.fail_on)
+
+    def _unknown(self, file: Input, content: bytes, found: list[Diagnostic]) -> list[Diagnostic]:
+        """The findings that the baseline does not hold."""
+        if self.known is None:
+            return found
+        path = file.path or file.name
+        if self.recording:
+            self.known.record(found, content, path)
+        return self.known.unknown(found, content, path)
+
+    def _deliver(self, file: Input, data: bytes, content: bytes) -> bool:
+        """Show, print or write what was fixed; returns whether the fixes are made."""
+        if self.diff:
+            if content != data:
+                self.differs = True
+                old, new = (Source.from_bytes(text, file.name).text for text in (data, content))
+                print_changes(old, new, visible(file.name), self.report.view)
+        elif file.path is None:
+            emit_deck(content)
+        elif content != data:
+            try:
+                write_atomically(Path(file.path), content)
+            except OSError as error:
+                self.inputs.fail(f"{file.name}: cannot be written: {reason(error)}")
+                return False
+        return True
+
+
+@dataclass
+class Report:
+    """What a run found. `aside`: standard output carries something else, and findings go to standard error."""
+
+    outputs: Outputs
+    view: View
+    _: KW_ONLY
+    statistics: bool
+    aside: bool
+    fixing: bool
+    found: list[Diagnostic] = field(default_factory=list)
+    names: list[str] = field(default_factory=list)
+    fixed: int = 0
+    failing: bool = False
+
+    def add(self, name: str, data: bytes, found: list[Diagnostic], fixed: int, limit: Severity) -> None:
+        """Add the findings that are left in one file, whose content is `data`, and the number of those fixed."""
+        self.names.append(name)
+        self.found += found
+        self.fixed += fixed
+        self.failing = self.failing or any(one.severity.rank >= limit.rank for one in found)
+        if self._as_they_come and found:
+            self.view.printer().findings(found, Source.from_bytes(data, name))
+        if self.view.verbose:
+            notify(f"{name}: {counted(len(found), 'finding')}")
+
+    @property
+    def _as_they_come(self) -> bool:
+        return self.outputs.form not in FORMS and not (self.view.quiet or self.statistics or self.aside)
+
+    def finish(self) -> None:
+        """Write and print what needs all findings."""
+        found = sorted(self.found, key=lambda diagnostic: diagnostic.sort_key)
+        self.outputs.write_files(found, self.names)
+        if self.aside:
+            self._print_aside(found)
+        elif self.statistics:
+            emit(statistics_lines(found))
+        elif self.outputs.form in FORMS:
+            emit(form(self.outputs.form, self.names, __version__)(found))
+        elif self.view.quiet:
+            emit(concise(found))
+        elif self.names:
+            self._summary(found)
+
+    def _print_aside(self, found: list[Diagnostic]) -> None:
+        name = self.outputs.form if self.outputs.form in FORMS else "concise"
+        pieces = statistics_lines(found) if self.statistics else form(name, self.names, __version__)(found)
+        for piece in pieces:
+            click.echo(piece, err=True, nl=False)
+        if self.fixing and not self.view.quiet and name == "concise":
+            click.echo(self._fixed_summary(found), err=True)
+
+    def _summary(self, found: list[Diagnostic]) -> None:
+        if self.fixing and (self.fixed or found):
+            click.echo(self._fixed_summary(found))
+        elif found:
+            self.view.printer().summary(found, len(self.names))
+        else:
+            click.echo(f"No findings in {counted(len(self.names), 'file')}.")
+        if hint := fixable(found):
+            click.echo(hint)
+
+    def _fixed_summary(self, found: list[Diagnostic]) -> str:
+        total = counted(self.fixed + len(found), "finding")
+        return f"Found {total} ({self.fixed} fixed, {len(found)} remaining) in {counted(len(self.names), 'file')}."
+
+
+def fixable(found: list[Diagnostic]) -> str:
+    """How many findings have fixes of each kind, or ""."""
+    kinds = [one.fix.applicability for one in found if one.fix is not None]
+    safe, unsafe = kinds.count("safe"), kinds.count("unsafe")
+    if not kinds:
+        return ""
+    if not safe:
+        return f"{unsafe} fixable with --fix --unsafe-fixes."
+    return f"{safe} fixable with --fix" + (f", {unsafe} more with --unsafe-fixes." if unsafe else ".")

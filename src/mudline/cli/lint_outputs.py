@@ -9,7 +9,7 @@ from pathlib import Path
 import click
 
 from mudline import __version__
-from mudline.cli.writing import write_text
+from mudline.cli.streams import write_text
 from mudline.diagnostics import Diagnostic
 from mudline.linting.output.formats import FORMS, form
 

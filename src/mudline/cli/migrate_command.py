@@ -7,13 +7,11 @@ from pathlib import Path
 import click
 
 from mudline.cli import options
-from mudline.cli.changes import tell_changes
+from mudline.cli.changes import print_changes
 from mudline.cli.exits import DONE, FOUND
 from mudline.cli.inputs import Input, collect
 from mudline.cli.options import View
-from mudline.cli.streams import emit_deck
-from mudline.cli.terminal import tell, tell_diagnostics
-from mudline.cli.writing import write_bytes
+from mudline.cli.streams import counted, emit_deck, notify, notify_diagnostics, write_bytes
 from mudline.deck.loading import dump, form_of, load_bytes
 from mudline.diagnostics import DeckError
 from mudline.linting.output.visible import visible
@@ -22,7 +20,7 @@ from mudline.migration.migrating import Migration, legacy_blocks, migrate
 from mudline.migration.verification import Verdict, verify
 from mudline.syntax.source import Source
 
-_MOST_TOLD = 20
+_MOST_REPORTED = 20
 
 
 @click.command("migrate")
@@ -65,7 +63,7 @@ def command(
         try:
             code = max(code, run.migrate(units, diff=diff, proved=proved))
         except DeckError as error:
-            tell_diagnostics(error.diagnostics)
+            notify_diagnostics(error.diagnostics)
             code = FOUND
     return max(inputs.code, code)
 
@@ -93,7 +91,7 @@ class _Run:
             return FOUND
         content = self._content(migration)
         if diff:
-            self._tell_changes(content, migration)
+            self._print_changes(content, migration)
             return DONE
         return self._write(content, migration.files, _replaced(migration))
 
@@ -105,32 +103,32 @@ class _Run:
         return dump(migration.deck, form).encode()
 
     def _proved(self, verdict: Verdict) -> bool:
-        for difference in verdict.differences[:_MOST_TOLD]:
-            tell(f"{self.file.name}: {difference.what}: {difference.text}")
+        for difference in verdict.differences[:_MOST_REPORTED]:
+            notify(f"{self.file.name}: {difference.what}: {difference.text}")
         if verdict.differences:
-            count = _many(len(verdict.differences), "difference")
-            tell(f"{self.file.name}: left as it is: {count} between the old deck and the new one")
+            count = counted(len(verdict.differences), "difference")
+            notify(f"{self.file.name}: left as it is: {count} between the old deck and the new one")
         else:
             self._note(
-                f"verified: {_many(verdict.elements, 'element')} of {_many(verdict.kinds, 'kind')}, and "
+                f"verified: {counted(verdict.elements, 'element')} of {counted(verdict.kinds, 'kind')}, and "
                 f"{verdict.stand_ins} stand-ins for its sets, at {verdict.positions} positions: forces, stiffnesses, "
                 "friction, lateral resistance, suction and bed are bitwise equal"
             )
         return not verdict.differences
 
-    def _tell_changes(self, content: bytes, migration: Migration) -> None:
+    def _print_changes(self, content: bytes, migration: Migration) -> None:
         name = visible(self.file.name)
         old, new = (Source.from_bytes(data, self.file.name).text for data in (self.data, content))
-        tell_changes(old, new, name, self.view.color)
+        print_changes(old, new, name, self.view)
         for beside, data in migration.files.items():
             path = Path(self.file.name).with_name(beside).as_posix()
-            tell_changes("", data.decode(), visible(path), self.view.color, created=True)
+            print_changes("", data.decode(), visible(path), self.view, created=True)
 
     def _write(self, content: bytes, files: dict[str, bytes], replaced: str = "") -> int:
         if self.target is None:
             if files:
                 why = "its profile goes to a file of its own, and standard input has no place for one"
-                tell(f"{self.file.name}: left as it is: {why}: give the deck as a file")
+                notify(f"{self.file.name}: left as it is: {why}: give the deck as a file")
                 return FOUND
             emit_deck(content)
             return DONE
@@ -144,11 +142,7 @@ class _Run:
 
     def _note(self, text: str) -> None:
         if not self.view.quiet:
-            tell(f"{self.file.name}: {text}")
-
-
-def _many(count: int, thing: str) -> str:
-    return f"{count} {thing}{'s' * (count != 1)}"
+            notify(f"{self.file.name}: {text}")
 
 
 def _replaced(migration: Migration) -> str:
