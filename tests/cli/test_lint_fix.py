@@ -118,7 +118,7 @@ def test_a_baseline_that_cannot_be_used_is_wrong_usage(place: Place) -> None:
     assert "nowhere.json: the baseline cannot be read: no such file" in missing.err
     broken = run("lint", place(), "--baseline", place("[]", "known.json"))
     assert broken.code == 2
-    assert "this is no baseline" in broken.err
+    assert "not a baseline" in broken.err
     assert "needs --baseline" in run("lint", place(), "--write-baseline").err
 
 

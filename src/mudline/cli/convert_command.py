@@ -18,10 +18,8 @@ from mudline.deck.sorting import sort_curves
 @click.command("convert")
 @options.deck
 @click.option("-o", "--output", metavar="OUT", help="File to write; without it, or with -, standard output.")
-@click.option("--from", "source", type=click.Choice(FORMS), help="Form of DECK, instead of what its suffix tells.")
-@click.option(
-    "--to", "target", type=click.Choice(FORMS), help="Form to write, instead of what the suffix of OUT tells."
-)
+@click.option("--from", "source", type=click.Choice(FORMS), help="Format of DECK, instead of that of its suffix.")
+@click.option("--to", "target", type=click.Choice(FORMS), help="Format to write, instead of that of the suffix of OUT.")
 @click.option("--sorted", "in_order", is_flag=True, help="Write curves with their points sorted by ratio.")
 @options.stdin_name
 @options.units
@@ -40,7 +38,7 @@ def command(
 ) -> int:
     """Convert a deck between keyword text, JSON and YAML.
 
-    Nothing is lost but blank lines and the spelling of numbers.
+    Only blank lines and the spelling of numbers are lost.
     """
     form = target or _form_of_output(output)
     read = load(deck, form=source, units=units, stdin_name=stdin_name).require()
@@ -60,9 +58,9 @@ def command(
 
 def _form_of_output(output: str | None) -> str:
     if output is None or output == STDIN:
-        raise click.UsageError("say what to write: -o OUT with a suffix, or --to")
+        raise click.UsageError("unknown format to write: give -o OUT with a suffix, or --to")
     form, suffix = form_of(output), PurePath(output).suffix.lower()
     if form == "keyword" and suffix not in SUFFIXES:
         known = ", ".join(sorted(SUFFIXES | {".json", ".yaml"}))
-        raise click.UsageError(f"{output}: its suffix tells no form (known: {known}): say --to keyword, json or yaml")
+        raise click.UsageError(f"{output}: unknown file format (known: {known}): give --to keyword, json or yaml")
     return form

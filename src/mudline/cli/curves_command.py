@@ -55,9 +55,9 @@ def command(
     units: str | None,
     view: View,
 ) -> int:
-    """Show each force-embedment curve sorted, with the slope of every segment and the stiffness it gives.
+    """Show each force-embedment curve as evaluated: sorted, with slope and stiffness of every segment.
 
-    CSV holds one table: the points, or what --at or --weight ask for.
+    CSV holds one table: the points, or the values for --at or --weight.
     """
     if output_format == "csv" and ratios and weight is not None:
         raise click.UsageError("CSV holds one table: give --at or --weight, not both")
@@ -98,7 +98,7 @@ def _plot(scene: Scene, rows: list[dict[str, Any]], picture: str) -> bool:
 
 
 def _print_curves(scene: Scene, rows: list[dict[str, Any]], view: View) -> None:
-    """A table of segments for each curve, with what was asked of it."""
+    """Print a table of segments for each curve, with the values for --at and --weight."""
     printer = view.printer()
     names = unit_names(scene.units)
     force, slope = headed("force", names.line_force), headed("slope", names.line_force)

@@ -40,7 +40,7 @@ _MARKS = {"added": ("+", "green"), "removed": ("-", "red"), "changed": ("~", "ye
     default=0.0,
     show_default=True,
     metavar="REL",
-    help="How far two numbers may be apart, relative to the larger one.",
+    help="Largest difference of equal numbers, relative to the larger one.",
 )
 @options.output_format("text", "json")
 @options.stdin_name
@@ -57,7 +57,7 @@ def command(
     units: str | None,
     view: View,
 ) -> int:
-    """Tell what differs between the meanings of two decks, whatever their forms, layout and order.
+    """Compare two decks semantically, whatever their formats, layout and order.
 
     A and B are decks in keyword text, JSON or YAML; one of them may be - for standard input. The exit code is 0 when
     they mean the same, and 1 when they differ or one of them cannot be read.
@@ -65,7 +65,7 @@ def command(
     if before == after == STDIN:
         raise click.UsageError("only one of the decks can come from standard input")
     if not math.isfinite(tolerance):
-        raise click.UsageError("--tolerance needs a number from 0 to 1")
+        raise click.UsageError("--tolerance: expected a number from 0 to 1")
     first, second = (resolve(load(given, units=units, stdin_name=stdin_name)) for given in (before, after))
     found = compare(first, second, tolerance)
     if output_format == "json":

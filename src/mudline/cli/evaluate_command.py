@@ -18,13 +18,13 @@ from mudline.cli.evaluate_outputs import (
     RESULTS,
     TABLES,
     ResultConsumer,
-    Several,
     Sink,
     beside,
     draw,
     files,
     form_of,
     has_library,
+    nowhere,
     printed,
     run,
 )
@@ -74,7 +74,7 @@ _Read = TypeVar("_Read")
     help="Write the results; CSV and Parquet write the nodes to OUT-nodes beside it.",
 )
 @click.option("--plot", "picture", metavar="FILE.png|svg", help="Draw the results (needs the extra mudline[plot]).")
-@click.option("--plan", "plan_only", is_flag=True, help="Tell what the scene needs and what was left out, and why.")
+@click.option("--plan", "plan_only", is_flag=True, help="Print what the deck needs and what is left out, and why.")
 @click.option(
     "--table",
     type=click.Choice(["elements", "nodes"]),
@@ -104,9 +104,9 @@ def command(
     units: str | None,
     view: View,
 ) -> int:
-    """Contact forces and stiffnesses of a deck, at its own coordinates or at positions from a file.
+    """Evaluate contact forces and stiffnesses of a deck, at its own coordinates or at positions from a file.
 
-    Forces are per unit length, in the deck's units; reactions are the total force of the bed on a node.
+    Forces are per unit length, in the deck's units; reactions are the total force of the seabed on a node.
     """
     for needed in (form_of(output, RESULTS), form_of(picture, PICTURES)):
         if needed and not has_library(needed):
@@ -120,7 +120,7 @@ def command(
         return DONE
     evaluation = evaluate_scene(scene, given, pull)
     reference = _read(against, lambda file: read_reference(file, evaluation)) if against else None
-    comparison = Comparison(evaluation, reference) if reference is not None else None
+    comparison = None if reference is None else Comparison(evaluation, reference)
     if not view.quiet:
         _notify_before(evaluation, comparison)
     drawing = PlotData(evaluation) if picture else None
@@ -153,7 +153,7 @@ def _sink(
         return nullcontext(printed(JsonForm(evaluation, elements)))
     if shown == "csv":
         return nullcontext(printed(CsvForm(evaluation, elements if table == "elements" else NodeTable(evaluation))))
-    return nullcontext(Several())
+    return nullcontext(nowhere())
 
 
 def _plan(prepared: Prepared, form: str, view: View) -> None:
@@ -187,14 +187,14 @@ def _read(path: str, read: Callable[[Path], _Read]) -> _Read:
 
 
 def _notify_before(evaluation: Evaluation, comparison: Comparison | None) -> None:
-    """What is left out, and what is guessed."""
+    """Report what is left out, and what is guessed."""
     missing = len(evaluation.present) - len(evaluation.nodes)
     if missing:
         notify(f"no positions for {counted(missing, 'node')}: {counted(evaluation.skipped, 'element')} left out")
     if evaluation.lengths_from_positions:
         notify(f"the length of {counted(evaluation.lengths_from_positions, 'element')} comes from the first positions")
     if rigid := int((evaluation.scene.law == LawKind.RIGID).sum()):
-        notify(f"{counted(rigid, 'element')} on a rigid bed: a constraint, whose reaction is not evaluated")
+        notify(f"{counted(rigid, 'element')} on a rigid seabed: a constraint, whose reaction is not evaluated")
     for stage, why in evaluation.model.input.left_out.items():
         notify(f"{stage}: {why}")
     if comparison is not None:
@@ -219,7 +219,7 @@ class _SlowSuction:
 
 
 def _notify_after(evaluation: Evaluation, slow: _SlowSuction, written: Path | None) -> None:
-    """Where suction is less than its power law gives, and which files were written."""
+    """Report where suction is less than its power law gives, and which files were written."""
     if slow.element is not None:
         number = int(evaluation.scene.element_ids[slow.element])
         when = f"at {slow.steps} of {counted(evaluation.steps, 'step')}, element {number} first"
@@ -232,7 +232,7 @@ def _notify_after(evaluation: Evaluation, slow: _SlowSuction, written: Path | No
 
 
 def _notify_unmatched(comparison: Comparison) -> None:
-    """What one side has and the other has not."""
+    """Report what is in one of the results only."""
     file = comparison.reference.file
     for numbers, thing, where in (
         (comparison.reference.unknown.tolist(), "element", f"of {file} not in the deck"),

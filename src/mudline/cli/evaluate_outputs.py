@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 from typing import BinaryIO, Protocol
@@ -45,59 +46,12 @@ class ResultConsumer(Protocol):
         """Take some steps."""
 
 
-class Sink(ResultConsumer, Protocol):
-    """A file or standard output."""
+@dataclass(frozen=True, slots=True)
+class Sink:
+    """Where results are written: `take` writes some steps, `finish` what comes after the last step."""
 
-    def finish(self, more: More) -> None:
-        """Write what comes after the last step."""
-
-
-class Written:
-    """Text of a form, passed to `write`."""
-
-    def __init__(self, form: TextForm, write: Callable[[Iterator[str]], None]) -> None:
-        self._form, self._write = form, write
-
-    def take(self, part: Part) -> None:
-        """Write some steps."""
-        self._write(self._form.body(part))
-
-    def finish(self, more: More) -> None:
-        """Write the end."""
-        self._write(self._form.tail(more))
-
-
-class Packed:
-    """An archive, packed when all results are there."""
-
-    def __init__(self, archive: NpzFile, stream: BinaryIO, view: View) -> None:
-        self._archive, self._stream, self._view = archive, stream, view
-
-    def take(self, part: Part) -> None:
-        """Keep some steps."""
-        self._archive.take(part)
-
-    def finish(self, more: More) -> None:
-        """Pack the arrays; an archive has no place for more."""
-        del more
-        with Progress(self._archive.count, self._view, shown=wants_bar(self._view)) as progress:
-            self._archive.write(self._stream, progress.advance)
-
-
-class Several:
-    """Two tables, each in a file of its own."""
-
-    def __init__(self, *consumers: ResultConsumer) -> None:
-        self._consumers = consumers
-
-    def take(self, part: Part) -> None:
-        """Write some steps of each."""
-        for consumer in self._consumers:
-            consumer.take(part)
-
-    def finish(self, more: More) -> None:
-        """A table has no place for more."""
-        del more
+    take: Callable[[Part], None]
+    finish: Callable[[More], None]
 
 
 def form_of(output: str | None, known: Sequence[str]) -> str:
@@ -137,9 +91,14 @@ def draw(data: PlotData, path: Path, view: View) -> None:
         notify(f"plot -> {path.as_posix()}")
 
 
+def nowhere() -> Sink:
+    """No output."""
+    return _together([])
+
+
 def printed(form: TextForm) -> Sink:
     """Standard output."""
-    return Written(form, emit)
+    return _text(form, emit)
 
 
 @contextmanager
@@ -149,22 +108,40 @@ def files(evaluation: Evaluation, elements: ElementTable, path: Path, view: View
     with ExitStack() as opened:
         stream = opened.enter_context(writing(path))
         if suffix == ".json":
-            yield Written(JsonForm(evaluation, elements), _to(stream))
+            yield _text(JsonForm(evaluation, elements), _to(stream))
         elif suffix == ".npz":
             archive = opened.enter_context(NpzFile(evaluation, [elements, nodes], path.parent))
-            yield Packed(archive, stream, view)
+            yield Sink(archive.take, lambda _: _pack(archive, stream, view))
         else:
-            second = opened.enter_context(writing(beside(path)))
-            pairs = ((elements, stream), (nodes, second))
+            pairs = ((elements, stream), (nodes, opened.enter_context(writing(beside(path)))))
             if suffix == ".csv":
-                yield Several(*(Written(CsvForm(evaluation, table), _to(into)) for table, into in pairs))
+                yield _together([_text(CsvForm(evaluation, table), _to(into)) for table, into in pairs])
             else:
                 make = import_module(_PARQUET).ParquetFile
-                yield Several(*(opened.enter_context(make(evaluation, table, into)) for table, into in pairs))
+                yield _together([opened.enter_context(make(evaluation, table, into)) for table, into in pairs])
+
+
+def _text(form: TextForm, write: Callable[[Iterator[str]], None]) -> Sink:
+    return Sink(lambda part: write(form.body(part)), lambda more: write(form.tail(more)))
 
 
 def _to(stream: BinaryIO) -> Callable[[Iterator[str]], None]:
     return lambda pieces: stream.writelines(map(encoded, pieces))
+
+
+def _together(consumers: Sequence[ResultConsumer]) -> Sink:
+    """Several tables, which have nothing after the last step."""
+
+    def take(part: Part) -> None:
+        for consumer in consumers:
+            consumer.take(part)
+
+    return Sink(take, lambda _: None)
+
+
+def _pack(archive: NpzFile, stream: BinaryIO, view: View) -> None:
+    with Progress(archive.count, view, shown=wants_bar(view)) as progress:
+        archive.write(stream, progress.advance)
 
 
 def run(evaluation: Evaluation, consumers: Sequence[ResultConsumer], view: View, *, bar: bool) -> None:

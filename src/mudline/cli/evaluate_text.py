@@ -28,14 +28,14 @@ _LEFT = ("law", "state", "axial", "lateral")
 
 
 def print_plan(plan: Plan, view: View) -> None:
-    """The stages, active or not, and why."""
+    """Print the stages, active or not, and why."""
     rows = [(stage.stage, "yes" if stage.active else "no", stage.why) for stage in plan]
     columns = ("stage", "active", "why")
     view.printer().table(f"Plan, {plan.steps}", columns, rows, left=columns)
 
 
 def print_evaluation(digest: Digest, which: str, view: View) -> None:
-    """One state: totals and rows. Time steps: a line each, rows are for files."""
+    """Print totals and rows of one state; of time steps a line each, as rows are for files."""
     printer = view.printer()
     if digest.evaluation.time is not None:
         _print_steps(printer, digest)
@@ -111,7 +111,7 @@ def _print_states(printer: Printer, evaluation: Evaluation, part: Part) -> None:
             found = counts(result.friction_state[evaluation.nodes, axis], SLIDING)
             rows += [(f"{direction} friction of nodes", name, str(count)) for name, count in found]
     if result.restrained is not None:
-        rows.append(("rigid bed", "restrained nodes", str(int(result.restrained.sum()))))
+        rows.append(("rigid seabed", "restrained nodes", str(int(result.restrained.sum()))))
     if rows:
         printer.table("States", ("law", "state", "count"), rows, left=("law", "state"))
 
@@ -148,7 +148,7 @@ def _print_peaks(printer: Printer, digest: Digest) -> None:
     units = {
         "reaction": ("total reaction", names.force),
         "force": ("force of an element", names.line_force),
-        "pull": ("pull on an element", names.line_force),
+        "pull": ("suction force of an element", names.line_force),
         "touching": ("elements in contact", ""),
         "deepest": ("depth", names.length),
     }
@@ -175,7 +175,7 @@ def _title(evaluation: Evaluation) -> str:
 
 
 def _touching_elements(evaluation: Evaluation, part: Part) -> tuple[Cells, Iterator[Cells]]:
-    """Elements in contact, or with a force above the bed, at the first step of a part."""
+    """Elements in contact, or with a force above the seabed, at the first step of a part."""
     names = unit_names(evaluation.scene.units)
     columns: Cells = (
         "element",
@@ -203,7 +203,7 @@ def _touching_elements(evaluation: Evaluation, part: Part) -> tuple[Cells, Itera
 
 
 def _touching_nodes(evaluation: Evaluation, part: Part) -> tuple[Cells, Iterator[Cells]]:
-    """Nodes on which the bed acts, also by restraining them, at the first step of a part."""
+    """Nodes on which the seabed acts, also by restraining them, at the first step of a part."""
     names = unit_names(evaluation.scene.units)
     axes = (headed(f"reaction {axis}", names.force) for axis in "XYZ")
     columns: Cells = ("node", headed("gap", names.length), *axes)
@@ -233,7 +233,7 @@ def _numbers(column: Floats, index: Indices) -> list[str]:
 
 
 def print_comparison(comparison: Comparison, view: View) -> None:
-    """A line a column: how many values were compared, the largest differences and where they are."""
+    """Print for each column how many values were compared, the largest differences and where they are."""
     timed = comparison.timed
     place = ("at\nelement", "at\ntime") if timed else ("at\nelement",)
     columns = (

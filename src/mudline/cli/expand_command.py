@@ -24,9 +24,9 @@ _NOT_COPIED = "{}: the deck names it and it is not copied: put it beside the new
 
 @click.command("expand")
 @options.deck
-@click.option("-o", "--output", metavar="DIR", help="Folder for the new decks; made if it is not there.")
+@click.option("-o", "--output", metavar="DIR", help="Folder for the new decks; created if it does not exist.")
 @click.option("--dry-run", is_flag=True, help="Print what would be written, and write nothing.")
-@click.option("--force", is_flag=True, help="Overwrite files that are there already.")
+@click.option("--force", is_flag=True, help="Overwrite existing files.")
 @options.output_format("text", "json")
 @options.stdin_name
 @options.units
@@ -46,10 +46,10 @@ def command(
     """Write the decks that *VARIATION and *COMBINATIONS describe.
 
     Each new deck is the text of DECK with other values of its parameters and without the two keywords. All names are
-    checked before the first file is written, and none leaves the folder. manifest.json in it lists the decks.
+    checked before the first file is written, and none lies outside the folder. manifest.json in it lists the decks.
     """
     if output is None and not dry_run:
-        raise click.UsageError("say where to write: -o DIR, or look first with --dry-run")
+        raise click.UsageError("no folder to write to: give -o DIR, or --dry-run")
     planned = plan(load(deck, units=units, stdin_name=stdin_name))
     for note in planned.notes:
         notify(note)
@@ -95,7 +95,7 @@ def _make_folder(path: Path) -> None:
     try:
         path.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise click.ClickException(f"{path.as_posix()}: cannot be made: {reason(error)}") from error
+        raise click.ClickException(f"{path.as_posix()}: cannot be created: {reason(error)}") from error
 
 
 def _print_decks(decks: Sequence[PlannedDeck], view: View) -> None:

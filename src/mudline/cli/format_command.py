@@ -28,10 +28,10 @@ from mudline.syntax.source import Source
 @options.stdin_name
 @options.common
 def command(*, paths: tuple[str, ...], check: bool, diff: bool, every_file: bool, stdin_name: str, view: View) -> int:
-    """Rewrite decks in canonical layout, in place: the same deck, line for line, its comments kept.
+    """Rewrite decks in canonical layout, in place: the same deck, line by line, comments included.
 
     PATHS are decks, directories (searched for *.keyx, *.keyxm, *.keyxi and *.das) or - for standard input, whose deck
-    is printed. A deck with an error is reported and left as it is.
+    is printed. A deck with an error is reported and left unchanged.
     """
     inputs = collect(paths, stdin_name, gitignore=not every_file)
     run = _Run(inputs, view, check=check, diff=diff)

@@ -45,7 +45,7 @@ def _words(given: tuple[str, ...]) -> tuple[str, ...]:
     "--select", "chosen", multiple=True, metavar=_CODES, help="Run these rules only: codes, prefixes or slugs."
 )
 @click.option("--extend-select", "also", multiple=True, metavar=_CODES, help="Run these rules too.")
-@click.option("--ignore", "ignored", multiple=True, metavar=_CODES, help="Leave these rules out.")
+@click.option("--ignore", "ignored", multiple=True, metavar=_CODES, help="Do not run these rules.")
 @click.option(
     "--fail-on",
     type=click.Choice([severity.value for severity in (Severity.ERROR, Severity.WARNING, Severity.INFO)]),
@@ -56,17 +56,17 @@ def _words(given: tuple[str, ...]) -> tuple[str, ...]:
     "forms",
     multiple=True,
     metavar="FORM[=FILE]",
-    help=f"Form of what is printed: {TEXT} (default), {', '.join(FORMS)}; with =FILE written besides. Repeatable.",
+    help=f"Format of standard output: {TEXT} (default), {', '.join(FORMS)}; =FILE writes a file too. Repeatable.",
 )
-@click.option("--fix", is_flag=True, help="Make the safe fixes, in place; the deck of - is printed.")
-@click.option("--unsafe-fixes", "unsafe", is_flag=True, help="With --fix or --diff: make the fixes that guess, too.")
-@click.option("--diff", is_flag=True, help="Print what --fix would change, and write nothing; 1 if that is anything.")
+@click.option("--fix", is_flag=True, help="Apply the safe fixes, in place; the deck of - is printed.")
+@click.option("--unsafe-fixes", "unsafe", is_flag=True, help="With --fix or --diff: also apply fixes that guess.")
+@click.option("--diff", is_flag=True, help="Print what --fix would change, and write nothing; exit with 1 if anything.")
 @click.option("--baseline", metavar="FILE", help="Hide the findings that are recorded in this file.")
 @click.option("--write-baseline", "recording", is_flag=True, help="Record all findings in the file of --baseline.")
 @click.option(
     "--dialect",
     type=click.Choice(["mudline", "flexcom"]),
-    help="The program that the decks are for (default: mudline); flexcom knows no extension keywords.",
+    help="The program that the decks are for (default: mudline); flexcom has no extension keywords.",
 )
 @click.option("--config", metavar="FILE", help="Use this configuration for all decks, not the nearest one of each.")
 @click.option("--isolated", is_flag=True, help="Use no configuration file.")
@@ -79,7 +79,7 @@ def _words(given: tuple[str, ...]) -> tuple[str, ...]:
     metavar="N",
     help="Use at most N processes, when that pays; 0 (default): one for each processor.",
 )
-@click.option("--no-cache", "uncached", is_flag=True, help="Look at every deck, and remember nothing of it.")
+@click.option("--no-cache", "uncached", is_flag=True, help="Lint every deck again, without the cache.")
 @click.option("--watch", is_flag=True, help="Lint again whenever a deck or a configuration changes, until Ctrl-C.")
 @options.every_file
 @options.stdin_name
@@ -155,7 +155,7 @@ def _baseline(given: str | None, *, recording: bool) -> Baseline | None:
     except OSError as error:
         raise click.ClickException(f"{given}: the baseline cannot be read: {reason(error)}") from error
     except BaselineError as error:
-        message = f"{given}: this is no baseline: {error}: write a new one with --write-baseline"
+        message = f"{given}: not a baseline: {error}: write a new one with --write-baseline"
         raise click.ClickException(message) from error
 
 

@@ -56,7 +56,7 @@ class _Commands(click.Group):
         if args[0] not in COMMANDS:
             near = nearest(args[0], self.list_commands(ctx))
             hint = f": did you mean {near}?" if near else ""
-            ctx.fail(f"there is no command {args[0]!r}{hint}")
+            ctx.fail(f"unknown command {args[0]!r}{hint}")
         return super().resolve_command(ctx, args)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:  # noqa: ARG002 - click's signature
@@ -109,7 +109,7 @@ def _invoke(arguments: Sequence[str]) -> int:
             notify(fault)
         return WRONG_USAGE
     except MemoryError:
-        notify("there is too little memory for this")
+        notify("out of memory")
         return FOUND
 
 

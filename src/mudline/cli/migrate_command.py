@@ -31,7 +31,7 @@ _MOST_REPORTED = 20
     "--verify",
     "proved",
     is_flag=True,
-    help="Evaluate the old and the new deck first, and write only when all their laws agree bit by bit.",
+    help="Evaluate the old and the new deck first, and write only when all their laws agree bitwise.",
 )
 @options.every_file
 @options.stdin_name
@@ -51,17 +51,17 @@ def command(
     """Rewrite *EMBEDMENT, *ELASTIC SURFACE and *RIGID SURFACE as the new family of seabed keywords.
 
     PATHS are decks, directories, or - for standard input, whose new text is printed. Comments stay, as does every byte
-    outside the legacy blocks. A deck that the new family cannot say is left as it is, with the reason.
+    outside the legacy blocks. A deck that the new family cannot express is left unchanged, with the reason.
     """
     inputs = collect(paths, stdin_name, gitignore=not every_file)
     if output is not None and len(inputs.files) > 1:
-        raise click.UsageError("-o takes one deck; without it decks are rewritten where they stand")
+        raise click.UsageError("-o takes one deck; without it decks are rewritten in place")
     code = DONE
     continuations = Continuations(Path(file.path) for file in inputs.files if file.path is not None)
     for file, data in inputs.contents():
-        run = _Run(file, data, output, view, continuations)
         try:
-            code = max(code, run.migrate(units, diff=diff, proved=proved))
+            run = _Run(file, data, output, view)
+            code = max(code, run.migrate(units, continuations, diff=diff, proved=proved))
         except DeckError as error:
             notify_diagnostics(error.diagnostics)
             code = FOUND
@@ -69,24 +69,22 @@ def command(
 
 
 class _Run:
-    """One deck."""
+    """One deck and where it is written; `target` None is standard output."""
 
-    def __init__(self, file: Input, data: bytes, output: str | None, view: View, continuations: Continuations) -> None:
-        self.file = file
-        self.continuations = continuations
-        self.data = data
-        self.target = Path(output) if output is not None else Path(file.path) if file.path is not None else None
-        self.view = view
+    def __init__(self, file: Input, data: bytes, output: str | None, view: View) -> None:
+        self.file, self.data, self.view = file, data, view
+        given = file.path if output is None else output
+        self.target = None if given is None else Path(given)
 
-    def migrate(self, units: str | None, *, diff: bool, proved: bool) -> int:
-        """Migrate the deck; returns the exit code. Raises DeckError for one that is left as it is."""
+    def migrate(self, units: str | None, continuations: Continuations, *, diff: bool, proved: bool) -> int:
+        """Migrate the deck; returns the exit code. Raises DeckError for one that is left unchanged."""
         deck = load_bytes(self.data, self.file.name, units=units, folder=self.file.folder)
         if not legacy_blocks(deck):
             self._note("no legacy seabed keyword")
             if not diff and (self.target is None or self.target != Path(self.file.path or "")):
                 self._write(self.data, {})
             return DONE
-        migration = migrate(deck, self.continuations.of(Path(self.file.path)) if self.file.path else ())
+        migration = migrate(deck, continuations.of(Path(self.file.path)) if self.file.path else ())
         if proved and not self._proved(verify(migration)):
             return FOUND
         content = self._content(migration)
@@ -96,7 +94,7 @@ class _Run:
         return self._write(content, migration.files, _replaced(migration))
 
     def _content(self, migration: Migration) -> bytes:
-        """The new deck in the form that its file's suffix tells."""
+        """The new deck in the format of its file's suffix."""
         form = form_of(self.file.name if self.target is None else self.target.name)
         if form == form_of(self.file.name):
             return migration.content
@@ -107,7 +105,7 @@ class _Run:
             notify(f"{self.file.name}: {difference.what}: {difference.text}")
         if verdict.differences:
             count = counted(len(verdict.differences), "difference")
-            notify(f"{self.file.name}: left as it is: {count} between the old deck and the new one")
+            notify(f"{self.file.name}: left unchanged: {count} between the old deck and the new one")
         else:
             self._note(
                 f"verified: {counted(verdict.elements, 'element')} of {counted(verdict.kinds, 'kind')}, and "
@@ -127,8 +125,8 @@ class _Run:
     def _write(self, content: bytes, files: dict[str, bytes], replaced: str = "") -> int:
         if self.target is None:
             if files:
-                why = "its profile goes to a file of its own, and standard input has no place for one"
-                notify(f"{self.file.name}: left as it is: {why}: give the deck as a file")
+                why = "its profile needs a file of its own, and standard input has no folder"
+                notify(f"{self.file.name}: left unchanged: {why}: give the deck as a file")
                 return FOUND
             emit_deck(content)
             return DONE

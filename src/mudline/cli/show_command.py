@@ -53,7 +53,7 @@ def command(*, deck: str, output_format: str, stdin_name: str, units: str | None
 
 
 def _print_summary(summary: dict[str, Any], view: View) -> None:
-    """Sections and keywords, then a table each of sets, curves, diameters and laws."""
+    """Print sections and keywords, then a table each of sets, curves, diameters and laws."""
     printer = view.printer()
     most = None if view.verbose else _MOST_DIAMETERS
     names = unit_names(summary["units"])
@@ -104,12 +104,12 @@ def _print_head(printer: Printer, summary: dict[str, Any], names: UnitNames) -> 
         name = "$" + printer.visible(section["name"])
         _print_folded(printer, f"{name}: {read}" if read else name, "  ")
         if kept:
-            _print_folded(printer, f"kept as they are: {kept}", "    ")
+            _print_folded(printer, f"passed through unchanged: {kept}", "    ")
     printer.line()
 
 
 def _bed(floor: dict[str, Any]) -> str:
-    """The shape of a bed that is not flat."""
+    """The shape of a seabed that is not flat."""
     turned = f", turned by {shown(floor['direction'])} degrees" if floor["direction"] else ""
     if floor["kind"] == "flat":
         return ""

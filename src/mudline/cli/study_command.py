@@ -33,7 +33,7 @@ _DIGITS = 4
 @click.argument("study", type=click.Choice(STUDIES))
 @click.argument("deck", required=False, metavar="[DECK]", shell_complete=click.Path().shell_complete)
 @click.option("-o", "--output", metavar="DIR", help="Write CSV, JSON and PNG files into this folder.")
-@click.option("--full", is_flag=True, help="Finer ladders and more repeats; takes longer than two minutes.")
+@click.option("--full", is_flag=True, help="Use finer steps and more repeats; takes longer than two minutes.")
 @options.output_format("text", "json", "csv")
 @options.stdin_name
 @options.units
@@ -50,7 +50,7 @@ def command(
     units: str | None,
     view: View,
 ) -> int:
-    """Measure how exact, how stable and how costly the numbers of a deck are.
+    """Measure precision, stability and cost of the numbers of a deck.
 
     precision: error against run time of curves, time integration and smoothing. stability: critical steps, energy at
     touchdown, extreme values. pruning: what each feature costs. Without DECK a built-in sample is studied.
@@ -97,7 +97,7 @@ def _write(report: StudyReport, folder: Path, *, quiet: bool) -> None:
 
 
 def _print_report(report: StudyReport, view: View) -> None:
-    """Short tables, with -v all of them; then failures, notes and the machine."""
+    """Print short tables, with -v all of them; then failures, notes and the machine."""
     printer = view.printer()
     left_out = 0
     for table in report.tables:

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass, fields
 from textwrap import indent
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
 from mudline.cli import options
 from mudline.cli.exits import DONE, FOUND
-from mudline.cli.inputs import Input, collect_any_form
+from mudline.cli.inputs import Input, Inputs, collect_any_form
 from mudline.cli.options import View
 from mudline.cli.progress import Progress, wants_bar
 from mudline.cli.streams import counted, emit, reason
@@ -62,21 +62,15 @@ def command(
     inputs = collect_any_form(paths, stdin_name, gitignore=not every_file)
     total = Total()
     shown = wants_bar(view) and (output_format == "text" or not sys.stdout.isatty())
-    with Progress(len(inputs.files), view, shown=shown) as progress:
-        output = _output(output_format, view, progress)
-        for file in inputs.files:
-            try:
-                data = file.read()
-            except OSError as error:
-                total.unreadable += 1
-                progress.hide()
-                inputs.fail(f"{file.name}: {reason(error)}")
-            else:
-                verdict, found = _judge(data, file, units)
-                total.add(verdict)
-                output.add(verdict, found, data)
-            progress.advance()
-    output.finish(total)
+    judged = _judged(inputs, units, total, Progress(len(inputs.files), view, shown=shown))
+    if output_format == "json":
+        _print_json(judged, total)
+    elif output_format == "csv":
+        emit(csv_lines([[field.name for field in fields(Verdict)]]))
+        for one in judged:
+            emit(csv_lines([asdict(one.verdict).values()]))
+    else:
+        _print_text(judged, total, view)
     return max(inputs.code, DONE if total.legal == total.decks else FOUND)
 
 
@@ -127,6 +121,33 @@ class Total:
         return f"{self.legal} of {counted(self.decks, 'deck')} legal" + (f": {rest}" if rest else "")
 
 
+class Judged(NamedTuple):
+    """A deck with its errors and its content, which is not kept."""
+
+    verdict: Verdict
+    found: list[Diagnostic]
+    data: bytes
+
+
+def _judged(inputs: Inputs, units: str | None, total: Total, progress: Progress) -> Iterator[Judged]:
+    """Each deck that can be read; all are counted. The bar is hidden while a deck with errors is printed."""
+    with progress:
+        for file in inputs.files:
+            try:
+                data = file.read()
+            except OSError as error:
+                total.unreadable += 1
+                progress.hide()
+                inputs.fail(f"{file.name}: {reason(error)}")
+            else:
+                verdict, found = _judge(data, file, units)
+                total.add(verdict)
+                if found:
+                    progress.hide()
+                yield Judged(verdict, found, data)
+            progress.advance()
+
+
 def _judge(data: bytes, file: Input, units: str | None) -> tuple[Verdict, list[Diagnostic]]:
     try:
         deck = load_bytes(data, file.name, units=units, folder=file.folder)
@@ -143,70 +164,27 @@ def _judge(data: bytes, file: Input, units: str | None) -> tuple[Verdict, list[D
 # ---------------------------------------------------------------------------------------------------------- output
 
 
-class Output(Protocol):
-    """What is printed of each deck, and of all of them."""
-
-    def add(self, verdict: Verdict, found: list[Diagnostic], data: bytes) -> None:
-        """Print a deck; `data` is its content."""
-
-    def finish(self, total: Total) -> None:
-        """Print what comes at the end."""
-
-
-def _output(form: str, view: View, progress: Progress) -> Output:
-    if form == "json":
-        return _Json()
-    return _Csv() if form == "csv" else _Text(view, progress)
+def _print_json(judged: Iterable[Judged], total: Total) -> None:
+    """Print one object; its decks are written when they are judged."""
+    mark = '{\n "decks": ['
+    for one in judged:
+        row = {**asdict(one.verdict), "findings": [as_object(each) for each in one.found]}
+        emit([mark, "\n", indent(json.dumps(row, indent=1, ensure_ascii=False), "  ")])
+        mark = ","
+    end = "\n ]" if mark == "," else f"{mark}]"
+    emit([end, ',\n "total": ', indent(json.dumps(asdict(total), indent=1), " ").lstrip(), "\n}\n"])
 
 
-class _Text:
-    """The findings of each deck at once; the table, whose widths all rows decide, at the end."""
-
-    def __init__(self, view: View, progress: Progress) -> None:
-        self.view = view
-        self.progress = progress
-        self.verdicts: list[Verdict] = []
-
-    def add(self, verdict: Verdict, found: list[Diagnostic], data: bytes) -> None:
-        self.verdicts.append(verdict)
-        if found and not self.view.quiet:
-            self.progress.hide()
-            self.view.printer().findings(found, Source.from_bytes(data, verdict.file))
-
-    def finish(self, total: Total) -> None:
-        if self.verdicts:
-            printer = self.view.printer()
-            printer.write(_lines(self.verdicts, total, printer))
-
-
-class _Json:
-    """One object; its decks are written when they are judged."""
-
-    def __init__(self) -> None:
-        self.mark = '{\n "decks": ['
-
-    def add(self, verdict: Verdict, found: list[Diagnostic], data: bytes) -> None:  # noqa: ARG002 - what a text shows
-        row = {**asdict(verdict), "findings": [as_object(each) for each in found]}
-        emit([self.mark, "\n", indent(json.dumps(row, indent=1, ensure_ascii=False), "  ")])
-        self.mark = ","
-
-    def finish(self, total: Total) -> None:
-        begin = f"{self.mark}]" if self.mark != "," else "\n ]"
-        rows = indent(json.dumps(asdict(total), indent=1), " ").lstrip()
-        emit([begin, f',\n "total": {rows}\n}}\n'])
-
-
-class _Csv:
-    """A row for each deck."""
-
-    def __init__(self) -> None:
-        emit(csv_lines([[field.name for field in fields(Verdict)]]))
-
-    def add(self, verdict: Verdict, found: list[Diagnostic], data: bytes) -> None:  # noqa: ARG002 - what a text shows
-        emit(csv_lines([asdict(verdict).values()]))
-
-    def finish(self, total: Total) -> None:
-        """The table has no more rows than decks."""
+def _print_text(judged: Iterable[Judged], total: Total, view: View) -> None:
+    """Print the errors of each deck at once; the table, whose widths all rows decide, at the end."""
+    verdicts = []
+    for verdict, found, data in judged:
+        verdicts.append(verdict)
+        if found and not view.quiet:
+            view.printer().findings(found, Source.from_bytes(data, verdict.file))
+    if verdicts:
+        printer = view.printer()
+        printer.write(_lines(verdicts, total, printer))
 
 
 def _lines(verdicts: Sequence[Verdict], total: Total, printer: Printer) -> Iterator[str]:
