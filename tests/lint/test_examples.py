@@ -9,7 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from mudline import codes
+from mudline.codes import all_codes
+from mudline.codes.lines import SYN001
 from mudline.deck.json_form import to_json
 from mudline.deck.loading import load_bytes
 from mudline.deck.yaml_form import to_yaml
@@ -135,7 +136,7 @@ def test_every_code_and_every_slug_is_there_once() -> None:
 
 
 def test_everything_that_reading_and_resolving_notice_has_a_rule() -> None:
-    raised = {code.code for code in vars(codes).values() if isinstance(code, Code)}
+    raised = {code.code for code in all_codes()}
     assert raised - {given.code.code for given in rules()} == NO_RULE
 
 
@@ -159,9 +160,9 @@ def test_two_rules_cannot_share_a_code_or_a_slug() -> None:
 
         Finds: 1:1
         """
-        yield from context.told(codes.SYN001)
+        yield from context.told(SYN001)
 
-    for code in (codes.SYN001, Code("ABC001", codes.SYN001.slug, Severity.INFO)):
+    for code in (SYN001, Code("ABC001", SYN001.slug, Severity.INFO)):
         with pytest.raises(ValueError, match="already"):
             rule(code)(again)
 
@@ -173,7 +174,7 @@ def described(lines: str, more: str = "") -> Rule:
     """A rule with an example."""
 
     def check(context: LintContext) -> Iterator[Problem]:
-        yield from context.told(codes.SYN001)
+        yield from context.told(SYN001)
 
     return registry._described(Code("ABC001", "nothing", Severity.INFO), check, EXAMPLE.format(lines=lines) + more)
 
@@ -223,7 +224,7 @@ def test_the_decks_may_differ_in_their_bytes_alone() -> None:
 )
 def test_a_docstring_in_another_form_is_refused_in_words(docstring: str, said: str) -> None:
     def check(context: LintContext) -> Iterator[Problem]:
-        yield from context.told(codes.SYN001)
+        yield from context.told(SYN001)
 
     check.__doc__ = docstring
     with pytest.raises(ValueError, match=re.escape(said)):

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cache
 from textwrap import dedent
 
-from mudline import codes
+from mudline.codes import all_codes
 from mudline.diagnostics import Code, Problem
 from mudline.linting import plugins
 from mudline.linting import rules as rules_package
@@ -160,7 +160,7 @@ def _decks(code: Code, example: str) -> tuple[str, str]:
 
 @cache
 def _collected() -> tuple[tuple[Rule, ...], tuple[str, ...]]:
-    declared = {code.code: (code, code.page) for code in vars(codes).values() if isinstance(code, Code) and code.page}
+    declared = {code.code: (code, code.page) for code in all_codes() if code.page}
     for found in all_checks():
         declared.setdefault(found.code.code, (found.code, found.find.__doc__ or ""))
     for code, page in declared.values():

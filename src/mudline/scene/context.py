@@ -9,7 +9,9 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, cast
 
-from mudline.codes import SYN001, SYN004, SYN016
+from mudline.codes.fields import SYN016
+from mudline.codes.lines import SYN001
+from mudline.codes.words import SYN004
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
