@@ -6,7 +6,7 @@ import pytest
 
 from mudline.diagnostics import DeckError
 from mudline.migration.migrating import migrate
-from mudline.migration.names import curve_names
+from mudline.migration.rewriting import curve_names
 from tests.migration.decks import PIPE, deck_of
 
 LINES = PIPE.count("\n")

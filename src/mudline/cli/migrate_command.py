@@ -17,8 +17,7 @@ from mudline.cli.writing import write_bytes
 from mudline.deck.loading import dump, form_of, load_bytes
 from mudline.diagnostics import DeckError
 from mudline.linting.output.visible import visible
-from mudline.migration.continuing import Continuations
-from mudline.migration.migrating import Migration, legacy_blocks, migrate
+from mudline.migration.migrating import Continuations, Migration, legacy_blocks, migrate
 from mudline.migration.verification import Verdict, verify
 from mudline.syntax.source import Source
 

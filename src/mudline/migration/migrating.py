@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 
 import numpy as np
 
 from mudline.codes import MIG001
 from mudline.deck.keyword_form import to_keyword
-from mudline.deck.loading import dump, form_of
+from mudline.deck.loading import dump, form_of, load_path
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import DeckError, Problem, Severity, Where
@@ -20,8 +21,50 @@ from mudline.migration.refusals import refusals, superseded_blocks
 from mudline.migration.rewriting import Rewriting, rewrite
 from mudline.scene.build import resolve
 from mudline.scene.model import Scene
+from mudline.scene.restart import decks_before
 from mudline.syntax.edits import edited_bytes
 from mudline.syntax.source import Source
+
+_SUFFIXES = frozenset({".keyx", ".keyxm", ".keyxi", ".das"})
+_LARGEST = 50_000_000
+_NEWER = {"SEABED PROPERTIES", "SEABED STIFFNESS"}
+"""What gives the laws that a migrated deck would meet."""
+
+
+class Continuations:
+    """For every deck the decks that continue it, among those that are migrated and those beside them."""
+
+    def __init__(self, files: Iterable[Path]) -> None:
+        self.seen: set[Path] = set()
+        self.by_base: dict[Path, list[str]] = {}
+        for file in files:
+            self._look(file)
+
+    def of(self, file: Path) -> list[str]:
+        """Names of the decks that continue a deck and have seabed keywords of their own."""
+        self._beside(file.parent)
+        return sorted(set(self.by_base.get(file.resolve(), ())))
+
+    def _beside(self, folder: Path) -> None:
+        if folder not in self.seen:
+            self.seen.add(folder)
+            for file in sorted(folder.iterdir()):
+                if file.suffix.lower() in _SUFFIXES:
+                    self._look(file)
+
+    def _look(self, file: Path) -> None:
+        if file in self.seen:
+            return
+        self.seen.add(file)
+        try:
+            if file.stat().st_size > _LARGEST or b"RESTART" not in file.read_bytes().upper():
+                return
+            deck = load_path(file)
+        except (OSError, DeckError):
+            return  # what cannot be read continues nothing; where it is to be migrated that is told
+        if deck.keywords() & _NEWER or any(map(is_superseded, deck.keywords())):
+            for base in decks_before(deck):
+                self.by_base.setdefault(base.resolve(), []).append(file.as_posix())
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import PurePath
 from typing import cast
 
 from mudline.deck.model import Deck
+from mudline.deck.parameters import folded
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Span, Where
 from mudline.keywords.library.embedment import Embedment
 from mudline.keywords.model import layout
 from mudline.keywords.surface import Surface
-from mudline.migration.names import curve_names
-from mudline.migration.refusals import surfaces
-from mudline.migration.surface import SurfaceLines, lengths_given, surface_lines
+from mudline.keywords.text import reads_as_name
+from mudline.migration.refusals import SurfaceLines, lengths_given, surface_lines, surfaces
 from mudline.syntax.edits import TextEdit
 from mudline.syntax.fields import trimmed
 from mudline.syntax.rows import line_spans
@@ -159,3 +160,28 @@ def _sets(surface: SurfaceLines, by_set: list[tuple[str, str]], *, rigid: bool) 
     for set_name, curve in by_set:
         blocks += surface.block(set_name, curve)
     return blocks
+
+
+def curve_names(sets: Iterable[str], taken: Iterable[str]) -> list[str]:
+    """A name for each curve: that of its set, with ` curve` and a number behind it where that would not do.
+
+    A name that another curve has, in any case of letters, would name both; one that reads as a number or an equation
+    would be taken for a stiffness.
+    """
+    used = {folded(name) for name in taken}
+    names: list[str] = []
+    for name in sets:
+        chosen = next(one for one in _candidates(name) if folded(one) not in used and reads_as_name(one))
+        used.add(folded(chosen))
+        names.append(chosen)
+    return names
+
+
+def _candidates(name: str) -> Iterable[str]:
+    yield name
+    base = f"{name} curve" if reads_as_name(f"{name} curve") else "curve"
+    yield base
+    number = 2
+    while True:
+        yield f"{base} {number}"
+        number += 1

@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import combinations, pairwise
 from typing import NamedTuple
 
 import numpy as np
 
 from mudline.contact.input import ContactInput, LawAssignment, LawKind
 from mudline.contact.model import ContactModel
+from mudline.curves import ForceCurve
 from mudline.deck.parameters import folded
 from mudline.migration.migrating import Migration
-from mudline.migration.stand_ins import StandIns
-from mudline.migration.sweep import depths_of
 from mudline.scene.bed import BedValues
 from mudline.scene.build import resolve
+from mudline.scene.external import ExternalElements
 from mudline.scene.floor import Floor
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices
@@ -164,3 +165,85 @@ def _sets(scene: Scene) -> list[str]:
     last = {folded(name): name for name in names}
     order = {folded(name): position for position, name in enumerate(names)}
     return [last[key] for key in sorted(last, key=lambda key: order[key])]
+
+
+_ALL_PAIRS = 40
+_DIAMETERS = (0.2731, 0.5)
+_FIRST = 2**40
+
+
+class StandIns:
+    """Elements of two diameters in no set, each set, and two sets; of many sets only those that follow each other.
+
+    The last block that holds an element wins. That is an order of the blocks; it is the same in two decks when it is
+    the same for every two blocks that follow each other.
+    """
+
+    def __init__(self, sets: Sequence[str]) -> None:
+        self.sets = sets
+        pairs = list(combinations(sets, 2) if len(sets) <= _ALL_PAIRS else pairwise(sets))
+        self.memberships: list[tuple[str, ...]] = [(), *((name,) for name in sets), *pairs]
+
+    def elements(self) -> ExternalElements:
+        """The elements, each with two nodes of its own."""
+        count = len(self.memberships) * len(_DIAMETERS)
+        members: dict[str, list[int]] = {name: [] for name in self.sets}
+        for number, membership in self._numbered():
+            for name in membership:
+                members[name].append(number)
+        return ExternalElements(
+            "stand-ins",
+            _FIRST + np.arange(count),
+            _FIRST + np.arange(2 * count).reshape(count, 2),
+            np.array(_DIAMETERS * len(self.memberships)),
+            np.ones(count),
+            {name: np.array(ids, dtype=np.int64) for name, ids in members.items()},
+        )
+
+    def names(self) -> dict[int, str]:
+        """What each element is called, by its number."""
+        return {
+            number: f"an element of {' and '.join(membership)}" if membership else "an element of no set but ALL"
+            for number, membership in self._numbered()
+        }
+
+    def _numbered(self) -> Iterator[tuple[int, tuple[str, ...]]]:
+        for index in range(len(self.memberships) * len(_DIAMETERS)):
+            yield _FIRST + index, self.memberships[index // len(_DIAMETERS)]
+
+
+_FRACTIONS = (0.25, 0.5, 0.75)
+_PLAIN = np.array([-1.0, -1e-9, 0.0, 5e-324, 1e-9, 1e-3, 0.1, 1.0, 37.5, 1e6])
+
+
+def depths_of(inputs: Sequence[ContactInput]) -> Floats:
+    """Depths (steps, elements) for inputs with the same elements, in their unit of length.
+
+    For an element with a curve: every point of its curves and the floats beside it, three places within each segment,
+    and places far beyond both ends; for every element the seabed itself, just above and below it, and some depths.
+    """
+    curves: dict[tuple[int, ...], Floats] = {}
+    columns: list[Floats] = []
+    of_element = np.column_stack([given.curve_index for given in inputs]).tolist()
+    for diameter, indices in zip(inputs[0].diameter.tolist(), map(tuple, of_element), strict=True):
+        if indices not in curves:
+            found = [ratios_of(given.curves[index]) for given, index in zip(inputs, indices, strict=True) if index >= 0]
+            curves[indices] = np.unique(np.concatenate(found)) if found else np.zeros(0)
+        columns.append(np.concatenate([_PLAIN, curves[indices] * diameter]))
+    steps = max((len(column) for column in columns), default=0)
+    return np.column_stack(
+        [np.pad(column, (0, steps - len(column)), mode="edge") for column in columns] or [_PLAIN[:0]]
+    )
+
+
+def ratios_of(curve: ForceCurve) -> Floats:
+    """Ratios at, beside and between the points of a curve, and beyond its ends."""
+    points = curve.ratios
+    widths = np.diff(points)
+    inside = [points[:-1] + fraction * widths for fraction in _FRACTIONS]
+    width = float(points[-1] - points[0])
+    beyond = np.array([points[0] - width, points[0] - 10.0 * width, points[-1] + width, points[-1] + 10.0 * width])
+    beside = [np.nextafter(points, -np.inf), points, np.nextafter(points, np.inf)]
+    found: Floats = np.concatenate([*beside, *inside, beyond])
+    kept: Floats = found[np.isfinite(found)]
+    return kept
