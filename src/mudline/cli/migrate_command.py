@@ -112,8 +112,8 @@ class _Run:
         else:
             self._note(
                 f"verified: {_many(verdict.elements, 'element')} of {_many(verdict.kinds, 'kind')}, and "
-                f"{verdict.stand_ins} stand-ins for its sets, at {verdict.positions} positions: forces, stiffnesses, "
-                "friction, lateral resistance, suction and bed are bitwise equal"
+                f"{verdict.representatives} representative elements for its sets, at {verdict.positions} positions: "
+                "forces, stiffnesses, friction, lateral resistance, suction and seabed are bitwise equal"
             )
         return not verdict.differences
 
