@@ -14,43 +14,26 @@ from mudline.deck.model import Deck
 from mudline.deck.reading import read_source
 from mudline.diagnostics import DeckError, Problem, Severity, Where
 from mudline.keywords.text import shown, suggestion
-from mudline.short_repr import short_repr
 from mudline.spelling import Effort
 from mudline.syntax.source import Source
 from mudline.variations.cases import CaseReader
-from mudline.variations.companions import companions
-from mudline.variations.manifest import MANIFEST
-from mudline.variations.model import MOST_DECKS, Cases, PlannedDeck
-from mudline.variations.names import Taken, name_key, placeholders, unquoted
-from mudline.variations.paths import Namer, Template
-from mudline.variations.rewriting import Rewriter, as_text
-from mudline.variations.targets import Targets, Values
+from mudline.variations.files import MANIFEST, Namer, Taken, Template, companions
+from mudline.variations.names import name_key, placeholders, unquoted
+from mudline.variations.rewriting import (
+    MOST_DECKS,
+    Cases,
+    ExpansionPlan,
+    PlannedDeck,
+    Rewriter,
+    Targets,
+    Values,
+    as_text,
+)
 
 if TYPE_CHECKING:
     from mudline.keywords.library.combinations import Combination
 
 _MOST_TOLD = 20
-
-
-@dataclass(frozen=True, slots=True)
-class ExpansionPlan:
-    """The decks in the order of `*COMBINATIONS`, and what makes their texts.
-
-    `source` is the name of the file that they come from, `notes` are remarks for a reader. `companions` are files
-    beside the source that the new decks name too.
-    """
-
-    source: str
-    decks: Sequence[PlannedDeck]
-    rewriter: Rewriter
-    notes: Sequence[str] = ()
-    companions: Sequence[str] = ()
-
-    __repr__ = short_repr
-
-    def content(self, planned: PlannedDeck) -> bytes:
-        """The content of a planned deck."""
-        return self.rewriter.content(planned)
 
 
 @dataclass(frozen=True, slots=True)
