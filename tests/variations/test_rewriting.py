@@ -264,10 +264,10 @@ def test_a_block_may_take_the_place_of_another() -> None:
     ("action", "message"),
     [
         ("REMOVE, KEYWORD=OFSET, SECTION=LOAD CASE", "$LOAD CASE has no *OFSET (did you mean OFFSET?)"),
-        ("REMOVE, KEYWORD=OFSET", "say where *OFSET belongs with SECTION="),
-        ("REMOVE, KEYWORD=FRICTION", "say where *FRICTION belongs with SECTION= ($LOAD CASE or $MODES)"),
+        ("REMOVE, KEYWORD=OFSET", "missing SECTION= for *OFSET"),
+        ("REMOVE, KEYWORD=FRICTION", "missing SECTION= for *FRICTION: $LOAD CASE or $MODES"),
         ("REMOVE, KEYWORD=OCEAN, SECTION=MODELL", "the deck has no section $MODELL (did you mean MODEL?)"),
-        ("REMOVE, KEYWORD=PARAMETERS", "*PARAMETERS says what the decks are"),
+        ("REMOVE, KEYWORD=PARAMETERS", "*PARAMETERS describes the decks"),
         ("ADD, KEYWORD=OFFSET, FILE=none.txt", "there is no file 'none.txt' beside the deck"),
         ("ADD, KEYWORD=OFFSET, FILE=other.txt", "other.txt holds *OCEAN, expected *OFFSET only"),
         ("ADD, KEYWORD=OFFSET, FILE=section.txt", "section.txt opens the section $MODEL"),
@@ -332,7 +332,7 @@ def test_the_suffix_of_a_name_tells_the_form() -> None:
     assert ends == {"09.json": b"{", "201.json": b"{", "09.keyx": b"$", "201.keyx": b"$"}
 
 
-def test_a_fault_of_a_json_deck_is_told_where_it_stands_there() -> None:
+def test_a_fault_of_a_json_deck_is_reported_at_its_place_there() -> None:
     content = dump(deck(text(WAVES, " DESCRIPTION=d, FILENAME=%Period%\n VARIATIONS=Wave\n")), "json")
     line = content[: content.index('["Wave"]')].count("\n") + 1
     found = only(refused(content, "study.json"))

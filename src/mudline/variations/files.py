@@ -1,4 +1,4 @@
-"""The paths of new decks, from the names that a combination gives."""
+"""The files of an expansion: paths of the new decks, the manifest, files that they need, and files in the way."""
 
 from __future__ import annotations
 
@@ -7,10 +7,9 @@ import os
 import re
 import unicodedata
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path, PurePath
-from typing import Any, NamedTuple, cast
+from typing import NamedTuple, cast
 
 from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin
@@ -20,7 +19,7 @@ from mudline.keywords.text import shown
 from mudline.scene.deck_files import file_name, find_file
 from mudline.syntax.fields import read_line
 from mudline.syntax.tree import Kind, RawBlock
-from mudline.variations.names import filled, unquoted
+from mudline.variations.names import filled
 from mudline.variations.rewriting import ExpansionPlan, PlannedDeck, Targets, Values
 
 _FORBIDDEN = re.compile(r'[\x00-\x1f\x7f<>:"|?*]')
@@ -46,18 +45,12 @@ class NewPath(NamedTuple):
     fault: str
 
 
-@dataclass(frozen=True, slots=True)
-class Template:
-    """What a combination says of its files; None where it says nothing."""
+class Template(NamedTuple):
+    """The names that a combination gives its files, without quotes; None where it gives none."""
 
     directory: str | None
     subdirectory: str | None
     filename: str | None
-
-    @property
-    def given(self) -> list[str]:
-        """The texts that may hold placeholders."""
-        return [unquoted(text) for text in (self.directory, self.subdirectory, self.filename) if text is not None]
 
 
 class Namer:
@@ -70,21 +63,23 @@ class Namer:
         self.targets = targets
 
     def path(self, template: Template, values: Values, counter: str) -> NewPath:
-        """The path of a deck; `counter` parts decks whose combination gives no name at all."""
+        """The path of a deck; `counter` distinguishes decks whose combination gives no name at all.
+
+        A deck without a name of its own has that of the source, in a folder of its own or with the counter behind it.
+        """
         missing: list[str] = []
 
         def value_of(name: str) -> str:
             value = self.targets.in_a_name(name, values)
             if value is None:
                 missing.append(name)
-            return "" if value is None else value
+            return value or ""
 
-        folders = [
-            filled(unquoted(text), value_of) for text in (template.directory, template.subdirectory) if text is not None
-        ]
-        name = self._own_name(template, counter)
+        folders = [filled(text, value_of) for text in (template.directory, template.subdirectory) if text is not None]
         if template.filename is not None:
-            name = filled(unquoted(template.filename), value_of)
+            name = filled(template.filename, value_of)
+        else:
+            name = self.source.name if template.subdirectory is not None else f"{self.source.stem} {counter}"
         file = name if name.lower().endswith(SUFFIXES) else name + self.suffix
         path = "/".join([*(folder.removesuffix("/") or "/" for folder in folders), file])
         if missing:
@@ -95,20 +90,71 @@ class Namer:
             return NewPath(path, "has a folder without a name")
         return NewPath(path, path_fault(name) or path_fault(path))
 
-    def _own_name(self, template: Template, counter: str) -> str:
-        """The name of a deck that is not given one: that of the source, in a folder of its own."""
-        return self.source.name if template.subdirectory is not None else f"{self.source.stem} {counter}"
 
+def path_fault(path: str) -> str:
+    """Why a path may not be used within the output folder, on any system; "" when it may."""
+    if "\\" in path:
+        return "holds a backslash: separate folders by /"
+    if path.startswith("/") or _DRIVE.match(path):
+        return "is absolute: it would leave the output folder"
+    if len(path.encode(errors="replace")) > LONGEST_PATH:
+        return f"is longer than {LONGEST_PATH} bytes"
+    return next((fault for part in path.split("/") if (fault := _part_fault(part))), "")
+
+
+def _part_fault(part: str) -> str:
+    """Why a folder or a file may not have this name."""
+    device = part.partition(".")[0].strip(" ")
+    sign = next(iter(_FORBIDDEN.findall(part)), "")
+    shown = sign if sign.isprintable() else f"U+{ord(sign):04X}"
+    faults = {
+        "leads out of the output folder with ..": part == "..",
+        "has a part without a name": not part.strip(" ."),
+        f"holds {shown}, which not every system has in names of files": bool(sign),
+        "has a part that ends with a blank or a dot, which some systems drop": part.endswith((" ", ".")),
+        f"has the part {device}, which is a device on some systems": device.upper() in _DEVICES,
+        f"has a part that is longer than {LONGEST_PART} bytes": len(part.encode(errors="replace")) > LONGEST_PART,
+    }
+    return next((fault for fault, found in faults.items() if found), "")
+
+
+def same_place(path: str) -> str:
+    """A key that is the same for paths that some systems confuse: neither case nor Unicode composition counts."""
+    return unicodedata.normalize("NFC", unicodedata.normalize("NFC", path).casefold())
+
+
+class Taken:
+    """The paths that are taken so far, each with who took it."""
+
+    def __init__(self) -> None:
+        self._files: dict[str, int] = {}
+        self._folders: dict[str, int] = {}
+
+    def take(self, path: str, number: int) -> int | None:
+        """Take a path for a number; the number that has it, or needs it as a folder, when it is not free."""
+        place = same_place(path)
+        parts = place.split("/")
+        folders = ["/".join(parts[:length]) for length in range(1, len(parts))]
+        holders = chain((self._files.get(name) for name in (place, *folders)), [self._folders.get(place)])
+        holder = next((one for one in holders if one is not None), None)
+        if holder is None:
+            self._files[place] = number
+            for folder in folders:
+                self._folders.setdefault(folder, number)
+        return holder
+
+
+# ------------------------------------------------------------------------------------------------------- other files
 
 _KEYS = ("FILE", "LAST")
-"""Settings that name a file among lines that are kept as they are."""
+"""Settings that name a file in blocks that have no model."""
 _MOST = 1000
 
 
 def companions(deck: Deck) -> list[str]:
-    """The files that a deck names, relative to the deck and there, each once.
+    """The files that a deck names and that are there, relative to the deck, each once.
 
-    Those of `$PREPROCESSOR` are for making the new decks, which do not need them.
+    Those of `$PREPROCESSOR` are needed to make the new decks, not by the new decks.
     """
     found: dict[str, None] = {}
     for written in _written(deck):
@@ -143,41 +189,34 @@ MANIFEST = "manifest.json"
 """The file's name in the output folder."""
 
 
-def manifest(source: str, decks: Iterable[PlannedDeck]) -> dict[str, Any]:
-    """The list as plain values: the same for the same deck, whenever and wherever it is made."""
-    return {
-        "format": FORMAT,
-        "source": source,
-        "decks": [
-            {
-                "file": deck.path,
-                "description": deck.description,
-                "variations": list(deck.variations),
-                "parameters": dict(deck.values),
-            }
-            for deck in decks
-        ],
-    }
-
-
 def manifest_text(source: str, decks: Iterable[PlannedDeck]) -> str:
-    """The list as JSON text."""
-    return json.dumps(manifest(source, decks), indent=1, ensure_ascii=False) + "\n"
+    """The list of the new decks as JSON text: the same for the same deck, whenever and wherever it is written."""
+    listed = [
+        {
+            "file": deck.path,
+            "description": deck.description,
+            "variations": list(deck.variations),
+            "parameters": dict(deck.values),
+        }
+        for deck in decks
+    ]
+    manifest = {"format": FORMAT, "source": source, "decks": listed}
+    return json.dumps(manifest, indent=1, ensure_ascii=False) + "\n"
 
 
 def conflicts(folder: Path, planned: ExpansionPlan, source: Path | None, *, force: bool) -> list[str]:
-    """Why files of a plan may not be written into a folder, as sentences; `force` lets files be overwritten.
+    """Why files of a plan may not be written into a folder, as messages; `force` lets files be overwritten.
 
     Links are not followed out of the folder, and the source itself is never overwritten.
     """
     try:
         return list(_conflicts(folder, planned, source, force=force))
     except (OSError, ValueError) as error:
-        return [f"{folder.as_posix()}: cannot be looked at: {str(error).lower()}"]
+        return [f"{folder.as_posix()}: cannot be inspected: {str(error).lower()}"]
 
 
 def lacking(folder: Path, planned: ExpansionPlan) -> list[str]:
-    """The files that the new decks name and that do not stand where one of them would look."""
+    """The files that the new decks name and that one of them would not find."""
     parents = {(folder / deck.path).parent for deck in planned.decks} if planned.companions else set()
     return [
         name
@@ -188,7 +227,7 @@ def lacking(folder: Path, planned: ExpansionPlan) -> list[str]:
 
 def _conflicts(folder: Path, planned: ExpansionPlan, source: Path | None, *, force: bool) -> Iterator[str]:
     if folder.exists() and not folder.is_dir():
-        yield f"{folder.as_posix()}: is a file: the decks need a folder"
+        yield f"{folder.as_posix()}: is a file: expected a folder for the decks"
         return
     root = os.path.realpath(folder)
     inside: dict[Path, bool] = {}
@@ -207,67 +246,14 @@ def _conflicts(folder: Path, planned: ExpansionPlan, source: Path | None, *, for
 def _there(path: Path, source: Path | None, *, force: bool) -> Iterator[str]:
     """What is wrong with a path that exists."""
     if path.is_symlink() or not path.is_file():
-        yield f"{path.as_posix()}: is there already, and no file that could be overwritten"
+        yield f"{path.as_posix()}: exists already and is not a regular file: it is not overwritten"
     elif source is not None and source.exists() and path.samefile(source):
         yield f"{path.as_posix()}: is the deck itself, which is not overwritten"
     elif not force:
-        yield f"{path.as_posix()}: is there already: --force overwrites it"
+        yield f"{path.as_posix()}: exists already: --force overwrites it"
 
 
 def _file_above(folder: Path, path: Path) -> Path | None:
     """A file where a folder is needed."""
     above = (parent for parent in path.parents if parent != folder and folder in parent.parents)
     return next((parent for parent in above if parent.exists() and not parent.is_dir()), None)
-
-
-def path_fault(path: str) -> str:
-    """Why a path may not be used within the output folder, on any system; "" when it may."""
-    if "\\" in path:
-        return "holds a backslash: folders are parted by /"
-    if path.startswith("/") or _DRIVE.match(path):
-        return "is absolute: it would leave the output folder"
-    if len(path.encode(errors="replace")) > LONGEST_PATH:
-        return f"is longer than {LONGEST_PATH} bytes"
-    return next((fault for part in path.split("/") if (fault := _part_fault(part))), "")
-
-
-def _part_fault(part: str) -> str:
-    """Why a folder or a file may not have this name."""
-    device = part.partition(".")[0].strip(" ")
-    sign = next(iter(_FORBIDDEN.findall(part)), "")
-    shown = sign if sign.isprintable() else f"U+{ord(sign):04X}"
-    faults = {
-        "leads out of the output folder with ..": part == "..",
-        "has a part without a name": not part.strip(" ."),
-        f"holds {shown}, which not every system has in names of files": bool(sign),
-        "has a part that ends with a blank or a dot, which some systems drop": part.endswith((" ", ".")),
-        f"has the part {device}, which is a device on some systems": device.upper() in _DEVICES,
-        f"has a part that is longer than {LONGEST_PART} bytes": len(part.encode(errors="replace")) > LONGEST_PART,
-    }
-    return next((fault for fault, found in faults.items() if found), "")
-
-
-def same_place(path: str) -> str:
-    """What two paths share that some systems take for one: case and the composition of letters do not count."""
-    return unicodedata.normalize("NFC", unicodedata.normalize("NFC", path).casefold())
-
-
-class Taken:
-    """The paths that are taken so far, each with who took it."""
-
-    def __init__(self) -> None:
-        self._files: dict[str, int] = {}
-        self._folders: dict[str, int] = {}
-
-    def take(self, path: str, number: int) -> int | None:
-        """Take a path for a number; the number that has it, or needs it as a folder, when it is not free."""
-        place = same_place(path)
-        parts = place.split("/")
-        folders = ["/".join(parts[:length]) for length in range(1, len(parts))]
-        holders = chain((self._files.get(name) for name in (place, *folders)), [self._folders.get(place)])
-        holder = next((one for one in holders if one is not None), None)
-        if holder is None:
-            self._files[place] = number
-            for folder in folders:
-                self._folders.setdefault(folder, number)
-        return holder

@@ -1,4 +1,4 @@
-"""Names of new files: what stands for a parameter in them, and what no file may be called."""
+"""Names in `*VARIATION` and `*COMBINATIONS`: how they compare, and which of them are undefined."""
 
 from __future__ import annotations
 
@@ -43,8 +43,22 @@ def filled(template: str, value_of: Callable[[str], str]) -> str:
     return _PLACEHOLDER.sub(lambda match: value_of(match[1].strip(" \t")), template)
 
 
+def undefined_parameter(name: str, known: Iterable[str], effort: Effort, where: Where) -> Problem:
+    """A parameter that is not among the known ones."""
+    near = suggestion(name, known, effort)
+    return Problem(REF013, f"parameter {shown(name)} is not defined{near}: define it in *PARAMETERS", where=where)
+
+
+def undefined_variation(name: str, known: Iterable[str], effort: Effort, where: Where) -> Problem:
+    """A variation that is not among the known ones; their names are without quotes."""
+    name = unquoted(name)
+    near = suggestion(name, known, effort)
+    return Problem(REF001, f"there is no variation {shown(name)}{near}: define it in *VARIATION", where=where)
+
+
+# ------------------------------------------------------------------------------------------------------ in any deck
+
 _SECTION = "PREPROCESSOR"
-_ALL = "all"
 
 
 class _Named(NamedTuple):
@@ -55,19 +69,17 @@ class _Named(NamedTuple):
 
 
 def undefined_parameters(deck: Deck) -> Iterator[Problem]:
-    """What PARA= and a `%name%` of a folder or file name, and `*PARAMETERS` does not define."""
+    """Parameters in PARA= or as `%name%` in a folder or file name that `*PARAMETERS` does not define."""
     named = [*_varied(deck), *_in_names(deck)]
     known = _parameters(deck) if named else None
     effort = Effort()
     for name, where in named:
         if known is not None and folded(name) not in known:
-            near = suggestion(name, known.values(), effort)
-            message = f"parameter {shown(name)} is not defined{near}: define it in *PARAMETERS"
-            yield Problem(REF013, message, where=where)
+            yield undefined_parameter(name, known.values(), effort, where)
 
 
 def undefined_variations(deck: Deck) -> Iterator[Problem]:
-    """What VARIATIONS= calls and no `*VARIATION` defines; `*EXCEL VARIATIONS`, which is not read, may define it."""
+    """Variations in VARIATIONS= that no `*VARIATION` defines; `*EXCEL VARIATIONS`, not read, may define any."""
     called = list(_called(deck))
     present = deck.keywords(_SECTION)
     if not called or "EXCEL VARIATIONS" in present or _unsure(deck, "VARIATION"):
@@ -80,35 +92,33 @@ def undefined_variations(deck: Deck) -> Iterator[Problem]:
     known = {name_key(name): unquoted(name) for name in variations if name is not None}
     effort = Effort()
     for name, where in called:
-        if name_key(name) not in known and name_key(name) != _ALL:
-            near = suggestion(unquoted(name), known.values(), effort)
-            message = f"there is no variation {shown(unquoted(name))}{near}: define it in *VARIATION"
-            yield Problem(REF001, message, where=where)
+        if name_key(name) not in known and name_key(name) != "all":
+            yield undefined_variation(name, known.values(), effort, where)
 
 
 def misspelt_keywords(deck: Deck) -> Iterator[Problem]:
-    """What KEYWORD= of an action says and is not known, but spelt nearly as a keyword that is: a warning."""
+    """Warn of an unknown keyword in KEYWORD= of an action whose spelling is close to a known one."""
     effort = Effort()
     for varied, where in _actions(deck):
         words = cast("list[str] | None", varied.keyword) or ()
         name = canonical_name("*" + ",".join(map(unquoted, words)))
-        if near := _meant(name, catalogue.keywords(), effort):
+        if near := _similar(name, catalogue.keywords(), effort):
             message = f"keyword *{name} is not known{hint(near)}: correct it"
             yield Problem(SYN009, message, None, Severity.WARNING, where._replace(path=(*where.path, "keyword", 0)))
 
 
 def misspelt_sections(deck: Deck) -> Iterator[Problem]:
-    """What SECTION= of an action says and is not known, but spelt nearly as a section that is: a warning."""
+    """Warn of an unknown section in SECTION= of an action whose spelling is close to a known one."""
     effort = Effort()
     for varied, where in _actions(deck):
         name = canonical_name("$" + unquoted(varied.section or "").removeprefix("$"))
-        if near := _meant(name, catalogue.SECTIONS, effort):
+        if near := _similar(name, catalogue.SECTIONS, effort):
             message = f"section ${name} is not known{hint(near)}: correct it"
             yield Problem(SYN010, message, None, Severity.WARNING, where._replace(path=(*where.path, "section")))
 
 
-def _meant(name: str, known: Collection[str], effort: Effort) -> str:
-    """The known name that is spelt nearly as one that is not known, or ""."""
+def _similar(name: str, known: Collection[str], effort: Effort) -> str:
+    """The known name that is close to an unknown one, or ""."""
     return "" if not name or name in known else nearest(name, known, effort)
 
 

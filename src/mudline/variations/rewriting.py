@@ -1,4 +1,4 @@
-"""The text of each new deck: that of the source with other values of parameters, and with blocks that come and go."""
+"""The text of each new deck: that of the source with other parameter values, and blocks added or removed."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, cast
 
-from mudline.codes import REF013
 from mudline.deck.keyword_form import to_keyword
 from mudline.deck.loading import dump, form_of
 from mudline.deck.model import Deck
@@ -16,7 +15,6 @@ from mudline.diagnostics import Problem, Span, Where
 from mudline.keywords import catalogue
 from mudline.keywords.model import Block
 from mudline.keywords.reader import all_keys
-from mudline.keywords.text import shown, suggestion
 from mudline.keywords.values import Equation
 from mudline.short_repr import short_repr
 from mudline.spelling import Effort
@@ -25,7 +23,7 @@ from mudline.syntax.fields import first_key, split
 from mudline.syntax.rows import read_number
 from mudline.syntax.source import Source
 from mudline.syntax.tree import Kind, Leaf, RawBlock
-from mudline.variations.names import unquoted
+from mudline.variations.names import undefined_parameter, unquoted
 
 if TYPE_CHECKING:
     from mudline.keywords.library.parameters import Parameters as Block_
@@ -36,14 +34,14 @@ MOST_DECKS = 100_000
 
 @dataclass(frozen=True, slots=True)
 class Removal:
-    """Blocks that are left out, by section and block."""
+    """Blocks to leave out, by section and block."""
 
     blocks: frozenset[tuple[int, int]]
 
 
 @dataclass(frozen=True, slots=True)
 class Addition:
-    """Lines, with LF behind each, that are put at the end of a section."""
+    """Lines to put at the end of a section, each with a LF."""
 
     section: int
     text: str
@@ -53,21 +51,10 @@ Action = Removal | Addition
 
 
 @dataclass(frozen=True, slots=True)
-class Cases:
-    """A variation: names of parameters, a row of their values for each case, and what is done in every case."""
-
-    name: str
-    where: Where
-    parameters: Sequence[str]
-    rows: Sequence[Sequence[str]]
-    actions: Sequence[Action]
-
-
-@dataclass(frozen=True, slots=True)
 class PlannedDeck:
-    """A deck to write: its path with `/` in the output folder, and what it shows.
+    """A deck to write: its path with `/` in the output folder, and its description.
 
-    `variations` are the names of those that made it, `values` its parameters as they will be written.
+    `variations` are the names of those combined in it, `values` its varied parameters as they will be written.
     """
 
     path: str
@@ -93,7 +80,7 @@ class Target:
     in_list: bool = False
 
     def field(self, value: str) -> str | None:
-        """A value as it is written in the place of the old one, or None when it cannot stand there."""
+        """A value as it is written in the place of the old one, or None when it cannot be written there."""
         field = parameter_field(value)
         bare = field is not None and field == unquoted(field) and Equation.match(field) is None
         if not self.in_list or not bare or read_number(value) is not None:
@@ -127,16 +114,14 @@ class Targets:
             yield Target(item.name, item.value, Span(start, start + len(item.value)), in_list=True)
 
     def target(self, name: str) -> Target:
-        """A parameter that is known to be there."""
+        """A parameter that is known to exist."""
         return self._targets[folded(name)]
 
     def undefined(self, name: str, where: Where) -> Problem | None:
-        """That a parameter is not there."""
+        """The problem of a name that is not a parameter, else None."""
         if folded(name) in self._targets:
             return None
-        hint = suggestion(name, (target.name for target in self._targets.values()), self._effort)
-        message = f"parameter {shown(name)} is not defined{hint}: define it in *PARAMETERS"
-        return Problem(REF013, message, None, None, where)
+        return undefined_parameter(name, (target.name for target in self._targets.values()), self._effort, where)
 
     def in_a_name(self, name: str, values: Values) -> str | None:
         """A parameter's value for the name of a file: as written, without quotes; None where an equation has none."""
@@ -151,9 +136,9 @@ class Targets:
 
 
 def with_values(deck: Deck, values: Values) -> Deck:
-    """The deck with other values of its parameters, for its equations only: its text is not that of the new one.
+    """The deck with other parameter values, for its equations only: its text is not that of the new one.
 
-    They are defined once more behind all others, as the last definition of a parameter holds.
+    They are defined again after all others, as the last definition of a parameter applies.
     """
     where, block = [found for found in deck.blocks("PARAMETERS", "PREPROCESSOR") if found[1].parameters][-1]
     known = cast("Block_", block).parameters
@@ -166,7 +151,7 @@ def with_values(deck: Deck, values: Values) -> Deck:
 
 
 def parameter_field(text: str) -> str | None:
-    """A value as a field of `*PARAMETERS`, a text with blanks or commas in quotes; None when it cannot stand there."""
+    """A value as a field of `*PARAMETERS`, a text with blanks or commas in quotes; None when it cannot be written."""
     if read_number(text) is not None or Equation.match(text):
         return text
     if not text:
@@ -204,7 +189,7 @@ class Rewriter:
         )
 
     def content(self, planned: PlannedDeck) -> bytes:
-        """A new deck, in the form that the suffix of its path tells."""
+        """A new deck, in the form of its path's suffix."""
         content = edited_bytes(self.source, self.edits(planned))
         form = form_of(planned.path)
         if form == "keyword":
@@ -234,7 +219,7 @@ class Rewriter:
         return Span(block.head.span.start, self._end(section, block))
 
     def _insertion(self, section: int, text: str) -> TextEdit:
-        """Lines behind the last ones of a section that are no comment."""
+        """Lines inserted after the last ones of a section that are not a comment."""
         raw = self.tree.sections[section]
         head = cast("Leaf", raw.head)
         at = self._end(section, raw.blocks[-1]) if raw.blocks else max(leaf.span.end for leaf in (head, *raw.leaves))
@@ -254,7 +239,7 @@ class Rewriter:
 
 @dataclass(frozen=True, slots=True)
 class ExpansionPlan:
-    """The decks in the order of `*COMBINATIONS`, and what makes their texts.
+    """The decks in the order of `*COMBINATIONS`, and the rewriter that makes their texts.
 
     `source` is the name of the file that they come from, `notes` are remarks for a reader. `companions` are files
     beside the source that the new decks name too.
