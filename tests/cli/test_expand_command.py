@@ -156,7 +156,8 @@ def test_a_file_where_a_folder_is_wanted(place: Place) -> None:
     name = place(STUDY)
     place("mine", "out")
     outcome = run("expand", name, "-o", "out", "--force")
-    assert (outcome.code, outcome.err.splitlines()[0]) == (2, "mudline: out: is a file: expected a folder for the decks")
+    message = "mudline: out: is a file: expected a folder for the decks"
+    assert (outcome.code, outcome.err.splitlines()[0]) == (2, message)
     place("mine", "there/Near")
     outcome = run("expand", name, "-o", "there", "--force")
     assert outcome.code == 2

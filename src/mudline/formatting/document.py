@@ -2,15 +2,170 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import cast
 
 from mudline.deck.loading import dump, form_of, load_bytes
-from mudline.deck.model import Deck
+from mudline.deck.model import Deck, Section
 from mudline.deck.reading import TextOrigin, read_source
-from mudline.formatting.layout import layout_edits
-from mudline.formatting.meaning import same_meaning
-from mudline.syntax.edits import apply_edits
-from mudline.syntax.source import Source
+from mudline.diagnostics import Span
+from mudline.formatting.blocks import block_lines, comment_line
+from mudline.keywords.model import Comment, Part
+from mudline.keywords.reader import ReadBlock
+from mudline.syntax.edits import TextEdit, apply_edits
+from mudline.syntax.source import CONTROLS, END_MARK, Source
+from mudline.syntax.tree import Kind, Leaf, RawBlock
+
+_LINE_ENDS = ("\n", "\r\n", "\r")
+
+
+def layout_edits(origin: TextOrigin) -> list[TextEdit]:
+    """What has to change in a text that was read without an error, so that it has the canonical layout.
+
+    The texts of the edits have the line end that prevails in the file.
+    """
+    return _Layout(origin).edits()
+
+
+def line_ends(text: str) -> dict[str, int]:
+    """How often a text has each kind of line end that it has, the commonest first."""
+    crlf = text.count("\r\n")
+    counts = dict(zip(_LINE_ENDS, (text.count("\n") - crlf, crlf, text.count("\r") - crlf), strict=True))
+    return {end: count for end, count in sorted(counts.items(), key=lambda item: -item[1]) if count}
+
+
+class _Layout:
+    def __init__(self, origin: TextOrigin) -> None:
+        self.origin = origin
+        self.source = origin.source
+        self.text = self.source.unified
+        ends = line_ends(self.source.text)
+        self.end = next(iter(ends), "\n")
+        self.mixed = len(ends) > 1
+        self.found: list[TextEdit] = []
+        self.blanks: list[Span] = []
+
+    def edits(self) -> list[TextEdit]:
+        """All edits, in no order."""
+        tree = self.origin.tree
+        self._stray(tree.preamble.leaves)
+        for index, section in enumerate(tree.sections):
+            if section.head:
+                self._head("$" + section.name, section.head)
+            self._stray(section.leaves)
+            for number, block in enumerate(section.blocks):
+                self._head("*" + block.name, block.head)
+                read = self.origin.read.get((index, number))
+                if read is None:
+                    self._kept(block.leaves)
+                else:
+                    self._block(block, read)
+        for span in self.blanks:
+            self._put(span, self._marks(span))
+        return self.found
+
+    def _marks(self, span: Span) -> str:
+        """The end-of-file marks of old systems among blanks, which are no business of a layout."""
+        return "".join(char for char in self.source.text[slice(*span)] if char == END_MARK)
+
+    def _put(self, span: Span, lines: str) -> None:
+        """Put lines, each with a LF, in the place of those of a span."""
+        new = lines if self.end == "\n" else lines.replace("\n", self.end)
+        if self.source.text[slice(*span)] != new:
+            self.found.append(TextEdit(span, new))
+
+    def _blank(self, leaf: Leaf) -> None:
+        """Blank lines: whether one of them stays, the next line that is none decides."""
+        self.blanks.append(leaf.span)
+
+    def _go_on(self) -> None:
+        """A line that is not blank follows: of the blank ones before it one stays."""
+        for index, span in enumerate(self.blanks):
+            self._put(span, "" if index else "\n")
+        self.blanks.clear()
+
+    def _head(self, canonical: str, leaf: Leaf) -> None:
+        """A `$` or `*` line. Other letters than ASCII stay as they are where bytes would get another meaning."""
+        self._go_on()
+        written = self.text[slice(*leaf.span)].strip(" \t\r\n")
+        known = written.isascii() or self.source.encoding == "utf-8"
+        before = self.source.text[slice(*leaf.span)].partition(canonical[0])[0]
+        controls = "".join(char for char in before if char in CONTROLS)
+        self._put(leaf.span, f"{controls}{canonical if known else written}\n")
+
+    def _kept(self, leaves: list[Leaf]) -> None:
+        """Lines that stay as they are, but for their line ends."""
+        for leaf in leaves:
+            self._go_on()
+            if self.mixed or leaf.span.end == len(self.text):
+                if marks := self._marks(leaf.span):
+                    self._put(leaf.span, marks)
+                    continue
+                lines = self.text[slice(*leaf.span)].replace("\r\n", "\n")
+                self._put(leaf.span, lines if lines.endswith("\n") else lines + "\n")
+
+    def _stray(self, leaves: list[Leaf]) -> None:
+        """Lines under no keyword."""
+        for leaf in leaves:
+            if leaf.kind is Kind.BLANK:
+                self._blank(leaf)
+            elif leaf.kind is Kind.COMMENT:
+                self._go_on()
+                self._put(leaf.span, comment_line(self.text, leaf.span))
+            else:
+                self._kept([leaf])
+
+    def _block(self, raw: RawBlock, read: ReadBlock) -> None:
+        """A block with a model."""
+        for leaf in raw.leaves:
+            if leaf.kind is Kind.BLANK:
+                self._blank(leaf)
+            else:
+                self._go_on()
+        for span, lines in block_lines(self.text, raw, read):
+            self._put(span, lines)
+
+
+def same_meaning(one: Deck, other: Deck) -> bool:
+    """Whether sections, blocks, values, comments and lines that nobody reads are equal.
+
+    Blanks at the end of a comment do not count, and neither do blank lines before the first section.
+    """
+    return (
+        one.units == other.units
+        and _preamble(one) == _preamble(other)
+        and _same(one.comments, other.comments)
+        and _same(one.sections, other.sections)
+    )
+
+
+def _preamble(deck: Deck) -> list[str]:
+    lines = (line.rstrip(" \t") for line in deck.preamble)
+    return [line for line in lines if line]
+
+
+def _same(one: object, other: object) -> bool:
+    if type(one) is not type(other):
+        return False
+    if isinstance(one, Comment) and isinstance(other, Comment):
+        return one.before == other.before and one.text.rstrip(" \t") == other.text.rstrip(" \t")
+    if isinstance(one, Section) and isinstance(other, Section):
+        return one.name == other.name and one.lines == other.lines and _all(_parts(one), _parts(other))
+    if isinstance(one, Part) and isinstance(other, Part):
+        names = type(one).model_fields
+        return all(_same(getattr(one, name), getattr(other, name)) for name in names)
+    if isinstance(one, list) and isinstance(other, list):
+        return _all(one, other)
+    return bool(one == other)
+
+
+def _parts(section: Section) -> list[object]:
+    return [*section.comments, *section.blocks]
+
+
+def _all(one: Sequence[object], other: Sequence[object]) -> bool:
+    return len(one) == len(other) and all(map(_same, one, other))
+
 
 _ALTERED = "formatting would change its meaning: this is a fault of mudline, please report it"
 _REMARKS = "it has YAML comments (#), which belong to no part of a deck and would be lost: it is left as it is"
