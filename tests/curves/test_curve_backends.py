@@ -12,13 +12,10 @@ import pytest
 from hypothesis import given, reject
 from hypothesis import strategies as st
 
-from mudline.curves import CurveError, ForceCurve, QueryError, backends, compiled
-from mudline.curves.arrays import FloatArray
-from mudline.curves.backends import Backend, law_for
-from mudline.curves.blocks import BLOCK
-from mudline.curves.buckets import BucketTable
-from mudline.curves.law import NumpyLaw
-from mudline.curves.work import Work
+from mudline.curves import CurveError, ForceCurve, QueryError, compiled, law
+from mudline.curves.law import Backend, NumpyLaw, law_for
+from mudline.curves.points import FloatArray
+from mudline.curves.search import BLOCK, BucketTable, Work
 from tests.curves.plain import POINTS, near, plain_values, steps
 
 BACKENDS: tuple[Backend, ...] = ("numpy", "fast")
@@ -169,7 +166,7 @@ def test_the_backend_that_a_query_gets(monkeypatch: pytest.MonkeyPatch) -> None:
     assert isinstance(law_for(knots, 100, work), NumpyLaw)
     assert isinstance(law_for(knots, 10_000, work), compiled.CountingLaw)
     monkeypatch.delitem(sys.modules, "mudline.curves.compiled")
-    backends._loads.cache_clear()
+    law._loads.cache_clear()
     assert isinstance(law_for(knots, 10_000, work), NumpyLaw)
     assert not isinstance(law_for(knots, 10**7, work), NumpyLaw)
 
@@ -178,13 +175,13 @@ def test_without_the_extra(monkeypatch: pytest.MonkeyPatch) -> None:
     curve = ForceCurve([(0.0, 0.0), (1.0, 1.0)])
     monkeypatch.delitem(sys.modules, "mudline.curves.compiled")
     monkeypatch.setitem(sys.modules, "numba", None)
-    backends._loads.cache_clear()
+    law._loads.cache_clear()
     try:
         assert isinstance(law_for(curve._knots, 10**7, Work()), NumpyLaw)
         with pytest.raises(ImportError):
             curve.evaluate(0.5, backend="fast")
     finally:
-        backends._loads.cache_clear()
+        law._loads.cache_clear()
 
 
 def test_a_backend_of_another_name() -> None:

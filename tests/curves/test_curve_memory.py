@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from mudline.curves import ForceCurve
-from mudline.curves.arrays import FloatArray
-from mudline.curves.backends import Backend
+from mudline.curves.law import Backend
+from mudline.curves.points import FloatArray
 from tests.curves.plain import steps
 
 CURVES = {

@@ -9,11 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mudline.curves.arrays import FloatArray
-from mudline.curves.buckets import bucket_table
-from mudline.curves.knots import Knots
-from mudline.curves.search import Bisection, Bucketing, Counting, Search, search_for
-from mudline.curves.work import Work
+from mudline.curves.points import FloatArray
+from mudline.curves.search import Bisection, Bucketing, Counting, Knots, Search, Work, bucket_table, search_for
 from tests.curves.plain import POINTS, near, steps
 
 ANY_FINITE = st.floats(allow_nan=False, allow_infinity=False)

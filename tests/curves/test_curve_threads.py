@@ -7,7 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from mudline.curves import ForceCurve
-from mudline.curves.work import lent
+from mudline.curves.search import lent
 
 
 def test_nobody_gets_arrays_that_are_in_use() -> None:

@@ -17,14 +17,9 @@ from typing import NoReturn
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mudline.curves.arrays import FloatArray, IndexArray, read_only, real_numbers
-from mudline.curves.backends import Backend, law_for
-from mudline.curves.blocks import BLOCK, blocks
-from mudline.curves.knots import Knots
-from mudline.curves.law import NumpyLaw, mend, mended, refuse_infinite
-from mudline.curves.points import checked_points, difference_quotient
-from mudline.curves.search import search_for
-from mudline.curves.work import lent
+from mudline.curves.law import Backend, NumpyLaw, law_for, mend, mended, refuse_infinite
+from mudline.curves.points import FloatArray, IndexArray, checked_points, difference_quotient, read_only, real_numbers
+from mudline.curves.search import BLOCK, Knots, blocks, lent, search_for
 from mudline.short_repr import cut
 
 _SHOWN_POINTS = 8

@@ -2,15 +2,49 @@
 
 from __future__ import annotations
 
-from typing import NoReturn, Protocol
+import sys
+from functools import cache
+from importlib import import_module
+from typing import Literal, NoReturn, Protocol, cast
 
 import numpy as np
 
-from mudline.curves.arrays import FloatArray, IndexArray
-from mudline.curves.errors import QueryError
-from mudline.curves.knots import Knots
-from mudline.curves.search import Search
-from mudline.curves.work import Work
+from mudline.curves.points import FloatArray, IndexArray, QueryError
+from mudline.curves.search import Knots, Search, Work, search_for
+
+Backend = Literal["auto", "numpy", "fast"]
+
+_COMPILED = "mudline.curves.compiled"
+
+_WORTH_LOADING = 2**22
+_WORTH_CALLING = 2**12
+
+
+def law_for(knots: Knots, total: int, work: Work, backend: Backend = "auto") -> Law:
+    """Return the way to evaluate a query of `total` ratios.
+
+    Raises:
+        ImportError: `backend` is "fast", but the extra `mudline[fast]` is not installed.
+        ValueError: there is no such backend.
+    """
+    if backend not in ("auto", "numpy", "fast"):
+        raise ValueError(f"backend must be auto, numpy or fast, not {backend!r}")
+    if backend == "fast" or (backend == "auto" and _pays(total)):
+        return cast("Law", import_module(_COMPILED).compiled_law(knots))
+    return NumpyLaw(knots, search_for(knots, total, work), work)
+
+
+def _pays(total: int) -> bool:
+    return total >= _WORTH_CALLING and (_COMPILED in sys.modules or (total >= _WORTH_LOADING and _loads()))
+
+
+@cache
+def _loads() -> bool:
+    try:
+        import_module(_COMPILED)
+    except ImportError:
+        return False
+    return True
 
 
 class Law(Protocol):

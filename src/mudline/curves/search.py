@@ -6,14 +6,171 @@ also the index of the point to reckon the force from.
 
 from __future__ import annotations
 
-from typing import Protocol
+from collections import deque
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
-from mudline.curves.arrays import FloatArray, IndexArray
-from mudline.curves.buckets import BucketTable
-from mudline.curves.knots import Knots
-from mudline.curves.work import Work
+from mudline.curves.points import FloatArray, IndexArray, read_only
+
+BLOCK = 32768
+"""Numbers at a time, so that the work arrays and the tables of a curve stay in the second-level cache."""
+
+
+def blocks(source: NDArray[np.generic], *targets: NDArray[np.generic]) -> np.nditer:
+    """Iterate over `source` (read as float64) and `targets` in flat order, BLOCK at a time, whatever their layout.
+
+    The blocks are contiguous.
+
+    A target may be the memory of `source`, number for number: its blocks are then those of the source. A target that
+    overlaps it in any other way is written to a copy first.
+    """
+    # Of any type: numpy's stubs do not know "contig".
+    access: list[list[Any]] = [["readonly", "contig", "overlap_assume_elementwise"]]
+    access += [["writeonly", "contig", "overlap_assume_elementwise"] for _ in targets]
+    return np.nditer(
+        [source, *targets],
+        flags=["external_loop", "buffered", "zerosize_ok", "copy_if_overlap"],
+        op_flags=access,
+        op_dtypes=[np.dtype(np.float64), *[target.dtype for target in targets]],
+        order="C",
+        casting="same_kind",
+        buffersize=BLOCK,
+    )
+
+
+class Work:
+    """Room for one block.
+
+    Attributes:
+        index: points passed.
+        real: sums, distances.
+        kept: ratios that results are about to replace.
+        small: small counters; of 32 bits, or seen as more of fewer bits.
+        flag: comparisons.
+    """
+
+    __slots__ = ("flag", "index", "kept", "real", "small")
+
+    def __init__(self) -> None:
+        self.index = np.empty(BLOCK, np.intp)
+        self.real = np.empty(BLOCK)
+        self.kept = np.empty(BLOCK)
+        self.small = np.empty(BLOCK, np.uint32)
+        self.flag = np.empty(BLOCK, np.bool_)
+
+
+# New memory for every query would cost a middling one as much as its evaluation.
+_FREE: deque[Work] = deque(maxlen=4)
+
+
+@contextmanager
+def lent() -> Iterator[Work]:
+    """Lend work arrays that nobody else uses meanwhile, in whatever thread."""
+    try:
+        work = _FREE.pop()
+    except IndexError:
+        work = Work()
+    try:
+        yield work
+    finally:
+        _FREE.append(work)
+
+
+_BUCKETS_PER_POINT = 16
+"""At most; and at least half as many."""
+
+
+class BucketTable(NamedTuple):
+    """Where to look for a ratio.
+
+    Attributes:
+        knots: (n + 1,) the points, and infinity.
+        below: for each bucket how many points lie in lower buckets; n + 1 if the bucket holds two points or more.
+        addend: the c above.
+        shift: how many lower bits of the sum do not count.
+        base: the key of the first bucket.
+        crowded: how many points share their bucket.
+    """
+
+    knots: FloatArray
+    below: NDArray[np.unsignedinteger]
+    addend: float
+    shift: int
+    base: int
+    crowded: int
+
+
+def bucket_table(ratios: FloatArray) -> BucketTable:
+    """Return the table over the points of a curve but its first, in which the fewest share a bucket."""
+    with np.errstate(all="ignore"):
+        tables = [_table(ratios[1:], addend) for addend in _addends(ratios)]
+    return min(tables, key=lambda table: table.crowded)
+
+
+def _addends(ratios: FloatArray) -> list[float]:
+    """For even spacing, for distances that grow from zero, and for distances that grow from the first point."""
+    span = ratios[-1] - ratios[1]
+    even = np.ldexp(1.0, int(np.frexp(span)[1])) - ratios[1]
+    # 0.0 - x is never -0.0, so that neither is r + c, whose bits would not follow the order.
+    addends = [float(even), 0.0, float(0.0 - ratios[0])]
+    return [addend for addend in addends if np.isfinite(addend)]
+
+
+def _table(points: FloatArray, addend: float) -> BucketTable:
+    count = len(points)
+    bits = (points + addend).view(np.int64)
+    positive = bits[bits > 0]
+    first, last = (int(positive[0]), int(positive[-1])) if positive.size else (1, 1)
+    # Of the bits one at least has to go, or the difference of a negative number and the base might not fit.
+    shift = max(1, ((last - first) // (_BUCKETS_PER_POINT * count)).bit_length())
+    base = (first >> shift) - 1
+    held = np.bincount(np.maximum((bits >> shift) - base, 0), minlength=(last >> shift) - base + 2)
+    below = np.cumsum(held) - held
+    crowd = held > 1
+    below[crowd] = count + 1
+    kind = np.uint16 if count + 1 <= np.iinfo(np.uint16).max else np.uint32
+    return BucketTable(
+        read_only(np.append(points, np.inf)),
+        read_only(below.astype(kind)),
+        addend,
+        shift,
+        base,
+        crowded=int(held[crowd].sum()),
+    )
+
+
+class Knots:
+    """The sorted points of a curve.
+
+    Attributes:
+        ratios: (n,) ascending ratios.
+        forces: (n,) forces there.
+        tails: (n,) slopes to the right of the points.
+        inner: (n - 1,) the ratios that can be passed: all but the first, below which the first segment goes on.
+        table: buckets over `inner`, once `prepare` has made them.
+    """
+
+    __slots__ = ("forces", "inner", "ratios", "table", "tails")
+
+    table: BucketTable | None
+
+    def __init__(self, ratios: FloatArray, forces: FloatArray, slopes: FloatArray) -> None:
+        self.ratios = ratios
+        self.forces = forces
+        self.tails = read_only(np.append(slopes, slopes[-1]))
+        self.inner = ratios[1:]
+        self.table = None
+
+    def prepare(self) -> BucketTable:
+        """Return the buckets, made at the first call; needs three points or more."""
+        if self.table is None:
+            self.table = bucket_table(self.ratios)
+        return self.table
+
 
 _COUNTED_POINTS = 20
 """Up to this many points, counting is faster than a table."""
