@@ -1,4 +1,8 @@
-"""Force and slope of a block of ratios, and the ratios that have none."""
+"""Force and slope of a block of ratios, by numpy alone or by compiled loops, and the ratios that have none.
+
+Loading numba takes about a second, so the compiled loops are loaded by the first query that is large enough to make
+more of them likely; once they are loaded, they also serve smaller ones.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +14,7 @@ from typing import Literal, NoReturn, Protocol, cast
 import numpy as np
 
 from mudline.curves.points import FloatArray, IndexArray, QueryError
-from mudline.curves.search import Knots, Search, Work, search_for
+from mudline.curves.search import Knots, Search, Workspace, search_for
 
 Backend = Literal["auto", "numpy", "fast"]
 
@@ -20,12 +24,45 @@ _WORTH_LOADING = 2**22
 _WORTH_CALLING = 2**12
 
 
-def law_for(knots: Knots, total: int, work: Work, backend: Backend = "auto") -> Law:
+class Law(Protocol):
+    """A way to evaluate a curve.
+
+    All ways do the same operations in the same order and round after each, so that they agree bit for bit.
+    """
+
+    def fill(self, ratio: FloatArray, force: FloatArray, slope: FloatArray) -> bool:
+        """Write force and slope at each ratio; return whether every force is finite."""
+        ...
+
+
+class NumpyLaw:
+    """Evaluates with numpy alone."""
+
+    def __init__(self, knots: Knots, search: Search, work: Workspace) -> None:
+        self._knots = knots
+        self._search = search
+        self._work = work
+
+    def fill(self, ratio: FloatArray, force: FloatArray, slope: FloatArray) -> bool:
+        """See `Law`."""
+        knots, work, size = self._knots, self._work, len(ratio)
+        point = self._search.passed(ratio)
+        offset = work.real[:size]
+        np.take(knots.ratios, point, out=offset, mode="clip")
+        np.subtract(ratio, offset, out=offset)
+        np.take(knots.tails, point, out=slope, mode="clip")
+        np.multiply(offset, slope, out=offset)
+        np.take(knots.forces, point, out=force, mode="clip")
+        np.add(force, offset, out=force)
+        return bool(np.isfinite(force, out=work.flag[:size]).all())
+
+
+def law_for(knots: Knots, total: int, work: Workspace, backend: Backend = "auto") -> Law:
     """Return the way to evaluate a query of `total` ratios.
 
     Raises:
         ImportError: `backend` is "fast", but the extra `mudline[fast]` is not installed.
-        ValueError: there is no such backend.
+        ValueError: `backend` is unknown.
     """
     if backend not in ("auto", "numpy", "fast"):
         raise ValueError(f"backend must be auto, numpy or fast, not {backend!r}")
@@ -47,52 +84,8 @@ def _loads() -> bool:
     return True
 
 
-class Law(Protocol):
-    """A way to evaluate a curve.
-
-    All ways do the same operations in the same order and round after each, so that they agree bit for bit.
-    """
-
-    def fill(self, ratio: FloatArray, force: FloatArray, slope: FloatArray) -> bool:
-        """Write force and slope at each ratio; return whether every force is finite."""
-        ...
-
-
-class NumpyLaw:
-    """Evaluates with numpy alone."""
-
-    def __init__(self, knots: Knots, search: Search, work: Work) -> None:
-        self._knots = knots
-        self._search = search
-        self._work = work
-
-    def fill(self, ratio: FloatArray, force: FloatArray, slope: FloatArray) -> bool:
-        """See `Law`."""
-        knots, work, size = self._knots, self._work, len(ratio)
-        point = self._search.passed(ratio)
-        offset = work.real[:size]
-        np.take(knots.ratios, point, out=offset, mode="clip")
-        np.subtract(ratio, offset, out=offset)
-        np.take(knots.tails, point, out=slope, mode="clip")
-        np.multiply(offset, slope, out=offset)
-        np.take(knots.forces, point, out=force, mode="clip")
-        np.add(force, offset, out=force)
-        return bool(np.isfinite(force, out=work.flag[:size]).all())
-
-
-def mend(knots: Knots, ratio: FloatArray, force: FloatArray, start: int) -> None:
-    """Evaluate again where `force` is not finite.
-
-    Raises:
-        QueryError: it still is not; `start` is the index of the first ratio in the query.
-    """
-    bad = mended(knots, ratio, force)
-    if bad.size:
-        _refuse(ratio, int(bad[0]), start)
-
-
-def mended(knots: Knots, ratio: FloatArray, force: FloatArray) -> IndexArray:
-    """Evaluate again where `force` is not finite; return where it still is not.
+def recompute_overflowed(knots: Knots, ratio: FloatArray, force: FloatArray) -> IndexArray:
+    """Compute again the forces that are not finite; return where they still are not.
 
     Only an intermediate value may have overflowed: added in two halves the force may well be finite.
     """
@@ -105,17 +98,18 @@ def mended(knots: Knots, ratio: FloatArray, force: FloatArray) -> IndexArray:
 
 
 def refuse_infinite(ratio: FloatArray, start: int) -> None:
-    """Refuse ratios that are not finite, for questions that need no force.
+    """Check that ratios are finite, for queries that compute no force.
 
     Raises:
         QueryError: a ratio is NaN or infinite; `start` is the index of the first ratio in the query.
     """
     finite = np.isfinite(ratio)
     if not finite.all():
-        _refuse(ratio, int(np.argmin(finite)), start)
+        refuse(ratio, int(np.argmin(finite)), start)
 
 
-def _refuse(ratio: FloatArray, index: int, start: int) -> NoReturn:
+def refuse(ratio: FloatArray, index: int, start: int) -> NoReturn:
+    """Raise the QueryError of a ratio; `start` is the index of the first ratio in the query."""
     value = float(ratio[index])
     why = "the force there overflows" if np.isfinite(value) else "it is not finite"
     raise QueryError(start + index, value, f"no force at ratio {value!r} (index {start + index}): {why}")

@@ -1,4 +1,4 @@
-"""From points in any order to sorted, checked points and the slopes between them."""
+"""Points of a curve: sorted and checked, with the slopes between them; the errors that curves raise."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ def checked_points(points: ArrayLike) -> CurvePoints:
 
     Raises:
         CurveError: the points do not make a curve.
-        ValueError: they are no pairs of real numbers.
+        ValueError: they are not pairs of real numbers.
     """
     given = _pairs(points)
     order = np.argsort(given[:, 0], kind="stable")

@@ -1,7 +1,13 @@
 """How many points of a curve lie at or below each ratio: one answer, three ways to find it.
 
-A search serves one query, a block at a time. `passed` is asked for the points after the first only, so its answer is
-also the index of the point to reckon the force from.
+A search serves one query, a block at a time. It searches the points after the first only, so its answer is also the
+index of the point from which the force is computed.
+
+The table of buckets replaces a binary search. The key of a ratio r is the upper bits of the float64 r + c: of a
+positive sum they grow with r. Within one power of two they grow evenly, so a large c gives buckets of equal width, and
+c = 0 gives the same number of buckets to every power of two. Rounding keeps the order, so a point with a lower key lies
+below r and one with a higher key above; only points in the bucket of r have to be compared with r. What is below the
+first bucket, negative sums among it, is assigned to the first, what is above the last to the last.
 """
 
 from __future__ import annotations
@@ -42,13 +48,13 @@ def blocks(source: NDArray[np.generic], *targets: NDArray[np.generic]) -> np.ndi
     )
 
 
-class Work:
-    """Room for one block.
+class Workspace:
+    """Workspace arrays for one block.
 
     Attributes:
         index: points passed.
         real: sums, distances.
-        kept: ratios that results are about to replace.
+        kept: ratios that results are about to overwrite.
         small: small counters; of 32 bits, or seen as more of fewer bits.
         flag: comparisons.
     """
@@ -63,17 +69,17 @@ class Work:
         self.flag = np.empty(BLOCK, np.bool_)
 
 
-# New memory for every query would cost a middling one as much as its evaluation.
-_FREE: deque[Work] = deque(maxlen=4)
+# Allocating for every query would cost one of medium size as much as its evaluation.
+_FREE: deque[Workspace] = deque(maxlen=4)
 
 
 @contextmanager
-def lent() -> Iterator[Work]:
-    """Lend work arrays that nobody else uses meanwhile, in whatever thread."""
+def workspace() -> Iterator[Workspace]:
+    """Workspace arrays that no other query in any thread uses at the same time."""
     try:
         work = _FREE.pop()
     except IndexError:
-        work = Work()
+        work = Workspace()
     try:
         yield work
     finally:
@@ -90,8 +96,8 @@ class BucketTable(NamedTuple):
     Attributes:
         knots: (n + 1,) the points, and infinity.
         below: for each bucket how many points lie in lower buckets; n + 1 if the bucket holds two points or more.
-        addend: the c above.
-        shift: how many lower bits of the sum do not count.
+        addend: the c of the key.
+        shift: how many lower bits of the sum are ignored.
         base: the key of the first bucket.
         crowded: how many points share their bucket.
     """
@@ -144,7 +150,7 @@ def _table(points: FloatArray, addend: float) -> BucketTable:
 
 
 class Knots:
-    """The sorted points of a curve.
+    """The sorted points of a curve, and what is prepared once to evaluate it.
 
     Attributes:
         ratios: (n,) ascending ratios.
@@ -187,7 +193,7 @@ class Search(Protocol):
         ...
 
 
-def search_for(knots: Knots, total: int, work: Work) -> Search:
+def search_for(knots: Knots, total: int, work: Workspace) -> Search:
     """Return the fastest search for a query of `total` ratios."""
     if total < _FEW_RATIOS:
         return Bisection(knots.inner)
@@ -212,7 +218,7 @@ class Bisection:
 class Counting:
     """Compares every ratio with every point: for few points, however they are spaced."""
 
-    def __init__(self, points: FloatArray, work: Work) -> None:
+    def __init__(self, points: FloatArray, work: Workspace) -> None:
         self._points = points
         self._work = work
 
@@ -232,15 +238,15 @@ class Counting:
 class Bucketing:
     """Looks into a table of buckets; bisects for ratios in a bucket of several points."""
 
-    def __init__(self, table: BucketTable, work: Work) -> None:
+    def __init__(self, table: BucketTable, work: Workspace) -> None:
         self._table = table
         self._points = table.knots[:-1]
         self._work = work
-        self._in_vain = False
+        self._crowded = False
 
     def passed(self, ratio: FloatArray) -> IndexArray:
         """See `Search`."""
-        if self._in_vain:
+        if self._crowded:
             return np.searchsorted(self._points, ratio, side="right")
         table, work, size = self._table, self._work, len(ratio)
         below, flag = work.small.view(table.below.dtype)[:size], work.flag[:size]
@@ -257,5 +263,5 @@ class Bucketing:
             crowded = np.flatnonzero(np.greater(below, len(self._points), out=flag))
             index[crowded] = np.searchsorted(self._points, ratio[crowded], side="right")
             # More than half in crowded buckets: the binary search alone is faster.
-            self._in_vain = 2 * len(crowded) > size
+            self._crowded = 2 * len(crowded) > size
         return index
