@@ -22,14 +22,14 @@ _BLANKS = re.compile(r"[ \t]*")
 
 @dataclass(slots=True)
 class Reading:
-    """By offset: the kind of the row, or of the values of the KEY=, that begins there; the choice that stands there."""
+    """By offset: the kind of the row, or of the values of the KEY=, that begins there; the choice written there."""
 
     text: str
     kinds: dict[int, RowKind] = field(default_factory=dict)
     choices: dict[int, str] = field(default_factory=dict)
 
     def kind_at(self, start: int) -> RowKind | None:
-        """The kind of the row that begins at or behind the blanks at an offset."""
+        """The kind of the row that begins at an offset or after the blanks there."""
         return self.kinds.get(self._begin(start))
 
     def put(self, start: int, kind: RowKind) -> None:
@@ -67,7 +67,7 @@ def _record(record: Record, path: Path, places: Places, found: Reading) -> None:
 
 
 def _value(slot: Slot, value: object, path: Path, places: Places, found: Reading) -> None:
-    """The value of one field that is no record."""
+    """The value of one field that is not a record."""
     span = places.spans.get(path)
     if isinstance(value, Table) and slot.row:
         kind = RowKind(slot, tuple(layout(slot.row).columns), table=True)
@@ -86,7 +86,7 @@ def _value(slot: Slot, value: object, path: Path, places: Places, found: Reading
 
 
 Laid = tuple[Span, str]
-"""Lines, each with a LF, and the span in whose place they are put."""
+"""Lines, each with a LF, and the span that they replace."""
 
 
 def comment_line(text: str, span: Span) -> str:
@@ -95,7 +95,7 @@ def comment_line(text: str, span: Span) -> str:
 
 
 def block_lines(text: str, raw: RawBlock, read: ReadBlock) -> Iterator[Laid]:
-    """Everything of a block but its head and its blank lines."""
+    """The lines of a block except its head and its blank lines."""
     block = _Block(text, read)
     for leaf in raw.leaves:
         yield from block.lines(leaf)
@@ -111,7 +111,7 @@ class _Block:
         self.rows: Rows | None = None
 
     def lines(self, leaf: Leaf) -> Iterator[Laid]:
-        """What is known to be laid out when this leaf is reached: rows wait for those that follow."""
+        """The lines that are complete when this leaf is reached: rows are collected until their table ends."""
         if leaf.kind in (Kind.RUN, Kind.TEXT):
             for span in self._row_spans(leaf.span):
                 yield from self._row(span)
@@ -124,7 +124,7 @@ class _Block:
             yield leaf.span, comment_line(self.text, leaf.span)
 
     def flush(self) -> Iterator[Laid]:
-        """The rows that wait."""
+        """The rows collected so far."""
         if self.rows:
             yield from self.rows.laid_out()
         self.rows = None
@@ -138,9 +138,9 @@ class _Block:
             yield Span(line.start, min(line.end + 1, run.end))
 
     def _row(self, span: Span) -> Iterator[Laid]:
-        """Add a row, or a run of them, to those that wait if it is of their kind; else begin anew."""
+        """Add a row, or a run of them, to those collected if it is of their kind; else start a new table."""
         kind = self.reading.kind_at(span.start)
-        if kind is None:  # nothing of the model stands there: it is kept as it is
+        if kind is None:  # not part of the model: left unchanged
             return
         if self.rows is None or self.rows.kind.slot is not kind.slot:
             yield from self.flush()
@@ -148,10 +148,10 @@ class _Block:
         self.rows.members.append(Run(self.text, span) if kind.table else Single(self._fields(span), span))
 
     def _fields(self, span: Span) -> list[str]:
-        """The fields of a row that is no table's."""
+        """The fields of a row outside a table."""
         fields, _ = split(self.text, span, slashes=self.declared.slashes)
         texts = [self.reading.choices.get(given.span.start, given.text) for given in fields]
-        return cut(apart(texts))
+        return cut(split_blanks(texts))
 
     def _setting(self, span: Span) -> str:
         line = read_line(self.text, span, slashes=self.declared.slashes)
@@ -165,12 +165,12 @@ class _Block:
         """
         texts = [self.reading.choices.get(given.span.start, given.text) for given in group.fields]
         kind = self.reading.kinds.get(group.span.start)
-        texts = cut(apart(texts) if kind and len(kind.columns) > 1 else texts)
+        texts = cut(split_blanks(texts) if kind and len(kind.columns) > 1 else texts)
         first = group.fields[0].span.start
         blank = " " if texts[0].startswith("[") and self.text[first - 1] != "=" else ""
         return [f"{group.key}={blank}{texts[0]}", *texts[1:]]
 
 
-def apart(texts: list[str]) -> list[str]:
-    """Numbers that are parted by blanks alone, each a field."""
+def split_blanks(texts: list[str]) -> list[str]:
+    """Numbers that are separated only by blanks, each a field."""
     return texts[0].split() if len(texts) == 1 and blank_separated(texts[0]) else texts

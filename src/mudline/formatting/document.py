@@ -1,8 +1,7 @@
-"""A whole file in canonical form; nothing is given back that would mean something else."""
+"""A whole file in canonical form; nothing is returned that would mean something else."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import cast
 
 from mudline.deck.loading import dump, form_of, load_bytes
@@ -20,15 +19,15 @@ _LINE_ENDS = ("\n", "\r\n", "\r")
 
 
 def layout_edits(origin: TextOrigin) -> list[TextEdit]:
-    """What has to change in a text that was read without an error, so that it has the canonical layout.
+    """The edits that give a text that was read without an error the canonical layout.
 
-    The texts of the edits have the line end that prevails in the file.
+    The texts of the edits have the most frequent line end of the file.
     """
     return _Layout(origin).edits()
 
 
 def line_ends(text: str) -> dict[str, int]:
-    """How often a text has each kind of line end that it has, the commonest first."""
+    """Count each kind of line end in a text, the most frequent first."""
     crlf = text.count("\r\n")
     counts = dict(zip(_LINE_ENDS, (text.count("\n") - crlf, crlf, text.count("\r") - crlf), strict=True))
     return {end: count for end, count in sorted(counts.items(), key=lambda item: -item[1]) if count}
@@ -65,7 +64,7 @@ class _Layout:
         return self.found
 
     def _marks(self, span: Span) -> str:
-        """The end-of-file marks of old systems among blanks, which are no business of a layout."""
+        """The end-of-file marks of old systems among blanks, which formatting leaves unchanged."""
         return "".join(char for char in self.source.text[slice(*span)] if char == END_MARK)
 
     def _put(self, span: Span, lines: str) -> None:
@@ -74,19 +73,15 @@ class _Layout:
         if self.source.text[slice(*span)] != new:
             self.found.append(TextEdit(span, new))
 
-    def _blank(self, leaf: Leaf) -> None:
-        """Blank lines: whether one of them stays, the next line that is none decides."""
-        self.blanks.append(leaf.span)
-
-    def _go_on(self) -> None:
-        """A line that is not blank follows: of the blank ones before it one stays."""
+    def _end_blanks(self) -> None:
+        """Keep one of the blank lines before a line that is not blank."""
         for index, span in enumerate(self.blanks):
             self._put(span, "" if index else "\n")
         self.blanks.clear()
 
     def _head(self, canonical: str, leaf: Leaf) -> None:
-        """A `$` or `*` line. Other letters than ASCII stay as they are where bytes would get another meaning."""
-        self._go_on()
+        """A `$` or `*` line. Non-ASCII letters stay unchanged where changing their case could change their bytes."""
+        self._end_blanks()
         written = self.text[slice(*leaf.span)].strip(" \t\r\n")
         known = written.isascii() or self.source.encoding == "utf-8"
         before = self.source.text[slice(*leaf.span)].partition(canonical[0])[0]
@@ -94,9 +89,9 @@ class _Layout:
         self._put(leaf.span, f"{controls}{canonical if known else written}\n")
 
     def _kept(self, leaves: list[Leaf]) -> None:
-        """Lines that stay as they are, but for their line ends."""
+        """Lines that stay unchanged, except for their line ends."""
         for leaf in leaves:
-            self._go_on()
+            self._end_blanks()
             if self.mixed or leaf.span.end == len(self.text):
                 if marks := self._marks(leaf.span):
                     self._put(leaf.span, marks)
@@ -105,12 +100,12 @@ class _Layout:
                 self._put(leaf.span, lines if lines.endswith("\n") else lines + "\n")
 
     def _stray(self, leaves: list[Leaf]) -> None:
-        """Lines under no keyword."""
+        """Lines that belong to no keyword."""
         for leaf in leaves:
             if leaf.kind is Kind.BLANK:
-                self._blank(leaf)
+                self.blanks.append(leaf.span)
             elif leaf.kind is Kind.COMMENT:
-                self._go_on()
+                self._end_blanks()
                 self._put(leaf.span, comment_line(self.text, leaf.span))
             else:
                 self._kept([leaf])
@@ -119,17 +114,17 @@ class _Layout:
         """A block with a model."""
         for leaf in raw.leaves:
             if leaf.kind is Kind.BLANK:
-                self._blank(leaf)
+                self.blanks.append(leaf.span)
             else:
-                self._go_on()
+                self._end_blanks()
         for span, lines in block_lines(self.text, raw, read):
             self._put(span, lines)
 
 
 def same_meaning(one: Deck, other: Deck) -> bool:
-    """Whether sections, blocks, values, comments and lines that nobody reads are equal.
+    """Whether sections, blocks, values, comments and lines that are not read are equal.
 
-    Blanks at the end of a comment do not count, and neither do blank lines before the first section.
+    Blanks at the end of a comment and blank lines before the first section are ignored.
     """
     return (
         one.units == other.units
@@ -150,35 +145,28 @@ def _same(one: object, other: object) -> bool:
     if isinstance(one, Comment) and isinstance(other, Comment):
         return one.before == other.before and one.text.rstrip(" \t") == other.text.rstrip(" \t")
     if isinstance(one, Section) and isinstance(other, Section):
-        return one.name == other.name and one.lines == other.lines and _all(_parts(one), _parts(other))
+        same = one.name == other.name and one.lines == other.lines
+        return same and _same(one.comments, other.comments) and _same(one.blocks, other.blocks)
     if isinstance(one, Part) and isinstance(other, Part):
         names = type(one).model_fields
         return all(_same(getattr(one, name), getattr(other, name)) for name in names)
     if isinstance(one, list) and isinstance(other, list):
-        return _all(one, other)
+        return len(one) == len(other) and all(map(_same, one, other))
     return bool(one == other)
 
 
-def _parts(section: Section) -> list[object]:
-    return [*section.comments, *section.blocks]
-
-
-def _all(one: Sequence[object], other: Sequence[object]) -> bool:
-    return len(one) == len(other) and all(map(_same, one, other))
-
-
-_ALTERED = "formatting would change its meaning: this is a fault of mudline, please report it"
-_REMARKS = "it has YAML comments (#), which belong to no part of a deck and would be lost: it is left as it is"
+_ALTERED = "formatting would change its meaning, so it is left unchanged: please report this fault of mudline"
+_REMARKS = "its YAML comments (#) would be lost, so it is left unchanged: remove them to format it"
 
 
 class FormatError(Exception):
-    """A file without an error that is left as it is nevertheless; the message says why."""
+    """A file without an error that formatting leaves unchanged; the message says why."""
 
 
 def formatted(data: bytes, name: str) -> bytes:
-    """The content of a deck file in canonical form; `name` tells whether it is keyword text, JSON or YAML.
+    """The content of a deck file in canonical form; the suffix of `name` selects keyword text, JSON or YAML.
 
-    A keyword text keeps its encoding and its prevailing line end; a deck in JSON or YAML becomes what `dump` writes.
+    A keyword text keeps its encoding and its most frequent line end; a deck in JSON or YAML becomes what `dump` writes.
     Raises DeckError for a deck that has an error, and FormatError where something would be lost or changed.
     """
     form = form_of(name)

@@ -17,7 +17,7 @@ from mudline.keywords.values import Kind
 from mudline.syntax.rows import line_spans, row_fields
 
 LONGEST = 32
-"""Longer fields, such as equations, do not widen their column: what follows them on their row stands further right."""
+"""Longer fields, such as equations, do not widen their column: the fields after them on their row are shifted right."""
 
 _INTEGER = re.compile(r"[-+0-9]*")
 _NUMERIC = frozenset("+-.0123456789")
@@ -41,9 +41,9 @@ class RowKind(NamedTuple):
 
 
 class Shape(NamedTuple):
-    """The blanks of a column: its width, where its decimal points stand, and how much room is behind them.
+    """The alignment of a column: its width, the position of its decimal points, and the width from there on.
 
-    Without numbers all of it is 0 but the width: words stand on the left. Among numbers they stand on the right.
+    Without numbers all but the width is 0: words are aligned left. Among numbers they are aligned right.
     """
 
     width: int
@@ -51,14 +51,14 @@ class Shape(NamedTuple):
     right: int
 
     def padded(self, text: str) -> str:
-        """A field with its comma, one blank before it, and its column's blanks on both sides."""
+        """A field with its comma, one blank before it, and the padding of its column on both sides."""
         before = self.point - self._inner(text)
         if before <= 0:
             return f" {text},{' ' * (self.width - len(text))}"
         return f" {' ' * before}{text},{' ' * (self.width - before - len(text))}"
 
     def _inner(self, text: str) -> int:
-        """How much of a field stands before the decimal point of its column."""
+        """How many characters of a field come before the decimal point of its column."""
         if not text or text[0] in _NUMERIC:
             return _integer(text)
         return len(text) - self.right
@@ -75,7 +75,7 @@ def _integer(number: str) -> int:
 
 @dataclass(slots=True)
 class Column:
-    """Room for a column: before the decimal point, from there on, and for words; of `text` all are words."""
+    """Widths of a column: before the decimal point, from there on, and of words; with `text` all fields are words."""
 
     text: bool = False
     left: int = 0
@@ -83,7 +83,7 @@ class Column:
     words: int = 0
 
     def take(self, texts: Iterable[str]) -> None:
-        """Make room for fields."""
+        """Widen the column for fields."""
         short = [text for text in texts if len(text) <= LONGEST]
         numbers = [] if self.text else [text for text in short if text[:1] in _NUMERIC]
         if len(numbers) < len(short):
@@ -95,12 +95,12 @@ class Column:
             self.take_numbers(max(lefts), max(rights))
 
     def take_numbers(self, left: int, right: int) -> None:
-        """Make room for numbers of at most these lengths before their decimal point, and from there on."""
+        """Widen the column for numbers of at most these lengths before their decimal point, and from there on."""
         self.left = max(self.left, left)
         self.right = max(self.right, right)
 
     def shape(self) -> Shape:
-        """What came out."""
+        """The alignment of all fields so far."""
         width = max(self.left + self.right, self.words)
         return Shape(width, width - self.right if self.left or self.right else 0, self.right)
 
@@ -130,7 +130,7 @@ class WordRows:
     rows: list[list[str]]
 
     def measure(self, columns: Columns) -> None:
-        """Make room for the rows."""
+        """Widen the columns for the rows."""
         texts = list(zip_longest(*self.rows, fillvalue=""))
         for column, fields in zip(columns.upto(len(texts)), texts, strict=False):
             column.take(fields)
@@ -141,7 +141,7 @@ class WordRows:
 
 
 def cut(fields: list[str]) -> list[str]:
-    """The fields of a row without the empty ones behind the last that holds something."""
+    """The fields of a row without empty ones at its end; at least one stays."""
     length = len(fields)
     while length > 1 and not fields[length - 1]:
         length -= 1
@@ -149,7 +149,7 @@ def cut(fields: list[str]) -> list[str]:
 
 
 def line(row: Sequence[str], shapes: Iterable[Shape]) -> str:
-    """A row, indented by one blank; a row of one empty field is a comma, as an empty line would be no row."""
+    """A row, indented by one blank; a row of one empty field is a comma, as an empty line would not be a row."""
     *first, last = map(Shape.padded, shapes, row)
     return ("".join(first) + last[: last.rindex(",")]).rstrip(" ") or " ,"
 
@@ -177,7 +177,7 @@ class PlainRows:
 
     @classmethod
     def read(cls, text: str, most: int) -> Self | None:
-        """The rows of some whole lines, cut to `most` fields; None for all that is not simply numbers."""
+        """The rows of some whole lines, cut to `most` fields; None for anything but plain numbers."""
         data = text.encode("utf-8")
         if data.translate(None, _PLAIN):
             return None
@@ -216,7 +216,7 @@ class PlainRows:
         return type(self)(self.characters, self.sizes[kept], self.lefts[kept], self.column[kept], last)
 
     def measure(self, columns: Columns) -> None:
-        """Make room for the rows."""
+        """Widen the columns for the rows."""
         short = self.sizes <= LONGEST
         for number, column in enumerate(columns.upto(int(self.column.max()) + 1)):
             here = short & (self.column == number)
@@ -231,9 +231,9 @@ class PlainRows:
         after = np.maximum(width - before - self.sizes, 0) + 1
         after[self.last] = 0
         before[self.column == 0] += 1
-        room = before + self.sizes + 1 + after
-        begins = np.cumsum(room) - room + before
-        out = np.full(int(room.sum()), _BLANK, dtype=np.uint8)
+        widths = before + self.sizes + 1 + after
+        begins = np.cumsum(widths) - widths + before
+        out = np.full(int(widths.sum()), _BLANK, dtype=np.uint8)
         starts = np.cumsum(self.sizes) - self.sizes
         out[np.arange(len(self.characters)) + np.repeat(begins - starts, self.sizes)] = self.characters
         out[begins + self.sizes] = np.where(self.last, _LF, _COMMA)
@@ -243,7 +243,7 @@ class PlainRows:
 _PIECE = 256 * 1024
 _SHORT = 1000
 """Characters of a table from which on arrays are faster than lists."""
-_HELD_TOGETHER = re.compile(r'[\["{]')
+_GROUPED = re.compile(r'[\["{]')
 
 
 class Run(NamedTuple):
@@ -264,11 +264,11 @@ class Run(NamedTuple):
 
 
 def word_rows(text: str, most: int) -> WordRows:
-    """The rows of some whole lines, cut to `most` fields, whatever stands in them."""
+    """The rows of some whole lines, cut to `most` fields, with any content."""
     rows: list[list[str]] = []
     for line in line_spans(text, Span(0, len(text))):
         body = text[slice(*line)]
-        if "," not in body or _HELD_TOGETHER.search(body):
+        if "," not in body or _GROUPED.search(body):
             rows.append(cut([given.text for given in row_fields(text, line, most)]))
         else:
             rows.append(cut([piece.strip(" \t\r") for piece in body.split(",")[:most]]))

@@ -105,7 +105,7 @@ def _addition(deck: Deck, varied: VariedBlock, keyword: str, section: str) -> Ad
         )
     path = find_file(deck.folder, varied.file)
     if path is None:
-        raise RefusedError(f"there is no file {shown(unquoted(varied.file))} beside the deck")
+        raise RefusedError(f"file {shown(unquoted(varied.file))} is not found beside the deck")
     text = _block_text(_content(path, varied.file), keyword)
     try:
         text.encode(cast("TextOrigin", deck.origin).source.encoding)
