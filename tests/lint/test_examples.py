@@ -61,6 +61,8 @@ GEO001 inner-exceeds-outer E
 GEO002 number-and-curve W
 GEO003 drag-diameter-assumed I
 GEO004 zero-length-element E
+GEO005 not-on-the-seabed W
+GEO006 repeated-section W
 CRV001 too-few-points E
 CRV002 unsorted-points I
 CRV003 duplicate-ratio E
@@ -97,7 +99,9 @@ SBD019 short-mobilisation W
 SBD020 unused-characteristic-length I
 SBD021 one-constrained-dof W
 SBD022 deep-node W
-SBD023 unreadable-profile W
+SBD023 unreadable-profile I
+SBD024 one-friction-coefficient W
+SBD025 law-without-effect W
 EXT001 extension-needs-elastic E
 EXT002 floor-conflict E
 EXT003 bad-trench E
@@ -111,6 +115,9 @@ LEG001 superseded-keyword I
 UNT001 gravity-mismatch W
 UNT002 suspicious-magnitude W
 UNT003 large-friction W
+UNT004 suspicious-density W
+UNT005 suspicious-modulus W
+UNT006 suspicious-length W
 STB001 suction-snap I
 STB002 coarse-time-step I off
 STB003 stiff-jump W

@@ -19,6 +19,7 @@ Check = Callable[[LintContext], Iterable[Problem]]
 
 MODULES = (
     "references",
+    "geometry",
     "sections",
     "curves",
     "seabed",
