@@ -163,8 +163,8 @@ def repeated_section(context: LintContext) -> Iterator[Problem]:
 
     Of two sections of one set the later one counts. That is legal, but beside a set without a section it is a sign of
     an entry that was copied and kept the name of the first: its elements have neither stiffness nor mass. Correct the
-    name in one of the two entries. Nothing is reported where elements or sets come from lines or from another deck,
-    or where every element has a section.
+    name in one of the two entries. Nothing is reported where elements come from lines or from another deck, where a
+    section names a set that is not defined (REF001), or where every element has a section.
 
     Bad:
         $MODEL
@@ -211,8 +211,10 @@ def repeated_section(context: LintContext) -> Iterator[Problem]:
     Finds: 18:6
     """
     scene = context.scene
-    repeated = _repeated(scene.section_table.sections)
-    if not repeated or scene.section_table.open or scene.context.restart or "GEOMETRIC SETS" in scene.context.unread:
+    sections, reading = scene.section_table.sections, scene.context
+    repeated = _repeated(sections)
+    hidden = scene.section_table.open or reading.definers or reading.restart or "GEOMETRIC SETS" in reading.unread
+    if not repeated or hidden or any(scene.set_table.find(section.name) is None for section in sections):
         return
     lacking = scene.section_table.of_element < 0
     sets = scene.set_table.named.values() if lacking.any() else ()
