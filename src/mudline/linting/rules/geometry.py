@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
@@ -15,7 +16,7 @@ from mudline.linting.registry import rule
 from mudline.linting.rules.seabed.elevation import depths
 from mudline.scene.given import number
 from mudline.scene.model import Scene
-from mudline.scene.numbering import Floats, Indices
+from mudline.scene.numbering import Floats, Mask, blocks_of
 
 GEO005 = Code("GEO005", "not-on-the-seabed", Severity.WARNING)
 
@@ -91,50 +92,60 @@ def not_on_the_seabed(context: LintContext) -> Iterator[Problem]:
     scene = context.scene
     if scene.context.definers or scene.context.restart or any(map(holds_in_soil, scene.deck.keywords())):
         return
-    if (line := _line(scene)) is None:
-        return
-    lowest = int(line.heights.argmin())
-    node = scene.node_ids[line.nodes[lowest]]
-    if message := _above(line, float(line.heights[lowest])) or _along_z(line):
-        yield Problem(GEO005, message.format(node=f"node {node}"), where=scene.nodes.where(int(line.nodes[lowest])))
+    if (line := _line(scene)) is not None and (message := _above(line) or _along_z(line)):
+        lowest = int(np.where(line.used, depths(scene), -np.inf).argmax())
+        message = message.format(node=f"node {scene.node_ids[lowest]}")
+        yield Problem(GEO005, message, where=scene.nodes.where(lowest))
 
 
 class _Line(NamedTuple):
-    """Nodes of elements with a seabed law, their coordinates and heights above the seabed; NaN where not known."""
+    """What is known of the nodes (n,) that belong to elements with a seabed law.
 
-    nodes: Indices
-    coordinates: Floats
-    heights: Floats
+    Smallest and largest coordinates and heights above the seabed, the largest diameter, the water depth; NaN where a
+    value is not known.
+    """
+
+    used: Mask
+    x: tuple[float, float]
+    y: tuple[float, float]
+    z: tuple[float, float]
+    heights: tuple[float, float]
     diameter: float
     depth: float
 
 
 def _line(scene: Scene) -> _Line | None:
     """The line, None where nothing is known of it."""
-    ends = scene.element_nodes[scene.law != LawKind.NONE]
-    nodes = np.unique(ends)
-    if not nodes.size or nodes[0] < 0:
+    used = np.zeros(len(scene.node_ids), dtype=np.bool_)
+    for block in blocks_of(len(scene.element_ids)):
+        ends = scene.element_nodes[block][scene.law[block] != LawKind.NONE]
+        if (ends < 0).any():
+            return None
+        used[ends] = True
+    if not used.any():
         return None
-    heights = -depths(scene)[nodes]
-    coordinates = scene.coordinates[nodes]
-    if not np.isfinite(heights).all() or not np.isfinite(coordinates).all():
-        return None
+    deepest, highest = _extent(depths(scene), used)[::-1]
+    x, y, z = (_extent(axis, used) for axis in scene.coordinates.T)
     oceans = [number(block, "depth") for _, block in scene.deck.blocks("OCEAN")]
-    diameter = float(np.fmax.reduce(scene.diameter[scene.law != LawKind.NONE], initial=np.nan))
-    return _Line(nodes, coordinates, heights, diameter, oceans[-1] if oceans else np.nan)
+    diameter = float(np.fmax.reduce(scene.diameter, initial=np.nan, where=scene.law != LawKind.NONE))
+    return _Line(used, x, y, z, (-deepest, -highest), diameter, oceans[-1] if oceans else np.nan)
 
 
-def _above(line: _Line, lowest: float) -> str:
+def _extent(values: Floats, used: Mask) -> tuple[float, float]:
+    """The smallest and the largest of the values in use, NaN with a NaN among them."""
+    return float(values.min(where=used, initial=np.inf)), float(values.max(where=used, initial=-np.inf))
+
+
+def _above(line: _Line) -> str:
     """What is wrong with a line that hangs above the seabed, or ""."""
+    lowest, highest = line.heights
     if lowest > line.depth > 0.0:
         return (
             f"the lowest {{node}} lies {lowest:.5g} above the seabed, in water {line.depth:.5g} deep: correct the "
             "datum of X, which is 0 at the mudline"
         )
-    with np.errstate(over="ignore", invalid="ignore"):
-        length = float(np.hypot(*np.ptp(line.coordinates[:, 1:], axis=0)))
-        rise = float(np.ptp(line.heights))
-    if rise < LEVEL * length and lowest > HIGHEST * line.diameter:
+    length = math.hypot(line.y[1] - line.y[0], line.z[1] - line.z[0])
+    if highest - lowest < LEVEL * length and lowest > HIGHEST * line.diameter:
         return (
             f"the line lies level, its lowest {{node}} {lowest:.5g} above the seabed (over 100 diameters): correct the "
             "datum of X, which is 0 at the mudline"
@@ -144,11 +155,10 @@ def _above(line: _Line, lowest: float) -> str:
 
 def _along_z(line: _Line) -> str:
     """What is wrong with a line whose last coordinate is its height, or ""."""
-    x, _, z = line.coordinates.T
     near = NEAR * line.depth
-    first, last = float(z.min()), float(z.max())
+    first, last = line.z
     upright = abs(last - first - line.depth) <= near and (abs(first) <= near or abs(last) <= near)
-    if line.depth > 0.0 and float(np.ptp(x)) <= FLAT * line.depth and upright:
+    if line.depth > 0.0 and line.x[1] - line.x[0] <= FLAT * line.depth and upright:
         return (
             f"X is the same at all nodes and Z goes from {first:.5g} to {last:.5g}, as if it were the height: write "
             "the height as X, the first coordinate"

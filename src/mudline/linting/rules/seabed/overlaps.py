@@ -18,7 +18,7 @@ from mudline.linting.registry import rule
 from mudline.scene.context import MOST_TOLD
 from mudline.scene.laws import Grant
 from mudline.scene.model import Scene
-from mudline.scene.numbering import Indices
+from mudline.scene.numbering import Indices, one_index
 from mudline.scene.sets import NamedSet
 from mudline.scene.surfaces import surfaces
 
@@ -77,7 +77,8 @@ def overlapping_sets(context: LintContext) -> Iterator[Problem]:
     Finds: 16:6
     """
     new = _own_grants(context, "new")
-    yield from islice((problem for _, problem in _properties(context.scene, new)), MOST_TOLD)
+    if len(new) > 1:
+        yield from islice((problem for _, problem in _properties(context.scene, new)), MOST_TOLD)
     embedment = [grant for grant in _own_grants(context, "legacy") if grant.curve >= 0]
     if len(embedment) > 1:
         yield from islice(_embedment(context.scene, embedment), MOST_TOLD)
@@ -155,12 +156,13 @@ def law_without_effect(context: LintContext) -> Iterator[Problem]:
 def _unused_properties(context: LintContext) -> Iterator[Problem]:
     """Sets of *SEABED PROPERTIES without an element that follows them, unless SBD008 or REF010 gives the reason."""
     scene = context.scene
-    followed = set(np.unique(scene.laws.covered).tolist())
+    only = one_index(scene.laws.covered)
+    followed = {only} if only is not None else set(np.unique(scene.laws.covered).tolist())
     idle = {id(grant) for index, grant in enumerate(scene.laws.grants) if index not in followed}
     new = _own_grants(context, "new")
     if not any(id(grant) in idle for grant in new):
         return
-    reported = {earlier for earlier, _ in _properties(scene, new)}
+    reported = {earlier for earlier, _ in _properties(scene, new)} if len(new) > 1 else set()
     empty = {problem.where for problem in context.told(REF010)}
     for index, grant in enumerate(new):
         set_ = grant.set_

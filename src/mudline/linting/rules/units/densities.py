@@ -23,6 +23,7 @@ from mudline.linting.rules.units.quantities import (
     is_placeholder,
     likely_units,
     readable_sections,
+    rounded,
     water_density,
 )
 from mudline.scene.contact_parts.units import LENGTH_UNIT as METRES
@@ -38,6 +39,8 @@ WALL = Range(10.0, 40_000.0)
 """kg/m3: from foam to a riser joint whose steel carries the mass of its contents and buoyancy."""
 SOLID = Range(900.0, 12_000.0)
 """kg/m3: from polyethylene to lead."""
+STEEL = 7850.0
+"""kg/m3"""
 LIGHTEST_STEEL = 7000.0
 """kg/m3: a steel pipe is no lighter, as contents and coatings only add to its mass."""
 WIDEST_PIPE = 2.5
@@ -115,9 +118,8 @@ def _walls(context: LintContext, unit: str) -> Iterator[Problem]:
         ):
             continue
         what = f"{density!r} looks like {likely}, write it in {unit}" if likely else "correct it"
-        message = (
-            f"a wall density of {density!r} {unit}, expected {WALL.words(factor, unit)} (steel 7850 kg/m3): {what}"
-        )
+        expected = f"{WALL.words(factor, unit)} (steel {rounded(STEEL / factor)})"
+        message = f"a wall density of {density!r} {unit}, expected {expected}: {what}"
         yield Problem(UNT004, message, where=where._replace(path=(*where.path, "rigid", "density")))
 
 

@@ -22,7 +22,7 @@ from mudline.scene.context import MOST_TOLD
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.given import number
 from mudline.scene.model import Scene
-from mudline.scene.numbering import Floats, Mask
+from mudline.scene.numbering import Floats, Mask, looked_up
 
 UNT006 = Code("UNT006", "suspicious-length", Severity.WARNING)
 
@@ -124,21 +124,32 @@ def _in_lengths(scene: Scene) -> Iterator[tuple[SceneCurve, float]]:
     All elements on the curve must have one diameter.
     """
     laws = scene.laws
-    if not laws.curves:
+    candidates = [index for index, curve in enumerate(laws.curves) if _may_be_in_lengths(curve)]
+    if not candidates:
         return
     of_grant = np.array([*(grant.curve for grant in laws.grants), -1], dtype=np.intp)
-    of_element = of_grant[laws.of_element]
+    of_element = looked_up(of_grant, laws.of_element)
     smallest, largest = np.full(len(laws.curves) + 1, np.inf), np.full(len(laws.curves) + 1, -np.inf)
     with np.errstate(invalid="ignore"):  # an element without a diameter makes both NaN
         np.minimum.at(smallest, of_element, scene.diameter)
         np.maximum.at(largest, of_element, scene.diameter)
-    for index in np.flatnonzero(smallest[:-1] == largest[:-1]).tolist():
+    for index in candidates:
         curve, diameter = laws.curves[index], float(smallest[index])
-        ratios = curve.points[curve.points[:, 0] != 0.0, 0]
-        if not curve.usable or len(ratios) < FEWEST_POINTS or ratios.max() > LARGEST_RATIO:
-            continue
-        if _is_round(ratios / diameter).all() and _is_round(ratios).mean() < MOST_ROUND:
+        if diameter == largest[index] and _is_round(_ratios(curve) / diameter).all():
             yield curve, diameter
+
+
+def _may_be_in_lengths(curve: SceneCurve) -> bool:
+    """Whether most ratios of a curve are no round numbers, and CRV010 has nothing to say of them."""
+    ratios = _ratios(curve)
+    if not curve.usable or len(ratios) < FEWEST_POINTS or ratios.max() > LARGEST_RATIO:
+        return False
+    return bool(_is_round(ratios).mean() < MOST_ROUND)
+
+
+def _ratios(curve: SceneCurve) -> Floats:
+    found: Floats = curve.points[curve.points[:, 0] != 0.0, 0]
+    return found
 
 
 def _is_round(values: Floats) -> Mask:
@@ -164,9 +175,10 @@ def _longest_of_neighbours(scene: Scene) -> Iterator[tuple[int, float]]:
     All must be of one section, so that a tether or a rigid link beside a finely meshed pipe does not count.
     """
     ends, length = scene.element_nodes, scene.length
-    usable = np.flatnonzero((ends >= 0).all(axis=1) & np.isfinite(length) & (length > 0.0))
-    if not usable.size or length[usable].max() <= LONGEST_ELEMENT * length[usable].min():
+    shortest = length.min(where=length > 0.0, initial=np.inf)
+    if not np.fmax.reduce(length, initial=0.0) > LONGEST_ELEMENT * shortest:
         return
+    usable = np.flatnonzero((ends >= 0).all(axis=1) & np.isfinite(length) & (length > 0.0))
     order = usable[np.argsort(length[usable], kind="stable")]
     nodes, elements = ends[order].ravel(), np.repeat(order, 2)
     by_node = np.argsort(nodes, kind="stable")  # of one node the longest element comes last
@@ -192,15 +204,15 @@ def _ocean(context: LintContext) -> Iterator[Problem]:
     if not oceans or not len(scene.node_ids):
         return
     where, depth = oceans[-1]
-    heights = -depths(scene)
-    if not depth > 0.0 or not np.isfinite(heights).all() or heights.min() > depth:
-        return
-    highest = int(heights.argmax())
+    below = depths(scene)
     metres = METRES.get(scene.units)
-    above = (heights[highest] - depth) * (metres or math.inf)
-    if heights[highest] > (HIGHEST if metres else HIGHEST_IN_USER_UNITS) * depth and above > TALLEST:
+    height = -float(below.min())
+    above_sea = (height - depth) * (metres or math.inf)
+    if not 0.0 < depth < math.inf or -float(below.max()) > depth or not height < math.inf:
+        return
+    if height > (HIGHEST if metres else HIGHEST_IN_USER_UNITS) * depth and above_sea > TALLEST:
         message = (
-            f"node {scene.node_ids[highest]} lies {heights[highest]:.5g} high in water {depth!r} deep, expected "
+            f"node {scene.node_ids[below.argmin()]} lies {height:.5g} high in water {depth!r} deep, expected "
             "little more than the depth: write both in one unit (km, feet or mm?), and heights as X"
         )
         yield Problem(UNT006, message, where=where._replace(path=("depth",)))
