@@ -12,10 +12,9 @@ from mudline.cli.exits import DONE
 from mudline.cli.inputs import STDIN, load, refuses_bad_decks
 from mudline.cli.options import View
 from mudline.cli.streams import counted, emit, notify, reason, write_bytes, write_text
-from mudline.variations.manifest import MANIFEST, manifest_text
-from mudline.variations.model import PlannedDeck
-from mudline.variations.output import conflicts, lacking
-from mudline.variations.planning import ExpansionPlan, plan
+from mudline.variations.files import MANIFEST, conflicts, lacking, manifest_text
+from mudline.variations.planning import plan
+from mudline.variations.rewriting import ExpansionPlan, PlannedDeck
 
 _MOST_REPORTED = 5
 _COLUMNS = ("file", "case", "values")

@@ -15,8 +15,7 @@ from mudline.cli.streams import counted, emit_deck, notify, notify_diagnostics, 
 from mudline.deck.loading import dump, form_of, load_bytes
 from mudline.diagnostics import DeckError
 from mudline.linting.output.visible import visible
-from mudline.migration.continuing import Continuations
-from mudline.migration.migrating import Migration, legacy_blocks, migrate
+from mudline.migration.migrating import Continuations, Migration, legacy_blocks, migrate
 from mudline.migration.verification import Verdict, verify
 from mudline.syntax.source import Source
 
@@ -109,8 +108,8 @@ class _Run:
         else:
             self._note(
                 f"verified: {counted(verdict.elements, 'element')} of {counted(verdict.kinds, 'kind')}, and "
-                f"{verdict.stand_ins} stand-ins for its sets, at {verdict.positions} positions: forces, stiffnesses, "
-                "friction, lateral resistance, suction and bed are bitwise equal"
+                f"{verdict.representatives} representative elements for its sets, at {verdict.positions} positions: "
+                "forces, stiffnesses, friction, lateral resistance, suction and seabed are bitwise equal"
             )
         return not verdict.differences
 

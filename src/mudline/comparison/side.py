@@ -6,7 +6,8 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import cast
 
-from mudline.codes import REF013, REF014, SYN002, SYN006, SYN017
+from mudline.codes.fields import SYN002, SYN006, SYN017
+from mudline.codes.references import REF013, REF014
 from mudline.deck.model import Nowhere
 from mudline.deck.parameters import Parameters
 from mudline.deck.reading import TextOrigin

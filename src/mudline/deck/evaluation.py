@@ -7,7 +7,7 @@ from dataclasses import replace
 from functools import cache
 from typing import Any, NewType
 
-from mudline.codes import SYN002
+from mudline.codes.fields import SYN002
 from mudline.deck.model import Deck
 from mudline.deck.parameters import NoValueError, Parameters, Value, whole_fault
 from mudline.diagnostics import Blocks, Problem, Where

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mudline.codes import SYN002, SYN003, SYN016
+from mudline.codes.fields import SYN002, SYN003, SYN016
 from mudline.diagnostics import Problem, Span
 from mudline.keywords.model import Slot, columns_of, row_format
 from mudline.keywords.places import Path

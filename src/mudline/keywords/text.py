@@ -6,7 +6,8 @@ import re
 from collections.abc import Iterable
 from itertools import pairwise
 
-from mudline.codes import SYN002, SYN005, SYN015, SYN016
+from mudline.codes.fields import SYN002, SYN015, SYN016
+from mudline.codes.words import SYN005
 from mudline.diagnostics import Problem, Repair, Span
 from mudline.keywords.model import Slot, layout
 from mudline.keywords.table import LARGEST_WHOLE, not_whole

@@ -16,12 +16,7 @@ from mudline.scene.build import resolve
 from mudline.scene.context import MOST_TOLD
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene
-from mudline.variations.undefined import (
-    misspelt_keywords,
-    misspelt_sections,
-    undefined_parameters,
-    undefined_variations,
-)
+from mudline.variations.names import misspelt_keywords, misspelt_sections, undefined_parameters, undefined_variations
 
 T = TypeVar("T")
 

@@ -5,7 +5,10 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, cast
 
-from mudline.codes import REF006, REF010, SYN001, SYN003, SYN005
+from mudline.codes.fields import SYN003
+from mudline.codes.lines import SYN001
+from mudline.codes.references import REF006, REF010
+from mudline.codes.words import SYN005
 from mudline.diagnostics import Severity, Where
 from mudline.scene.context import Context
 from mudline.scene.named_nodes import NamedNodes

@@ -12,17 +12,21 @@ from mudline.deck.parameters import folded
 from mudline.diagnostics import Blocks, Code, Problem, Severity
 from mudline.keywords.text import shown
 from mudline.scene.checks.declaring import check
+from mudline.scene.checks.files import missing_file
+from mudline.scene.deck_files import file_name
 from mudline.scene.floor import FloorKind
 from mudline.scene.given import number
+from mudline.scene.profile_file import COMPILED
 from mudline.scene.surfaces import surfaces
 
 if TYPE_CHECKING:
     from mudline.keywords.library.seabed_planes import PlaneBounds, SeabedPlanes
+    from mudline.keywords.library.seabed_profile import SeabedProfile
     from mudline.scene.model import Scene
 
 SBD011 = Code("SBD011", "profile-needs-elastic", Severity.ERROR)
 SBD012 = Code("SBD012", "steep-slope", Severity.ERROR)
-SBD023 = Code("SBD023", "unreadable-profile", Severity.WARNING)
+SBD023 = Code("SBD023", "unreadable-profile", Severity.INFO)
 EXT002 = Code("EXT002", "floor-conflict", Severity.ERROR)
 EXT007 = Code("EXT007", "bad-plane", Severity.ERROR)
 
@@ -38,28 +42,18 @@ def profile_needs_elastic(scene: Scene) -> Iterator[Problem]:
     three dimensions needs TYPE=ELASTIC. Cubic interpolation and DIRECTION= are described for elastic beds only, which
     is a warning (inferred).
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=RIGID
-         SET=ALL
-         FRICTION=0.3, 0.6
-        *SEABED PROFILE
-         TYPE=SLOPING
-         DIRECTION=30.0
-         SLOPE=2.0
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         FRICTION=0.3, 0.6
-        *SEABED PROFILE
-         TYPE=SLOPING
-         DIRECTION=30.0
-         SLOPE=2.0
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+        - TYPE=RIGID
+        + TYPE=ELASTIC
+          SET=ALL
+        + STIFFNESS=50000.0
+          FRICTION=0.3, 0.6
+         *SEABED PROFILE
+          TYPE=SLOPING
+          DIRECTION=30.0
+          SLOPE=2.0
 
     Finds: 8:12
     """
@@ -85,25 +79,16 @@ def steep_slope(scene: Scene) -> Iterator[Problem]:
     A slope is an angle in degrees: one of 90 or more is no bed at all, and one above 45 is steeper than soil stands. A
     gradient in percent, typed as degrees, is a common cause. Correct it.
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-        *SEABED PROFILE
-         TYPE=SLOPING
-         SLOPE=95.0
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-        *SEABED PROFILE
-         TYPE=SLOPING
-         SLOPE=2.5
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+         *SEABED PROFILE
+          TYPE=SLOPING
+        - SLOPE=95.0
+        + SLOPE=2.5
 
     Finds: 8:8
     """
@@ -123,28 +108,33 @@ def unreadable_profile(scene: Scene) -> Iterator[Problem]:
     """The profile of the seabed cannot be read, or its points make no seabed.
 
     A compiled profile (.fcsbd) is binary, and its format is not public: the deck keeps it, and mudline knows nothing of
-    the seabed that it describes. A linear profile may be a text file instead, with a line `Y, elevation` for each
-    point; in such a file the finding names the first line that is no point. Points that make no seabed, such as one
-    alone or two elevations at one Y, are an error.
+    the seabed that it describes, so the deck cannot be evaluated. A linear profile may be a text file instead, with a
+    line `Y, elevation` for each point; in such a file the finding is a warning and names the first line that cannot be
+    read. Points that make no seabed, such as a single one or two elevations at one Y, are an error. A file that is
+    missing is reported as REF015 only.
 
-    Bad:
-        $MODEL
-        *SEABED PROFILE
-         TYPE=2D
-         FILE=shelf.fcsbd
+    Example:
+         $MODEL
+        -*ELASTIC SURFACE
+        - 50000.0, 0.3, 0.6
+        - 0.0, 0.0
+        - 0.0, 1.0
+        +*SEABED PROFILE
+        + TYPE=SLOPING
+        + SLOPE=1.5
 
-    Good:
-        $MODEL
-        *SEABED PROFILE
-         TYPE=SLOPING
-         SLOPE=1.5
-
-    Finds: 4:7
+    Finds: 4:2
     """
     floor = scene.floor
+    missing = {problem.where for problem in missing_file(scene)} if floor.unreadable else set()
     for where, message in floor.unreadable:
+        if where in missing:
+            continue
         used = bool(floor.missing) and (where.section, where.block) == (floor.where.section, floor.where.block)
-        yield Problem(SBD023, message, where=where, blocks=Blocks.ALWAYS if used else Blocks.NEVER)
+        profile = cast("SeabedProfile", scene.deck.sections[where.section].blocks[where.block])
+        compiled = file_name(profile.file or "").lower().endswith(COMPILED)
+        severity = Severity.INFO if compiled else Severity.WARNING
+        yield Problem(SBD023, message, None, severity, where, blocks=Blocks.ALWAYS if used else Blocks.NEVER)
     known = floor.kind is FloorKind.PROFILE and not floor.missing and not np.isnan(floor.points).any()
     if known and (fault := _fault(scene)):
         where = floor.where._replace(path=("file",)) if floor.file else floor.where
@@ -158,30 +148,19 @@ def floor_conflict(scene: Scene) -> Iterator[Problem]:
     *SEABED PLANES describes the whole sea floor, and so does *SEABED PROFILE or the slope of a legacy surface. Which of
     them the pipe lies on would be a guess. Keep one of them.
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-        *SEABED PROFILE
-         TYPE=SLOPING
-         SLOPE=2.0
-        *SEABED PLANES
-         PLANE=shelf
-         POINT=0.0, 0.0, 0.0
-         SLOPE=2.0
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-        *SEABED PLANES
-         PLANE=shelf
-         POINT=0.0, 0.0, 0.0
-         SLOPE=2.0
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+        -*SEABED PROFILE
+        - TYPE=SLOPING
+        - SLOPE=2.0
+         *SEABED PLANES
+          PLANE=shelf
+          POINT=0.0, 0.0, 0.0
+          SLOPE=2.0
 
     Finds: 9:1
     """
@@ -205,29 +184,18 @@ def bad_plane(scene: Scene) -> Iterator[Problem]:
     first. Give what is missing. Two planes of one name are a warning: names are for readers, and case does not count in
     them.
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-        *SEABED PLANES
-         PLANE=shelf
-         POINT=0.0, 0.0, 0.0
-         SLOPE=2.0
-         BOUNDS=900.0, 200.0, -500.0, 500.0
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-        *SEABED PLANES
-         PLANE=shelf
-         POINT=0.0, 0.0, 0.0
-         SLOPE=2.0
-         BOUNDS=200.0, 900.0, -500.0, 500.0
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+         *SEABED PLANES
+          PLANE=shelf
+          POINT=0.0, 0.0, 0.0
+          SLOPE=2.0
+        - BOUNDS=900.0, 200.0, -500.0, 500.0
+        + BOUNDS=200.0, 900.0, -500.0, 500.0
 
     Finds: 10:2
     """

@@ -32,30 +32,19 @@ def unused_curve(context: LintContext) -> Iterator[Problem]:
     it in a STIFFNESS= of *SEABED PROPERTIES, or remove it. Nothing is said of a deck whose STIFFNESS= is an equation:
     its parameters choose the curve; nor of a curve whose name reads as a number, which SBD017 tells.
 
-    Bad:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Soft Clay
-         0.0, 0.0
-         0.1, 1200.0
-         CURVE=Backfill
-         0.0, 0.0
-         0.1, 300.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Soft Clay
-
-    Good:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Soft Clay
-         0.0, 0.0
-         0.1, 1200.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Soft Clay
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Soft Clay
+          0.0, 0.0
+          0.1, 1200.0
+        - CURVE=Backfill
+        - 0.0, 0.0
+        - 0.1, 300.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Soft Clay
 
     Finds: 6:8
     """
@@ -116,30 +105,19 @@ def duplicate_curve(context: LintContext) -> Iterator[Problem]:
     The later one is taken (inferred: the language does not say what happens), so the points of the earlier one count
     for nothing. Case does not count in names. Choose another name, or remove one of the curves.
 
-    Bad:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Clay
-         0.0, 0.0
-         0.1, 1200.0
-         CURVE=CLAY
-         0.0, 0.0
-         0.1, 2500.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
-
-    Good:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Clay
-         0.0, 0.0
-         0.1, 1200.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Clay
+          0.0, 0.0
+          0.1, 1200.0
+        - CURVE=CLAY
+        - 0.0, 0.0
+        - 0.1, 2500.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Clay
 
     Finds: 6:8
     """

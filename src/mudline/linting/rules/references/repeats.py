@@ -29,37 +29,23 @@ def repeated_set(context: LintContext) -> Iterator[Problem]:
     Who changes one of them believes that the set is changed, and the elements of the other one stay in it, with their
     stiffness and curve. Case does not count in names. Put the elements under one SET=, or choose another name.
 
-    Bad:
-        $MODEL
-        *NODE
-         1, 12.0, 0.0
-         5, 12.0, 40.0
-         GEN=1, 5
-        *ELEMENT
-         1, 1, 2
-         GEN=1, 4
-        *ELEMENT SETS
-         SET=Coated
-         1, 2
-         SET=Bare
-         3
-         SET=COATED
-         4
-
-    Good:
-        $MODEL
-        *NODE
-         1, 12.0, 0.0
-         5, 12.0, 40.0
-         GEN=1, 5
-        *ELEMENT
-         1, 1, 2
-         GEN=1, 4
-        *ELEMENT SETS
-         SET=Coated
-         1, 2, 4
-         SET=Bare
-         3
+    Example:
+         $MODEL
+         *NODE
+          1, 12.0, 0.0
+          5, 12.0, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *ELEMENT SETS
+          SET=Coated
+        - 1, 2
+        + 1, 2, 4
+          SET=Bare
+          3
+        - SET=COATED
+        - 4
 
     Finds: 14:6
     """
@@ -88,24 +74,16 @@ def repeated_parameter(context: LintContext) -> Iterator[Problem]:
     is the one that a reader finds first. Items of a list have the name of the list in front, as in Soil_stiffness.
     Remove one of the two.
 
-    Bad:
-        $PREPROCESSOR
-        *PARAMETERS
-         depth, 850.0
-         od, 0.3239
-         Depth, 910.0
-        $MODEL
-        *OCEAN
-         =[depth], 1025.0, 9.81
-
-    Good:
-        $PREPROCESSOR
-        *PARAMETERS
-         depth, 910.0
-         od, 0.3239
-        $MODEL
-        *OCEAN
-         =[depth], 1025.0, 9.81
+    Example:
+         $PREPROCESSOR
+         *PARAMETERS
+        - depth, 850.0
+        + depth, 910.0
+          od, 0.3239
+        - Depth, 910.0
+         $MODEL
+         *OCEAN
+          =[depth], 1025.0, 9.81
 
     Finds: 5:2
     """

@@ -15,6 +15,7 @@ SBD013 = Code("SBD013", "legacy-friction-order", Severity.WARNING)
 SBD014 = Code("SBD014", "unused-friction-stiffness", Severity.INFO)
 SBD015 = Code("SBD015", "extent-without-stiffness", Severity.WARNING)
 SBD020 = Code("SBD020", "unused-characteristic-length", Severity.INFO)
+SBD024 = Code("SBD024", "one-friction-coefficient", Severity.WARNING)
 
 _DIRECTIONS = ("longitudinal", "transverse")
 _CHARACTERISTIC = (3.048, 10.0)
@@ -28,23 +29,15 @@ def lateral_and_friction(context: LintContext) -> Iterator[Problem]:
     coefficient to zero. Lateral walking is then held by the spring alone, however large the coefficient is. Keep the
     one that the assessment is meant to rest on.
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         FRICTION=0.3, 0.6
-         LATERAL=2000.0
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         FRICTION=0.3, 0.0
-         LATERAL=2000.0
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+        - FRICTION=0.3, 0.6
+        + FRICTION=0.3, 0.0
+          LATERAL=2000.0
 
     Finds: 7:10
     """
@@ -64,21 +57,14 @@ def legacy_friction_order(context: LintContext) -> Iterator[Problem]:
     FRICTION= has mobilisation lengths. A line copied from a legacy deck then spreads the build-up of friction over
     metres, and the pipe slides far before it is held. Leave the field empty, or give the mobilisation length.
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         FRICTION=0.3, 0.6, 3.048, 3.048
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         FRICTION=0.3, 0.6, 0.03, 0.05
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+        - FRICTION=0.3, 0.6, 3.048, 3.048
+        + FRICTION=0.3, 0.6, 0.03, 0.05
 
     Finds: 6:21
     """
@@ -100,21 +86,14 @@ def unused_friction_stiffness(context: LintContext) -> Iterator[Problem]:
     this direction the pipe is free, and the modes have less restraint than the deck seems to give. The same holds for
     *FRICTION of a load case or of modes. Give a coefficient, or remove the stiffness.
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         FRICTION=0.0, 0.6, , , , 500.0, 250.0
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         FRICTION=0.3, 0.6, , , , 500.0, 250.0
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+        - FRICTION=0.0, 0.6, , , , 500.0, 250.0
+        + FRICTION=0.3, 0.6, , , , 500.0, 250.0
 
     Finds: 6:27
     """
@@ -155,21 +134,14 @@ def extent_without_stiffness(context: LintContext) -> Iterator[Problem]:
     The extent is the height over which suction holds a rising pipe; without a stiffness nothing holds it, and uplift is
     free at once. Give the suction stiffness, or remove the extent.
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         SUCTION=0.0, 0.15
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         SUCTION=8000.0, 0.15
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+        - SUCTION=0.0, 0.15
+        + SUCTION=8000.0, 0.15
 
     Finds: 6:15
     """
@@ -186,18 +158,15 @@ def unused_characteristic_length(context: LintContext) -> Iterator[Problem]:
     The mobilisation length of a direction overrides its characteristic length, which then counts for nothing: a reader
     who changes it to see what the mesh does will see no change. Remove the one that is not meant.
 
-    Bad:
-        $MODEL
-        *ELASTIC SURFACE
-         50000.0, 0.3, 0.6, , , , 3.048, , , 0.03
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         FRICTION=0.3, 0.6, 0.03
+    Example:
+         $MODEL
+        -*ELASTIC SURFACE
+        - 50000.0, 0.3, 0.6, , , , 3.048, , , 0.03
+        +*SEABED PROPERTIES
+        + TYPE=ELASTIC
+        + SET=ALL
+        + STIFFNESS=50000.0
+        + FRICTION=0.3, 0.6, 0.03
 
     Finds: 3:27
     """
@@ -208,3 +177,36 @@ def unused_characteristic_length(context: LintContext) -> Iterator[Problem]:
             if both and not friction_replaced(context, entry):
                 message = f"the {direction} mobilisation length overrides this characteristic length: remove one"
                 yield Problem(SBD020, message, where=entry.place(name))
+
+
+@rule(SBD024)
+def one_friction_coefficient(context: LintContext) -> Iterator[Problem]:
+    """Friction has a longitudinal coefficient and no transverse one.
+
+    The second coefficient is 0 unless it is given (stated for the legacy surfaces, inferred for FRICTION=), so nothing
+    but the pipe itself resists sideways movement: it slides under the smallest current. People who mean one coefficient
+    for both directions write it once. Give both, or a 0 where no transverse friction is meant. A line with LATERAL=
+    needs none, as its spring replaces transverse friction.
+
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+        - FRICTION=0.6
+        + FRICTION=0.6, 0.6
+
+    Finds: 6:11
+    """
+    for entry in given(context):
+        longitudinal = entry.value("longitudinal")
+        single = positive(longitudinal) and entry.value("transverse") is None and absent(context, entry, "transverse")
+        sprung = entry.type_ != "RIGID" and positive(entry.value("lateral"))
+        if single and not sprung and not friction_replaced(context, entry):
+            source = "0" if entry.legacy else "0 (inferred)"
+            message = (
+                f"friction has one coefficient, {longitudinal!r}, and the transverse one is then {source}: "
+                "give both, the second one as 0 if that is meant"
+            )
+            yield Problem(SBD024, message, where=entry.place("longitudinal"))

@@ -1,11 +1,11 @@
-"""Values that belong to another system of units."""
+"""Gravity, forces and friction of another system of units or of another field."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import islice
 from math import isnan
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
@@ -17,13 +17,11 @@ from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
 from mudline.linting.rules.curves.columns import swapped
-from mudline.scene.checks.sections import format_of
 from mudline.scene.context import MOST_TOLD
 from mudline.scene.model import Scene
 from mudline.scene.surfaces import surfaces
 
 if TYPE_CHECKING:
-    from mudline.keywords.library.geometric_sets import GeometricSets
     from mudline.keywords.library.ocean import Ocean
     from mudline.keywords.library.seabed_friction import SeabedFriction
     from mudline.keywords.library.seabed_properties import SeabedProperties
@@ -34,14 +32,28 @@ UNT003 = Code("UNT003", "large-friction", Severity.WARNING)
 
 _NEAR = 0.02
 _LENGTHS = {"metric": "m/s2", "imperial": "ft/s2"}
-SOFTEST = 100.0
-"""N/m per metre: a seabed that is softer is one in kN."""
-WEAKEST = 10.0
-"""N/m: likewise."""
-WEAKEST_SOIL = 100.0
-"""Pa: a cohesion in kPa."""
-WIDEST = 10.0
-"""m: a wider pipe is one in millimetres."""
+
+
+class _Least(NamedTuple):
+    """What carries a pipe at least, in a system of units: less is a value in `thousands`."""
+
+    stiffness: float
+    force: float
+    cohesion: float
+    force_unit: str
+    length_unit: str
+    pressure_unit: str
+    thousands: str
+    pressure_thousands: str
+
+
+LEAST = {
+    "metric": _Least(100.0, 10.0, 100.0, "N/m", "metre", "Pa", "kN", "kPa"),
+    "imperial": _Least(2.0, 0.7, 2.0, "lbf/ft", "foot", "lbf/ft2", "kip", "kip/ft2"),
+}
+"""Of user units nothing is known."""
+NARROWEST = {"metric": 0.1, "imperial": 0.328}
+"""Diameter of a pipe below which the least force falls with the diameter."""
 ROUGHEST = 2.0
 
 
@@ -53,15 +65,11 @@ def gravity_mismatch(context: LintContext) -> Iterator[Problem]:
     gravity 32.2. A deck with the gravity of the other system was saved under the wrong suffix, or only half of it was
     converted. Correct the gravity, or give the file its suffix. More than 2 % away is told.
 
-    Bad:
-        $MODEL
-        *OCEAN
-         500.0, 1025.0, 32.2
-
-    Good:
-        $MODEL
-        *OCEAN
-         500.0, 1025.0, 9.81
+    Example:
+         $MODEL
+         *OCEAN
+        - 500.0, 1025.0, 32.2
+        + 500.0, 1025.0, 9.81
 
     Finds: 3:17
     """
@@ -85,69 +93,63 @@ def _near(gravity: float, expected: float) -> bool:
 
 @rule(UNT002)
 def suspicious_magnitude(context: LintContext) -> Iterator[Problem]:
-    """A value of a metric deck looks as if it were in kilonewtons or millimetres.
+    """A force or stiffness of the seabed looks as if it were in kilonewtons or kips.
 
-    Metric decks are in metres and newtons. A seabed of less than 100 N/m for each metre, or a curve that nowhere
-    reaches 10 N/m, does not carry any pipe; a cohesion of less than 100 Pa is that of a fluid; and no pipe is wider
-    than 10 m. Such a value is written in other units, as a rule. Write it in metres and newtons. A stiffness or a
-    cohesion of 0 is not told.
+    Metric decks are in metres and newtons, imperial ones in feet and pounds (lbf). A seabed of less than 100 N/m for
+    each metre (2 lbf/ft for each foot), or a curve that nowhere reaches 10 N/m (0.7 lbf/ft), carries no pipe, and a
+    cohesion of less than 100 Pa (2 lbf/ft2) is that of a fluid. Such a value is usually written in other units. Write
+    it in newtons or pounds. For cables thinner than 0.1 m the least force of a curve falls with their diameter. A
+    stiffness or a cohesion of 0 is accepted.
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50.0
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+        - STIFFNESS=50.0
+        + STIFFNESS=50000.0
 
     Finds: 5:12
     """
-    if context.scene.units == "metric":
-        for kind in (_soft, _weak, _wide, _fluid):
-            yield from islice(kind(context.scene), MOST_TOLD)
+    if least := LEAST.get(context.scene.units):
+        for kind in (_soft, _weak, _fluid):
+            yield from islice(kind(context.scene, least), MOST_TOLD)
 
 
-def _soft(scene: Scene) -> Iterator[Problem]:
+def _soft(scene: Scene, least: _Least) -> Iterator[Problem]:
     for grant in scene.laws.grants:
-        if grant.kind is LawKind.LINEAR and not grant.unknown and 0.0 < grant.stiffness < SOFTEST:
-            message = f"a seabed stiffness of {grant.stiffness!r} N/m per metre: write it in newtons (kN?)"
+        if grant.kind is LawKind.LINEAR and not grant.unknown and 0.0 < grant.stiffness < least.stiffness:
+            message = (
+                f"a seabed stiffness of {grant.stiffness!r} {least.force_unit} per {least.length_unit}, expected at "
+                f"least {least.stiffness:g}: write it in {least.force_unit} ({least.thousands}?)"
+            )
             yield Problem(UNT002, message, where=grant.where)
 
 
-def _weak(scene: Scene) -> Iterator[Problem]:
-    for curve in scene.laws.curves:
+def _weak(scene: Scene, least: _Least) -> Iterator[Problem]:
+    for index, curve in enumerate(scene.laws.curves):
         largest = float(np.abs(curve.points[:, 1]).max(initial=0.0))
-        if curve.whole and 0.0 < largest < WEAKEST and not swapped(curve):
-            message = f"no force of curve {shown(curve.name)} is above {largest!r} N/m: write them in newtons (kN?)"
+        if not curve.whole or not 0.0 < largest < least.force or swapped(curve):
+            continue
+        widest = float(np.fmax.reduce(scene.diameter[scene.laws.followers(index)], initial=0.0))
+        if widest == 0.0 or largest < least.force * widest / NARROWEST[scene.units]:
+            message = (
+                f"no force of curve {shown(curve.name)} is above {largest!r} {least.force_unit}, expected at least "
+                f"{least.force:g} for a pipe: write them in {least.force_unit} ({least.thousands}?)"
+            )
             yield Problem(UNT002, message, where=curve.where)
 
 
-def _wide(scene: Scene) -> Iterator[Problem]:
-    for section in scene.section_table.sections:
-        if section.diameter > WIDEST:
-            message = f"an external diameter {section.source} of {section.diameter!r} m: write it in metres (mm?)"
-            yield Problem(UNT002, message, where=_diameter(scene.deck, section.where, section.source))
-
-
-def _fluid(scene: Scene) -> Iterator[Problem]:
+def _fluid(scene: Scene, least: _Least) -> Iterator[Problem]:
     suction = scene.extensions.get("SEABED SUCTION")
     for entry, where in zip(suction.entries, suction.places, strict=True) if suction else ():
         cohesion = getattr(entry, "cohesion", None)
-        if isinstance(cohesion, float) and 0.0 < cohesion < WEAKEST_SOIL:
-            message = f"a cohesion of {cohesion!r} Pa: write it in pascals (kPa?)"
+        if isinstance(cohesion, float) and 0.0 < cohesion < least.cohesion:
+            message = (
+                f"a cohesion of {cohesion!r} {least.pressure_unit}, expected at least {least.cohesion:g}: write it in "
+                f"{least.pressure_unit} ({least.pressure_thousands}?)"
+            )
             yield Problem(UNT002, message, where=where._replace(path=(*where.path, "cohesion")))
-
-
-def _diameter(deck: Deck, where: Where, source: str) -> Where:
-    """The place of Do or Dd of a section, in its property line."""
-    block = cast("GeometricSets", deck.sections[where.section].blocks[where.block])
-    return where._replace(path=(*where.path, format_of(block.sets[cast("int", where.path[1])]), source))
 
 
 @rule(UNT003)
@@ -158,21 +160,14 @@ def large_friction(context: LintContext) -> Iterator[Problem]:
     stands in the field as a rule: the fields of FRICTION= have another order than those of *ELASTIC SURFACE, which
     begin with the stiffness. Correct the field.
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         FRICTION=50000.0, 0.3, 0.6
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         FRICTION=0.3, 0.6
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+        - FRICTION=50000.0, 0.3, 0.6
+        + FRICTION=0.3, 0.6
 
     Finds: 6:11
     """
