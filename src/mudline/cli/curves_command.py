@@ -16,7 +16,7 @@ from mudline.linting.output.visible import visible
 from mudline.results.csv_lines import csv_lines
 from mudline.results.curves import curve_rows, diameters, point_table, static_table, used_curves, value_table
 from mudline.results.numbers import shown
-from mudline.results.units import headed, unit_names
+from mudline.results.units import UnitNames, headed, unit_names
 from mudline.scene.build import resolve
 from mudline.scene.model import Scene
 
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from mudline.cli.printing import Printer
 
 _MOST_DIAMETERS = 3
+_AT = ("ratio", "force", "slope", "segment", "extrapolated")
 _GOES_ON = "Below its first and above its last point a curve goes on with the slope of its end segment."
 
 
@@ -102,32 +103,21 @@ def _print_curves(scene: Scene, rows: list[dict[str, Any]], view: View) -> None:
     printer = view.printer()
     names = unit_names(scene.units)
     force, slope = headed("force", names.line_force), headed("slope", names.line_force)
-    stiffness = headed("stiffness", names.stiffness)
+    ends = ("from\nratio", "to\nratio", *(headed(f"{end}\nforce", names.line_force) for end in ("from", "to")))
     for (index, entry, _), row in zip(used_curves(scene), rows, strict=True):
         sizes = diameters(scene, index)
         drawn = sizes if view.verbose or len(sizes) <= _MOST_DIAMETERS else [sizes[0], sizes[-1]]
-        columns = (
-            "from\nratio",
-            "to\nratio",
-            headed("from\nforce", names.line_force),
-            headed("to\nforce", names.line_force),
-            slope,
-            *(headed(f"stiffness\nD={shown(size)}", names.stiffness) for size in drawn),
-        )
+        stiffnesses = (headed(f"stiffness\nD={shown(size)}", names.stiffness) for size in drawn)
         note = "" if drawn == sizes else f"{len(sizes)} diameters follow this curve: -v shows all"
-        printer.table(_title(row, sizes, embedment=entry.embedment), columns, _segments(row, drawn), note=note)
+        title = _title(row, sizes, embedment=entry.embedment)
+        printer.table(title, (*ends, slope, *stiffnesses), _segments(row, drawn), note=note)
         if row["at"]:
-            columns = ("ratio", force, slope, "segment", "extrapolated")
-            printer.table(f"{row['name']} at", columns, [_at(value) for value in row["at"]])
+            values = [
+                [value[key] for key in ("ratio", "force", "slope", "segment", "extrapolated")] for value in row["at"]
+            ]
+            printer.table(f"{row['name']} at", ("ratio", force, slope, "segment", "extrapolated"), values)
         if "static" in row:
-            columns = (
-                "ratio",
-                headed("diameter", names.length),
-                headed("depth", names.length),
-                stiffness,
-                "extrapolated",
-            )
-            _print_static(printer, row, columns)
+            _print_static(printer, row, names)
     printer.line((_GOES_ON, "dim"))
 
 
@@ -137,35 +127,23 @@ def _title(row: dict[str, Any], sizes: list[float], *, embedment: bool) -> str:
     return f"{what} {row['name']}: {len(row['points'])} points{used}"
 
 
-def _segments(row: dict[str, Any], sizes: list[float]) -> list[tuple[str, ...]]:
+def _segments(row: dict[str, Any], sizes: list[float]) -> list[tuple[float, ...]]:
     forces = [force for _, force in row["points"]]
     return [
-        (
-            shown(segment["from"]),
-            shown(segment["to"]),
-            shown(forces[i]),
-            shown(forces[i + 1]),
-            shown(segment["slope"]),
-            *(shown(segment["slope"] / size) for size in sizes),
-        )
-        for i, segment in enumerate(row["segments"])
+        (one["from"], one["to"], forces[i], forces[i + 1], one["slope"], *(one["slope"] / size for size in sizes))
+        for i, one in enumerate(row["segments"])
     ]
 
 
-def _at(value: dict[str, Any]) -> tuple[str, ...]:
-    numbers = (shown(value["ratio"]), shown(value["force"]), shown(value["slope"]))
-    return (*numbers, str(value["segment"]), value["extrapolated"] or "")
-
-
-def _print_static(printer: Printer, row: dict[str, Any], columns: tuple[str, ...]) -> None:
+def _print_static(printer: Printer, row: dict[str, Any], names: UnitNames) -> None:
     if not row["static"]:
         notify(f"curve {row['name']} never carries this weight")
         return
-    rows: list[tuple[str, ...]] = []
-    for static in row["static"]:
-        ratio, outside = shown(static["ratio"]), static["extrapolated"] or ""
-        rows += [
-            (ratio, shown(each["diameter"]), shown(each["depth"]), shown(each["stiffness"]), outside)
-            for each in static["stiffness"]
-        ] or [(ratio, "", "", "", outside)]
+    diameter, depth = headed("diameter", names.length), headed("depth", names.length)
+    columns = ("ratio", diameter, depth, headed("stiffness", names.stiffness), "extrapolated")
+    rows = [
+        (static["ratio"], each["diameter"], each["depth"], each["stiffness"], static["extrapolated"])
+        for static in row["static"]
+        for each in static["stiffness"] or [dict.fromkeys(("diameter", "depth", "stiffness"))]
+    ]
     printer.table(f"{row['name']}: static embedment", columns, rows)

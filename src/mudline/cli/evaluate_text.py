@@ -20,7 +20,7 @@ from mudline.results.units import UnitNames, headed, unit_names
 from mudline.scene.numbering import Floats, Indices
 
 if TYPE_CHECKING:
-    from mudline.cli.printing import Printer
+    from mudline.cli.printing import Cell, Printer
 
 Cells = tuple[str, ...]
 _LEFT = ("law", "state", "axial", "lateral")
@@ -76,15 +76,13 @@ def _span(first: int, last: int) -> str:
 def _print_totals(printer: Printer, evaluation: Evaluation, part: Part) -> None:
     names = unit_names(evaluation.scene.units)
     found = totals(evaluation, part)
-    rows: list[Cells] = [
-        (each.law, each.set_name, str(each.elements), str(each.touching), _depth(each), shown(each.reaction))
-        for each in found
+    rows: list[tuple[Cell, ...]] = [
+        (each.law, each.set_name, each.elements, each.touching, _depth(each), each.reaction) for each in found
     ]
     if len(found) > 1 or any(each.law == "nodal" for each in found):
         sums = (sum(each.elements for each in found), sum(each.touching for each in found))
         deepest = max((each for each in found if each.deepest is not None), key=_by_depth, default=found[0])
-        total = shown(reaction(evaluation, part.result.step(0)))
-        rows.append(("total", "", *map(str, sums), _depth(deepest), total))
+        rows.append(("total", "", *sums, _depth(deepest), reaction(evaluation, part.result.step(0))))
     depth, force = headed("largest\ndepth", names.length), headed("total\nreaction", names.force)
     columns = ("law", "set", "elements", "in\ncontact", depth, force)
     printer.table(_title(evaluation), columns, rows, left=("law", "set"))
@@ -94,24 +92,24 @@ def _by_depth(total: Total) -> float:
     return -math.inf if total.deepest is None else total.deepest
 
 
-def _depth(total: Total) -> str:
+def _depth(total: Total) -> float | None:
     """The largest depth, where anything is in contact."""
-    return shown(total.deepest) if total.touching else ""
+    return total.deepest if total.touching else None
 
 
 def _print_states(printer: Printer, evaluation: Evaluation, part: Part) -> None:
     """How many elements and nodes are in each state, where a law has states."""
     result = part.result.step(0)
-    rows: list[Cells] = []
+    rows: list[tuple[Cell, ...]] = []
     if result.state is not None:
         found = counts(result.state[evaluation.elements], STATES)
-        rows += [("suction of elements", name, str(count)) for name, count in found]
+        rows += [("suction of elements", name, count) for name, count in found]
     if result.friction_state is not None:
         for axis, direction in enumerate(("axial", "lateral")):
             found = counts(result.friction_state[evaluation.nodes, axis], SLIDING)
-            rows += [(f"{direction} friction of nodes", name, str(count)) for name, count in found]
+            rows += [(f"{direction} friction of nodes", name, count) for name, count in found]
     if result.restrained is not None:
-        rows.append(("rigid seabed", "restrained nodes", str(int(result.restrained.sum()))))
+        rows.append(("rigid seabed", "restrained nodes", int(result.restrained.sum())))
     if rows:
         printer.table("States", ("law", "state", "count"), rows, left=("law", "state"))
 
@@ -119,25 +117,16 @@ def _print_states(printer: Printer, evaluation: Evaluation, part: Part) -> None:
 def _print_steps(printer: Printer, digest: Digest) -> None:
     evaluation, found = digest.evaluation, digest.steps
     names = unit_names(evaluation.scene.units)
-    sucked, slipping = (any(getattr(each, name) is not None for each in found) for name in ("sucked", "slipping"))
     rows = [
-        (
-            shown(each.time),
-            str(each.touching),
-            *("" if number is None else str(number) for number in (each.first, each.last)),
-            shown(each.deepest),
-            shown(each.reaction),
-            *([str(each.sucked)] if sucked else []),
-            *([str(each.slipping)] if slipping else []),
-        )
+        (each.time, each.touching, each.first, each.last, each.deepest, each.reaction, each.sucked, each.slipping)
         for each in found
     ]
     depth, force = headed("largest\ndepth", names.length), headed("total\nreaction", names.force)
-    columns = (_time(names), "in\ncontact", "first\nelement", "last\nelement", depth, force)
-    more = (*(["suction\nor hold"] if sucked else []), *(["nodes\nslipping"] if slipping else []))
+    more = ("suction\nor hold", "nodes\nslipping")
+    columns = (_time(names), "in\ncontact", "first\nelement", "last\nelement", depth, force, *more)
     left = evaluation.steps - len(found)
     note = f"{left} more steps: -v shows all, -o writes all" if left else ""
-    printer.table(f"{_title(evaluation)}, {evaluation.steps} steps", (*columns, *more), rows, note=note)
+    printer.table(f"{_title(evaluation)}, {evaluation.steps} steps", columns, rows, optional=more, note=note)
     _print_peaks(printer, digest)
 
 
@@ -156,8 +145,7 @@ def _print_peaks(printer: Printer, digest: Digest) -> None:
     for key, (what, unit) in units.items():
         peak = digest.peaks.found.get(key)
         if peak is not None and times is not None and not (key in {"force", "pull"} and peak.value == 0.0):
-            element = "" if peak.element is None else str(peak.element)
-            rows.append((what, shown(peak.value), unit, shown(float(times[peak.step])), element))
+            rows.append((what, peak.value, unit, float(times[peak.step]), peak.element))
     columns = ("largest", "value", "unit", _time(names), "element")
     printer.table("Over all steps", columns, rows, left=("largest", "unit"))
 
@@ -236,34 +224,19 @@ def print_comparison(comparison: Comparison, view: View) -> None:
     """Print for each column how many values were compared, the largest differences and where they are."""
     timed = comparison.timed
     place = ("at\nelement", "at\ntime") if timed else ("at\nelement",)
-    columns = (
-        "column",
-        "compared",
-        "largest\ndifference",
-        *place,
-        "largest\nrelative",
-        *place,
-        "rms\ndifference",
-    )
+    columns = ("column", "compared", "largest\ndifference", *place, "largest\nrelative", *place, "rms\ndifference")
     rows = []
     for found in comparison.differences:
         row = found.row()
-        absolute, relative = row["largest_difference"], row["largest_relative"]
-        rows.append(
-            (
-                found.column,
-                str(found.compared),
-                *_cells(absolute, "difference", timed=timed),
-                *_cells(relative, "relative", timed=timed),
-                shown(found.rms, 4),
-            )
-        )
+        absolute = _cells(row["largest_difference"], "difference", timed=timed)
+        relative = _cells(row["largest_relative"], "relative", timed=timed)
+        rows.append((found.column, found.compared, *absolute, *relative, shown(found.rms, 4)))
     view.printer().table(f"Compared with {comparison.reference.file}", columns, rows, left=("column",))
 
 
-def _cells(extreme: dict[str, Any] | None, name: str, *, timed: bool) -> tuple[str, ...]:
+def _cells(extreme: dict[str, Any] | None, name: str, *, timed: bool) -> tuple[Cell, ...]:
     """Value, element and time of a largest difference; nothing where nothing was compared."""
     if extreme is None:
         return ("",) * (2 + timed)
-    cells = (shown(extreme[name], 4), str(extreme["element"]))
-    return (*cells, shown(extreme["time"])) if timed else cells
+    cells = (shown(extreme[name], 4), extreme["element"])
+    return (*cells, extreme["time"]) if timed else cells

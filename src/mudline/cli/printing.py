@@ -16,6 +16,7 @@ from rich.text import Text
 from mudline.diagnostics import Diagnostic
 from mudline.linting.output.text import STYLES, Screen, findings, summary
 from mudline.linting.output.visible import visible
+from mudline.results.numbers import shown
 from mudline.syntax.source import Source
 
 EXCERPT_WIDTH = 120
@@ -29,6 +30,7 @@ _NARROWEST = 12
 
 Part = str | tuple[str, str]
 """A piece of a line: a text, or a text and its style."""
+Cell = str | int | float | None
 
 
 class _Console(Console):
@@ -104,21 +106,26 @@ class Printer:
         self,
         title: str,
         columns: Sequence[str],
-        rows: Iterable[Sequence[str]],
+        rows: Iterable[Sequence[Cell]],
         *,
         left: Sequence[str] = (),
+        optional: Sequence[str] = (),
         note: str = "",
         styles: Mapping[str, str] = _UNSTYLED,
         whole: Sequence[str] = (),
     ) -> None:
-        """Print texts under their headings, with a blank line behind.
+        """Print cells under their headings, with a blank line behind. None is an empty cell.
 
         Numbers are aligned right, the columns named in `left` left; only these are folded on a narrow terminal, those
-        named in `whole` not even then: rather than cutting a number, a table is wider than the screen. A heading may
-        have several lines. `note` comes below the table; `styles` gives cells that hold just these words a style.
+        named in `whole` not even then: rather than cutting a number, a table is wider than the screen. Columns named in
+        `optional` are left out where they are empty. A heading may have several lines. `note` comes below the table;
+        `styles` gives cells that hold just these words a style.
         """
+        cells = [[self.visible(_text(cell)) for cell in row] for row in rows]
+        filled = [i for i, name in enumerate(columns) if name not in optional or any(row[i] for row in cells)]
+        if len(filled) < len(columns):
+            columns, cells = [columns[i] for i in filled], [[row[i] for i in filled] for row in cells]
         heads = [name.split("\n") for name in columns]
-        cells = [[self.visible(cell) for cell in row] for row in rows]
         widths = [max(map(cell_len, column)) for column in zip(*_filled(heads), *cells, strict=True)]
         folds = [name in left and name not in whole for name in columns]
         layout = _Layout(_fitted(widths, folds, self.width), [name in left for name in columns])
@@ -136,6 +143,10 @@ class Printer:
         if note:
             self.line((self.visible(note), "dim"))
         self._console.print()
+
+
+def _text(cell: Cell) -> str:
+    return cell if isinstance(cell, str) else str(cell) if isinstance(cell, int) else shown(cell)
 
 
 class _Layout(NamedTuple):

@@ -62,7 +62,7 @@ def _print_summary(summary: dict[str, Any], view: View) -> None:
     if summary["curves"]:
         _print_curves(printer, summary["curves"], names)
     if summary["diameters"]:
-        rows = [(shown(entry["diameter"]) or "none", str(entry["elements"])) for entry in summary["diameters"]]
+        rows = [(shown(entry["diameter"]) or "none", entry["elements"]) for entry in summary["diameters"]]
         left = len(rows) - len(rows[:most])
         note = f"{left} more diameters: -v shows all" if left else ""
         printer.table("External diameters", (headed("diameter", names.length), "elements"), rows[:most], note=note)
@@ -71,21 +71,25 @@ def _print_summary(summary: dict[str, Any], view: View) -> None:
     if summary["bed"]:
         _print_bed(printer, summary["bed"], names)
     if summary["extensions"]:
-        blocks = [(f"*{row['keyword']}", row["set"] or "", str(row["elements"])) for row in summary["extensions"]]
+        blocks = [(f"*{row['keyword']}", row["set"], row["elements"]) for row in summary["extensions"]]
         printer.table("Extensions", ("keyword", "set", "elements"), blocks, left=("keyword", "set"))
     if summary["static_embedment"]:
         _print_static(printer, summary["static_embedment"], names)
 
 
 def _print_static(printer: Printer, rows: list[dict[str, Any]], names: UnitNames) -> None:
-    columns = ["set", "law", headed("weight", names.line_force), "ratio"]
-    columns += [headed("penetration", names.length), "stiffness"]
-    numbers = ("weight", "ratio", "penetration", "stiffness")
-    cells = [[row["set"] or "", row["law"], *(shown(row[name]) for name in numbers)] for row in rows]
-    if any(row["extrapolated"] for row in rows):
-        columns.append("extrapolated")
-        cells = [[*line, row["extrapolated"] or ""] for line, row in zip(cells, rows, strict=True)]
-    printer.table("Static embedment", columns, cells, left=("set", "law", "extrapolated"))
+    columns = {
+        "set": "set",
+        "law": "law",
+        "weight": headed("weight", names.line_force),
+        "ratio": "ratio",
+        "penetration": headed("penetration", names.length),
+        "stiffness": "stiffness",
+        "extrapolated": "extrapolated",
+    }
+    cells = [[row[key] for key in columns] for row in rows]
+    text = ("set", "law", "extrapolated")
+    printer.table("Static embedment", list(columns.values()), cells, left=text, optional=text[-1:])
 
 
 def _print_head(printer: Printer, summary: dict[str, Any], names: UnitNames) -> None:
@@ -137,26 +141,22 @@ def _print_folded(printer: Printer, text: str, indent: str) -> None:
 
 
 def _print_sets(printer: Printer, sets: list[dict[str, Any]], names: UnitNames) -> None:
-    rows = [
-        (entry["name"], str(entry["elements"]) + ("+" if entry["open"] else ""), shown(entry["length"]))
-        for entry in sets
-    ]
+    rows = [(entry["name"], f"{entry['elements']}{'+' * entry['open']}", entry["length"]) for entry in sets]
     note = _OPEN if any(entry["open"] for entry in sets) else ""
     columns = ("set", "elements", headed("length", names.length))
     printer.table("Element sets", columns, rows, left=("set",), note=note)
 
 
 def _print_curves(printer: Printer, curves: list[dict[str, Any]], names: UnitNames) -> None:
-    force = headed("force", names.line_force)
-    columns = ("curve", "keyword", "points", "ratio", force, "elements")
+    columns = ("curve", "keyword", "points", "ratio", headed("force", names.line_force), "elements")
     rows = [
         (
             entry["name"],
             f"*{entry['keyword']}",
-            str(entry["points"]),
+            entry["points"],
             _range(entry["ratios"]),
             _range(entry["forces"]),
-            str(entry["elements"]) + "+" * entry["open"],
+            f"{entry['elements']}{'+' * entry['open']}",
         )
         for entry in curves
     ]
@@ -168,20 +168,27 @@ def _range(ends: list[float] | None) -> str:
 
 
 def _print_bed(printer: Printer, bed: list[dict[str, Any]], names: UnitNames) -> None:
-    """Friction and suction; a column that no row fills is left out."""
-    columns = [
-        ("friction\ncoefficients", [_pair(row["friction"]) for row in bed]),
-        (headed("mobilisation\nlengths", names.length), [_pair(row["mobilisation"]) for row in bed]),
-        (headed("lateral\nstiffness", names.stiffness), [shown(row["lateral"]) for row in bed]),
-        (headed("suction\nstiffness", names.stiffness), [shown(row["suction"]) for row in bed]),
-        (headed("suction\nzone", names.length), [shown(row["extent"]) for row in bed]),
+    columns = (
+        "friction\ncoefficients",
+        headed("mobilisation\nlengths", names.length),
+        headed("lateral\nstiffness", names.stiffness),
+        headed("suction\nstiffness", names.stiffness),
+        headed("suction\nzone", names.length),
+    )
+    rows = [
+        (
+            row["set"],
+            row["elements"],
+            _pair(row["friction"]),
+            _pair(row["mobilisation"]),
+            row["lateral"],
+            row["suction"],
+            row["extent"],
+        )
+        for row in bed
     ]
-    filled = [(head, cells) for head, cells in columns if any(cells)]
-    sets = [row["set"] for row in bed]
-    counts = [str(row["elements"]) for row in bed]
-    rows = list(zip(sets, counts, *(cells for _, cells in filled), strict=True))
-    heads = ("set", "elements", *(head for head, _ in filled))
-    printer.table("Friction, lateral resistance, suction", heads, rows, left=("set",))
+    title = "Friction, lateral resistance, suction"
+    printer.table(title, ("set", "elements", *columns), rows, left=("set",), optional=columns)
 
 
 def _pair(values: list[float | None]) -> str:
@@ -189,10 +196,7 @@ def _pair(values: list[float | None]) -> str:
 
 
 def _print_laws(printer: Printer, laws: list[dict[str, Any]], names: UnitNames) -> None:
-    linear = any(entry["stiffness"] is not None for entry in laws)
-    columns = ("law", "set", "elements", *([headed("stiffness", names.stiffness)] if linear else []))
-    rows = [
-        (entry["law"], entry["set"] or "", str(entry["elements"]), shown(entry["stiffness"]))[: len(columns)]
-        for entry in laws
-    ]
-    printer.table("Normal laws", columns, rows, left=("law", "set"))
+    stiffness = headed("stiffness", names.stiffness)
+    rows = [[entry[key] for key in ("law", "set", "elements", "stiffness")] for entry in laws]
+    columns = ("law", "set", "elements", stiffness)
+    printer.table("Normal laws", columns, rows, left=("law", "set"), optional=(stiffness,))
