@@ -8,17 +8,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mudline.expression import DEEPEST, ExpressionError, parse
+from mudline.expression import DEEPEST, Expression, ExpressionError, parse
 from mudline.expression.descent import LEVELS, descend
-from mudline.expression.nodes import Node
-from mudline.expression.parsing import grammar_root, tokens
+from mudline.expression.parsing import by_grammar, tokens
 
-PIECES = st.sampled_from(
-    [*"+-*/^(),=<>", "**", "==", "!=", "<>", "<=", ">=", "and", "or", "not", "AND", "Or", "NOT", "and_1", "nothing"]
-    + [" ", "\t", "1", "2.", ".5", "1e3", "1.0D+3", "1e", "1e999", "x", "Water Depth", "Größe", "e\u0301t", "b.1"]
-    + ['"text"', '""', '"', "if(", "max(", "f()", "#", "[", "x y not"]
-)
-ANYTHING = st.lists(PIECES, max_size=14).map("".join)
+MARKS = st.sampled_from([*'+-*/^(),=<>"#[ \t', "**", "==", "!=", "<>", "<=", ">=", '""'])
+WORDS = st.sampled_from(["and", "or", "not", "AND", "Or", "NOT", "and_1", "nothing", "x", "x y not", "Water Depth"])
+VALUES = st.sampled_from(["1", "2.", ".5", "1e3", "1.0D+3", "1e", "1e999", "Größe", "e\u0301t", "b.1", '"text"'])
+CALLS = st.sampled_from(["if(", "max(", "f()"])
+ANYTHING = st.lists(st.one_of(MARKS, WORDS, VALUES, CALLS), max_size=14).map("".join)
 
 
 def _joined(parts: st.SearchStrategy[str]) -> st.SearchStrategy[str]:
@@ -36,17 +34,21 @@ def _joined(parts: st.SearchStrategy[str]) -> st.SearchStrategy[str]:
 EQUATIONS = st.recursive(st.sampled_from(["1", "2.5D1", "x", "Water Depth", '"t"']), _joined, max_leaves=12)
 
 
-def _by_grammar(text: str) -> Node | None:
+def _shown(expression: Expression | None) -> str:
+    """All of an equation, spans and values too."""
+    return repr(expression and (expression, expression.root))
+
+
+def _by_grammar(text: str) -> Expression | None:
     try:
-        return grammar_root(text)
+        return by_grammar(text)
     except ExpressionError:
         return None
 
 
 @given(st.one_of(ANYTHING, EQUATIONS))
-def test_the_tree_is_that_of_the_grammar(text: str) -> None:
-    """Spans and values too: the parts compare by all of their fields."""
-    assert repr(descend(text, tokens())) == repr(_by_grammar(text))
+def test_the_equation_is_that_of_the_grammar(text: str) -> None:
+    assert _shown(descend(text, tokens())) == _shown(_by_grammar(text))
 
 
 @given(EQUATIONS)
@@ -65,7 +67,7 @@ def _deep(levels: int) -> Iterator[str]:
 def test_deep_nesting_is_left_to_the_grammar(text: str) -> None:
     found = descend(text, tokens())
     assert (found is None) == (text not in list(_deep(LEVELS)))
-    assert parse(text).root == grammar_root(text)
+    assert _shown(parse(text)) == _shown(by_grammar(text))
 
 
 @pytest.mark.parametrize("text", list(_deep(DEEPEST + 1)))

@@ -85,7 +85,7 @@ class Parameters:
     def __post_init__(self) -> None:
         for where, block in self.deck.blocks("PARAMETERS", "PREPROCESSOR"):
             for index, parameter in enumerate(block.parameters):
-                self._define(parameter, where._replace(path=("parameters", index, "value")))
+                self._define(parameter, Where(where.section, where.block, ("parameters", index, "value")))
         for name in self.definitions:
             self._resolve(name)
 
@@ -171,7 +171,7 @@ class Parameters:
         try:
             expression = definition.expression or self._parse(definition.value, definition.where)
             definition.expression = expression
-            used = [folded(other) for other in expression.names if folded(other) in self.definitions]
+            used = [other for other in map(folded, expression.names) if other in self.definitions]
             waiting = [other for other in used if other not in self.values]
             if self.failed.intersection(used):
                 self._fail(name, None)
@@ -196,7 +196,6 @@ class Parameters:
             raise NoValueError(_problem(SYN017, equation, error, where)) from error
 
     def _value(self, expression: Expression, where: Where) -> Value:
-        equation = Equation(f"=[{expression.text}]")
         try:
             return evaluate(expression, lambda name: self.values[folded(name)])
         except UndefinedName as error:
@@ -206,11 +205,16 @@ class Parameters:
             message = f"parameter {word} is not defined{near}: define it in *PARAMETERS"
             raise NoValueError(Problem(REF013, message, None, None, where)) from error
         except UnknownFunction as error:
-            problem = _problem(SYN017, equation, error, where)
+            problem = _problem(SYN017, _equation(expression), error, where)
             message = f"{problem.message}; the equation is not evaluated"
             raise NoValueError(Problem(SYN017, message, None, Severity.WARNING, where)) from error
         except ExpressionError as error:
-            raise NoValueError(_problem(SYN017, equation, error, where)) from error
+            raise NoValueError(_problem(SYN017, _equation(expression), error, where)) from error
+
+
+def _equation(expression: Expression) -> Equation:
+    """An expression as it is written in a deck."""
+    return Equation(f"=[{expression.text}]")
 
 
 def _problem(code: Code, equation: Equation, error: ExpressionError, where: Where) -> Problem:

@@ -11,20 +11,36 @@ from collections.abc import Callable
 
 from mudline.diagnostics import Span
 from mudline.expression.builder import FORTRAN_EXPONENT, SAME_OPERATOR
-from mudline.expression.nodes import Call, Chain, Comparison, Group, Logical, Name, Node, Number, Power, Prefix, Text
+from mudline.expression.nodes import (
+    Call,
+    Chain,
+    Comparison,
+    Expression,
+    Group,
+    Logical,
+    Name,
+    NameSpan,
+    Node,
+    Number,
+    Power,
+    Prefix,
+    Text,
+)
 
 LEVELS = 20
 """How many brackets, calls, signs, `not` and powers may stand inside one another; a level takes ten calls."""
 
 _END = "$END"
+_LEAVES = frozenset({"NAME", "NUMBER", "TEXT"})
+_BEHIND_PRODUCT = frozenset({"ADD", "COMPARE", "AND", "OR", "COMMA", "RPAR", _END})
 
 
 class _UnfitError(Exception):
     """The text is not an equation, or is nested too deep."""
 
 
-def descend(text: str, tokens: re.Pattern[str]) -> Node | None:
-    """Return the tree of an equation; None where the text has none, or is nested more than `LEVELS` deep.
+def descend(text: str, tokens: re.Pattern[str]) -> Expression | None:
+    """Return an equation; None where the text is not one, or is nested more than `LEVELS` deep.
 
     Args:
         text: what stands between `=[` and `]`.
@@ -48,7 +64,9 @@ def descend(text: str, tokens: re.Pattern[str]) -> Node | None:
         root = reader.disjunction()
     except _UnfitError:
         return None
-    return root if reader.kinds[reader.at] == _END else None
+    if reader.kinds[reader.at] != _END:
+        return None
+    return Expression(text, tuple(reader.names), tuple(dict.fromkeys(reader.functions)), root)
 
 
 class _Reader:
@@ -60,6 +78,8 @@ class _Reader:
         self.spans = spans
         self.levels = LEVELS
         self.at = 0
+        self.names: list[NameSpan] = []
+        self.functions: list[str] = []
 
     def disjunction(self) -> Node:
         """Read what stands between `=[` and `]`, between brackets, or as an argument."""
@@ -94,6 +114,8 @@ class _Reader:
         return self._chain("ADD", self._product)
 
     def _product(self) -> Node:
+        if self.kinds[self.at] in _LEAVES and self.kinds[self.at + 1] in _BEHIND_PRODUCT:  # most of them, in less time
+            return self._leaf()
         return self._chain("MULTIPLY", self._signed)
 
     def _chain(self, kind: str, rule: Callable[[], Node]) -> Node:
@@ -126,17 +148,23 @@ class _Reader:
             self.at += 1
             inner = self._nested(self.disjunction)
             return Group(Span(start, self._closing()), inner)
-        if kind not in ("NAME", "NUMBER", "TEXT"):
+        return self._leaf()
+
+    def _leaf(self) -> Node:
+        kind = self.kinds[self.at]
+        if kind not in _LEAVES:
             raise _UnfitError
         span = self.spans[self.at]
         written = self._passed()
         if kind == "NAME":
+            self.names.append(NameSpan(written, *span))
             return Name(span, written)
         return Text(span, written[1:-1]) if kind == "TEXT" else Number(span, float(written.translate(FORTRAN_EXPONENT)))
 
     def _call(self) -> Node:
         span = self.spans[self.at]
         name = self._passed()
+        self.functions.append(name)
         self.at += 1
         arguments: list[Node] = []
         while self.kinds[self.at] != "RPAR" or arguments:

@@ -32,6 +32,7 @@ def _grammar() -> Lark:
 
 @cache
 def tokens() -> Pattern[str]:
+    """Return the terminals of the grammar as one regular expression."""
     return scanner(_grammar())
 
 
@@ -45,11 +46,15 @@ def parse(text: str) -> Expression:
         raise ExpressionError(f"the equation is longer than {LONGEST} characters", LONGEST, len(text))
     if not text.strip():
         raise ExpressionError("the equation is empty", 0, len(text))
-    return _expression(text, descend(text, tokens()) or grammar_root(text))
+    return descend(text, tokens()) or by_grammar(text)
 
 
-def grammar_root(text: str) -> Node:
-    """The tree of an equation as the grammar gives it; raises ExpressionError where it is not one."""
+def by_grammar(text: str) -> Expression:
+    """Return the equation as the grammar gives it; raises ExpressionError where it is not one."""
+    return _expression(text, _root(text))
+
+
+def _root(text: str) -> Node:
     try:
         return cast("Node", _grammar().parse(text))
     except UnexpectedToken as error:

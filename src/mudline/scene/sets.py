@@ -21,7 +21,14 @@ from mudline.scene.numbering import Ids, Indices, Numbered, constant, identity
 from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:
-    from mudline.keywords.library.element_sets import ElementRange, ElementSet, ElementSets, SetList
+    from mudline.keywords.library.element_sets import (
+        ElementRange,
+        ElementSet,
+        ElementSets,
+        SetGenerate,
+        SetList,
+        SetSubset,
+    )
 
 ALL = "all"
 _NOTHING = np.zeros(0, dtype=np.intp)
@@ -93,6 +100,7 @@ class _Reader:
         self.elements = elements
         self.definitions: dict[str, list[tuple[ElementSet, Where]]] = {}
         self.sets = Sets(context, elements)
+        self.keys: dict[str, str] = {}
 
     def read(self) -> Sets:
         named = self.sets.named
@@ -101,7 +109,7 @@ class _Reader:
         named[ALL] = NamedSet("ALL", everything, None, open=bool(context.definers or context.restart))
         for where, block in context.deck.blocks("ELEMENT SETS"):
             for index, entry in enumerate(cast("ElementSets", block).sets):
-                self._collect(entry, where._replace(path=("sets", index)))
+                self._collect(entry, Where(where.section, where.block, ("sets", index)))
         for key, name in context.harvested.items():
             if key not in self.definitions:
                 named.setdefault(key, NamedSet(name, _NOTHING, None, open=True))
@@ -109,12 +117,19 @@ class _Reader:
             self._expand(key)
         return self.sets
 
+    def _key(self, name: str) -> str:
+        """`set_key`, found once for each name: most are written twice or more."""
+        key = self.keys.get(name)
+        if key is None:
+            key = self.keys[name] = set_key(name)
+        return key
+
     def _collect(self, entry: ElementSet, where: Where) -> None:
         name = cast("str | None", entry.name)
         if name is None:
             self.context.unread.add("ELEMENT SETS")
             return
-        key = folded(bare(name))
+        key = self._key(name)
         if key == ALL:
             message = "set ALL is predefined and holds every element: choose another name"
             self.context.tell(REF009, message, where._replace(path=(*where.path, "name")))
@@ -140,7 +155,7 @@ class _Reader:
     def _needed(self, key: str, unfinished: set[str]) -> Iterator[str]:
         """The subsets that are to be expanded before a set; those that cannot be are told."""
         for name, where in self._subsets(key):
-            other = folded(bare(name))
+            other = self._key(name)
             if other in unfinished:
                 message = f"set {shown(name)} contains itself: SUBSET= leads back to it; remove one of these lines"
                 self.context.tell(REF008, message, where)
@@ -160,8 +175,10 @@ class _Reader:
     def _subsets(self, key: str) -> Iterator[tuple[str, Where]]:
         for entry, where in self.definitions[key]:
             for index, member in enumerate(entry.members):
-                if hasattr(member, "subset") and cast("str | None", member.subset) is not None:
-                    yield member.subset, where._replace(path=(*where.path, "members", index, "subset"))
+                if member.rule == "set_subset":
+                    name = cast("SetSubset", member).subset
+                    if cast("str | None", name) is not None:
+                        yield name, Where(where.section, where.block, (*where.path, "members", index, "subset"))
 
     def _settle(self, key: str) -> None:
         """The union of all members of all definitions of a name."""
@@ -173,13 +190,13 @@ class _Reader:
             unsure |= self.context.disturbed(where)
             members += len(entry.members)
             for index, member in enumerate(entry.members):
-                inner = where._replace(path=(*where.path, "members", index))
-                if hasattr(member, "elements"):
+                inner = Where(where.section, where.block, (*where.path, "members", index))
+                if member.rule == "set_subset":
+                    found, whole = self._subset(cast("SetSubset", member).subset)
+                elif member.rule == "set_list":
                     found, whole = self._listed(cast("SetList", member), inner)
-                elif hasattr(member, "generate"):
-                    found, whole = self._range(member.generate, inner)
                 else:
-                    found, whole = self._subset(member.subset)
+                    found, whole = self._range(cast("SetGenerate", member).generate, inner)
                 parts.append(found)
                 unsure |= not whole
         self.sets.named[key] = NamedSet(first.name, _union(parts), place, unsure)
@@ -187,7 +204,7 @@ class _Reader:
             self.context.tell(REF010, f"set {shown(first.name)} has no element: give it some, or remove it", place)
 
     def _subset(self, name: str | None) -> tuple[Indices, bool]:
-        found = None if name is None else self.sets.named.get(folded(bare(name)))
+        found = None if name is None else self.sets.named.get(self._key(name))
         return (_NOTHING, False) if found is None else (found.elements, not found.open)
 
     def _listed(self, member: SetList, where: Where) -> tuple[Indices, bool]:
@@ -250,6 +267,8 @@ def _ascending(indices: Indices) -> Indices:
 
 def _union(parts: list[Indices]) -> Indices:
     """Indices in ascending order, each once, of parts that are so. Sets of the same elements share an array."""
+    if len(parts) == 1:
+        return parts[0]
     largest = max(parts, key=len, default=_NOTHING)
     rest = [part for part in parts if part is not largest and len(part)]
     if not rest:

@@ -1,4 +1,4 @@
-"""The terminals of a grammar as one regular expression: it cuts a text as the basic lexer of lark does, in less time."""
+"""The terminals of a grammar as one regular expression: it cuts a text as lark's basic lexer does, in less time."""
 
 from __future__ import annotations
 
