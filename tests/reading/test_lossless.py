@@ -25,7 +25,7 @@ BOM = b"\xef\xbb\xbf"
 
 
 def read_back(data: bytes) -> Source:
-    """The source of some bytes, having held its leaves and its bytes against them, and its leaves against the grammar."""
+    """The source of some bytes, after a comparison of its leaves and bytes with them, and of its leaves with lark's."""
     source = Source.from_bytes(data, "deck.keyxm")
     leaves = list(parse(source).leaves())
     if source.readable:

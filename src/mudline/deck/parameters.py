@@ -55,12 +55,16 @@ def list_items(prefix: str, text: str) -> tuple[list[ListItem], str]:
 
 @dataclass(slots=True)
 class Definition:
-    """A parameter: the name as written, its value or equation, and where it stands."""
+    """A parameter: the name as written, its value or equation, and where it stands.
+
+    `expression` is the equation once it is read, `used` the parameters in it.
+    """
 
     name: str
     value: Value | Equation
     where: Where
     expression: Expression | None = None
+    used: list[str] = field(default_factory=list)
 
 
 class NoValueError(Exception):
@@ -151,7 +155,7 @@ class Parameters:
                 stack.pop()
                 continue
             waiting = self._waiting(current, definition)
-            cyclic = open_names.intersection(waiting)
+            cyclic = open_names.intersection(waiting) if waiting else set()
             if waiting and not cyclic:
                 open_names.add(current)
                 stack += waiting
@@ -169,11 +173,12 @@ class Parameters:
             self.values[name] = definition.value
             return []
         try:
-            expression = definition.expression or self._parse(definition.value, definition.where)
-            definition.expression = expression
-            used = [other for other in map(folded, expression.names) if other in self.definitions]
-            waiting = [other for other in used if other not in self.values]
-            if self.failed.intersection(used):
+            expression = definition.expression
+            if expression is None:
+                expression = definition.expression = self._parse(definition.value, definition.where)
+                definition.used = [other for other in map(folded, expression.names) if other in self.definitions]
+            waiting = [other for other in definition.used if other not in self.values]
+            if waiting and self.failed.intersection(waiting):
                 self._fail(name, None)
                 return []
             if not waiting:

@@ -111,7 +111,7 @@ def parse(rule: str, contents: list[Content]) -> tuple[Node, list[Mismatch]]:
         tree = fitting(rule, tuple([content.terminal for content in contents]))
         if tree is not None:
             return _node(tree, contents), []
-    return _by_records(rule, contents) or _parsed(rule, contents)
+    return by_records(rule, contents) or by_lines(rule, contents)
 
 
 class Records(NamedTuple):
@@ -131,13 +131,18 @@ def records_of(rule: str) -> Records | None:
     opened = listed and _OPENED.match(_rules()[listed[1]])
     if listed is None or opened is None:
         return None
-    terminals = _TERMINAL.findall(_part(listed[1]).partition("%declare")[0])
     always = "|" not in _IN_BRACKETS.sub("", _rules()[listed[1]])
-    return Records(listed[1], opened[1]) if always and terminals.count(opened[1]) == 1 else None
+    once = terminals_below(listed[1]).count(opened[1]) == 1
+    return Records(listed[1], opened[1]) if always and once else None
 
 
-def _by_records(rule: str, contents: list[Content]) -> tuple[Node, list[Mismatch]] | None:
-    """The tree of a long block, a record at a time; None where it has no records, or one does not fit."""
+def terminals_below(rule: str) -> list[str]:
+    """Return the terminals of a rule and of those it leads to, each as often as it is written."""
+    return _TERMINAL.findall(_part(rule).partition("%declare")[0])
+
+
+def by_records(rule: str, contents: list[Content]) -> tuple[Node, list[Mismatch]] | None:
+    """Return the tree of a block, a record at a time; None where it has no records, or one does not fit."""
     records = records_of(rule)
     starts = [i for i, content in enumerate(contents) if content.terminal == records.opening] if records else []
     if records is None or starts[:1] != [0]:
@@ -164,8 +169,8 @@ def fitting(rule: str, terminals: tuple[str, ...]) -> Tree[Token] | None:
         return None
 
 
-def _parsed(rule: str, contents: list[Content]) -> tuple[Node, list[Mismatch]]:
-    """The same line by line, whatever fits."""
+def by_lines(rule: str, contents: list[Content]) -> tuple[Node, list[Mismatch]]:
+    """Return the tree of a block line by line, whatever fits."""
     parser = _parser(rule).parse_interactive()
     mismatches: list[Mismatch] = []
     for index, content in enumerate(contents):

@@ -7,7 +7,7 @@ a block with anything else in it, be it a comment or one odd character, is left 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from itertools import pairwise
@@ -22,8 +22,8 @@ from mudline.keywords.text import UnreadableError, Value, read_value
 from mudline.keywords.values import Equation, Kind
 from mudline.syntax.fields import Field, canonical_key
 from mudline.syntax.rows import line_spans
-from mudline.syntax.tree import RawBlock
 from mudline.syntax.tree import Kind as LeafKind
+from mudline.syntax.tree import RawBlock
 
 FEWEST = 1000
 """Lines of a block from which on it is worth the attempt."""
@@ -51,7 +51,7 @@ class _Form:
     lines: list[tuple[int, _Reading]] = field(default_factory=list)
     children: list[tuple[str, _Form]] = field(default_factory=list)
 
-    def values(self, lines: list[str]) -> Values:
+    def values(self, lines: Sequence[str]) -> Values:
         """The values of a record from the fields of its lines."""
         found: Values = {}
         for index, reading in self.lines:
@@ -130,7 +130,7 @@ def _entries(record: type[Record], lines: list[tuple[str, str]], opening: str) -
 def _form(record: type[Record], tree: Tree[Token]) -> _Form:
     """How a record is read that has this tree."""
     found = layout(record)
-    if record.sticky or record.row_slot.__func__ is not Record.row_slot.__func__:
+    if record.sticky or any("row_slot" in vars(base) for base in record.__mro__ if base is not Record):
         raise _OddError
     form = _Form()
     own: list[str] = []
@@ -174,7 +174,7 @@ def _row_reading(record: type[Record]) -> _Reading:
     if len(columns) == 1 and columns[0].many and columns[0].kind in (Kind.IDENT, Kind.WHOLE):
         return partial(_wholes, columns[0].json)
     if len(columns) == 2 and all(column.required and column.kind and not column.many for column in columns):
-        return partial(_pair, *columns)
+        return partial(_pair, columns[0], columns[1])
     raise _OddError
 
 

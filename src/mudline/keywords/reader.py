@@ -31,9 +31,9 @@ from mudline.syntax.tree import Kind, Leaf, RawBlock
 class ReadBlock:
     """A block that was read: its model, where its values stand, what was wrong, and the comments behind its last line.
 
-    `lost` counts lines that could not be used at all: what they would have defined is unknown. `found` are the places in
-    the text that was read, or what finds them; where that was a piece, `whole` is the text that it belongs to and where
-    it begins there. A block whose places are found when somebody asks has no damaged value.
+    `lost` counts lines that could not be used at all: what they would have defined is unknown. `found` are the places
+    in the text that was read, or what finds them when somebody asks; a block of the second kind has no damaged value.
+    Where a piece was read, `whole` is the text that it belongs to and where it begins there.
     """
 
     model: Block

@@ -114,7 +114,8 @@ class _Reader:
             if key not in self.definitions:
                 named.setdefault(key, NamedSet(name, _NOTHING, None, open=True))
         for key in self.definitions:
-            self._expand(key)
+            if key not in named:
+                self._expand(key)
         return self.sets
 
     def _key(self, name: str) -> str:
@@ -154,31 +155,33 @@ class _Reader:
 
     def _needed(self, key: str, unfinished: set[str]) -> Iterator[str]:
         """The subsets that are to be expanded before a set; those that cannot be are told."""
-        for name, where in self._subsets(key):
+        for name, where, index in self._subsets(key):
             other = self._key(name)
             if other in unfinished:
                 message = f"set {shown(name)} contains itself: SUBSET= leads back to it; remove one of these lines"
-                self.context.tell(REF008, message, where)
+                self.context.tell(REF008, message, _inside(where, "members", index, "subset"))
             elif other in self.definitions:
                 yield other
             elif other not in self.sets.named:
                 near = self.context.near(name, self._names)
                 hint = f" (did you mean {self._names[near]}?)" if near else ""
                 message = f"SUBSET= names no set: {shown(name)} is not defined{hint}; define it"
-                self.context.tell_missing(REF008, message, where, "ELEMENT SETS")
+                place = _inside(where, "members", index, "subset")
+                self.context.tell_missing(REF008, message, place, "ELEMENT SETS")
 
     @cached_property
     def _names(self) -> dict[str, str]:
         """Every name of a set, by its folded form."""
         return self.context.harvested | {key: entries[0][0].name for key, entries in self.definitions.items()}
 
-    def _subsets(self, key: str) -> Iterator[tuple[str, Where]]:
+    def _subsets(self, key: str) -> Iterator[tuple[str, Where, int]]:
+        """The subsets of a set, each with the place of the definition that names it and its index among the members."""
         for entry, where in self.definitions[key]:
             for index, member in enumerate(entry.members):
                 if member.rule == "set_subset":
-                    name = cast("SetSubset", member).subset
-                    if cast("str | None", name) is not None:
-                        yield name, Where(where.section, where.block, (*where.path, "members", index, "subset"))
+                    name = cast("str | None", cast("SetSubset", member).subset)
+                    if name is not None:
+                        yield name, where, index
 
     def _settle(self, key: str) -> None:
         """The union of all members of all definitions of a name."""
@@ -190,13 +193,13 @@ class _Reader:
             unsure |= self.context.disturbed(where)
             members += len(entry.members)
             for index, member in enumerate(entry.members):
-                inner = Where(where.section, where.block, (*where.path, "members", index))
                 if member.rule == "set_subset":
                     found, whole = self._subset(cast("SetSubset", member).subset)
                 elif member.rule == "set_list":
-                    found, whole = self._listed(cast("SetList", member), inner)
+                    found, whole = self._listed(cast("SetList", member), _inside(where, "members", index))
                 else:
-                    found, whole = self._range(cast("SetGenerate", member).generate, inner)
+                    given = cast("SetGenerate", member).generate
+                    found, whole = self._range(given, _inside(where, "members", index))
                 parts.append(found)
                 unsure |= not whole
         self.sets.named[key] = NamedSet(first.name, _union(parts), place, unsure)
@@ -258,6 +261,11 @@ class _Reader:
             message = f"{written}: {lacking} of its {wanted} elements are not defined: correct it, or define them"
             self.context.tell(REF005, message, place, Severity.WARNING if len(found) else None)
         return found, not lacking
+
+
+def _inside(where: Where, *steps: str | int) -> Where:
+    """A place further inside."""
+    return Where(where.section, where.block, (*where.path, *steps))
 
 
 def _ascending(indices: Indices) -> Indices:
