@@ -10,6 +10,7 @@ import pytest
 
 from mudline.contact import numpy_driver
 from mudline.results.against import Comparison
+from mudline.results.evaluation import Part
 from tests.cli.conftest import Place
 from tests.cli.decks import CLEAN
 from tests.cli.runner import SAMPLES, assert_fits, run
@@ -103,7 +104,12 @@ def test_the_time_of_the_largest_difference_in_a_series_of_several_parts(
     other = place("".join(["time,element,force\n", *ours]), "other.csv")
     counted: list[int] = []
     take = Comparison.take
-    monkeypatch.setattr(Comparison, "take", lambda self, part: counted.append(part.count) or take(self, part))
+
+    def counting(self: Comparison, part: Part) -> None:
+        counted.append(part.count)
+        take(self, part)
+
+    monkeypatch.setattr(Comparison, "take", counting)
     options = (place(), "--positions", positions, "--against", other, "--output-format", "json")
     [column] = run("evaluate", *options).json()["against"]["columns"]
     assert counted == [1, 1, 1, 1]
