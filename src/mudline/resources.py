@@ -1,11 +1,28 @@
-"""Where the grammar files are: inside an installed wheel, else in the checkout."""
+"""What mudline consists of: the grammar files, and the modules of a package that says all it has by what is in it."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from importlib import import_module
 from pathlib import Path
+from pkgutil import iter_modules
+from types import ModuleType
 
 
 def grammar_file(name: str) -> Path:
     """Path of the grammar file `name`: the package's own copy first, the checkout's second."""
     packaged = Path(__file__).parent / "grammar" / name
     return packaged if packaged.exists() else Path(__file__).parents[2] / "grammar" / name
+
+
+def modules_of(package: ModuleType) -> list[ModuleType]:
+    """Every module of a package and of the packages in it, imported, by name; what they declare is there then."""
+    return list(_modules_of(package))
+
+
+def _modules_of(package: ModuleType) -> Iterator[ModuleType]:
+    for found in iter_modules(package.__path__, f"{package.__name__}."):
+        module = import_module(found.name)
+        yield module
+        if found.ispkg:
+            yield from _modules_of(module)

@@ -106,3 +106,16 @@ def test_long_blocks_without_a_model_are_compared_between_their_equal_ends() -> 
 def test_units_of_the_decks() -> None:
     (found,) = differences(deck(), deck(), name="b.keyxi")
     assert found == Difference("changed", "units", "units", "metric", "imperial")
+
+
+def test_values_of_equations_behind_the_model_compare() -> None:
+    given = "$PREPROCESSOR\n*PARAMETERS\n x, 0.5\n"
+    assert between(given + BOUNDARY, given + BOUNDARY.replace("0.5", "=[x]")) == []
+    found = between(given + BOUNDARY.replace("0.5", "=[2*x]"), given + BOUNDARY)
+    assert [values[1:] for values in found] == [(1.0, 0.5)]
+
+
+def test_equations_without_a_value_behind_the_model_compare_as_written() -> None:
+    one, other = (BOUNDARY.replace("0.5", f"=[strange({number})]") for number in (1, 2))
+    assert between(one, one) == []
+    assert [values[1:] for values in between(one, other)] == [("=[strange(1)]", "=[strange(2)]")]

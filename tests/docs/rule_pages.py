@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
+from mudline.diagnostics import Diagnostic
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import Rule
 from tests.docs.marking import MADE, marked
@@ -17,10 +18,11 @@ What `mudline lint` looks for. A code or a slug names one rule on the command li
 that begin so: `--select SYN`, `--ignore CRV002`, `--ignore unsorted-points`. `mudline rules CODE` prints a page.
 
 An *error* is a deck that is illegal or has no meaning. A *warning* is a likely mistake, or a place where the meaning is
-a choice of ours. An *info* is something to know.
+a choice of ours. An *info* is something to know. A rule that is *off* runs only where it is selected. A *safe* fix is
+made by `--fix`, an *unsafe* one by `--fix --unsafe-fixes`, as the finding in the example has it.
 
-| code | slug | severity | finds |
-| --- | --- | --- | --- |
+| code | slug | severity | fix | finds |
+| --- | --- | --- | --- | --- |
 {rows}
 
 Seven more codes are no rules and cannot be left out; they say why a file could not be used, changed or checked:
@@ -73,12 +75,25 @@ def rule_index(rules: Iterable[Rule]) -> str:
 
 def _row(rule: Rule) -> str:
     code = rule.code
-    return f"| [{code.code}]({code.code}.md) | `{code.slug}` | {code.severity} | {marked(rule.title)} |"
+    fixes = {finding.fix.applicability for finding in _found(rule) if finding.fix}
+    severity = f"{code.severity}, off" if rule.off else code.severity
+    fields = (
+        f"[{code.code}]({code.code}.md)",
+        f"`{code.slug}`",
+        severity,
+        ", ".join(sorted(fixes)),
+        marked(rule.title),
+    )
+    return f"| {' | '.join(fields)} |"
+
+
+def _found(rule: Rule) -> list[Diagnostic]:
+    """What a rule finds in its bad deck."""
+    return lint_bytes(rule.bad_bytes, rule.file, [rule], folder=Path("decks"), dialect=rule.dialect)
 
 
 def rule_page(rule: Rule) -> str:
     """docs/rules/CODE.md."""
-    found = lint_bytes(rule.bad_bytes, rule.file, [rule], folder=Path("decks"), dialect=rule.dialect)
     return _PAGE.format(
         made=MADE,
         code=rule.code.code,
@@ -89,6 +104,6 @@ def rule_page(rule: Rule) -> str:
         why=marked(rule.why),
         remark=f" ({rule.remark})" if rule.remark else "",
         bad=rule.bad.rstrip("\n"),
-        says="\n".join(str(finding) for finding in found),
+        says="\n".join(str(finding) for finding in _found(rule)),
         good=rule.good.rstrip("\n"),
     )

@@ -36,11 +36,9 @@ def found(context):
 
     Why not.
 
-    Bad:
-        $MODEL
-
-    Good:
-        $PREPROCESSOR
+    Example:
+        -$MODEL
+        +$PREPROCESSOR
 
     Finds: 1:1
     """
@@ -137,6 +135,10 @@ FAULTS = {
     "letters without rules": (RULE.format(code="RUN900", slug="model", body="yield"), "RUN900 belong to mudline"),
     "code of mudline": (RULE.format(code="CRV001", slug="model", body="yield"), "there is a rule CRV001 or model"),
     "name of mudline": (RULE.format(code="COR001", slug="too-few-points", body="yield"), "or too-few-points already"),
+    "docstring in no form": (
+        RULE.format(code="COR001", slug="model", body="yield").replace("Example:", "Bad:"),
+        "ValueError: the docstring of COR001 must have Example: tell its authors",
+    ),
     "code in no form": (RULE.format(code="cor-1", slug="model", body="yield"), "the code 'cor-1' must be"),
     "name in no form": (RULE.format(code="COR001", slug="The Model", body="yield"), "the name 'The Model' of COR001"),
 }

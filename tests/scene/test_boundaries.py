@@ -13,6 +13,7 @@ from mudline.scene.external import read_external
 from tests.growth import call_growth
 from tests.scene.decks import PIPE, Finding, all_told, messages, told
 
+GIVEN = "$PREPROCESSOR\n*PARAMETERS\n dof, 6\n last, 11\n far, 13\n odd, 6.5\n"
 HELD = "$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n"
 LINE = PIPE.count("\n") + HELD.count("\n") + 1
 ELSEWHERE = "$MODEL\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=5000.0\n"
@@ -20,7 +21,7 @@ ELSEWHERE = "$MODEL\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=500
 
 def held(*lines: str) -> list[Finding]:
     """What is told of lines behind TYPE=CONSTANT, in a deck with the nodes 1 to 11."""
-    found = all_told(PIPE + HELD + "".join(f" {line}\n" for line in lines))
+    found = all_told(PIPE + HELD + "".join(f" {line}\n" for line in lines) + GIVEN)
     return [(letter, code, line - LINE, column) for letter, code, line, column in found]
 
 
@@ -62,6 +63,15 @@ def test_lines_in_which_nothing_is_wrong(line: str) -> None:
         ("GEN=1, 11, 2, 9, 0.5", ("E", "SYN005", 0, 16)),
         ("GEN=11, 1, 2", ("E", "REF010", 0, 2)),
         ("GEN=1, 11, 0, 2, 0.0", ("E", "REF010", 0, 2)),
+        ("1, =[dof + 1]", ("E", "SYN005", 0, 5)),
+        ("GEN=1, 11, 2, =[dof + 1], 0.5", ("E", "SYN005", 0, 16)),
+        ("GEN=1, =[far], 6, 2, 0.0", ("W", "REF006", 0, 2)),
+        ("1, =[nothing]", ("E", "REF013", 0, 5)),
+        ("1, =[odd]", ("E", "SYN002", 0, 5)),
+        ("1, 2, =[1/0]", ("E", "SYN017", 0, 8)),
+        ("GEN=1, 11, =[nothing]", ("E", "REF013", 0, 13)),
+        ("GEN=1, 11, 2, =[nothing]", ("E", "REF013", 0, 16)),
+        ("GEN=1, =[cu(2)], 2", ("W", "SYN017", 0, 9)),
     ],
 )
 def test_a_fault_is_told_once(line: str, finding: Finding) -> None:

@@ -16,15 +16,11 @@ SYN002 = Code(
     that are infinite or too large for double precision are no numbers either. Correct the field; an equation is written
     `=[...]`.
 
-    Bad:
-        $MODEL
-        *OCEAN
-         5O0.0, 1025.0, 9.81
-
-    Good:
-        $MODEL
-        *OCEAN
-         500.0, 1025.0, 9.81
+    Example:
+         $MODEL
+         *OCEAN
+        - 5O0.0, 1025.0, 9.81
+        + 500.0, 1025.0, 9.81
 
     Finds: 3:2
     """,
@@ -40,29 +36,18 @@ SYN003 = Code(
     The place of a value on its line says what it is, so one comma too many or a value left out gives every later value
     another meaning. The message shows the format of the line. A field that may be empty is still set off by its comma.
 
-    Bad:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Soft clay
-         0.0, 0.0
-         0.1
-         0.5, 10000.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Soft clay
-
-    Good:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Soft clay
-         0.0, 0.0
-         0.1, 1200.0
-         0.5, 10000.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Soft clay
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Soft clay
+          0.0, 0.0
+        - 0.1
+        + 0.1, 1200.0
+          0.5, 10000.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Soft clay
 
     Finds: 5:2
     """,
@@ -78,23 +63,15 @@ SYN006 = Code(
     Commas between `=[` and `]`, in `{...}`, `/.../` and `"..."` part no fields. An opened one therefore swallows the
     rest of the line, and the values behind it are lost. Close it on the same line: nothing continues on the next.
 
-    Bad:
-        $PREPROCESSOR
-        *PARAMETERS
-         depth, 500.0
-         vessel_x, =[depth + 5.0
-        $MODEL
-        *OCEAN
-         =[depth], 1025.0, 9.81
-
-    Good:
-        $PREPROCESSOR
-        *PARAMETERS
-         depth, 500.0
-         vessel_x, =[depth + 5.0]
-        $MODEL
-        *OCEAN
-         =[depth], 1025.0, 9.81
+    Example:
+         $PREPROCESSOR
+         *PARAMETERS
+          depth, 500.0
+        - vessel_x, =[depth + 5.0
+        + vessel_x, =[depth + 5.0]
+         $MODEL
+         *OCEAN
+          =[depth], 1025.0, 9.81
 
     Finds: 4:12
     """,
@@ -112,29 +89,18 @@ SYN015 = Code(
     Write decimal points, and look at the other lines from the same source: one whose last fields may be left out reads
     without an error and with other values.
 
-    Bad:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Soft clay
-         0.0, 0.0
-         0,1, 1200,0
-         0.5, 10000.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Soft clay
-
-    Good:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Soft clay
-         0.0, 0.0
-         0.1, 1200.0
-         0.5, 10000.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Soft clay
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Soft clay
+          0.0, 0.0
+        - 0,1, 1200,0
+        + 0.1, 1200.0
+          0.5, 10000.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Soft clay
 
     Finds: 5:2
     """,
@@ -151,21 +117,14 @@ SYN016 = Code(
     wherever a number could stand. The text is read as if it had them; other programs may stop here, or read on with
     nothing. Put the braces around it.
 
-    Bad:
-        $MODEL
-        *LINES
-         LINE=Flowline
-        *ELEMENT SETS
-         SET=Tie-in
-         Seabed End
-
-    Good:
-        $MODEL
-        *LINES
-         LINE=Flowline
-        *ELEMENT SETS
-         SET=Tie-in
-         {Seabed End}
+    Example:
+         $MODEL
+         *LINES
+          LINE=Flowline
+         *ELEMENT SETS
+          SET=Tie-in
+        - Seabed End
+        + {Seabed End}
 
     Finds: 6:2
     """,
@@ -182,23 +141,15 @@ SYN017 = Code(
     field then has no value, and neither has anything that depends on it. Correct the equation at the place that the
     message names. A function that is not known here may be known elsewhere; that is a warning only.
 
-    Bad:
-        $PREPROCESSOR
-        *PARAMETERS
-         surveyed, 118.5
-         tide, 1.5
-        $MODEL
-        *OCEAN
-         =[surveyed + tide *], 1025.0, 9.81
-
-    Good:
-        $PREPROCESSOR
-        *PARAMETERS
-         surveyed, 118.5
-         tide, 1.5
-        $MODEL
-        *OCEAN
-         =[surveyed + tide], 1025.0, 9.81
+    Example:
+         $PREPROCESSOR
+         *PARAMETERS
+          surveyed, 118.5
+          tide, 1.5
+         $MODEL
+         *OCEAN
+        - =[surveyed + tide *], 1025.0, 9.81
+        + =[surveyed + tide], 1025.0, 9.81
 
     Finds: 7:2
     """,

@@ -16,19 +16,13 @@ SYN001 = Code(
     from the model. The message says which lines were expected: often a KEY= was forgotten in front of a number, or a
     line stands one place too early or too late.
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         50000.0
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+        - 50000.0
+        + STIFFNESS=50000.0
 
     Finds: 5:2
     """,
@@ -45,14 +39,10 @@ SYN007 = Code(
     read. The section line may have been lost when decks were put together. Put the line that the message names, for
     most keywords `$MODEL`, in front of it.
 
-    Bad:
-        *OCEAN
-         500.0, 1025.0, 9.81
-
-    Good:
-        $MODEL
-        *OCEAN
-         500.0, 1025.0, 9.81
+    Example:
+        +$MODEL
+         *OCEAN
+          500.0, 1025.0, 9.81
 
     Finds: 1:1
     """,
@@ -69,24 +59,15 @@ SYN008 = Code(
     read as what it looks like: a restraint in `$MODEL` restrains nothing, a seabed in `$LOAD CASE` carries nothing.
     Move the block to a section that the message names; a missing `$LOAD CASE` line above it is the usual cause.
 
-    Bad:
-        $MODEL
-        *OCEAN
-         500.0, 1025.0, 9.81
-        *BOUNDARY
-         TYPE=CONSTANT
-         1, 1
-         1, 2
-
-    Good:
-        $MODEL
-        *OCEAN
-         500.0, 1025.0, 9.81
-        $LOAD CASE
-        *BOUNDARY
-         TYPE=CONSTANT
-         1, 1
-         1, 2
+    Example:
+         $MODEL
+         *OCEAN
+          500.0, 1025.0, 9.81
+        +$LOAD CASE
+         *BOUNDARY
+          TYPE=CONSTANT
+          1, 1
+          1, 2
 
     Finds: 4:1
     """,
@@ -103,17 +84,12 @@ SYN011 = Code(
     Title lines at the top of a deck are common and do no harm, but numbers there are numbers that the model lacks. Turn
     a title into a comment (C and a blank), and put data under their keyword.
 
-    Bad:
-        Flowline on soft clay, as laid
-        $MODEL
-        *OCEAN
-         120.0, 1025.0, 9.81
-
-    Good:
-        C Flowline on soft clay, as laid
-        $MODEL
-        *OCEAN
-         120.0, 1025.0, 9.81
+    Example:
+        -Flowline on soft clay, as laid
+        +C Flowline on soft clay, as laid
+         $MODEL
+         *OCEAN
+          120.0, 1025.0, 9.81
 
     Finds: 1:1
     """,
@@ -132,17 +108,11 @@ SYN012 = Code(
     file, are seen by nobody and spoil the line that they stand in (in front of a * or a $ they are read over).
     UTF-16 and binary data are not read at all. Save the file as UTF-8, and remove what the message names.
 
-    Bad:
-        $MODEL
-        C Flowline Ø 323.9 mm on soft clay
-        *OCEAN
-         120.0, 1025.0, 9.81
-
-    Good:
-        $MODEL
-        C Flowline Ø 323.9 mm on soft clay
-        *OCEAN
-         120.0, 1025.0, 9.81
+    Example:
+         $MODEL
+         C Flowline Ø 323.9 mm on soft clay
+         *OCEAN
+          120.0, 1025.0, 9.81
 
     Bytes: cp1252
     Finds: 2:12
@@ -161,17 +131,12 @@ SYN013 = Code(
     keyword knows; any other is taken for a comment, which is our reading and not a documented rule. A misspelt `CURV=`
     drops a whole curve in this way. Put a blank behind the C of a comment, and in front of data.
 
-    Bad:
-        $MODEL
-        *OCEAN
-        Carried over from the survey report
-         120.0, 1025.0, 9.81
-
-    Good:
-        $MODEL
-        *OCEAN
-        C Carried over from the survey report
-         120.0, 1025.0, 9.81
+    Example:
+         $MODEL
+         *OCEAN
+        -Carried over from the survey report
+        +C Carried over from the survey report
+          120.0, 1025.0, 9.81
 
     Finds: 3:1
     """,
@@ -188,15 +153,11 @@ SYN014 = Code(
     before a line that the last keyword must have. Everything behind the cut is missing as well, and a deck may look
     complete without it. Fetch the file again, or write what is missing, and end the last line with a line end.
 
-    Bad:
-        $MODEL
-        *OCEAN
-         120.0, 1025.0, 9.81, 1.3E-
-
-    Good:
-        $MODEL
-        *OCEAN
-         120.0, 1025.0, 9.81, 1.3E-6
+    Example:
+         $MODEL
+         *OCEAN
+        - 120.0, 1025.0, 9.81, 1.3E-
+        + 120.0, 1025.0, 9.81, 1.3E-6
 
     Cut: yes
     Finds: 3:23

@@ -18,39 +18,23 @@ REF001 = Code(
     *LINE SECTION GROUPS, and a LINE= there that *LINE PATHS does not name. And a VARIATIONS= of *COMBINATIONS that
     names no variation is an error, as no deck could be made.
 
-    Bad:
-        $MODEL
-        *NODE
-         1, -0.05, 0.0
-         5, -0.05, 40.0
-         GEN=1, 5
-        *ELEMENT
-         1, 1, 2
-         GEN=1, 4
-        *ELEMENT SETS
-         SET=Touchdown
-         GEN=1, 4
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=Touch Down
-         STIFFNESS=50000.0
-
-    Good:
-        $MODEL
-        *NODE
-         1, -0.05, 0.0
-         5, -0.05, 40.0
-         GEN=1, 5
-        *ELEMENT
-         1, 1, 2
-         GEN=1, 4
-        *ELEMENT SETS
-         SET=Touchdown
-         GEN=1, 4
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=TOUCHDOWN
-         STIFFNESS=50000.0
+    Example:
+         $MODEL
+         *NODE
+          1, -0.05, 0.0
+          5, -0.05, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *ELEMENT SETS
+          SET=Touchdown
+          GEN=1, 4
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+        - SET=Touch Down
+        + SET=TOUCHDOWN
+          STIFFNESS=50000.0
 
     Finds: 14:6
     """,
@@ -67,31 +51,19 @@ REF005 = Code(
     mesh is made coarser and the sets stay as they were. Correct the number, or define the element. A range of which
     only some elements exist is a warning.
 
-    Bad:
-        $MODEL
-        *NODE
-         1, 12.0, 0.0
-         5, 12.0, 40.0
-         GEN=1, 5
-        *ELEMENT
-         1, 1, 2
-         GEN=1, 4
-        *ELEMENT SETS
-         SET=Bend
-         3, 4, 5
-
-    Good:
-        $MODEL
-        *NODE
-         1, 12.0, 0.0
-         5, 12.0, 40.0
-         GEN=1, 5
-        *ELEMENT
-         1, 1, 2
-         GEN=1, 4
-        *ELEMENT SETS
-         SET=Bend
-         3, 4
+    Example:
+         $MODEL
+         *NODE
+          1, 12.0, 0.0
+          5, 12.0, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *ELEMENT SETS
+          SET=Bend
+        - 3, 4, 5
+        + 3, 4
 
     Finds: 11:8
     """,
@@ -109,27 +81,17 @@ REF006 = Code(
     *P-Y and *T-Z. A node that only *LINES or the deck before a *RESTART can define is a warning, and so is a label that
     is spelt nearly as one that stands in *LINES or *LINE LOCATIONS.
 
-    Bad:
-        $MODEL
-        *NODE
-         1, 12.0, 0.0
-         5, 12.0, 40.0
-         GEN=1, 5
-        *ELEMENT
-         1, 1, 2
-         GEN=1, 3
-         4, 4, 6
-
-    Good:
-        $MODEL
-        *NODE
-         1, 12.0, 0.0
-         5, 12.0, 40.0
-         GEN=1, 5
-        *ELEMENT
-         1, 1, 2
-         GEN=1, 3
-         4, 4, 5
+    Example:
+         $MODEL
+         *NODE
+          1, 12.0, 0.0
+          5, 12.0, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 3
+        - 4, 4, 6
+        + 4, 4, 5
 
     Finds: 9:8
     """,
@@ -145,21 +107,14 @@ REF007 = Code(
     The later definition holds, and the earlier one is lost without a word: a line copied and half changed puts a kink
     into the pipe, or leaves an element out. Remove one of the two, or give it a number of its own.
 
-    Bad:
-        $MODEL
-        *NODE
-         1, 12.0, 0.0
-         2, 12.0, 10.0
-         3, 12.0, 20.0
-         3, 12.0, 30.0
-
-    Good:
-        $MODEL
-        *NODE
-         1, 12.0, 0.0
-         2, 12.0, 10.0
-         3, 12.0, 20.0
-         4, 12.0, 30.0
+    Example:
+         $MODEL
+         *NODE
+          1, 12.0, 0.0
+          2, 12.0, 10.0
+          3, 12.0, 20.0
+        - 3, 12.0, 30.0
+        + 4, 12.0, 30.0
 
     Finds: 6:2
     """,
@@ -175,32 +130,19 @@ REF008 = Code(
     A set takes in all elements of its subsets. A set that is, through others, a subset of itself has no meaning, and a
     subset that does not exist leaves elements out. Remove one of the SUBSET= lines of the circle, or correct the name.
 
-    Bad:
-        $MODEL
-        *NODE
-         1, 12.0, 0.0
-         2, 12.0, 10.0
-        *ELEMENT
-         1, 1, 2
-        *ELEMENT SETS
-         SET=Riser
-         1
-         SUBSET=Whole Line
-         SET=Whole Line
-         SUBSET=Riser
-
-    Good:
-        $MODEL
-        *NODE
-         1, 12.0, 0.0
-         2, 12.0, 10.0
-        *ELEMENT
-         1, 1, 2
-        *ELEMENT SETS
-         SET=Riser
-         1
-         SET=Whole Line
-         SUBSET=Riser
+    Example:
+         $MODEL
+         *NODE
+          1, 12.0, 0.0
+          2, 12.0, 10.0
+         *ELEMENT
+          1, 1, 2
+         *ELEMENT SETS
+          SET=Riser
+          1
+        - SUBSET=Whole Line
+          SET=Whole Line
+          SUBSET=Riser
 
     Finds: 12:9
     """,
@@ -216,27 +158,17 @@ REF009 = Code(
     ALL holds every element of the model, whatever else the deck says, so the lines below this SET= have no effect. Who
     reads the deck may believe that they have. Choose another name, or remove the lines.
 
-    Bad:
-        $MODEL
-        *NODE
-         1, 12.0, 0.0
-         2, 12.0, 10.0
-        *ELEMENT
-         1, 1, 2
-        *ELEMENT SETS
-         SET=All
-         1
-
-    Good:
-        $MODEL
-        *NODE
-         1, 12.0, 0.0
-         2, 12.0, 10.0
-        *ELEMENT
-         1, 1, 2
-        *ELEMENT SETS
-         SET=Whole Line
-         1
+    Example:
+         $MODEL
+         *NODE
+          1, 12.0, 0.0
+          2, 12.0, 10.0
+         *ELEMENT
+          1, 1, 2
+         *ELEMENT SETS
+        - SET=All
+        + SET=Whole Line
+          1
 
     Finds: 8:6
     """,
@@ -253,31 +185,19 @@ REF010 = Code(
     its start, whose increment does not lead to the end, or that would generate more than memory holds, is an error, as
     start and end may be exchanged or a digit wrong. Give the set its elements, or remove it.
 
-    Bad:
-        $MODEL
-        *NODE
-         1, 12.0, 0.0
-         5, 12.0, 40.0
-         GEN=1, 5
-        *ELEMENT
-         1, 1, 2
-         GEN=1, 4
-        *ELEMENT SETS
-         SET=Upper
-         GEN=4, 2
-
-    Good:
-        $MODEL
-        *NODE
-         1, 12.0, 0.0
-         5, 12.0, 40.0
-         GEN=1, 5
-        *ELEMENT
-         1, 1, 2
-         GEN=1, 4
-        *ELEMENT SETS
-         SET=Upper
-         GEN=2, 4
+    Example:
+         $MODEL
+         *NODE
+          1, 12.0, 0.0
+          5, 12.0, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *ELEMENT SETS
+          SET=Upper
+        - GEN=4, 2
+        + GEN=2, 4
 
     Finds: 11:2
     """,
@@ -294,21 +214,14 @@ REF013 = Code(
     or correct its name. Items of a list have the name of the list in front, as in Soil_stiffness. Told too are a PARA=
     of *VARIATION and a %name% in the names of files of *COMBINATIONS without a parameter: no deck could be made.
 
-    Bad:
-        $PREPROCESSOR
-        *PARAMETERS
-         water depth, 850.0
-        $MODEL
-        *OCEAN
-         =[depth], 1025.0, 9.81
-
-    Good:
-        $PREPROCESSOR
-        *PARAMETERS
-         depth, 850.0
-        $MODEL
-        *OCEAN
-         =[depth], 1025.0, 9.81
+    Example:
+         $PREPROCESSOR
+         *PARAMETERS
+        - water depth, 850.0
+        + depth, 850.0
+         $MODEL
+         *OCEAN
+          =[depth], 1025.0, 9.81
 
     Finds: 6:2
     """,
@@ -323,17 +236,12 @@ REF014 = Code(
 
     Each of them needs the value of the other first, so none has a value. Give one of them as a number.
 
-    Bad:
-        $PREPROCESSOR
-        *PARAMETERS
-         od, =[wall*17.0]
-         wall, =[od/17.0]
-
-    Good:
-        $PREPROCESSOR
-        *PARAMETERS
-         od, 0.3239
-         wall, =[od/17.0]
+    Example:
+         $PREPROCESSOR
+         *PARAMETERS
+        - od, =[wall*17.0]
+        + od, 0.3239
+          wall, =[od/17.0]
 
     Finds: 4:8
     """,
@@ -351,19 +259,13 @@ REF015 = Code(
     is there and cannot be read, and for decks that continue each other in a circle. A deck from standard input names no
     place where its files could be, so nothing is looked for.
 
-    Bad:
-        $LOAD CASE
-        *RESTART
-         LAST=static
-        *TIME
-         STEP=FIXED
-         0.0, 120.0, 0.05
-
-    Good:
-        $LOAD CASE
-        *TIME
-         STEP=FIXED
-         0.0, 120.0, 0.05
+    Example:
+         $LOAD CASE
+        -*RESTART
+        - LAST=static
+         *TIME
+          STEP=FIXED
+          0.0, 120.0, 0.05
 
     Finds: 3:7
     """,

@@ -14,19 +14,13 @@ SYN004 = Code(
     A setting that is misspelt is not read, and the default or nothing at all holds in its place: a seabed without its
     stiffness carries nothing. The message lists the keys of the keyword and suggests the nearest.
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFNESS=50000.0
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+        - STIFNESS=50000.0
+        + STIFFNESS=50000.0
 
     Finds: 5:2
     """,
@@ -42,19 +36,13 @@ SYN005 = Code(
     A choice decides how the lines below it are read and which law holds, so it cannot be guessed. The message lists the
     words and suggests the nearest. Upper or lower case does not matter.
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELSTIC
-         SET=ALL
-         STIFFNESS=50000.0
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+        - TYPE=ELSTIC
+        + TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
 
     Finds: 3:7
     """,
@@ -72,15 +60,11 @@ SYN009 = Code(
     misspelt keyword takes its whole block out of the model. Correct the name, put a remark into a comment line, or
     ignore this rule where the keyword is right.
 
-    Bad:
-        $MODEL
-        *OCAEN
-         500.0, 1025.0, 9.81
-
-    Good:
-        $MODEL
-        *OCEAN
-         500.0, 1025.0, 9.81
+    Example:
+         $MODEL
+        -*OCAEN
+        +*OCEAN
+          500.0, 1025.0, 9.81
 
     Finds: 2:1
     """,
@@ -97,21 +81,14 @@ SYN010 = Code(
     here; a name that differs from a known one by a letter or two, has the same beginning or has words behind it is a
     warning, as everything in a misspelt section is missing from the analysis. Correct the name.
 
-    Bad:
-        $MODEL
-        *OCEAN
-         500.0, 1025.0, 9.81
-        $LOADCASE
-        *ANALYSIS TYPE
-         TYPE=STATIC
-
-    Good:
-        $MODEL
-        *OCEAN
-         500.0, 1025.0, 9.81
-        $LOAD CASE
-        *ANALYSIS TYPE
-         TYPE=STATIC
+    Example:
+         $MODEL
+         *OCEAN
+          500.0, 1025.0, 9.81
+        -$LOADCASE
+        +$LOAD CASE
+         *ANALYSIS TYPE
+          TYPE=STATIC
 
     Finds: 4:1
     """,

@@ -65,7 +65,7 @@ def _modelled(side: Side) -> dict[_Name, list[tuple[Where, Block]]]:
         for j, block in enumerate(section.blocks):
             name = (titles[i], block.keyword)
             if isinstance(block, Block) and not block.facts.defines:
-                found.setdefault(name, []).append((Where(i, j), block))
+                found.setdefault(name, []).append((Where(i, j), side.comparable(block, Where(i, j))))
     return found
 
 

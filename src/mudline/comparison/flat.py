@@ -12,7 +12,7 @@ from mudline.diagnostics import Where
 from mudline.keywords.kept import Names
 from mudline.keywords.model import Block, ListRow, Part, Record, Rows, Slot, columns_of, layout
 from mudline.keywords.table import Cell, Table
-from mudline.keywords.values import Equation, Kind
+from mudline.keywords.values import Kind
 from mudline.keywords.writer import field_text, joined
 
 _KEYS = ("set", "name", "curve")
@@ -119,9 +119,6 @@ class _Flattening:
                 found[f"{path}/{index + 1}"] = self._scalar(item, place)
 
     def _scalar(self, value: object, where: Where) -> Entry:
-        if isinstance(value, Equation):  # outside $MODEL, where nothing evaluates it before
-            number = self.side.parameters.number(value)
-            value = str(value) if number is None else number
         if isinstance(value, float):
             return Entry(plain(value), value, where)
         if isinstance(value, int):

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import cast
 
-from mudline.codes import REF013, REF014, SYN002, SYN006, SYN017
+from mudline.codes.fields import SYN002, SYN006, SYN017
+from mudline.codes.references import REF013, REF014
 from mudline.deck.model import Nowhere
 from mudline.deck.parameters import Parameters
 from mudline.deck.reading import TextOrigin
-from mudline.diagnostics import DeckError, Problem, Where
+from mudline.diagnostics import Blocks, DeckError, Problem, Where
+from mudline.keywords.model import Block
 from mudline.scene.model import Scene
 
 _NO_VALUE = (SYN002, SYN006, SYN017, REF013, REF014)
@@ -38,6 +41,18 @@ class Side:
         """The parameters, evaluated."""
         return Parameters(self.scene.deck)
 
+    def comparable(self, block: Block, where: Where) -> Block:
+        """A block, or that block as written where one of its equations has no value: then their texts compare."""
+        if (where.section, where.block) not in self._valueless:
+            return block
+        return cast("Block", self.scene.context.as_written(where))
+
+    @cached_property
+    def _valueless(self) -> set[tuple[int, int]]:
+        """Section and block of what was noticed of equations."""
+        places = (problem.where for problem in self.scene.noticed if problem.code in _NO_VALUE)
+        return {(where.section, where.block) for where in places if where is not None}
+
     def line(self, where: Where | None) -> int | None:
         """The line of a place; None for what stands in no line of this file, and once too many were sought."""
         deck = self.scene.deck
@@ -52,6 +67,10 @@ class Side:
     def require(self) -> None:
         """Raise DeckError for what could not be read, and for equations without a value."""
         self.scene.deck.require()
-        unknown = [problem for problem in self.scene.noticed if problem.code in _NO_VALUE]
+        unknown = [
+            problem
+            for problem in self.scene.noticed
+            if problem.code in _NO_VALUE and problem.blocking is not Blocks.NEVER
+        ]
         if unknown:
             raise DeckError(self.scene.deck.diagnose(unknown))

@@ -1,13 +1,13 @@
-"""Blocks with their equations replaced by numbers: the same types, nothing behind this knows equations."""
+"""The deck that a scene is made from: its equations are replaced by their values, so that nothing there meets one."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import replace
 from functools import cache
-from typing import Any
+from typing import Any, NewType
 
-from mudline.codes import SYN002
+from mudline.codes.fields import SYN002
 from mudline.deck.model import Deck
 from mudline.deck.parameters import NoValueError, Parameters, Value, whole_fault
 from mudline.diagnostics import Blocks, Problem, Where
@@ -17,24 +17,34 @@ from mudline.keywords.values import Equation, Kind
 
 _PLAIN = frozenset({float, int, str})
 _EVALUATED = (Kind.REAL, Kind.WHOLE, Kind.REAL_OR_NAME)
+_DEFINING = "PREPROCESSOR"
+"""The section of the parameters; `mudline.deck.parameters` and `mudline.variations` evaluate what stands there."""
+
+EvaluatedDeck = NewType("EvaluatedDeck", Deck)
+"""A deck without equations in the sections of the model and of the analysis; only `evaluated` makes one.
+
+A value that an equation did not give is NaN, or None in a field of whole numbers.
+"""
 
 
-def evaluated(deck: Deck) -> tuple[Deck, list[Problem]]:
-    """The deck with every equation of `$MODEL` evaluated; one without a value becomes NaN and a problem.
+def evaluated(deck: Deck) -> tuple[EvaluatedDeck, list[Problem]]:
+    """The deck with its equations evaluated, and a problem for each that has no value.
 
-    Nothing can be evaluated without such a value, were it only because a function is not known, which is a warning.
+    Without a value of `$MODEL` nothing can be evaluated, were it only because a function is not known, which is a
+    warning. What other sections hold has no influence on the contact.
     """
     parameters = Parameters(deck)
     evaluator = _Evaluator(parameters)
     sections = []
     for i, section in enumerate(deck.sections):
         blocks = list(section.blocks)
-        if section.name == "MODEL":
+        if section.name != _DEFINING:
+            evaluator.blocks = Blocks.ALWAYS if section.name == "MODEL" else Blocks.NEVER
             for j, block in enumerate(section.blocks):
                 if _has_equation(block):
                     blocks[j] = evaluator.part(block, Where(i, j))
         sections.append(type(section)(section.name, blocks, section.comments, section.lines))
-    ready = replace(deck, sections=sections)
+    ready = EvaluatedDeck(replace(deck, sections=sections))
     noticed = parameters.problems
     if evaluator.lacks_parameter:
         noticed = [replace(problem, blocks=Blocks.ALWAYS) for problem in noticed]
@@ -66,6 +76,7 @@ class _Evaluator:
         self.parameters = parameters
         self.problems: list[Problem] = []
         self.lacks_parameter = False
+        self.blocks = Blocks.ALWAYS
 
     def part(self, part: Any, where: Where) -> Any:
         """A part without equations; the same object if it has none."""
@@ -111,21 +122,21 @@ class _Evaluator:
             value = self.parameters.evaluate(equation, where)
         except NoValueError as reason:
             if reason.problem:
-                self.problems.append(replace(reason.problem, blocks=Blocks.ALWAYS))
-            else:  # told where the parameter without a value is defined
+                self.problems.append(replace(reason.problem, blocks=self.blocks))
+            elif self.blocks is Blocks.ALWAYS:  # the problem is placed where the parameter is defined
                 self.lacks_parameter = True
             return nothing
         if isinstance(value, str):
             if kind is Kind.REAL_OR_NAME:
                 return value
             message = f"{equation} gives the text {value!r}: {label} needs a number"
-            self.problems.append(Problem(SYN002, message, None, None, where))
+            self.problems.append(Problem(SYN002, message, where=where, blocks=self.blocks))
             return nothing
         if not whole:
             return value
         if value.is_integer():
             return int(value)
-        self.problems.append(whole_fault(equation, value, label, where))
+        self.problems.append(replace(whole_fault(equation, value, label, where), blocks=self.blocks))
         return None
 
     def _table(self, table: Table, slot: Slot, where: Where) -> Table:

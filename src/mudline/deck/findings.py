@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections import Counter
 
-from mudline.codes import SYN007, SYN008, SYN009, SYN010, SYN011
+from mudline.codes.lines import SYN007, SYN008, SYN011
+from mudline.codes.words import SYN009, SYN010
 from mudline.diagnostics import Code, Problem, Severity, Span, Where
 from mudline.keywords import catalogue
 from mudline.keywords.likeness import meant_in, meant_keyword, meant_section, words_behind

@@ -6,7 +6,8 @@ import re
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple, cast
 
-from mudline.codes import REF013, REF014, SYN002, SYN006, SYN017
+from mudline.codes.fields import SYN002, SYN006, SYN017
+from mudline.codes.references import REF013, REF014
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.expression import Expression, ExpressionError, UndefinedName, UnknownFunction, evaluate, parse
 from mudline.keywords.text import shown, suggestion
@@ -123,7 +124,7 @@ class Parameters:
         name = cast("str | None", parameter.name)
         if name is None or value is None:
             return
-        if isinstance(value, str) and not isinstance(value, Equation) and value.startswith("/"):
+        if isinstance(value, str) and value.startswith("/"):
             self._define_list(name, value, where)
             return
         self._add(name, value, where)

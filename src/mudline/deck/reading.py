@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from pathlib import PurePath
 
-from mudline.codes import SYN002, SYN006, SYN014
+from mudline.codes.fields import SYN002, SYN006
+from mudline.codes.lines import SYN014
 from mudline.deck.findings import Findings
 from mudline.deck.model import START, Deck, Opaque, Range, Section
 from mudline.deck.units import units_of

@@ -6,7 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from mudline.codes import SYN001, SYN003, SYN004, SYN014
+from mudline.codes.fields import SYN003
+from mudline.codes.lines import SYN001, SYN014
+from mudline.codes.words import SYN004
 from mudline.diagnostics import Problem, Span
 from mudline.keywords.grammar import ROW, Content, Node
 from mudline.keywords.model import Block, ListRow, Part, Record, Slot, layout, row_format

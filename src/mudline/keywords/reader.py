@@ -9,7 +9,8 @@ from typing import Protocol, cast
 
 from pydantic import ValidationError
 
-from mudline.codes import SYN001, SYN004, SYN013, SYN014
+from mudline.codes.lines import SYN001, SYN013, SYN014
+from mudline.codes.words import SYN004
 from mudline.diagnostics import Problem, Span
 from mudline.keywords import grammar
 from mudline.keywords.builder import Builder, Built, construct

@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 
-from mudline.codes import SYN002, SYN003, SYN005, SYN015, SYN016
+from mudline.codes.fields import SYN002, SYN003, SYN015, SYN016
+from mudline.codes.words import SYN005
 from mudline.diagnostics import Problem, Severity, Span
 from mudline.keywords.text import shown
 

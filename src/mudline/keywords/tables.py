@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mudline.codes import SYN002, SYN003, SYN016
+from mudline.codes.fields import SYN002, SYN003, SYN016
 from mudline.diagnostics import Problem, Span
 from mudline.keywords.model import Slot, columns_of, row_format
 from mudline.keywords.places import Path
@@ -120,7 +120,7 @@ class TableBuilder:
         place = row_fields(text, line, len(self.columns))[column].span
         word = raw.words.get((row, column))
         if word:
-            fault = number_fault(word, self.columns[column].label)
+            fault = number_fault(word, self.columns[column].label, self.columns[column].kind)
         if word == "":
             self.builder.short(self.path[:-1], fault, place)
         else:

@@ -6,7 +6,8 @@ import re
 from collections.abc import Iterable
 from itertools import pairwise
 
-from mudline.codes import SYN002, SYN005, SYN015, SYN016
+from mudline.codes.fields import SYN002, SYN015, SYN016
+from mudline.codes.words import SYN005
 from mudline.diagnostics import Problem, Repair, Span
 from mudline.keywords.model import Slot, layout
 from mudline.keywords.table import LARGEST_WHOLE, not_whole
@@ -38,7 +39,8 @@ def read_value(field: Field, slot: Slot, problems: list[Problem]) -> Value:
         return field.text
     if slot.choices and (slot.kind is None or not _maybe_number(field.text)):
         return _choice(field, slot)
-    return Equation.match(field.text) or _number(field, slot, problems)
+    equation = None if slot.kind is Kind.IDENT else Equation.match(field.text)
+    return equation or _number(field, slot, problems)
 
 
 def _number(field: Field, slot: Slot, problems: list[Problem]) -> Value:
@@ -91,13 +93,15 @@ def cut_number(text: str) -> bool:
     return text in ("+", "-") or (text.rstrip("+-")[-1:] in ("e", "E", "d", "D") and spells_number(f"{text}0"))
 
 
-def number_fault(text: str, label: str) -> str:
+def number_fault(text: str, label: str, kind: Kind | None = None) -> str:
     """Why a text is no number, in words that say what to do."""
     lower = text.lower().lstrip("+-")
     if _not_finite(text):
         return f"{text!r} is not a finite number: {label} needs a number"
+    if kind is Kind.IDENT and Equation.match(text):
+        return f"{shown(text)} is an equation: expected {kind.value} for {label}"
     if text.startswith(("[", "=")):
-        return f"{text!r} is no equation: write =[...] for {label}"
+        return f"{text!r} is not an equation: write =[...] for {label}"
     if lower[:1].isdigit() and any(mark in lower for mark in "ed"):
         try:
             float(lower.replace("d", "e"))
@@ -198,7 +202,7 @@ def _ident(field: Field, number: float | None, slot: Slot, problems: list[Proble
         return label
     braced = maybe_label(field.text)
     if braced is None:
-        raise UnreadableError(Problem(SYN002, number_fault(field.text, slot.label), field.span))
+        raise UnreadableError(Problem(SYN002, number_fault(field.text, slot.label, Kind.IDENT), field.span))
     message = f"{shown(field.text)} is no number: is it the label {braced}? Labels stand in braces"
     problems.append(Problem(SYN016, message, field.span, repair=in_braces(field.text, field.span)))
     return braced

@@ -2,36 +2,25 @@
 
 from __future__ import annotations
 
-import inspect
 import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cache
-from importlib import import_module
+from textwrap import dedent
 
-from mudline import codes
+from mudline.codes import all_codes
 from mudline.diagnostics import Code, Problem
 from mudline.linting import plugins
+from mudline.linting import rules as rules_package
 from mudline.linting.context import LintContext
+from mudline.resources import modules_of
 from mudline.scene.checks.running import all_checks
 
 Check = Callable[[LintContext], Iterable[Problem]]
 
-MODULES = (
-    "references",
-    "sections",
-    "curves",
-    "seabed",
-    "extensions",
-    "units",
-    "stability",
-    "legacy",
-    "style",
-    "style_suppression",
-)
-"""The modules of `mudline.linting.rules`."""
-
-_HEADINGS = re.compile(r"^(Bad|Good|Finds|File|Bytes|Cut|Dialect):[ \t]*(.*)$", re.MULTILINE)
+_HEADINGS = re.compile(r"^(Example|Finds|File|Bytes|Cut|Dialect):[ \t]*(.*)$", re.MULTILINE)
+_MARKED = re.compile(r"    ([ +-])(.*)")
+_PLACE = re.compile(r"([0-9]+):([0-9]+)")
 _RULES: dict[str, Rule] = {}
 
 
@@ -96,12 +85,14 @@ class Noticed:
 def rule(code: Code, *, off: bool = False) -> Callable[[Check], Check]:
     """Register a function as the rule of a code that only advises; `off` keeps it from running unless it is selected.
 
-    Its docstring begins with the title, a sentence on a line of its own; the text behind it says why. Then come a bad
-    and a good deck, indented below `Bad:` and `Good:`, and `Finds: line:column`, the place of the one finding in the
-    bad deck. `File: name` (default deck.keyxm) is the name of both decks. `Bytes: encoding` saves the bad deck in
-    another encoding than UTF-8; `Cut: yes` leaves out its last line end; `Dialect: name` reads both decks in a dialect.
+    Its docstring begins with the title, a sentence on a line of its own; the text behind it says why. Below `Example:`
+    stand a bad and a good deck in one, four blanks in: a line behind a blank is in both, one behind `-` in the bad deck
+    only, one behind `+` in the good deck only. `Finds: line:column` is the place of the one finding in the bad deck.
+    `File: name` (default deck.keyxm) is the name of both decks. `Bytes: encoding` saves the bad deck in another
+    encoding than UTF-8; `Cut: yes` leaves out its last line end; `Dialect: name` reads both decks in a dialect.
 
-    Raises ValueError for a docstring that lacks a part, and for a code or slug that another rule has.
+    Raises ValueError for a docstring that lacks a part, for a line of the example that has no mark, for two decks that
+    are the same, and for a code or slug that another rule has.
     """
 
     def register(check: Check) -> Check:
@@ -119,45 +110,62 @@ def _register(described: Rule) -> None:
 
 
 def _described(code: Code, check: Check, page: str, *, off: bool = False) -> Rule:
-    parts = _HEADINGS.split(inspect.cleandoc(page))
+    first, _, rest = page.partition("\n")
+    parts = _HEADINGS.split(f"{first.strip()}\n{dedent(rest)}")
     title, _, why = parts[0].strip().partition("\n")
     found = {name: (line, body) for name, line, body in zip(parts[1::3], parts[2::3], parts[3::3], strict=True)}
-    lacking = [name for name in ("Bad", "Good", "Finds") if name not in found]
+    lacking = [name for name in ("Example", "Finds") if name not in found]
     if lacking or not title or not why.strip():
-        raise ValueError(f"the docstring of {code.code} lacks {', '.join(lacking) or 'a title or a reason'}")
+        raise ValueError(f"the docstring of {code.code} must have {' and '.join(lacking) or 'a title and a reason'}")
     words = {name: line.strip() for name, (line, _) in found.items()}
-    bad, good = (_example(found[name][1]) for name in ("Bad", "Good"))
-    line, column = (int(number) for number in words["Finds"].split(":"))
-    return Rule(
+    place = _PLACE.fullmatch(words["Finds"])
+    if place is None:
+        raise ValueError(f"Finds: {words['Finds']} of {code.code} must be line:column of the bad deck")
+    bad, good = _decks(code, found["Example"][1])
+    described = Rule(
         code=code,
         check=check,
         title=title.strip(),
         why=why.strip(),
         bad=bad.removesuffix("\n") if "Cut" in words else bad,
         good=good,
-        place=(line, column),
+        place=(int(place[1]), int(place[2])),
         file=words.get("File", "deck.keyxm"),
         encoding=words.get("Bytes", "utf-8"),
         off=off,
         dialect=words.get("Dialect", "mudline"),
     )
+    if described.bad_bytes == described.good_bytes:
+        raise ValueError(f"the decks of the example of {code.code} must differ in a line behind - or +")
+    return described
 
 
-def _example(body: str) -> str:
-    """The indented lines of an example, without their indentation."""
-    lines = body.strip("\n").rstrip().split("\n")
-    return "".join(f"{line.removeprefix('    ')}\n" for line in lines)
+def _decks(code: Code, example: str) -> tuple[str, str]:
+    """The bad and the good deck of an example; an empty line is in both."""
+    bad: list[str] = []
+    good: list[str] = []
+    for line in example.strip("\n").split("\n"):
+        marked = _MARKED.fullmatch(line or "     ")
+        if marked is None:
+            raise ValueError(
+                f"the line {line!r} of the example of {code.code} must have four blanks, then a blank, - or +"
+            )
+        mark, text = marked.groups()
+        if mark != "+":
+            bad.append(f"{text}\n")
+        if mark != "-":
+            good.append(f"{text}\n")
+    return "".join(bad), "".join(good)
 
 
 @cache
 def _collected() -> tuple[tuple[Rule, ...], tuple[str, ...]]:
-    declared = {code.code: (code, code.page) for code in vars(codes).values() if isinstance(code, Code) and code.page}
+    declared = {code.code: (code, code.page) for code in all_codes() if code.page}
     for found in all_checks():
         declared.setdefault(found.code.code, (found.code, found.find.__doc__ or ""))
     for code, page in declared.values():
         _register(_described(code, Noticed(code), page))
-    for module in MODULES:
-        import_module(f"mudline.linting.rules.{module}")
+    modules_of(rules_package)
     faults = plugins.load(_RULES)
     return tuple(_RULES[code] for code in sorted(_RULES)), faults
 

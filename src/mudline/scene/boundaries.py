@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, cast
 
-from mudline.codes import REF006, REF010, SYN001, SYN003, SYN005
+from mudline.codes.fields import SYN003
+from mudline.codes.lines import SYN001
+from mudline.codes.references import REF006, REF010
+from mudline.codes.words import SYN005
 from mudline.diagnostics import Severity, Where
-from mudline.keywords.values import Equation
 from mudline.scene.context import Context
 from mudline.scene.named_nodes import NamedNodes
 from mudline.scene.numbering import Numbered
@@ -51,7 +54,7 @@ class _Checker:
         """The nodes of a GEN=, and their degree of freedom."""
         place = where._replace(path=(*where.path, "generate"))
         values = cast("FixedValues | None", entry.generate)
-        if values is None or self.context.deck.origin.damaged(place):
+        if values is None or self.context.deck.origin.damaged(place) or self.context.without_value(values, place):
             return
         at, step = _parted(values)
         freedom = (values.third, values.fourth)[at - 2]
@@ -94,7 +97,6 @@ def _parted(values: FixedValues) -> tuple[int, object]:
 
 
 def _is_none(freedom: object) -> bool:
-    """Whether a value is no degree of freedom; what could not be read, or is an equation, may be one."""
-    if freedom is None or isinstance(freedom, Equation):
-        return False
-    return not (isinstance(freedom, int) and 1 <= freedom <= _MOST_FREEDOMS)
+    """Whether a value is no degree of freedom; one that could not be read may be one. Equations give 6.0 for 6."""
+    known = isinstance(freedom, int | float) and not math.isnan(freedom)
+    return known and freedom not in range(1, _MOST_FREEDOMS + 1)

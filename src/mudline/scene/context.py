@@ -7,9 +7,13 @@ from bisect import bisect_left
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from math import isnan
 from typing import Any, cast
 
-from mudline.codes import SYN001, SYN004, SYN016
+from mudline.codes.fields import SYN016
+from mudline.codes.lines import SYN001
+from mudline.codes.words import SYN004
+from mudline.deck.evaluation import EvaluatedDeck
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
@@ -38,7 +42,7 @@ class Context:
     `doubtful` the first and last number of what a GEN= with a fault may have been meant to define.
     """
 
-    deck: Deck
+    deck: EvaluatedDeck
     written: Deck
     problems: list[Problem] = field(default_factory=list)
     unread: set[str] = field(default_factory=set)
@@ -152,17 +156,24 @@ class Context:
 
     def generator(self, given: ListRow, where: Where) -> tuple[int, int, int] | None:
         """The three values of a GEN=, the last one 1 unless given; None when one of them is not known."""
-        names = list(type(given).model_fields)
-        values = [getattr(given, name) for name in names]
-        if values[2] is None and getattr(self._as_written(where), names[2]) is None:
+        values = [getattr(given, name) for name in type(given).model_fields]
+        if values[2] is None and not self.without_value(given, where):
             values[2] = 1
         usable = all(isinstance(value, int) and abs(value) <= LARGEST for value in values)
         return (values[0], values[1], values[2]) if usable and not self.deck.origin.damaged(where) else None
 
-    def _items(self, where: Where) -> list[object]:
-        return cast("list[object]", self._as_written(where))
+    def without_value(self, row: ListRow, where: Where) -> bool:
+        """Whether an equation of a row has no value."""
+        written = self.as_written(where)
+        fields = ((getattr(row, name), getattr(written, name)) for name in type(row).model_fields)
+        return any(
+            before is not None and (now is None or (isinstance(now, float) and isnan(now))) for now, before in fields
+        )
 
-    def _as_written(self, where: Where) -> object:
+    def _items(self, where: Where) -> list[object]:
+        return cast("list[object]", self.as_written(where))
+
+    def as_written(self, where: Where) -> object:
         """A part of the deck before its equations were evaluated."""
         found: Any = self.written.sections[where.section].blocks[where.block]
         for step in where.path:

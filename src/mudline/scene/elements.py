@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from mudline.codes import REF005, REF006, REF010
+from mudline.codes.references import REF005, REF006, REF010
 from mudline.diagnostics import Blocks, Severity, Where
 from mudline.keywords.table import Table
 from mudline.keywords.text import shown

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from itertools import chain
 from typing import TYPE_CHECKING, cast
 
-from mudline.codes import REF001, REF005, REF006
+from mudline.codes.references import REF001, REF005, REF006
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Code, Severity, Where
 from mudline.keywords.text import shown

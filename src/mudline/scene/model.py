@@ -14,7 +14,7 @@ from mudline.contact.errors import ElementError
 from mudline.contact.input import ContactInput, LawKind
 from mudline.contact.model import ContactModel
 from mudline.contact.plan import Backend
-from mudline.deck.model import Deck
+from mudline.deck.evaluation import EvaluatedDeck
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Blocks, DeckError, Problem, Severity, Where
 from mudline.scene.bed import Bed
@@ -98,7 +98,7 @@ class Scene:
         noticed: what went wrong while the deck was resolved.
     """
 
-    deck: Deck
+    deck: EvaluatedDeck
     nodes: Numbered
     table: ElementTable
     set_table: Sets

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from mudline.codes import REF006
+from mudline.codes.references import REF006
 from mudline.diagnostics import Where
 from mudline.keywords.text import shown
 from mudline.keywords.values import Label

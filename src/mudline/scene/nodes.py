@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from mudline.codes import REF006, REF010
+from mudline.codes.references import REF006, REF010
 from mudline.diagnostics import Severity, Where
 from mudline.scene.context import Context
 from mudline.scene.external import ExternalElements

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mudline.codes import REF007
+from mudline.codes.references import REF007
 from mudline.diagnostics import Blocks, Problem, Severity
 from mudline.scene.context import MOST_TOLD, Context
 from mudline.scene.numbering import Indices, Numbered

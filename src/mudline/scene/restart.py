@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, cast
 
-from mudline.codes import REF015
+from mudline.codes.references import REF015
 from mudline.deck.model import Deck
 from mudline.deck.parameters import Parameters
 from mudline.diagnostics import Problem, Where

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from mudline.codes import REF001, REF005, REF008, REF009, REF010
+from mudline.codes.references import REF001, REF005, REF008, REF009, REF010
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Severity, Where
 from mudline.keywords.remarks import advice_on

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import NamedTuple
 
-from mudline.codes import SYN003, SYN006
+from mudline.codes.fields import SYN003, SYN006
 from mudline.diagnostics import Problem, Span
 
 MOST_FIELDS = 100_000

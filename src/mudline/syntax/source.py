@@ -7,7 +7,7 @@ from bisect import bisect_right
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from mudline.codes import SYN012
+from mudline.codes.lines import SYN012
 from mudline.diagnostics import Problem, Severity, Span
 from mudline.short_repr import short_repr
 

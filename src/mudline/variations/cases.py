@@ -6,7 +6,8 @@ from collections.abc import Iterator
 from decimal import Decimal
 from typing import TYPE_CHECKING
 
-from mudline.codes import EXP001, REF013
+from mudline.codes import EXP001
+from mudline.codes.references import REF013
 from mudline.deck.model import Deck
 from mudline.deck.parameters import NoValueError
 from mudline.diagnostics import Problem, Where

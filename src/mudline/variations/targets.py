@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, cast
 
-from mudline.codes import REF013
+from mudline.codes.references import REF013
 from mudline.deck.model import Deck
 from mudline.deck.parameters import Parameters, folded, list_items
 from mudline.deck.reading import TextOrigin

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator
 from typing import TYPE_CHECKING, NamedTuple, cast
 
-from mudline.codes import REF001, REF013, SYN009, SYN010
+from mudline.codes.references import REF001, REF013
+from mudline.codes.words import SYN009, SYN010
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.parameters import Parameters, folded
 from mudline.diagnostics import Problem, Severity, Where

@@ -16,20 +16,13 @@ def friction_not_given(context: LintContext) -> Iterator[Problem]:
     Without FRICTION= there is no friction, which is seldom meant. The company standard wants both coefficients
     written for every set; write zeros where there is none.
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         FRICTION=0.3, 0.6
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+        + FRICTION=0.3, 0.6
 
     Finds: 4:2
     """

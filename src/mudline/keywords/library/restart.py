@@ -6,7 +6,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from mudline.codes import SYN004
+from mudline.codes.words import SYN004
 from mudline.diagnostics import Code
 from mudline.keywords.kept import Names
 from mudline.keywords.model import Block, setting

@@ -25,39 +25,23 @@ def soft_unloading(context: LintContext) -> Iterator[Problem]:
     Soil unloads at least as stiffly as it was loaded: with a softer return path a cycle would give energy back, and the
     trench would lie above the bed. The stiffness is raised to the slope reached. Give a higher one.
 
-    Bad:
-        $MODEL
-        *NODE
-         1, -0.05, 0.0
-         5, -0.05, 40.0
-         GEN=1, 5
-        *ELEMENT
-         1, 1, 2
-         GEN=1, 4
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-        *SEABED UNLOADING
-         SET=ALL
-         STIFFNESS=20000.0
-
-    Good:
-        $MODEL
-        *NODE
-         1, -0.05, 0.0
-         5, -0.05, 40.0
-         GEN=1, 5
-        *ELEMENT
-         1, 1, 2
-         GEN=1, 4
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-        *SEABED UNLOADING
-         SET=ALL
-         STIFFNESS=500000.0
+    Example:
+         $MODEL
+         *NODE
+          1, -0.05, 0.0
+          5, -0.05, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+         *SEABED UNLOADING
+          SET=ALL
+        - STIFFNESS=20000.0
+        + STIFFNESS=500000.0
 
     Finds: 15:12
     """

@@ -19,28 +19,20 @@ def superseded_keyword(context: LintContext) -> Iterator[Problem]:
     It is still legal and means what it meant. The newer keywords say more (profiles, friction by set), and new decks
     are written with them.
 
-    Bad:
-        $MODEL
-        *NODE
-         1, 0.0, 0.0
-         2, 0.0, 10.0
-        *ELEMENT
-         1, 1, 2
-        *ELASTIC SURFACE
-         50000.0, 0.3, 0.5
-
-    Good:
-        $MODEL
-        *NODE
-         1, 0.0, 0.0
-         2, 0.0, 10.0
-        *ELEMENT
-         1, 1, 2
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         FRICTION=0.3, 0.5
+    Example:
+         $MODEL
+         *NODE
+          1, 0.0, 0.0
+          2, 0.0, 10.0
+         *ELEMENT
+          1, 1, 2
+        -*ELASTIC SURFACE
+        - 50000.0, 0.3, 0.5
+        +*SEABED PROPERTIES
+        + TYPE=ELASTIC
+        + SET=ALL
+        + STIFFNESS=50000.0
+        + FRICTION=0.3, 0.5
 
     Finds: 7:1
     """

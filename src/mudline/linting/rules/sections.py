@@ -49,19 +49,13 @@ def number_and_curve(context: LintContext) -> Iterator[Problem]:
     Where SET= names a curve of the non-linear stiffness, its number on the property line is to be left empty. With both
     it is not clear which one a run takes. Leave the field empty, or remove the curve.
 
-    Bad:
-        $MODEL
-        *GEOMETRIC SETS
-         OPTION=FLEXIBLE
-         SET=ALL, EI=Bend Stiffener
-         23.5E3, 23.5E3, 1.2E6, 480.0E6, 92.0, 0.9, 0.2032, 0.3429, 0.3429, 0.3429
-
-    Good:
-        $MODEL
-        *GEOMETRIC SETS
-         OPTION=FLEXIBLE
-         SET=ALL, EI=Bend Stiffener
-         , , 1.2E6, 480.0E6, 92.0, 0.9, 0.2032, 0.3429, 0.3429, 0.3429
+    Example:
+         $MODEL
+         *GEOMETRIC SETS
+          OPTION=FLEXIBLE
+          SET=ALL, EI=Bend Stiffener
+        - 23.5E3, 23.5E3, 1.2E6, 480.0E6, 92.0, 0.9, 0.2032, 0.3429, 0.3429, 0.3429
+        + , , 1.2E6, 480.0E6, 92.0, 0.9, 0.2032, 0.3429, 0.3429, 0.3429
 
     Finds: 5:2
     """
@@ -90,49 +84,28 @@ def drag_diameter_assumed(context: LintContext) -> Iterator[Problem]:
     drag diameter is often larger, as it takes in marine growth, fairings or strakes. Give Do, the last field but one of
     the property line.
 
-    Bad:
-        $MODEL
-        *NODE
-         1, -0.05, 0.0
-         5, -0.05, 40.0
-         GEN=1, 5
-        *ELEMENT
-         1, 1, 2
-         GEN=1, 4
-        *GEOMETRIC SETS
-         OPTION=FLEXIBLE
-         SET=ALL
-         23.5E3, 23.5E3, 1.2E6, 480.0E6, 92.0, 0.9, 0.2032, 0.3910, 0.3429
-        *SEABED STIFFNESS
-         CURVE=Clay
-         0.0, 0.0
-         0.5, 4200.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
-
-    Good:
-        $MODEL
-        *NODE
-         1, -0.05, 0.0
-         5, -0.05, 40.0
-         GEN=1, 5
-        *ELEMENT
-         1, 1, 2
-         GEN=1, 4
-        *GEOMETRIC SETS
-         OPTION=FLEXIBLE
-         SET=ALL
-         23.5E3, 23.5E3, 1.2E6, 480.0E6, 92.0, 0.9, 0.2032, 0.3910, 0.3429, 0.3429
-        *SEABED STIFFNESS
-         CURVE=Clay
-         0.0, 0.0
-         0.5, 4200.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
+    Example:
+         $MODEL
+         *NODE
+          1, -0.05, 0.0
+          5, -0.05, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *GEOMETRIC SETS
+          OPTION=FLEXIBLE
+          SET=ALL
+        - 23.5E3, 23.5E3, 1.2E6, 480.0E6, 92.0, 0.9, 0.2032, 0.3910, 0.3429
+        + 23.5E3, 23.5E3, 1.2E6, 480.0E6, 92.0, 0.9, 0.2032, 0.3910, 0.3429, 0.3429
+         *SEABED STIFFNESS
+          CURVE=Clay
+          0.0, 0.0
+          0.5, 4200.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Clay
 
     Finds: 12:53
     """

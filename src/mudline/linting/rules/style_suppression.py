@@ -18,33 +18,20 @@ def unused_suppression(context: LintContext) -> Iterator[Problem]:
     without anybody having looked at it. Only rules that run are judged: with `--ignore CRV005` a comment for CRV005 is
     not unused. The fix removes the code, or the comment when it names nothing else.
 
-    Bad:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Clay
-         0.0, 0.0
-         0.1, 1200.0
-        C mudline: ignore CRV0O5 -- remoulded, see the survey
-         0.5, 900.0
-         1.0, 2000.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
-
-    Good:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Clay
-         0.0, 0.0
-         0.1, 1200.0
-        C mudline: ignore CRV005 -- remoulded, see the survey
-         0.5, 900.0
-         1.0, 2000.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Clay
+          0.0, 0.0
+          0.1, 1200.0
+        -C mudline: ignore CRV0O5 -- remoulded, see the survey
+        +C mudline: ignore CRV005 -- remoulded, see the survey
+          0.5, 900.0
+          1.0, 2000.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Clay
 
     Finds: 6:19
     """

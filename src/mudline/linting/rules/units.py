@@ -53,15 +53,11 @@ def gravity_mismatch(context: LintContext) -> Iterator[Problem]:
     gravity 32.2. A deck with the gravity of the other system was saved under the wrong suffix, or only half of it was
     converted. Correct the gravity, or give the file its suffix. More than 2 % away is told.
 
-    Bad:
-        $MODEL
-        *OCEAN
-         500.0, 1025.0, 32.2
-
-    Good:
-        $MODEL
-        *OCEAN
-         500.0, 1025.0, 9.81
+    Example:
+         $MODEL
+         *OCEAN
+        - 500.0, 1025.0, 32.2
+        + 500.0, 1025.0, 9.81
 
     Finds: 3:17
     """
@@ -92,19 +88,13 @@ def suspicious_magnitude(context: LintContext) -> Iterator[Problem]:
     than 10 m. Such a value is written in other units, as a rule. Write it in metres and newtons. A stiffness or a
     cohesion of 0 is not told.
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50.0
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+        - STIFFNESS=50.0
+        + STIFFNESS=50000.0
 
     Finds: 5:12
     """
@@ -158,21 +148,14 @@ def large_friction(context: LintContext) -> Iterator[Problem]:
     stands in the field as a rule: the fields of FRICTION= have another order than those of *ELASTIC SURFACE, which
     begin with the stiffness. Correct the field.
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         FRICTION=50000.0, 0.3, 0.6
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         FRICTION=0.3, 0.6
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+        - FRICTION=50000.0, 0.3, 0.6
+        + FRICTION=0.3, 0.6
 
     Finds: 6:11
     """

@@ -29,29 +29,18 @@ def undefined_curve(scene: Scene) -> Iterator[Problem]:
     The elements of the set have no seabed then. A STIFFNESS= that is no number is taken for the name of a curve, so a
     slip in a number is reported here too. Define the curve in *SEABED STIFFNESS, or correct the name.
 
-    Bad:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Soft Clay
-         0.0, 0.0
-         0.1, 1200.0
-         0.5, 4200.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Softclay
-
-    Good:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Soft Clay
-         0.0, 0.0
-         0.1, 1200.0
-         0.5, 4200.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Soft Clay
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Soft Clay
+          0.0, 0.0
+          0.1, 1200.0
+          0.5, 4200.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+        - STIFFNESS=Softclay
+        + STIFFNESS=Soft Clay
 
     Finds: 10:12
     """

@@ -21,26 +21,17 @@ def extension_needs_elastic(scene: Scene) -> Iterator[Problem]:
     The laws of the extensions act on penetration, and nothing penetrates a rigid seabed or none at all. Write
     *SEABED PROPERTIES with TYPE=ELASTIC, or remove the keyword.
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=RIGID
-         SET=ALL
-         FRICTION=0.3, 0.6
-        *SEABED SUCTION
-         SET=ALL
-         COHESION=5000.0
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         FRICTION=0.3, 0.6
-        *SEABED SUCTION
-         SET=ALL
-         COHESION=5000.0
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+        - TYPE=RIGID
+        + TYPE=ELASTIC
+          SET=ALL
+        + STIFFNESS=50000.0
+          FRICTION=0.3, 0.6
+         *SEABED SUCTION
+          SET=ALL
+          COHESION=5000.0
 
     Finds: 6:1
     """

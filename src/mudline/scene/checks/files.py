@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from mudline.codes import REF015
+from mudline.codes.references import REF015
 from mudline.deck.model import Deck
 from mudline.deck.parameters import Parameters
 from mudline.diagnostics import Blocks, Problem, Where

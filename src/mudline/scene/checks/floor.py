@@ -38,28 +38,18 @@ def profile_needs_elastic(scene: Scene) -> Iterator[Problem]:
     three dimensions needs TYPE=ELASTIC. Cubic interpolation and DIRECTION= are described for elastic beds only, which
     is a warning (inferred).
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=RIGID
-         SET=ALL
-         FRICTION=0.3, 0.6
-        *SEABED PROFILE
-         TYPE=SLOPING
-         DIRECTION=30.0
-         SLOPE=2.0
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         FRICTION=0.3, 0.6
-        *SEABED PROFILE
-         TYPE=SLOPING
-         DIRECTION=30.0
-         SLOPE=2.0
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+        - TYPE=RIGID
+        + TYPE=ELASTIC
+          SET=ALL
+        + STIFFNESS=50000.0
+          FRICTION=0.3, 0.6
+         *SEABED PROFILE
+          TYPE=SLOPING
+          DIRECTION=30.0
+          SLOPE=2.0
 
     Finds: 8:12
     """
@@ -85,25 +75,16 @@ def steep_slope(scene: Scene) -> Iterator[Problem]:
     A slope is an angle in degrees: one of 90 or more is no bed at all, and one above 45 is steeper than soil stands. A
     gradient in percent, typed as degrees, is a common cause. Correct it.
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-        *SEABED PROFILE
-         TYPE=SLOPING
-         SLOPE=95.0
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-        *SEABED PROFILE
-         TYPE=SLOPING
-         SLOPE=2.5
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+         *SEABED PROFILE
+          TYPE=SLOPING
+        - SLOPE=95.0
+        + SLOPE=2.5
 
     Finds: 8:8
     """
@@ -127,17 +108,13 @@ def unreadable_profile(scene: Scene) -> Iterator[Problem]:
     point; in such a file the finding names the first line that is no point. Points that make no seabed, such as one
     alone or two elevations at one Y, are an error.
 
-    Bad:
-        $MODEL
-        *SEABED PROFILE
-         TYPE=2D
-         FILE=shelf.fcsbd
-
-    Good:
-        $MODEL
-        *SEABED PROFILE
-         TYPE=SLOPING
-         SLOPE=1.5
+    Example:
+         $MODEL
+         *SEABED PROFILE
+        - TYPE=2D
+        - FILE=shelf.fcsbd
+        + TYPE=SLOPING
+        + SLOPE=1.5
 
     Finds: 4:7
     """
@@ -158,30 +135,19 @@ def floor_conflict(scene: Scene) -> Iterator[Problem]:
     *SEABED PLANES describes the whole sea floor, and so does *SEABED PROFILE or the slope of a legacy surface. Which of
     them the pipe lies on would be a guess. Keep one of them.
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-        *SEABED PROFILE
-         TYPE=SLOPING
-         SLOPE=2.0
-        *SEABED PLANES
-         PLANE=shelf
-         POINT=0.0, 0.0, 0.0
-         SLOPE=2.0
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-        *SEABED PLANES
-         PLANE=shelf
-         POINT=0.0, 0.0, 0.0
-         SLOPE=2.0
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+        -*SEABED PROFILE
+        - TYPE=SLOPING
+        - SLOPE=2.0
+         *SEABED PLANES
+          PLANE=shelf
+          POINT=0.0, 0.0, 0.0
+          SLOPE=2.0
 
     Finds: 9:1
     """
@@ -205,29 +171,18 @@ def bad_plane(scene: Scene) -> Iterator[Problem]:
     first. Give what is missing. Two planes of one name are a warning: names are for readers, and case does not count in
     them.
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-        *SEABED PLANES
-         PLANE=shelf
-         POINT=0.0, 0.0, 0.0
-         SLOPE=2.0
-         BOUNDS=900.0, 200.0, -500.0, 500.0
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-        *SEABED PLANES
-         PLANE=shelf
-         POINT=0.0, 0.0, 0.0
-         SLOPE=2.0
-         BOUNDS=200.0, 900.0, -500.0, 500.0
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+         *SEABED PLANES
+          PLANE=shelf
+          POINT=0.0, 0.0, 0.0
+          SLOPE=2.0
+        - BOUNDS=900.0, 200.0, -500.0, 500.0
+        + BOUNDS=200.0, 900.0, -500.0, 500.0
 
     Finds: 10:2
     """

@@ -36,27 +36,17 @@ def rigid_with_curve(scene: Scene) -> Iterator[Problem]:
     meant. STIFFNESS= with a number, LATERAL= and SUCTION= count for nothing and are a warning. Choose TYPE=ELASTIC, or
     remove the line.
 
-    Bad:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Clay
-         0.0, 0.0
-         0.5, 4200.0
-        *SEABED PROPERTIES
-         TYPE=RIGID
-         SET=ALL
-         STIFFNESS=Clay
-
-    Good:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Clay
-         0.0, 0.0
-         0.5, 4200.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Clay
+          0.0, 0.0
+          0.5, 4200.0
+         *SEABED PROPERTIES
+        - TYPE=RIGID
+        + TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Clay
 
     Finds: 9:12
     """
@@ -82,22 +72,15 @@ def two_seabed_types(scene: Scene) -> Iterator[Problem]:
     SURFACE. A block pasted from another deck is the usual cause. Remove one of them; a hard place in an elastic seabed
     takes a high stiffness instead.
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-        *SEABED PROPERTIES
-         TYPE=RIGID
-         SET=ALL
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+        -*SEABED PROPERTIES
+        - TYPE=RIGID
+        - SET=ALL
 
     Finds: 7:7
     """
@@ -122,18 +105,12 @@ def missing_type(scene: Scene) -> Iterator[Problem]:
     with the type of the one before it. A SET= that is missing at the beginning is a warning: the lines before the first
     SET= are read as SET=ALL (inferred), and so are the points of *EMBEDMENT before its first SET=.
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         SET=ALL
-         STIFFNESS=50000.0
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+        + TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
 
     Finds: 2:1
     """
@@ -163,18 +140,15 @@ def missing_embedment(scene: Scene) -> Iterator[Problem]:
     The first field of *ELASTIC SURFACE may be empty only when curves of *EMBEDMENT carry the elements. Otherwise
     nothing holds them vertically, and a static run has no solution. Give a stiffness, here or with the newer keywords.
 
-    Bad:
-        $MODEL
-        *ELASTIC SURFACE
-         , 0.3, 0.6
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         FRICTION=0.3, 0.6
+    Example:
+         $MODEL
+        -*ELASTIC SURFACE
+        - , 0.3, 0.6
+        +*SEABED PROPERTIES
+        + TYPE=ELASTIC
+        + SET=ALL
+        + STIFFNESS=50000.0
+        + FRICTION=0.3, 0.6
 
     Finds: 2:1
     """
@@ -195,26 +169,21 @@ def embedment_needs_elastic(scene: Scene) -> Iterator[Problem]:
     A force-embedment curve describes how far a pipe sinks, so it holds only on an elastic seabed: *ELASTIC SURFACE, or
     *SEABED PROPERTIES with TYPE=ELASTIC. Choose the elastic seabed, or remove the curves.
 
-    Bad:
-        $MODEL
-        *RIGID SURFACE
-         0.3, 0.6
-        *EMBEDMENT
-         SET=ALL
-         0.0, 0.0
-         0.5, 4200.0
-
-    Good:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Clay
-         0.0, 0.0
-         0.5, 4200.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
-         FRICTION=0.3, 0.6
+    Example:
+         $MODEL
+        -*RIGID SURFACE
+        - 0.3, 0.6
+        -*EMBEDMENT
+        - SET=ALL
+        +*SEABED STIFFNESS
+        + CURVE=Clay
+          0.0, 0.0
+          0.5, 4200.0
+        +*SEABED PROPERTIES
+        + TYPE=ELASTIC
+        + SET=ALL
+        + STIFFNESS=Clay
+        + FRICTION=0.3, 0.6
 
     Finds: 5:2
     """
@@ -243,55 +212,31 @@ def missing_diameter(scene: Scene) -> Iterator[Problem]:
     diameter is Do of *GEOMETRIC SETS, or for OPTION=FLEXIBLE without Do the drag diameter Dd, and it must not be 0.
     Give the elements a section, or put them into a set that has one.
 
-    Bad:
-        $MODEL
-        *NODE
-         1, -0.05, 0.0
-         5, -0.05, 40.0
-         GEN=1, 5
-        *ELEMENT
-         1, 1, 2
-         GEN=1, 4
-        *ELEMENT SETS
-         SET=Flowline
-         GEN=1, 3
-        *GEOMETRIC SETS
-         OPTION=RIGID
-         SET=Flowline
-         207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
-        *SEABED STIFFNESS
-         CURVE=Clay
-         0.0, 0.0
-         0.5, 4200.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
-
-    Good:
-        $MODEL
-        *NODE
-         1, -0.05, 0.0
-         5, -0.05, 40.0
-         GEN=1, 5
-        *ELEMENT
-         1, 1, 2
-         GEN=1, 4
-        *ELEMENT SETS
-         SET=Flowline
-         GEN=1, 4
-        *GEOMETRIC SETS
-         OPTION=RIGID
-         SET=Flowline
-         207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
-        *SEABED STIFFNESS
-         CURVE=Clay
-         0.0, 0.0
-         0.5, 4200.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
+    Example:
+         $MODEL
+         *NODE
+          1, -0.05, 0.0
+          5, -0.05, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *ELEMENT SETS
+          SET=Flowline
+        - GEN=1, 3
+        + GEN=1, 4
+         *GEOMETRIC SETS
+          OPTION=RIGID
+          SET=Flowline
+          207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
+         *SEABED STIFFNESS
+          CURVE=Clay
+          0.0, 0.0
+          0.5, 4200.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Clay
 
     Finds: 23:12
     """

@@ -29,21 +29,14 @@ def negative_property(scene: Scene) -> Iterator[Problem]:
     are looked at too. The geometry of a trench and the stiffness of unloading have rules of their own, EXT003 and
     EXT009.
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         FRICTION=-0.3, 0.6
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         FRICTION=0.3, 0.6
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+        - FRICTION=-0.3, 0.6
+        + FRICTION=0.3, 0.6
 
     Finds: 6:11
     """

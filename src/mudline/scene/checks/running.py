@@ -4,26 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from importlib import import_module
+from functools import cache
 from itertools import islice
 from typing import TYPE_CHECKING
 
 from mudline.diagnostics import Problem
+from mudline.resources import modules_of
+from mudline.scene import checks
 from mudline.scene.checks.declaring import CHECKS, Check
 from mudline.scene.context import MORE, MOST_TOLD
 
 if TYPE_CHECKING:
     from mudline.scene.model import Scene
 
-MODULES = ("laws", "curves", "sections", "ranges", "floor", "files", "extensions", "suction", "trench", "unloading")
-"""The modules of this package that declare checks."""
 
-
-def all_checks() -> list[Check]:
-    """Every check of a scene."""
-    for module in MODULES:
-        import_module(f"mudline.scene.checks.{module}")
-    return CHECKS
+@cache
+def all_checks() -> tuple[Check, ...]:
+    """Every check of a scene: what the modules of this package declare."""
+    modules_of(checks)
+    return tuple(CHECKS)
 
 
 def checked(scene: Scene) -> list[Problem]:

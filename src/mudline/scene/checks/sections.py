@@ -35,19 +35,13 @@ def inner_exceeds_outer(scene: Scene) -> Iterator[Problem]:
     The pipe has no wall: its mass and stiffness would be zero or negative. The two fields are exchanged, or the wall
     thickness was subtracted from the wrong one. Correct Do or Di.
 
-    Bad:
-        $MODEL
-        *GEOMETRIC SETS
-         OPTION=RIGID
-         SET=ALL
-         207.0E9, 79.6E9, 0.2889, 0.3239, 7850.0
-
-    Good:
-        $MODEL
-        *GEOMETRIC SETS
-         OPTION=RIGID
-         SET=ALL
-         207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
+    Example:
+         $MODEL
+         *GEOMETRIC SETS
+          OPTION=RIGID
+          SET=ALL
+        - 207.0E9, 79.6E9, 0.2889, 0.3239, 7850.0
+        + 207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
 
     Finds: 5:27
     """
@@ -70,29 +64,18 @@ def zero_length_element(scene: Scene) -> Iterator[Problem]:
     parts at one node. In a model with flex joints, hinges, springs or dampers, which may have no length, this is a
     warning.
 
-    Bad:
-        $MODEL
-        *NODE
-         1, 12.0, 0.0
-         2, 12.0, 10.0
-         3, 12.0, 10.0
-         4, 12.0, 20.0
-        *ELEMENT
-         1, 1, 2
-         2, 2, 3
-         3, 3, 4
-
-    Good:
-        $MODEL
-        *NODE
-         1, 12.0, 0.0
-         2, 12.0, 10.0
-         3, 12.0, 15.0
-         4, 12.0, 20.0
-        *ELEMENT
-         1, 1, 2
-         2, 2, 3
-         3, 3, 4
+    Example:
+         $MODEL
+         *NODE
+          1, 12.0, 0.0
+          2, 12.0, 10.0
+        - 3, 12.0, 10.0
+        + 3, 12.0, 15.0
+          4, 12.0, 20.0
+         *ELEMENT
+          1, 1, 2
+          2, 2, 3
+          3, 3, 4
 
     Finds: 9:2
     """

@@ -33,27 +33,17 @@ def bad_cutoff(scene: Scene) -> Iterator[Problem]:
     Suction rises up to the first corner, holds, and falls from the second one to breakout: both are fractions of the
     suction depth, 0.01 <= first <= second <= 0.99, so that rise and fall have a finite slope. Correct them.
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-        *SEABED SUCTION
-         SET=ALL
-         COHESION=5000.0
-         CUTOFF=0.8, 0.2
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-        *SEABED SUCTION
-         SET=ALL
-         COHESION=5000.0
-         CUTOFF=0.2, 0.8
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+         *SEABED SUCTION
+          SET=ALL
+          COHESION=5000.0
+        - CUTOFF=0.8, 0.2
+        + CUTOFF=0.2, 0.8
 
     Finds: 9:2
     """
@@ -76,26 +66,16 @@ def suction_incomplete(scene: Scene) -> Iterator[Problem]:
     not dimensionally homogeneous, and the default of REGULARISATION= is in m/s: with user units neither can be
     converted, so that FORCE=, DEPTH= and REGULARISATION= must all be given. Give what is missing.
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-        *SEABED SUCTION
-         SET=ALL
-         FORCE=3500.0, 0.18
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-        *SEABED SUCTION
-         SET=ALL
-         FORCE=3500.0, 0.18
-         DEPTH=0.3, 0.26
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+         *SEABED SUCTION
+          SET=ALL
+          FORCE=3500.0, 0.18
+        + DEPTH=0.3, 0.26
 
     Finds: 7:6
     """
@@ -135,46 +115,27 @@ def suction_conflict(scene: Scene) -> Iterator[Problem]:
     cut` the pull of a curve is left out, and there is one law only: such a deck is evaluated then. A curve that pulls
     only where it is extrapolated is a warning; a position that reaches this part of it is refused.
 
-    Bad:
-        $MODEL
-        *NODE
-         1, -0.05, 0.0
-         5, -0.05, 40.0
-         GEN=1, 5
-        *ELEMENT
-         1, 1, 2
-         GEN=1, 4
-        *GEOMETRIC SETS
-         OPTION=RIGID
-         SET=ALL
-         207.0E9, 79.6E9, 0.3, 0.265, 7850.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         SUCTION=8000.0, 0.15
-        *SEABED SUCTION
-         SET=ALL
-         COHESION=5000.0
-
-    Good:
-        $MODEL
-        *NODE
-         1, -0.05, 0.0
-         5, -0.05, 40.0
-         GEN=1, 5
-        *ELEMENT
-         1, 1, 2
-         GEN=1, 4
-        *GEOMETRIC SETS
-         OPTION=RIGID
-         SET=ALL
-         207.0E9, 79.6E9, 0.3, 0.265, 7850.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         SUCTION=8000.0, 0.15
+    Example:
+         $MODEL
+         *NODE
+          1, -0.05, 0.0
+          5, -0.05, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *GEOMETRIC SETS
+          OPTION=RIGID
+          SET=ALL
+          207.0E9, 79.6E9, 0.3, 0.265, 7850.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+          SUCTION=8000.0, 0.15
+        -*SEABED SUCTION
+        - SET=ALL
+        - COHESION=5000.0
 
     Finds: 19:6
     """

@@ -38,29 +38,18 @@ def bad_trench(scene: Scene) -> Iterator[Problem]:
     of CENTRELINE= must differ. PEAK= beside MODEL=WALL has no effect and is a warning, and so are elements whose
     friction this deck may not show. Correct the value, or give what is missing.
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         FRICTION=0.3, 0.6
-        *SEABED TRENCH
-         SET=ALL
-         GEOMETRY=0.5, 3.0, 1.0
-         PEAK=2000.0
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         FRICTION=0.3, 0.6
-        *SEABED TRENCH
-         SET=ALL
-         GEOMETRY=0.5, 1.0, 3.0
-         PEAK=2000.0
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+          FRICTION=0.3, 0.6
+         *SEABED TRENCH
+          SET=ALL
+        - GEOMETRY=0.5, 3.0, 1.0
+        + GEOMETRY=0.5, 1.0, 3.0
+          PEAK=2000.0
 
     Finds: 9:2
     """

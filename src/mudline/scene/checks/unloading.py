@@ -30,25 +30,16 @@ def unloading_conflict(scene: Scene) -> Iterator[Problem]:
     divides and must be above 0. SMOOTHING=AUTO smooths nothing where the submerged weight is not known, or is not above
     0. NODAL STIFFNESS= replaces the law per unit length that would be unloaded.
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-        *SEABED UNLOADING
-         SET=ALL
-         STIFFNESS=0.0
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-        *SEABED UNLOADING
-         SET=ALL
-         STIFFNESS=500000.0
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+         *SEABED UNLOADING
+          SET=ALL
+        - STIFFNESS=0.0
+        + STIFFNESS=500000.0
 
     Finds: 8:12
     """

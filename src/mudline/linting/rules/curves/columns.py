@@ -37,29 +37,19 @@ def swapped_columns(context: LintContext) -> Iterator[Problem]:
     of soil springs, such as those of *P-Y, have the force first, and were perhaps copied. With the columns exchanged
     the seabed has next to no stiffness. Exchange them.
 
-    Bad:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Clay
-         0.0, 0.0
-         1200.0, 0.1
-         4200.0, 0.5
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
-
-    Good:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Clay
-         0.0, 0.0
-         0.1, 1200.0
-         0.5, 4200.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Clay
+          0.0, 0.0
+        - 1200.0, 0.1
+        - 4200.0, 0.5
+        + 0.1, 1200.0
+        + 0.5, 4200.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Clay
 
     Finds: 3:2
     """
@@ -96,29 +86,19 @@ def ratio_range(context: LintContext) -> Iterator[Problem]:
     the seabed. Depths in millimetres or percentages of the diameter look like this, and give a seabed that is far too
     soft. Write ratios.
 
-    Bad:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Clay
-         0.0, 0.0
-         10.0, 1200.0
-         50.0, 4200.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
-
-    Good:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Clay
-         0.0, 0.0
-         0.10, 1200.0
-         0.50, 4200.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Clay
+          0.0, 0.0
+        - 10.0, 1200.0
+        - 50.0, 4200.0
+        + 0.10, 1200.0
+        + 0.50, 4200.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Clay
 
     Finds: 6:2
     """

@@ -33,31 +33,19 @@ def steep_extrapolation(context: LintContext) -> Iterator[Problem]:
     greater depth. A rounded ratio or two points very close together make such a slope by accident. Correct the last
     point, or remove it. Flat segments are left out of the comparison.
 
-    Bad:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Clay
-         0.0, 0.0
-         0.1, 1200.0
-         0.5, 4200.0
-         0.5001, 4400.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
-
-    Good:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Clay
-         0.0, 0.0
-         0.1, 1200.0
-         0.5, 4200.0
-         0.6, 5200.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Clay
+          0.0, 0.0
+          0.1, 1200.0
+          0.5, 4200.0
+        - 0.5001, 4400.0
+        + 0.6, 5200.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Clay
 
     Finds: 7:2
     """
@@ -81,29 +69,18 @@ def flat_last_segment(context: LintContext) -> Iterator[Problem]:
     A curve goes on behind its last point with its last slope: here with none. A pipe that is heavier than the last
     force sinks without end, and a static run does not converge. Add a point that the force rises to.
 
-    Bad:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Clay
-         0.0, 0.0
-         0.5, 4200.0
-         1.0, 4200.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
-
-    Good:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Clay
-         0.0, 0.0
-         0.5, 4200.0
-         1.0, 4600.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Clay
+          0.0, 0.0
+          0.5, 4200.0
+        - 1.0, 4200.0
+        + 1.0, 4600.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Clay
 
     Finds: 6:2
     """
@@ -125,49 +102,29 @@ def beyond_curve(context: LintContext) -> Iterator[Problem]:
     coordinates have another datum than the bed, X = 0; otherwise add points down to the depth of the elements.
     Nothing is said of models whose bed is not flat.
 
-    Bad:
-        $MODEL
-        *NODE
-         1, -0.25, 0.0
-         5, -0.25, 40.0
-         GEN=1, 5
-        *ELEMENT
-         1, 1, 2
-         GEN=1, 4
-        *GEOMETRIC SETS
-         OPTION=RIGID
-         SET=ALL
-         207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
-        *SEABED STIFFNESS
-         CURVE=Clay
-         0.0, 0.0
-         0.5, 4200.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
-
-    Good:
-        $MODEL
-        *NODE
-         1, -0.05, 0.0
-         5, -0.05, 40.0
-         GEN=1, 5
-        *ELEMENT
-         1, 1, 2
-         GEN=1, 4
-        *GEOMETRIC SETS
-         OPTION=RIGID
-         SET=ALL
-         207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
-        *SEABED STIFFNESS
-         CURVE=Clay
-         0.0, 0.0
-         0.5, 4200.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
+    Example:
+         $MODEL
+         *NODE
+        - 1, -0.25, 0.0
+        - 5, -0.25, 40.0
+        + 1, -0.05, 0.0
+        + 5, -0.05, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *GEOMETRIC SETS
+          OPTION=RIGID
+          SET=ALL
+          207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
+         *SEABED STIFFNESS
+          CURVE=Clay
+          0.0, 0.0
+          0.5, 4200.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Clay
 
     Finds: 14:2
     """

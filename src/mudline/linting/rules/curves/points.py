@@ -21,30 +21,18 @@ def repeated_point(context: LintContext) -> Iterator[Problem]:
     It counts once, so nothing is wrong yet; but when one of the two is changed later, the curve has two forces at one
     ratio. Remove it.
 
-    Bad:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Sand
-         0.00, 0.0
-         0.05, 1800.0
-         0.05, 1800.0
-         0.20, 9000.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Sand
-
-    Good:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Sand
-         0.00, 0.0
-         0.05, 1800.0
-         0.20, 9000.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Sand
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Sand
+          0.00, 0.0
+        - 0.05, 1800.0
+          0.05, 1800.0
+          0.20, 9000.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Sand
 
     Finds: 6:2
     """

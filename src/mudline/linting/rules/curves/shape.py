@@ -27,29 +27,18 @@ def unsorted_points(context: LintContext) -> Iterator[Problem]:
     This is legal: they are sorted before anything else. A reader of the deck sees another curve than the one that
     holds, though, and a point out of order is sometimes a slip in its ratio. Put the points in order.
 
-    Bad:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Sand
-         0.00, 0.0
-         0.20, 9000.0
-         0.05, 1800.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Sand
-
-    Good:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Sand
-         0.00, 0.0
-         0.05, 1800.0
-         0.20, 9000.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Sand
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Sand
+          0.00, 0.0
+        + 0.05, 1800.0
+          0.20, 9000.0
+        - 0.05, 1800.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Sand
 
     Finds: 6:2
     """
@@ -71,31 +60,19 @@ def decreasing_force(context: LintContext) -> Iterator[Problem]:
     D being the external diameter. Softening soil is real, but a static run rarely converges on it; give the curve a
     force that does not fall, or keep this one knowingly.
 
-    Bad:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Crust
-         0.00, 0.0
-         0.10, 3000.0
-         0.20, 2400.0
-         0.50, 5000.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Crust
-
-    Good:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Crust
-         0.00, 0.0
-         0.10, 2400.0
-         0.20, 2400.0
-         0.50, 5000.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Crust
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Crust
+          0.00, 0.0
+        - 0.10, 3000.0
+        + 0.10, 2400.0
+          0.20, 2400.0
+          0.50, 5000.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Crust
 
     Finds: 6:2
     """
@@ -144,29 +121,19 @@ def negative_ratio(context: LintContext) -> Iterator[Problem]:
     -0.5; its part above 0 is lost, and the force jumps when contact begins. Remove the point, or draw the curve for the
     centreline. A curve that has the force 0 up to ratio 0 loses nothing, and is not told.
 
-    Bad:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Clay
-         -0.5, 0.0
-         0.0, 2100.0
-         0.5, 4800.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
-
-    Good:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Clay
-         0.0, 0.0
-         0.1, 900.0
-         0.5, 4800.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Clay
+        - -0.5, 0.0
+        - 0.0, 2100.0
+        + 0.0, 0.0
+        + 0.1, 900.0
+          0.5, 4800.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Clay
 
     Finds: 4:2
     """

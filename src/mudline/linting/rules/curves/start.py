@@ -36,30 +36,18 @@ def force_at_zero(context: LintContext) -> Iterator[Problem]:
     equilibrium near it. Below its first point a curve goes on with its first slope, so a curve without the point (0, 0)
     may have such a force too. More than a hundredth of the largest force of the curve is told. Add the point 0, 0.
 
-    Bad:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Clay
-         0.05, 800.0
-         0.10, 1200.0
-         0.50, 4200.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
-
-    Good:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Clay
-         0.00, 0.0
-         0.05, 800.0
-         0.10, 1200.0
-         0.50, 4200.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Clay
+        + 0.00, 0.0
+          0.05, 800.0
+          0.10, 1200.0
+          0.50, 4200.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Clay
 
     Finds: 3:2
     """
@@ -86,29 +74,18 @@ def curve_pulls(context: LintContext) -> Iterator[Problem]:
     on falling behind its last point, or one whose first slope is so steep that it crosses 0 too late. Suction belongs
     into *SEABED SUCTION or SUCTION=, where it acts on a pipe that rises. Correct the force.
 
-    Bad:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Clay
-         0.0, 0.0
-         0.1, -1200.0
-         0.5, 4200.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
-
-    Good:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Clay
-         0.0, 0.0
-         0.1, 1200.0
-         0.5, 4200.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Clay
+          0.0, 0.0
+        - 0.1, -1200.0
+        + 0.1, 1200.0
+          0.5, 4200.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Clay
 
     Finds: 5:2
     """

@@ -9,13 +9,13 @@ from mudline.contact.input import LawKind
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.text import shown
-from mudline.keywords.values import Equation
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
 from mudline.linting.rules.references.removal import removals
 from mudline.syntax.rows import read_number
 
 if TYPE_CHECKING:
+    from mudline.deck.model import Deck
     from mudline.keywords.library.seabed_properties import SeabedProperties
     from mudline.keywords.library.variation import Variation
     from mudline.scene.force_curves import SceneCurve
@@ -32,30 +32,19 @@ def unused_curve(context: LintContext) -> Iterator[Problem]:
     it in a STIFFNESS= of *SEABED PROPERTIES, or remove it. Nothing is said of a deck whose STIFFNESS= is an equation:
     its parameters choose the curve; nor of a curve whose name reads as a number, which SBD017 tells.
 
-    Bad:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Soft Clay
-         0.0, 0.0
-         0.1, 1200.0
-         CURVE=Backfill
-         0.0, 0.0
-         0.1, 300.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Soft Clay
-
-    Good:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Soft Clay
-         0.0, 0.0
-         0.1, 1200.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Soft Clay
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Soft Clay
+          0.0, 0.0
+          0.1, 1200.0
+        - CURVE=Backfill
+        - 0.0, 0.0
+        - 0.1, 300.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Soft Clay
 
     Finds: 6:8
     """
@@ -85,8 +74,11 @@ def unused_curve(context: LintContext) -> Iterator[Problem]:
 def _chosen_elsewhere(context: LintContext) -> bool:
     """Whether something that is not read, or not fixed, may use curves."""
     scene = context.scene
-    if any(isinstance(stiffness, Equation) for stiffness in _stiffnesses(context)):
-        return True
+    own = zip(
+        _stiffnesses(context.deck), _stiffnesses(scene.deck), strict=False
+    )  # a continued deck has more behind them
+    if any(written is not value for written, value in own):
+        return True  # an equation, whose parameters may be varied
     if any(grant.kind is LawKind.NONE and grant.unknown for grant in scene.laws.grants):
         return True  # a set whose STIFFNESS= could not be read
     if scene.context.astray("SEABED PROPERTIES") or (scene.context.restart and not scene.laws.referenced):
@@ -100,8 +92,8 @@ def _chosen_elsewhere(context: LintContext) -> bool:
     )
 
 
-def _stiffnesses(context: LintContext) -> Iterator[object]:
-    for _, block in context.deck.blocks("SEABED PROPERTIES"):
+def _stiffnesses(deck: Deck) -> Iterator[object]:
+    for _, block in deck.blocks("SEABED PROPERTIES"):
         for entry in cast("SeabedProperties", block).sets:
             yield entry.stiffness
 
@@ -113,30 +105,19 @@ def duplicate_curve(context: LintContext) -> Iterator[Problem]:
     The later one is taken (inferred: the language does not say what happens), so the points of the earlier one count
     for nothing. Case does not count in names. Choose another name, or remove one of the curves.
 
-    Bad:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Clay
-         0.0, 0.0
-         0.1, 1200.0
-         CURVE=CLAY
-         0.0, 0.0
-         0.1, 2500.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
-
-    Good:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Clay
-         0.0, 0.0
-         0.1, 1200.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Clay
+          0.0, 0.0
+          0.1, 1200.0
+        - CURVE=CLAY
+        - 0.0, 0.0
+        - 0.1, 2500.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Clay
 
     Finds: 6:8
     """

@@ -27,32 +27,20 @@ def long_list(context: LintContext) -> Iterator[Problem]:
     then lack the stiffness or the curve of their set without a word. Put the rest on lines of their own: lines of a set
     add up.
 
-    Bad:
-        $MODEL
-        *NODE
-         1, 12.0, 0.0
-         25, 12.0, 240.0
-         GEN=1, 25
-        *ELEMENT
-         1, 1, 2
-         GEN=1, 24
-        *ELEMENT SETS
-         SET=Coated Joints
-         1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 22, 24
-
-    Good:
-        $MODEL
-        *NODE
-         1, 12.0, 0.0
-         25, 12.0, 240.0
-         GEN=1, 25
-        *ELEMENT
-         1, 1, 2
-         GEN=1, 24
-        *ELEMENT SETS
-         SET=Coated Joints
-         1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20
-         22, 24
+    Example:
+         $MODEL
+         *NODE
+          1, 12.0, 0.0
+          25, 12.0, 240.0
+          GEN=1, 25
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 24
+         *ELEMENT SETS
+          SET=Coated Joints
+        - 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 22, 24
+        + 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20
+        + 22, 24
 
     Finds: 11:73
     """

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, cast
 from mudline.deck.parameters import folded, list_items
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.text import shown
-from mudline.keywords.values import Equation
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
 from mudline.scene.context import MOST_TOLD
@@ -30,37 +29,23 @@ def repeated_set(context: LintContext) -> Iterator[Problem]:
     Who changes one of them believes that the set is changed, and the elements of the other one stay in it, with their
     stiffness and curve. Case does not count in names. Put the elements under one SET=, or choose another name.
 
-    Bad:
-        $MODEL
-        *NODE
-         1, 12.0, 0.0
-         5, 12.0, 40.0
-         GEN=1, 5
-        *ELEMENT
-         1, 1, 2
-         GEN=1, 4
-        *ELEMENT SETS
-         SET=Coated
-         1, 2
-         SET=Bare
-         3
-         SET=COATED
-         4
-
-    Good:
-        $MODEL
-        *NODE
-         1, 12.0, 0.0
-         5, 12.0, 40.0
-         GEN=1, 5
-        *ELEMENT
-         1, 1, 2
-         GEN=1, 4
-        *ELEMENT SETS
-         SET=Coated
-         1, 2, 4
-         SET=Bare
-         3
+    Example:
+         $MODEL
+         *NODE
+          1, 12.0, 0.0
+          5, 12.0, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *ELEMENT SETS
+          SET=Coated
+        - 1, 2
+        + 1, 2, 4
+          SET=Bare
+          3
+        - SET=COATED
+        - 4
 
     Finds: 14:6
     """
@@ -89,24 +74,16 @@ def repeated_parameter(context: LintContext) -> Iterator[Problem]:
     is the one that a reader finds first. Items of a list have the name of the list in front, as in Soil_stiffness.
     Remove one of the two.
 
-    Bad:
-        $PREPROCESSOR
-        *PARAMETERS
-         depth, 850.0
-         od, 0.3239
-         Depth, 910.0
-        $MODEL
-        *OCEAN
-         =[depth], 1025.0, 9.81
-
-    Good:
-        $PREPROCESSOR
-        *PARAMETERS
-         depth, 910.0
-         od, 0.3239
-        $MODEL
-        *OCEAN
-         =[depth], 1025.0, 9.81
+    Example:
+         $PREPROCESSOR
+         *PARAMETERS
+        - depth, 850.0
+        + depth, 910.0
+          od, 0.3239
+        - Depth, 910.0
+         $MODEL
+         *OCEAN
+          =[depth], 1025.0, 9.81
 
     Finds: 5:2
     """
@@ -134,6 +111,6 @@ def _names(parameter: Parameter) -> list[str]:
     name, value = cast("str | None", parameter.name), cast("object", parameter.value)
     if name is None or value is None:
         return []
-    if isinstance(value, str) and not isinstance(value, Equation) and value.startswith("/"):
+    if isinstance(value, str) and value.startswith("/"):
         return [item.name for item in list_items(name, value)[0]]
     return [name]

@@ -24,29 +24,19 @@ def long_name(context: LintContext) -> Iterator[Problem]:
     The language allows 256. A longer name may be cut when the deck is run, and names that differ only behind the cut
     would then be one set. Choose a shorter name.
 
-    Bad:
-        $MODEL
-        *NODE
-         1, 12.0, 0.0
-         2, 12.0, 10.0
-        *ELEMENT
-         1, 1, 2
-        *ELEMENT SETS
-         SET=Eastern export flowline from the manifold to the platform between kilometre post 12.400 and kilometre post\
- 12.900 as surveyed before the trench was made and again after it was filled with the crossings of both cables and the\
- two mattresses that were laid on the eastern one in the second season
-         1
-
-    Good:
-        $MODEL
-        *NODE
-         1, 12.0, 0.0
-         2, 12.0, 10.0
-        *ELEMENT
-         1, 1, 2
-        *ELEMENT SETS
-         SET=Export KP 12.400 to 12.900
-         1
+    Example:
+         $MODEL
+         *NODE
+          1, 12.0, 0.0
+          2, 12.0, 10.0
+         *ELEMENT
+          1, 1, 2
+         *ELEMENT SETS
+        - SET=Eastern export flowline from the manifold to the platform between kilometre post 12.400 and kilometre\
+ post 12.900 as surveyed before the trench was made and again after it was filled with the crossings of both cables\
+ and the two mattresses that were laid on the eastern one in the second season
+        + SET=Export KP 12.400 to 12.900
+          1
 
     Finds: 8:6
     """

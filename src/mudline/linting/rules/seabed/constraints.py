@@ -32,44 +32,25 @@ def one_constrained_dof(context: LintContext) -> Iterator[Problem]:
     is larger than the deck seems to say. Constrain both, or none. Told are nodes that lie on the bed or below it, or
     less than a diameter above it.
 
-    Bad:
-        $MODEL
-        *NODE
-         1, 0.0, 0.0
-         2, 0.3, 10.0
-        *ELEMENT
-         1, 1, 2
-        *SEABED PROPERTIES
-         TYPE=RIGID
-         SET=ALL
-         FRICTION=0.3, 0.6
-        *SEABED PROFILE
-         TYPE=SLOPING
-         SLOPE=2.0
-        $LOAD CASE
-        *BOUNDARY
-         TYPE=CONSTANT
-         1, 2
-
-    Good:
-        $MODEL
-        *NODE
-         1, 0.0, 0.0
-         2, 0.3, 10.0
-        *ELEMENT
-         1, 1, 2
-        *SEABED PROPERTIES
-         TYPE=RIGID
-         SET=ALL
-         FRICTION=0.3, 0.6
-        *SEABED PROFILE
-         TYPE=SLOPING
-         SLOPE=2.0
-        $LOAD CASE
-        *BOUNDARY
-         TYPE=CONSTANT
-         1, 1
-         1, 2
+    Example:
+         $MODEL
+         *NODE
+          1, 0.0, 0.0
+          2, 0.3, 10.0
+         *ELEMENT
+          1, 1, 2
+         *SEABED PROPERTIES
+          TYPE=RIGID
+          SET=ALL
+          FRICTION=0.3, 0.6
+         *SEABED PROFILE
+          TYPE=SLOPING
+          SLOPE=2.0
+         $LOAD CASE
+         *BOUNDARY
+          TYPE=CONSTANT
+        + 1, 1
+          1, 2
 
     Finds: 17:5
     """

@@ -25,37 +25,23 @@ def deep_node(context: LintContext) -> Iterator[Problem]:
     count from the mudline at X = 0, upwards, and not from the sea surface. Correct the coordinates. Of a bed in three
     dimensions only its lowest point is taken; cubic and compiled profiles, and models with soil curves, are left out.
 
-    Bad:
-        $MODEL
-        *NODE
-         1, -500.0, 0.0
-         2, -500.0, 10.0
-        *ELEMENT
-         1, 1, 2
-        *GEOMETRIC SETS
-         OPTION=RIGID
-         SET=ALL
-         207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-
-    Good:
-        $MODEL
-        *NODE
-         1, -0.02, 0.0
-         2, -0.02, 10.0
-        *ELEMENT
-         1, 1, 2
-        *GEOMETRIC SETS
-         OPTION=RIGID
-         SET=ALL
-         207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
+    Example:
+         $MODEL
+         *NODE
+        - 1, -500.0, 0.0
+        - 2, -500.0, 10.0
+        + 1, -0.02, 0.0
+        + 2, -0.02, 10.0
+         *ELEMENT
+          1, 1, 2
+         *GEOMETRIC SETS
+          OPTION=RIGID
+          SET=ALL
+          207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
 
     Finds: 3:2
     """

@@ -23,24 +23,18 @@ def mixed_families(context: LintContext) -> Iterator[Problem]:
     Here a block of *SEABED PROPERTIES that gives a stiffness holds over the legacy keywords (inferred). Keep one
     family.
 
-    Bad:
-        $MODEL
-        *ELASTIC SURFACE
-         50000.0, 0.3, 0.6
-        *SEABED PROFILE
-         TYPE=SLOPING
-         SLOPE=2.0
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         FRICTION=0.3, 0.6
-        *SEABED PROFILE
-         TYPE=SLOPING
-         SLOPE=2.0
+    Example:
+         $MODEL
+        -*ELASTIC SURFACE
+        - 50000.0, 0.3, 0.6
+        +*SEABED PROPERTIES
+        + TYPE=ELASTIC
+        + SET=ALL
+        + STIFFNESS=50000.0
+        + FRICTION=0.3, 0.6
+         *SEABED PROFILE
+          TYPE=SLOPING
+          SLOPE=2.0
 
     Finds: 4:1
     """
@@ -67,27 +61,18 @@ def curve_named_as_number(context: LintContext) -> Iterator[Problem]:
     STIFFNESS= takes a number or the name of a curve, and a number comes first: the elements get a linear stiffness of
     that value, and the curve is never used. Give the curve a name that begins with a letter.
 
-    Bad:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=100
-         0.0, 0.0
-         0.5, 4200.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=100
-
-    Good:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Clay 100
-         0.0, 0.0
-         0.5, 4200.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay 100
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+        - CURVE=100
+        + CURVE=Clay 100
+          0.0, 0.0
+          0.5, 4200.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+        - STIFFNESS=100
+        + STIFFNESS=Clay 100
 
     Finds: 3:8
     """
@@ -104,23 +89,16 @@ def extension_keyword(context: LintContext) -> Iterator[Problem]:
     The keyword belongs to mudline alone: Flexcom does not know it and will not run the deck. It is found only where
     the deck is checked for that dialect. Remove it, or keep a copy of the deck for Flexcom.
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-        *SEABED SUCTION
-         SET=ALL
-         COHESION=5000.0
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         SUCTION=8000.0, 0.15
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+        -*SEABED SUCTION
+        - SET=ALL
+        - COHESION=5000.0
+        + SUCTION=8000.0, 0.15
 
     Finds: 6:1
     Dialect: flexcom

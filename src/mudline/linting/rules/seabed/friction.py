@@ -28,23 +28,15 @@ def lateral_and_friction(context: LintContext) -> Iterator[Problem]:
     coefficient to zero. Lateral walking is then held by the spring alone, however large the coefficient is. Keep the
     one that the assessment is meant to rest on.
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         FRICTION=0.3, 0.6
-         LATERAL=2000.0
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         FRICTION=0.3, 0.0
-         LATERAL=2000.0
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+        - FRICTION=0.3, 0.6
+        + FRICTION=0.3, 0.0
+          LATERAL=2000.0
 
     Finds: 7:10
     """
@@ -64,21 +56,14 @@ def legacy_friction_order(context: LintContext) -> Iterator[Problem]:
     FRICTION= has mobilisation lengths. A line copied from a legacy deck then spreads the build-up of friction over
     metres, and the pipe slides far before it is held. Leave the field empty, or give the mobilisation length.
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         FRICTION=0.3, 0.6, 3.048, 3.048
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         FRICTION=0.3, 0.6, 0.03, 0.05
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+        - FRICTION=0.3, 0.6, 3.048, 3.048
+        + FRICTION=0.3, 0.6, 0.03, 0.05
 
     Finds: 6:21
     """
@@ -100,21 +85,14 @@ def unused_friction_stiffness(context: LintContext) -> Iterator[Problem]:
     this direction the pipe is free, and the modes have less restraint than the deck seems to give. The same holds for
     *FRICTION of a load case or of modes. Give a coefficient, or remove the stiffness.
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         FRICTION=0.0, 0.6, , , , 500.0, 250.0
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         FRICTION=0.3, 0.6, , , , 500.0, 250.0
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+        - FRICTION=0.0, 0.6, , , , 500.0, 250.0
+        + FRICTION=0.3, 0.6, , , , 500.0, 250.0
 
     Finds: 6:27
     """
@@ -155,21 +133,14 @@ def extent_without_stiffness(context: LintContext) -> Iterator[Problem]:
     The extent is the height over which suction holds a rising pipe; without a stiffness nothing holds it, and uplift is
     free at once. Give the suction stiffness, or remove the extent.
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         SUCTION=0.0, 0.15
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         SUCTION=8000.0, 0.15
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+        - SUCTION=0.0, 0.15
+        + SUCTION=8000.0, 0.15
 
     Finds: 6:15
     """
@@ -186,18 +157,15 @@ def unused_characteristic_length(context: LintContext) -> Iterator[Problem]:
     The mobilisation length of a direction overrides its characteristic length, which then counts for nothing: a reader
     who changes it to see what the mesh does will see no change. Remove the one that is not meant.
 
-    Bad:
-        $MODEL
-        *ELASTIC SURFACE
-         50000.0, 0.3, 0.6, , , , 3.048, , , 0.03
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         FRICTION=0.3, 0.6, 0.03
+    Example:
+         $MODEL
+        -*ELASTIC SURFACE
+        - 50000.0, 0.3, 0.6, , , , 3.048, , , 0.03
+        +*SEABED PROPERTIES
+        + TYPE=ELASTIC
+        + SET=ALL
+        + STIFFNESS=50000.0
+        + FRICTION=0.3, 0.6, 0.03
 
     Finds: 3:27
     """

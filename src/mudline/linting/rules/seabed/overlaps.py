@@ -33,43 +33,26 @@ def overlapping_sets(context: LintContext) -> Iterator[Problem]:
     each has elements that the other one has not. For curves of *EMBEDMENT no order is documented: there any overlap of
     two different curves is a warning. Put the larger set first, or give each element one definition.
 
-    Bad:
-        $MODEL
-        *NODE
-         1, -0.05, 0.0
-         5, -0.05, 40.0
-         GEN=1, 5
-        *ELEMENT
-         1, 1, 2
-         GEN=1, 4
-        *ELEMENT SETS
-         SET=Crossing
-         2, 3
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=Crossing
-         STIFFNESS=500000.0
-         SET=ALL
-         STIFFNESS=50000.0
-
-    Good:
-        $MODEL
-        *NODE
-         1, -0.05, 0.0
-         5, -0.05, 40.0
-         GEN=1, 5
-        *ELEMENT
-         1, 1, 2
-         GEN=1, 4
-        *ELEMENT SETS
-         SET=Crossing
-         2, 3
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         SET=Crossing
-         STIFFNESS=500000.0
+    Example:
+         $MODEL
+         *NODE
+          1, -0.05, 0.0
+          5, -0.05, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *ELEMENT SETS
+          SET=Crossing
+          2, 3
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+        + SET=ALL
+        + STIFFNESS=50000.0
+          SET=Crossing
+          STIFFNESS=500000.0
+        - SET=ALL
+        - STIFFNESS=50000.0
 
     Finds: 16:6
     """

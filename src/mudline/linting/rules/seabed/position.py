@@ -22,43 +22,25 @@ def short_mobilisation(context: LintContext) -> Iterator[Problem]:
     Friction then builds up almost at once: its spring is so stiff that the solution jumps between stick and slip and
     hardly converges. Soil mobilises friction over some thousandths of a diameter at least. Give a longer one.
 
-    Bad:
-        $MODEL
-        *NODE
-         1, -0.05, 0.0
-         5, -0.05, 40.0
-         GEN=1, 5
-        *ELEMENT
-         1, 1, 2
-         GEN=1, 4
-        *GEOMETRIC SETS
-         OPTION=RIGID
-         SET=ALL
-         207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         FRICTION=0.3, 0.6, 0.00001, 0.05
-
-    Good:
-        $MODEL
-        *NODE
-         1, -0.05, 0.0
-         5, -0.05, 40.0
-         GEN=1, 5
-        *ELEMENT
-         1, 1, 2
-         GEN=1, 4
-        *GEOMETRIC SETS
-         OPTION=RIGID
-         SET=ALL
-         207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         FRICTION=0.3, 0.6, 0.03, 0.05
+    Example:
+         $MODEL
+         *NODE
+          1, -0.05, 0.0
+          5, -0.05, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *GEOMETRIC SETS
+          OPTION=RIGID
+          SET=ALL
+          207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+        - FRICTION=0.3, 0.6, 0.00001, 0.05
+        + FRICTION=0.3, 0.6, 0.03, 0.05
 
     Finds: 17:21
     """

@@ -28,44 +28,25 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
     coordinates, and no law holds for them. A static run may then have no unique solution. Give STIFFNESS=, or put the
     elements into a set that has it.
 
-    Bad:
-        $MODEL
-        *NODE
-         1, -0.05, 0.0
-         5, -0.05, 40.0
-         GEN=1, 5
-        *ELEMENT
-         1, 1, 2
-         GEN=1, 4
-        *ELEMENT SETS
-         SET=Crossing
-         2, 3
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         SET=Crossing
-         FRICTION=0.8, 0.9
-
-    Good:
-        $MODEL
-        *NODE
-         1, -0.05, 0.0
-         5, -0.05, 40.0
-         GEN=1, 5
-        *ELEMENT
-         1, 1, 2
-         GEN=1, 4
-        *ELEMENT SETS
-         SET=Crossing
-         2, 3
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-         SET=Crossing
-         STIFFNESS=50000.0
-         FRICTION=0.8, 0.9
+    Example:
+         $MODEL
+         *NODE
+          1, -0.05, 0.0
+          5, -0.05, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *ELEMENT SETS
+          SET=Crossing
+          2, 3
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+          SET=Crossing
+        + STIFFNESS=50000.0
+          FRICTION=0.8, 0.9
 
     Finds: 16:2
     """

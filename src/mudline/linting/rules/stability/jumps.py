@@ -31,31 +31,21 @@ def stiff_jump(context: LintContext) -> Iterator[Problem]:
     the pipe bends over the edge as over a knife. Mostly an exponent is wrong. Correct the point or the stiffness; real
     rock beside mud needs a transition.
 
-    Bad:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Clay over Rock
-         0.0, 0.0
-         0.1, 5.0
-         0.2, 2.0E6
-         0.3, 4.0E6
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay over Rock
-
-    Good:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Clay over Rock
-         0.0, 0.0
-         0.1, 5.0E2
-         0.2, 2.0E4
-         0.3, 4.0E4
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay over Rock
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Clay over Rock
+          0.0, 0.0
+        - 0.1, 5.0
+        - 0.2, 2.0E6
+        - 0.3, 4.0E6
+        + 0.1, 5.0E2
+        + 0.2, 2.0E4
+        + 0.3, 4.0E4
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Clay over Rock
 
     Finds: 5:2
     """

@@ -55,49 +55,28 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
     that of the section without added water, and the third value of *TIME is read as the step (inferred). Give the step
     that the message names.
 
-    Bad:
-        $MODEL
-        *NODE
-         1, -0.05, 0.0
-         5, -0.05, 40.0
-         GEN=1, 5
-        *ELEMENT
-         1, 1, 2
-         GEN=1, 4
-        *GEOMETRIC SETS
-         OPTION=MOORING
-         SET=ALL
-         480.0E6, 200.0, 0.3
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-        $LOAD CASE
-        *TIME
-         STEP=FIXED
-         0.0, 120.0, 0.1, 24.0
-
-    Good:
-        $MODEL
-        *NODE
-         1, -0.05, 0.0
-         5, -0.05, 40.0
-         GEN=1, 5
-        *ELEMENT
-         1, 1, 2
-         GEN=1, 4
-        *GEOMETRIC SETS
-         OPTION=MOORING
-         SET=ALL
-         480.0E6, 200.0, 0.3
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=50000.0
-        $LOAD CASE
-        *TIME
-         STEP=FIXED
-         0.0, 120.0, 0.03, 24.0
+    Example:
+         $MODEL
+         *NODE
+          1, -0.05, 0.0
+          5, -0.05, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *GEOMETRIC SETS
+          OPTION=MOORING
+          SET=ALL
+          480.0E6, 200.0, 0.3
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+         $LOAD CASE
+         *TIME
+          STEP=FIXED
+        - 0.0, 120.0, 0.1, 24.0
+        + 0.0, 120.0, 0.03, 24.0
 
     Finds: 20:14
     """

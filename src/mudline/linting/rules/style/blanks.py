@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from typing import SupportsIndex
 
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.keywords.reader import ReadBlock
 from mudline.linting.context import LintContext
-from mudline.linting.registry import Check, rule
+from mudline.linting.registry import rule
 from mudline.linting.rules.style.lines import data_leaves, first_of_lines, first_told, line_around, placed_leaves
 from mudline.syntax.fields import Group, read_line, trimmed
 from mudline.syntax.rows import blank_separated
@@ -32,23 +31,7 @@ _TRAILING = re.compile(r"[ \t]++(?=\r?(?:\n|(?![^\n])))")
 _ENDINGS = (" \n", "\t\n", " \r", "\t\r")
 
 
-class _Tabbed(str):
-    """A docstring whose tabs stay when its indentation is taken away."""
-
-    __slots__ = ()
-
-    def expandtabs(self, tabsize: SupportsIndex = 8) -> str:  # noqa: ARG002 - the form that str gives
-        """The text as it is."""
-        return self
-
-
-def _with_tabs(check: Check) -> Check:
-    check.__doc__ = _Tabbed(check.__doc__)
-    return check
-
-
 @rule(STY001)
-@_with_tabs
 def tab_character(context: LintContext) -> Iterator[Problem]:
     """A line with data holds a TAB.
 
@@ -56,27 +39,17 @@ def tab_character(context: LintContext) -> Iterator[Problem]:
     a character of a name or stop. Write blanks. The fix puts as many as reach the next column that 8 divides, and none
     at the end of a line; where a TAB stands inside a name or an equation, it is left to you.
 
-    Bad:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Clay
-         0.0,\t0.0
-         0.5, 4200.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
-
-    Good:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Clay
-         0.0, 0.0
-         0.5, 4200.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Clay
+        - 0.0,\t0.0
+        + 0.0, 0.0
+          0.5, 4200.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Clay
 
     Finds: 4:6
     """  # noqa: D301 - a TAB that an editor cannot take away
@@ -123,27 +96,17 @@ def blank_separated_row(context: LintContext) -> Iterator[Problem]:
     They are read as if commas stood between them, but the language parts fields by commas, and a field that is left
     empty cannot be seen among blanks. Put the commas.
 
-    Bad:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Clay
-         0.0   0.0
-         0.5, 4200.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
-
-    Good:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Clay
-         0.0, 0.0
-         0.5, 4200.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Clay
+        - 0.0   0.0
+        + 0.0, 0.0
+          0.5, 4200.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Clay
 
     Finds: 4:2
     """
@@ -185,15 +148,11 @@ def trailing_blank(context: LintContext) -> Iterator[Problem]:
     Nobody sees them, and each one that an editor takes away is a changed line in the history of the deck. Remove them.
     Lines of blocks that are kept as they are do not count. This rule is off unless it is selected.
 
-    Bad:
-        $MODEL
-        *OCEAN \x20
-         500.0, 1025.0, 9.81
-
-    Good:
-        $MODEL
-        *OCEAN
-         500.0, 1025.0, 9.81
+    Example:
+         $MODEL
+        -*OCEAN \x20
+        +*OCEAN
+          500.0, 1025.0, 9.81
 
     Finds: 2:7
     """  # noqa: D301 - a blank that an editor cannot take away

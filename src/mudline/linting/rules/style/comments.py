@@ -29,17 +29,12 @@ def lower_case_comment(context: LintContext) -> Iterator[Problem]:
     The mark of a comment is a capital C in column 1. A small one is read as such here, but a program that goes by the
     letter takes the line for data. Write a capital C.
 
-    Bad:
-        $MODEL
-        *OCEAN
-        c Depth from the survey
-         500.0, 1025.0, 9.81
-
-    Good:
-        $MODEL
-        *OCEAN
-        C Depth from the survey
-         500.0, 1025.0, 9.81
+    Example:
+         $MODEL
+         *OCEAN
+        -c Depth from the survey
+        +C Depth from the survey
+          500.0, 1025.0, 9.81
 
     Finds: 3:1
     """
@@ -66,27 +61,17 @@ def key_like_comment(context: LintContext) -> Iterator[Problem]:
     It is read as data here, since its keyword knows the setting. Programs that take any line with a C in column 1 for a
     comment drop it without a word, and with it the name of a curve or a whole group of values. Put a blank in front.
 
-    Bad:
-        $MODEL
-        *SEABED STIFFNESS
-        CURVE=Clay
-         0.0, 0.0
-         0.5, 4200.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
-
-    Good:
-        $MODEL
-        *SEABED STIFFNESS
-         CURVE=Clay
-         0.0, 0.0
-         0.5, 4200.0
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=Clay
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+        -CURVE=Clay
+        + CURVE=Clay
+          0.0, 0.0
+          0.5, 4200.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Clay
 
     Finds: 3:1
     """
@@ -113,17 +98,12 @@ def indented_comment(context: LintContext) -> Iterator[Problem]:
     the line is read as values of its keyword, as the name of a set for instance, or cannot be read. If it is a comment,
     remove the blanks. Lines of blocks that are kept as they are do not count.
 
-    Bad:
-        $MODEL
-        *OCEAN
-          C Depth from the survey
-         500.0, 1025.0, 9.81
-
-    Good:
-        $MODEL
-        *OCEAN
-        C Depth from the survey
-         500.0, 1025.0, 9.81
+    Example:
+         $MODEL
+         *OCEAN
+        -  C Depth from the survey
+        +C Depth from the survey
+          500.0, 1025.0, 9.81
 
     Finds: 3:3
     """

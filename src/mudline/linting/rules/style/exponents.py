@@ -34,19 +34,13 @@ def fortran_exponent(context: LintContext) -> Iterator[Problem]:
     It is read as E here, but the language knows E alone, and a reader in another programming language stops at the D or
     reads the number without its exponent. Write E. A name such as `2D4` is none of this.
 
-    Bad:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=5.0D4
-
-    Good:
-        $MODEL
-        *SEABED PROPERTIES
-         TYPE=ELASTIC
-         SET=ALL
-         STIFFNESS=5.0E4
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+        - STIFFNESS=5.0D4
+        + STIFFNESS=5.0E4
 
     Finds: 5:12
     """

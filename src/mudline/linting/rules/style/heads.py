@@ -32,15 +32,11 @@ def indented_keyword(context: LintContext) -> Iterator[Problem]:
     Blanks before the `*` or the `$` are read over here, but a program that looks for the mark in column 1 takes the
     line for data, and the block for a part of the one above. Remove the blanks.
 
-    Bad:
-        $MODEL
-          *OCEAN
-         500.0, 1025.0, 9.81
-
-    Good:
-        $MODEL
-        *OCEAN
-         500.0, 1025.0, 9.81
+    Example:
+         $MODEL
+        -  *OCEAN
+        +*OCEAN
+          500.0, 1025.0, 9.81
 
     Finds: 2:3
     """
@@ -68,15 +64,11 @@ def keyword_case(context: LintContext) -> Iterator[Problem]:
     Case does not count here. Manuals and other decks have these names in upper case, though, and who searches many
     decks for a keyword finds it only there. Write it in upper case.
 
-    Bad:
-        $MODEL
-        *Ocean
-         500.0, 1025.0, 9.81
-
-    Good:
-        $MODEL
-        *OCEAN
-         500.0, 1025.0, 9.81
+    Example:
+         $MODEL
+        -*Ocean
+        +*OCEAN
+          500.0, 1025.0, 9.81
 
     Finds: 2:1
     """

@@ -1,0 +1,152 @@
+"""A new rule is one file: it is listed, explained, run and given a page, and no other file knows of it."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+import mudline
+from tests.processes import TIMEOUT
+
+ROOT = Path(__file__).parents[2]
+SOURCE = Path(mudline.__file__).parents[1]
+
+PAGE = """
+    A deck has a model.
+
+    It is left to others to say why not, in ten words or more.
+
+    Example:
+        -$MODEL
+        +$PREPROCESSOR
+         *OCEAN
+          500.0, 1025.0, 9.81
+
+    Finds: 1:1
+"""
+HEAD = '''"""A new module."""
+
+from mudline.diagnostics import Code, Problem, Severity, Where
+from mudline.linting.registry import rule
+from mudline.scene.checks.declaring import check
+
+NEW001 = Code("NEW001", "deck-with-model", Severity.WARNING)
+'''
+FUNCTION = f'''{HEAD}
+
+@{{decorator}}(NEW001)
+def deck_with_model({{seen}}):
+    """{PAGE.strip()}
+    """
+    yield Problem(NEW001, "write no model", where=Where(0))
+'''
+ADVICE = FUNCTION.format(decorator="rule", seen="context")
+CHECK = FUNCTION.format(decorator="check", seen="scene")
+DECLARED = f'''"""A new module."""
+
+from mudline.diagnostics import Code, Severity
+
+NEW001 = Code("NEW001", "deck-with-model", Severity.WARNING, """{PAGE}""")
+'''
+
+BESIDE = """
+import sys
+from importlib import import_module
+
+package, folder = sys.argv[1:3]
+import_module(package).__path__.append(folder)
+del sys.argv[1:3]
+"""
+COMMAND = f"{BESIDE}\nfrom mudline.__main__ import main\n\nmain()\n"
+PAGES = f"""{BESIDE}
+from mudline.linting.registry import find
+from tests.docs.rule_pages import rule_index, rule_page
+
+print(rule_index(find("NEW001")), rule_page(*find("NEW001")), sep="")
+"""
+
+Run = Callable[..., str]
+
+each_kind = pytest.mark.parametrize(
+    ("package", "file", "text"),
+    [
+        ("mudline.linting.rules", "new_subject.py", ADVICE),
+        ("mudline.linting.rules", "new_family/new_subject.py", ADVICE),
+        ("mudline.linting.rules.curves", "new_subject.py", ADVICE),
+        ("mudline.scene.checks", "new_subject.py", CHECK),
+        ("mudline.codes", "new_subject.py", DECLARED),
+    ],
+    ids=["rule", "package", "rule in a package", "check", "code"],
+)
+
+
+@pytest.fixture
+def run(tmp_path: Path, package: str, file: str, text: str) -> Run:
+    """Runs a script with arguments, in a folder with a deck, where a package has one more module."""
+    module = tmp_path / "more" / file
+    module.parent.mkdir(parents=True)
+    (module.parent / "__init__.py").write_text('"""New."""\n')
+    module.write_text(text)
+    (tmp_path / "deck.keyxm").write_text("$MODEL\n*OCEAN\n 500.0, 1025.0, 9.81\n")
+
+    def ran(script: str, *arguments: str) -> str:
+        done = subprocess.run(
+            [sys.executable, "-c", script, package, str(tmp_path / "more"), *arguments],
+            capture_output=True,
+            text=True,
+            check=False,
+            cwd=tmp_path,
+            env={**os.environ, "PYTHONPATH": os.pathsep.join([str(SOURCE), str(ROOT)])},
+            timeout=TIMEOUT,
+        )
+        assert done.stderr == ""
+        return done.stdout
+
+    return ran
+
+
+@each_kind
+def test_a_new_module_is_listed_and_explained(run: Run) -> None:
+    assert "NEW001 warning deck-with-model A deck has a model." in " ".join(run(COMMAND, "rules").split())
+    page = run(COMMAND, "rules", "NEW001")
+    bad, good = page.partition("Bad (found at line 1, column 1):")[2].split("Good:")
+    assert [line.strip() for line in bad.split("\n") if line] == ["$MODEL", "*OCEAN", "500.0, 1025.0, 9.81"]
+    assert [line.strip() for line in good.split("\n") if line] == ["$PREPROCESSOR", "*OCEAN", "500.0, 1025.0, 9.81"]
+    assert "It is left to others to say why not, in ten words or more." in page
+
+
+@each_kind
+def test_a_new_module_finds_and_has_a_page(run: Run, text: str) -> None:
+    finding = "deck.keyxm:1:1: NEW001 write no model\n"
+    found = finding if text != DECLARED else ""  # what nothing notices yet
+    assert run(COMMAND, "lint", "--select", "NEW", "--output-format", "concise", "deck.keyxm") == found
+    pages = run(PAGES)
+    assert "\n| [NEW001](NEW001.md) | `deck-with-model` | warning |  | A deck has a model. |\n" in pages
+    assert "\n# NEW001 deck-with-model\n\nA deck has a model.\n\nSeverity: warning." in pages
+    assert "\nBad:\n\n```text\n$MODEL\n*OCEAN\n 500.0, 1025.0, 9.81\n```\n" in pages
+    assert f"```text\n{found or chr(10)}```\n\nGood:\n\n```text\n$PREPROCESSOR\n*OCEAN\n" in pages
+
+
+def test_every_file_is_imported() -> None:
+    script = (
+        "import re, sys\nfrom pathlib import Path\nimport mudline\nfrom mudline.linting.registry import rules\n"
+        "source = Path(mudline.__file__).parent\n"
+        "files = [f for d in ('linting/rules', 'scene/checks', 'codes') for f in (source / d).rglob('*.py')]\n"
+        "rules()\n"
+        "names = ['.'.join(('mudline', *f.relative_to(source).with_suffix('').parts)) for f in files]\n"
+        "print([n for n in names if n.removesuffix('.__init__') not in sys.modules])"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", script],
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=TIMEOUT,
+        env={**os.environ, "PYTHONPATH": str(SOURCE)},
+    )
+    assert done.stdout == "[]\n"
