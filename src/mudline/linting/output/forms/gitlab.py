@@ -10,12 +10,15 @@ from typing import Any
 
 from mudline.diagnostics import Diagnostic, Severity
 from mudline.linting.output.fingerprints import Fingerprints
+from mudline.linting.output.formats import LintRun
 from mudline.linting.output.visible import visible
+
+SUMMARY = "a code quality report; fingerprints do not depend on line numbers"
 
 _SEVERITIES = {Severity.ERROR: "major", Severity.WARNING: "minor", Severity.INFO: "info"}
 
 
-def gitlab(diagnostics: Iterable[Diagnostic]) -> Iterator[str]:
+def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:  # noqa: ARG001 - the same for every form
     """One array, an object a line; `[]` when there is nothing."""
     fingerprints = Fingerprints()
     mark = "["

@@ -11,35 +11,38 @@ from urllib.parse import quote
 
 from mudline.diagnostics import Diagnostic, Edit, Severity
 from mudline.linting.output.fingerprints import Fingerprints
+from mudline.linting.output.formats import LintRun
 from mudline.linting.output.pages import address
 from mudline.linting.output.sarif_rules import described
 from mudline.linting.output.visible import visible
+
+SUMMARY = "SARIF 2.1.0: rules with help, levels, regions in code points, fixes and fingerprints"
 
 SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
 _BASE = "ROOT"
 
 
-def sarif(diagnostics: Iterable[Diagnostic], version: str) -> Iterator[str]:
-    """One log with one run; its rules are those that something was found by; `version` is that of mudline."""
+def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:
+    """One log with one run; its rules are those that something was found by."""
     listed = list(diagnostics)
     first = {found.code: found for found in reversed(listed)}
     codes = sorted(first)
     fingerprints = Fingerprints()
     driver = {
         "name": "mudline",
-        "version": version,
-        "semanticVersion": version,
+        "version": run.version,
+        "semanticVersion": run.version,
         "rules": [described(first[code], LEVELS, address(code)) for code in codes],
     }
     head = {"$schema": SCHEMA, "version": "2.1.0"}
-    run = {
+    log = {
         "tool": {"driver": driver},
         "columnKind": "unicodeCodePoints",
         "newlineSequences": ["\r\n", "\r", "\n"],
         "originalUriBaseIds": {_BASE: {"description": {"text": "the folder that the linter was run in"}}},
     }
-    yield f'{json.dumps(head)[:-1]}, "runs": [\n{json.dumps(run)[:-1]}, "results": ['
+    yield f'{json.dumps(head)[:-1]}, "runs": [\n{json.dumps(log)[:-1]}, "results": ['
     for number, found in enumerate(listed):
         result = _result(found, codes.index(found.code), fingerprints.of(found))
         yield f"{',' * (number > 0)}\n {json.dumps(result)}"

@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from mudline.diagnostics import Diagnostic
+from mudline.linting.output.formats import LintRun
 from mudline.linting.output.visible import visible
 
+SUMMARY = "`file:line:column: CODE message`, a line each"
 
-def concise(diagnostics: Iterable[Diagnostic]) -> Iterator[str]:
+
+def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:  # noqa: ARG001 - the same for every form
     """The lines, with their ends."""
     for found in diagnostics:
         place = f"{found.file}:{found.line}:{found.column}"

@@ -5,16 +5,22 @@ The text of a failure is there twice: some readers show the attribute, others th
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from xml.sax.saxutils import escape, quoteattr
 
 from mudline.diagnostics import Diagnostic
+from mudline.linting.output.formats import LintRun
 from mudline.linting.output.visible import visible
 
+SUMMARY = (
+    "XML of test reports: a suite a file, a failed case a finding, "
+    "one passed case for a clean file; texts as attribute and element"
+)
 
-def junit(diagnostics: Iterable[Diagnostic], files: Sequence[str]) -> Iterator[str]:
-    """The document in pieces; `files` are all that were linted, in their order."""
-    by_file: dict[str, list[Diagnostic]] = {name: [] for name in files}
+
+def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:
+    """The document in pieces; all files that were linted are in it, in their order."""
+    by_file: dict[str, list[Diagnostic]] = {name: [] for name in run.files}
     for found in diagnostics:
         by_file.setdefault(found.file, []).append(found)
     cases = sum(len(found) or 1 for found in by_file.values())

@@ -5,12 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from mudline.diagnostics import Diagnostic, Severity
+from mudline.linting.output.formats import LintRun
 from mudline.linting.output.visible import visible
+
+SUMMARY = "workflow commands, shown as annotations of a change"
 
 _COMMANDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "notice"}
 
 
-def github(diagnostics: Iterable[Diagnostic]) -> Iterator[str]:
+def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:  # noqa: ARG001 - the same for every form
     """A command a line; columns are told where a finding begins and ends in one line, the last one included."""
     for found in diagnostics:
         values: dict[str, str | int] = {
