@@ -27,7 +27,7 @@ from mudline.study.precision.reference import bounce, contact_time
 from mudline.study.precision.seabed import friction_of, seabed_of, suction_of
 from mudline.study.report import Omission
 from mudline.study.sample import TEXT, sample_scene
-from mudline.study.schemes.catalogue import SCHEMES
+from mudline.study.schemes import SCHEMES
 from tests.contact.builders import changed
 
 CLAY = CurveLaw("clay", ForceCurve([(0.0, 0.0), (0.02, 640.0), (0.1, 1480.0), (0.5, 2450.0)]), 0.3)

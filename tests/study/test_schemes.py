@@ -8,17 +8,43 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from mudline.study.schemes.catalogue import SCHEMES
-from mudline.study.schemes.generalised_alpha import generalised_alpha
-from mudline.study.schemes.hht import hht
-from mudline.study.schemes.impact import ElasticBed, restitution
-from mudline.study.schemes.marching import march
-from mudline.study.schemes.newton import Newton
-from mudline.study.schemes.one_step import OneStep
-from mudline.study.schemes.system import Forces, History, Motion, Scheme
-from tests.study.oscillators import Oscillators, spectral_radius
+from mudline.study.motion import Forces, History, Motion, Scheme, march
+from mudline.study.newton import Newton
+from mudline.study.schemes import SCHEMES, OneStep, generalised_alpha, hht
+from mudline.study.stability.landings import ElasticBed, restitution
 
 Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Oscillators:
+    """Undamped oscillators m a = -k x.
+
+    Attributes:
+        mass: (k,).
+        stiffness: (k,) force per length.
+    """
+
+    mass: Floats
+    stiffness: Floats
+
+    def forces(self, position: Floats, velocity: Floats, history: History) -> Forces:
+        """See `System`."""
+        return Forces(-self.stiffness * position, -self.stiffness, np.zeros(velocity.shape), history)
+
+
+def amplification(scheme: Scheme, omega_dt: float) -> Floats:
+    """The matrix (3, 3) that takes (x, dt v, dt^2 a) over one step of omega dt."""
+    system = Oscillators(np.ones(3), np.full(3, omega_dt * omega_dt))
+    unit = np.eye(3)
+    after = scheme.step(system, Motion(unit[0], unit[1], unit[2], -system.stiffness * unit[0], None), 1.0).motion
+    return np.array([after.position, after.velocity, after.acceleration])
+
+
+def spectral_radius(scheme: Scheme, omega_dt: float) -> float:
+    """Factor by which the largest part of an undamped oscillation grows in a step: above 1, the scheme is unstable."""
+    return float(np.abs(np.linalg.eigvals(amplification(scheme, omega_dt))).max())
+
 
 RADII: dict[str, tuple[Scheme, dict[float, float]]] = {
     "newmark": (SCHEMES["newmark"], {0.1: 1, 1: 1, 10: 1, 100: 1, 1e6: 1}),

@@ -15,9 +15,9 @@ from mudline.linting.engine import lint_bytes
 from mudline.linting.selection import select
 from mudline.scene.build import resolve
 from mudline.scene.model import Scene
+from mudline.study.newton import Newton
 from mudline.study.sample import TEXT, sample_scene
-from mudline.study.schemes.catalogue import SCHEMES
-from mudline.study.schemes.newton import Newton
+from mudline.study.schemes import SCHEMES
 from mudline.study.stability import bounded
 from mudline.study.stability.bounded import BOUNDED, GROWS, SHARES, can_swing, measure
 from mudline.study.stability.contacts import find_contacts

@@ -11,7 +11,7 @@ from mudline.scene.build import resolve
 from mudline.study.options import StudyOptions
 from mudline.study.report import StudyReport
 from mudline.study.sample import TEXT
-from mudline.study.schemes.catalogue import SCHEMES
+from mudline.study.schemes import SCHEMES
 from mudline.study.stability import run, whole
 from mudline.study.stability.ladder.cells import cells
 from mudline.study.stability.ladder.judging import judge

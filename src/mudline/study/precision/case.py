@@ -9,8 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
-from mudline.study.schemes.marching import Trajectory
-from mudline.study.schemes.system import Motion, System
+from mudline.study.motion import Motion, System, Trajectory
 
 RUNS = 8
 """Runs side by side, which land at other phases of a step; the worst of them counts."""

@@ -9,10 +9,9 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.contact.arrays import BoolArray
+from mudline.study.motion import Scheme, march
 from mudline.study.precision.case import RUNS, Case
-from mudline.study.schemes.catalogue import SCHEMES
-from mudline.study.schemes.marching import march
-from mudline.study.schemes.system import Scheme
+from mudline.study.schemes import SCHEMES
 
 LADDER = (1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0, 3.0, 10.0)
 """Of omega dt."""

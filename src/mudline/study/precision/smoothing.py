@@ -9,12 +9,12 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
+from mudline.study.newton import Newton
 from mudline.study.precision.case import Case
 from mudline.study.precision.drop import Drop, drop_case
 from mudline.study.precision.integration import StepRow, row
 from mudline.study.precision.laws import LinearLaw, smoothed_spring
-from mudline.study.schemes.catalogue import SCHEMES
-from mudline.study.schemes.newton import Newton
+from mudline.study.schemes import SCHEMES
 
 SHARES = (0.0, *(10.0 ** (power / 2.0) for power in range(-6, 7)))
 """Half widths over the static penetration of the kinked law."""

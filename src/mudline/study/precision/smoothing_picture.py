@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from mudline.study.picture import Picture, label, style
 from mudline.study.precision.smoothing import ImpactRow, RestRow
-from mudline.study.schemes.catalogue import SCHEMES
+from mudline.study.schemes import SCHEMES
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -9,7 +9,7 @@ from mudline.study.precision.curves import BackboneRow, CurveRow
 from mudline.study.precision.integration import StepRow
 from mudline.study.precision.smoothing import ImpactRow, RestRow
 from mudline.study.report import Cell, Column, StudyTable
-from mudline.study.schemes.catalogue import SCHEMES
+from mudline.study.schemes import SCHEMES
 
 GOALS = (1e-2, 1e-3, 1e-4)
 """Errors for which a step is looked up."""

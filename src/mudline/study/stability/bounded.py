@@ -10,10 +10,9 @@ import numpy as np
 from mudline.contact.arrays import FloatArray
 from mudline.contact.stiffest import CRITICAL_OMEGA_DT
 from mudline.scene.model import Scene
-from mudline.study.schemes.marching import march
-from mudline.study.schemes.newton import Newton
-from mudline.study.schemes.one_step import OneStep
-from mudline.study.schemes.system import Motion, Scheme
+from mudline.study.motion import Motion, Scheme, march
+from mudline.study.newton import Newton
+from mudline.study.schemes import OneStep
 from mudline.study.stability.contacts import Contact
 from mudline.study.stability.pressed import Pressed
 

@@ -18,7 +18,7 @@ import numpy as np
 
 from mudline.contact.arrays import FloatArray, IndexArray
 from mudline.contact.laws.friction import FrictionHistory, FrictionLaw, slide
-from mudline.study.schemes.newton import ROUND_OFF, TOLERANCE, Newton
+from mudline.study.newton import ROUND_OFF, TOLERANCE, Newton
 
 STARTS = np.linspace(-20.0, 20.0, 101)
 MOST = 50

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mudline.study.picture import Picture, label, legend_below, style
-from mudline.study.schemes.catalogue import SCHEMES
+from mudline.study.schemes import SCHEMES
 from mudline.study.stability.bounded import BOUNDED, SHARES, Measured
 from mudline.study.stability.ladder.verdict import Judgement, Verdict
 from mudline.study.stability.landings import LANDERS, PHASES, speeds_over_phases

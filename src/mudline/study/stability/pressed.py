@@ -7,7 +7,7 @@ import numpy as np
 from mudline.contact import ContactInput, ContactModel, LawAssignment, LawKind
 from mudline.contact.arrays import FloatArray
 from mudline.scene.model import Scene
-from mudline.study.schemes.system import Forces, History
+from mudline.study.motion import Forces, History
 from mudline.study.stability.contacts import Contact
 
 _FAR = 10.0

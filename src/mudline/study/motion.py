@@ -1,14 +1,112 @@
-"""Stepping to the end, with everything that happened on the way, and why a run failed if it did."""
+"""What the schemes integrate, m a = f(x, v) with a force that may remember, and stepping to the end of a run.
+
+k systems of one degree of freedom are stepped side by side, so that an ensemble costs little more than one run.
+"""
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from time import perf_counter
+from typing import Any, ClassVar, NamedTuple, Protocol
 
 import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
-from mudline.study.schemes.system import Motion, Scheme, System
+from mudline.contact.stiffest import CRITICAL_OMEGA_DT
+
+History = Any
+"""What a system remembers between steps; only the system itself looks at it."""
+
+
+class Forces(NamedTuple):
+    """Forces f of k systems, arrays (k,), their consistent tangents, and the history behind this moment.
+
+    force: in the direction of the position.
+    by_position: d f / d x, negative for a spring.
+    by_velocity: d f / d v, negative for a damper.
+    history: what the next step begins with if the step ends here.
+    """
+
+    force: FloatArray
+    by_position: FloatArray
+    by_velocity: FloatArray
+    history: History
+
+
+class System(Protocol):
+    """k systems of one degree of freedom, side by side."""
+
+    @property
+    def mass(self) -> FloatArray:
+        """Masses (k,), > 0."""
+        ...
+
+    def forces(self, position: FloatArray, velocity: FloatArray, history: History) -> Forces:
+        """Forces at positions and velocities (k,) in a step that began with `history`."""
+        ...
+
+
+class Motion(NamedTuple):
+    """Where k systems are: arrays (k,), and what they remember.
+
+    acceleration: as the scheme carries it along; only for some schemes it is force over mass.
+    force: at this moment.
+    """
+
+    position: FloatArray
+    velocity: FloatArray
+    acceleration: FloatArray
+    force: FloatArray
+    history: History
+
+    @classmethod
+    def start(cls, system: System, position: FloatArray, velocity: FloatArray, history: History = None) -> Motion:
+        """At rest or not: the acceleration is that of the forces at this moment."""
+        forces = system.forces(position, velocity, history)
+        return cls(position, velocity, forces.force / system.mass, forces.force, forces.history)
+
+
+class Step(NamedTuple):
+    """One step made.
+
+    motion: behind the step.
+    evaluations: how often the forces were evaluated.
+    iterations: (k,) Newton iterations; 0 for explicit schemes.
+    residual: (k,) what was left of the balance of forces; 0 for explicit schemes, and where it converged.
+    """
+
+    motion: Motion
+    evaluations: int
+    iterations: IndexArray
+    residual: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class Scheme(ABC):
+    """A way to step.
+
+    Attributes:
+        name: a word for tables, "central-difference".
+        title: what people call it.
+        explicit: whether it takes no Newton iterations.
+    """
+
+    name: str
+    title: str
+    explicit: ClassVar[bool] = True
+
+    @property
+    def limit(self) -> float:
+        """Largest omega dt at which an undamped oscillator does not grow; inf for implicit schemes.
+
+        That says nothing of contact that opens and closes.
+        """
+        return CRITICAL_OMEGA_DT.get(self.name, np.inf)
+
+    @abstractmethod
+    def step(self, system: System, motion: Motion, dt: float | FloatArray) -> Step:
+        """Go on by dt, one number or one for each system (k,)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
