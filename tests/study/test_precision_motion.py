@@ -13,7 +13,6 @@ from mudline.contact.laws.suction import SuctionHistory, SuctionLaw, from_cohesi
 from mudline.curves import ForceCurve
 from mudline.deck.loading import load_bytes
 from mudline.scene.build import resolve
-from mudline.study.errors import StudyError
 from mudline.study.precision import integration, reference
 from mudline.study.precision import pull as pull_module
 from mudline.study.precision.case import Case
@@ -25,7 +24,7 @@ from mudline.study.precision.laws import CurveLaw, LinearLaw, smoothed_spring
 from mudline.study.precision.pull import Pull, SuctionNumbers, breakout, pull_case
 from mudline.study.precision.reference import bounce, contact_time
 from mudline.study.precision.seabed import friction_of, seabed_of, suction_of
-from mudline.study.report import Omission
+from mudline.study.report import Omission, StudyError
 from mudline.study.sample import TEXT, sample_scene
 from mudline.study.schemes import SCHEMES
 from tests.contact.builders import changed

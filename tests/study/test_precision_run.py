@@ -16,13 +16,11 @@ from mudline.scene.build import resolve
 from mudline.scene.model import Scene
 from mudline.scene.section_weight import mass_per_length, submerged_weight, surroundings
 from mudline.study import precision
-from mudline.study.errors import StudyError
-from mudline.study.options import StudyOptions
 from mudline.study.precision import curves as curve_study
 from mudline.study.precision import running
 from mudline.study.precision.cases import reference_drop
 from mudline.study.precision.smoothing import PUBLISHED, at_rest, impacts, weightless
-from mudline.study.report import Column, StudyReport, StudyTable
+from mudline.study.report import Column, StudyError, StudyOptions, StudyReport, StudyTable
 from mudline.study.sample import TEXT, sample_scene
 from tests.cli.runner import run
 

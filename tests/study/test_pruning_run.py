@@ -12,10 +12,8 @@ import pytest
 
 from mudline.deck.loading import load_bytes
 from mudline.scene.build import resolve
-from mudline.study import pruning
-from mudline.study.options import StudyOptions
-from mudline.study.pruning import clock, growth, imports, running
-from mudline.study.pruning.clock import spent
+from mudline.study import pruning, timing
+from mudline.study.pruning import growth, imports, running
 from mudline.study.pruning.cost import cost, curve_alone
 from mudline.study.pruning.fitting import exponent, per_unit, upper_half
 from mudline.study.pruning.growing_deck import deck_with_sets
@@ -23,9 +21,9 @@ from mudline.study.pruning.growth import GrowthRow, fits, spread
 from mudline.study.pruning.pictures import growth_picture
 from mudline.study.pruning.pipe import Pipe
 from mudline.study.pruning.variants import CURVE, Variant, line, variants
-from mudline.study.report import Omission, StudyReport
+from mudline.study.report import Omission, StudyOptions, StudyReport
 from mudline.study.sample import TEXT
-from mudline.study.timing import Timing
+from mudline.study.timing import Timing, spent
 from tests.cli.runner import run
 from tests.contact.builders import CLAY, everything
 from tests.growth import calls
@@ -50,9 +48,9 @@ def small(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.fixture
 def hasty(monkeypatch: pytest.MonkeyPatch) -> None:
     """Figures that nobody looks at."""
-    monkeypatch.setattr(clock, "_LEAST", 0.0)
-    monkeypatch.setattr(clock, "_TICKS", 0.0)
-    monkeypatch.setattr(clock, "_SLOW", -1.0)
+    monkeypatch.setattr(timing, "_LEAST", 0.0)
+    monkeypatch.setattr(timing, "_TICKS", 0.0)
+    monkeypatch.setattr(timing, "_SLOW", -1.0)
 
 
 @pytest.fixture
@@ -87,7 +85,7 @@ def test_the_clock_counts_work(monkeypatch: pytest.MonkeyPatch) -> None:
     assert 0.0 < short.best <= short.median
     assert long.best > 3.0 * short.best
     assert long.runs >= 5
-    monkeypatch.setattr(clock, "_SLOW", -1.0)
+    monkeypatch.setattr(timing, "_SLOW", -1.0)
     assert spent(lambda: np.sort(values)).runs == 2
 
 

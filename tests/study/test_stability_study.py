@@ -8,8 +8,7 @@ import pytest
 
 from mudline.deck.loading import load_bytes
 from mudline.scene.build import resolve
-from mudline.study.options import StudyOptions
-from mudline.study.report import StudyReport
+from mudline.study.report import StudyOptions, StudyReport
 from mudline.study.sample import TEXT
 from mudline.study.schemes import SCHEMES
 from mudline.study.stability import run, whole

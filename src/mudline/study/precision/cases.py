@@ -7,7 +7,6 @@ from collections.abc import Callable
 from functools import partial
 
 from mudline.scene.model import Scene
-from mudline.study.errors import StudyError
 from mudline.study.precision.case import Case
 from mudline.study.precision.drag import drag_case
 from mudline.study.precision.drop import Drop, drop_case, drop_to
@@ -21,7 +20,7 @@ from mudline.study.precision.seabed import (
     suction_of,
     usual_velocity,
 )
-from mudline.study.report import Omission
+from mudline.study.report import Omission, StudyError
 
 _REACH = 0.25
 """Of the diameter: how deep the masses fall."""

@@ -11,11 +11,10 @@ from scipy.interpolate import PchipInterpolator
 
 from mudline.contact.arrays import FloatArray
 from mudline.curves import ForceCurve
-from mudline.study.options import StudyOptions
 from mudline.study.precision.backbones import BACKBONES, DEEPEST, SPACINGS
 from mudline.study.precision.exact import exact_forces, largest_error
 from mudline.study.precision.methods import Method, methods
-from mudline.study.report import Omission
+from mudline.study.report import Omission, StudyOptions
 from mudline.study.timing import timed
 
 _CHECKED = 1500

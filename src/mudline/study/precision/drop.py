@@ -11,11 +11,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
-from mudline.study.errors import StudyError
 from mudline.study.motion import Forces, History, Motion, Trajectory
 from mudline.study.precision.case import RUNS, Case, Start
 from mudline.study.precision.laws import Law
 from mudline.study.precision.reference import contact_time
+from mudline.study.report import StudyError
 
 _DOUBLINGS = 12
 

@@ -11,8 +11,8 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from mudline.contact.arrays import FloatArray
-from mudline.study.errors import StudyError
 from mudline.study.precision.laws import Law
+from mudline.study.report import StudyError
 
 Rate = Callable[[float, FloatArray], list[float]]
 Event = Callable[[float, FloatArray], float]

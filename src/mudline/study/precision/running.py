@@ -8,7 +8,6 @@ import numpy as np
 
 from mudline.results.units import unit_names
 from mudline.scene.model import Scene
-from mudline.study.options import StudyOptions
 from mudline.study.precision.cases import all_cases, reference_drop
 from mudline.study.precision.curves import CurveRow, evaluate_methods, sampled_backbones
 from mudline.study.precision.integration import FINE_LADDER, LADDER, StepRow, integrate
@@ -25,7 +24,7 @@ from mudline.study.precision.tables import (
     rest_table,
     step_table,
 )
-from mudline.study.report import Omission, StudyReport
+from mudline.study.report import Omission, StudyOptions, StudyReport
 
 _MOST_CURVES = 2
 _NOTES = (

@@ -10,13 +10,12 @@ import numpy as np
 
 from mudline.contact.arrays import FloatArray
 from mudline.contact.model import ContactModel
-from mudline.study.options import StudyOptions
 from mudline.study.pruning.bare import bare_evaluation
-from mudline.study.pruning.clock import spent
 from mudline.study.pruning.motion import STEPS, positions, series
 from mudline.study.pruning.pipe import Pipe
 from mudline.study.pruning.variants import Variant, line
-from mudline.study.timing import Timing
+from mudline.study.report import StudyOptions
+from mudline.study.timing import Timing, spent
 
 
 class CostRow(NamedTuple):

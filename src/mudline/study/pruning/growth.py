@@ -13,8 +13,6 @@ from mudline.contact.model import ContactModel
 from mudline.curves import ForceCurve
 from mudline.deck.loading import load_bytes
 from mudline.scene.build import resolve
-from mudline.study.options import StudyOptions
-from mudline.study.pruning.clock import spent
 from mudline.study.pruning.cost import stepping
 from mudline.study.pruning.fitting import exponent, per_unit, upper_half
 from mudline.study.pruning.growing_deck import deck_with_sets
@@ -22,6 +20,8 @@ from mudline.study.pruning.motion import positions, series
 from mudline.study.pruning.pipe import Pipe
 from mudline.study.pruning.seabeds import planes
 from mudline.study.pruning.variants import Variant, everything, line
+from mudline.study.report import StudyOptions
+from mudline.study.timing import spent
 
 NODES = 10_001
 FEW_NODES = 1001

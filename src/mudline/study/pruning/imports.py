@@ -11,9 +11,8 @@ from dataclasses import fields
 from typing import NamedTuple
 
 from mudline.contact.input import ContactInput
-from mudline.study.options import StudyOptions
 from mudline.study.pruning.variants import Variant
-from mudline.study.report import Omission
+from mudline.study.report import Omission, StudyOptions
 
 NODES = 11
 _RUNS = 3

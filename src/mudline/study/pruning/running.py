@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from mudline.scene.model import Scene
-from mudline.study.options import StudyOptions
 from mudline.study.pruning.cost import costs, curve_alone
 from mudline.study.pruning.growth import fits, growth
 from mudline.study.pruning.imports import imports
@@ -21,7 +20,7 @@ from mudline.study.pruning.tables import (
     stage_table,
 )
 from mudline.study.pruning.variants import CURVE, variants
-from mudline.study.report import Omission, StudyReport
+from mudline.study.report import Omission, StudyOptions, StudyReport
 from mudline.study.sample import sample_scene
 
 LADDER = (100, 1000, 10_000, 100_000)

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from mudline.scene.model import Scene
-from mudline.study.options import StudyOptions
-from mudline.study.report import StudyReport
+from mudline.study.report import StudyOptions, StudyReport
 from mudline.study.sample import sample_scene
 from mudline.study.stability.whole import study_scene
 

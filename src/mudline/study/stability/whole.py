@@ -7,8 +7,7 @@ from collections.abc import Sequence
 from mudline.contact.stiffest import ADVISED_OMEGA_DT, rounded_down
 from mudline.scene.model import Scene
 from mudline.study.newton import Newton
-from mudline.study.options import StudyOptions
-from mudline.study.report import Omission, StudyReport
+from mudline.study.report import Omission, StudyOptions, StudyReport
 from mudline.study.schemes import SCHEMES
 from mudline.study.stability.bounded import Measured, can_swing, measure
 from mudline.study.stability.contacts import Contact, find_contacts
