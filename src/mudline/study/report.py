@@ -95,7 +95,7 @@ class StudyTable:
         }
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Layout(Generic[Row]):
     """A table before it has rows: the one place to add a column.
 

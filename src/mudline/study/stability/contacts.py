@@ -8,13 +8,13 @@ import numpy as np
 
 from mudline.contact.arrays import FloatArray, IndexArray
 from mudline.contact.input import LawKind
-from mudline.contact.stiffest import omega, steepest_slope
+from mudline.contact.stiffest import ADVISED_OMEGA_DT, CRITICAL_OMEGA_DT, omega, steepest_slope
 from mudline.curves import ForceCurve
 from mudline.scene.contact_parts.unloading import KEYWORD as UNLOADING
 from mudline.scene.contact_parts.unloading import given_stiffness
 from mudline.scene.model import Scene
 from mudline.scene.section_weight import mass_per_length
-from mudline.study.report import Omission
+from mudline.study.report import Layout, Omission
 
 
 class Contact(NamedTuple):
@@ -42,6 +42,28 @@ class Contact(NamedTuple):
     reach: float
     scale: float
     unloading: bool = False
+
+
+CONTACTS = Layout[Contact](
+    "contacts",
+    "Frequencies of the contacts, the fastest first",
+    {
+        "contact": lambda one: one.name,
+        "elements": lambda one: one.elements,
+        "largest stiffness [{force}/{length}2]": lambda one: one.stiffness,
+        "mass [{mass}/{length}]": lambda one: one.mass,
+        "omega [rad/s]": lambda one: one.omega,
+        "advised step, implicit [s]": lambda one: ADVISED_OMEGA_DT / one.omega,
+        "critical step, central-difference [s]": lambda one: CRITICAL_OMEGA_DT["central-difference"] / one.omega,
+        "critical step, rk4 [s]": lambda one: CRITICAL_OMEGA_DT["rk4"] / one.omega,
+    },
+)
+_UNITS = {"metric": ("N", "m", "kg"), "imperial": ("lbf", "ft", "slug")}
+
+
+def unit_words(units: str) -> dict[str, str]:
+    """What the headings of tables call force, length and mass in these units of a deck."""
+    return dict(zip(("force", "length", "mass"), _UNITS.get(units, ("force", "length", "mass")), strict=True))
 
 
 class _Steepest(NamedTuple):

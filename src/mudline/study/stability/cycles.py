@@ -12,6 +12,7 @@ friction is that of the evaluator.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -19,6 +20,7 @@ import numpy as np
 from mudline.contact.arrays import FloatArray, IndexArray
 from mudline.contact.laws.friction import FrictionHistory, FrictionLaw, slide
 from mudline.study.newton import ROUND_OFF, TOLERANCE, Newton
+from mudline.study.report import Layout, Section
 
 STARTS = np.linspace(-20.0, 20.0, 101)
 MOST = 50
@@ -127,6 +129,38 @@ class Cycling(NamedTuple):
     halved: int
     bracketed: int
     most: int
+
+
+CYCLES = Layout[Cycling](
+    "newton-cycles",
+    "Newton's method on friction that slips",
+    {
+        "spring / structure [-]": lambda one: one.ratio,
+        "force / limit [-]": lambda one: one.share,
+        "starts": lambda one: one.starts,
+        "lost: plain": lambda one: one.plain,
+        "lost: halved corrections": lambda one: one.halved,
+        "lost: bracketed": lambda one: one.bracketed,
+        "most iterations, bracketed": lambda one: one.most,
+    },
+)
+
+
+def study_cycles() -> Section:
+    """From how many starts each method fails, and the iterates of the example."""
+    plain, halved = (
+        path(EXAMPLE, 1.0, Newton(most=most, halving=halving)) for most, halving in ((6, False), (50, True))
+    )
+    note = (
+        "Newton's method on friction (kb = 1, kt = 99, mu N = 10, F = 5, from 1) goes "
+        f"{_points(plain.iterates)}, ... without end; with halved corrections {_points(halved.iterates)}: "
+        f"{halved.iterations} iterations."
+    )
+    return Section([CYCLES.table(cyclings())], notes=[note])
+
+
+def _points(iterates: Sequence[float]) -> str:
+    return ", ".join(f"{point:.4g}" for point in iterates)
 
 
 def cyclings() -> list[Cycling]:

@@ -10,13 +10,18 @@ digits that stand here. HHT and generalised-alpha average the forces of both end
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
 from mudline.study.motion import Forces, History, Motion, Scheme, march
+from mudline.study.picture import Picture, label, legend_below, style
+from mudline.study.report import Layout, Section, StudyOptions, grouped
 from mudline.study.schemes import SCHEMES
+
+if TYPE_CHECKING:  # only who draws loads matplotlib
+    from matplotlib.figure import Figure
 
 PHASES: FloatArray = (np.arange(400) + 0.5) / 400
 OMEGA_DTS = (0.1, 0.5, 1.0, 4.4721, 10.0, 100.0)
@@ -44,6 +49,10 @@ _COMPARED = {
     "velocity-verlet": "0.9988/1.0000/1.0012 0.9783/1.0002/1.0221 1/1/1",
 }
 """Least/mean/largest for each of `OMEGA_DTS`."""
+_SHOWN = ((0.1, 0.9965, 1.0025), (0.5, 0.89, 1.04), (1.0, 0.2, 1.15), (10.0, -0.1, 3.0))
+"""omega dt of each panel, and what it shows of the axis."""
+_DRAWN = tuple(name for name in LANDERS if name != "generalised-alpha-1")
+"""With a spectral radius of 1 generalised-alpha does what Newmark's scheme does."""
 _SETTLING = 64
 """Steps besides those of the contact: backward Euler creeps out of the seabed at large steps, and the acceleration that
 the generalised-alpha scheme carries along dies away by the half in each."""
@@ -72,6 +81,59 @@ class Landing(NamedTuple):
         return all(
             abs(value - float(text)) <= _last_digit(text) for value, text in zip(found, self.compared, strict=True)
         )
+
+
+LANDINGS = Layout[Landing](
+    "landings",
+    "Speed after landing over speed before, 400 landing phases",
+    {
+        "scheme": lambda one: one.scheme.title,
+        "omega dt [-]": lambda one: one.omega_dt,
+        "least [-]": lambda one: one.least,
+        "mean [-]": lambda one: one.mean,
+        "largest [-]": lambda one: one.largest,
+        "compared with": lambda one: "/".join(one.compared or ()),
+        "agrees": lambda one: {None: "", True: "yes", False: "NO"}[one.agrees],
+    },
+)
+
+
+def study_landings(options: StudyOptions) -> Section:
+    """All schemes at all steps: which of them throw the mass back faster than it came."""
+    options.progress("landings")
+    landed = landings()
+    agree = [one.agrees for one in landed if one.agrees is not None]
+    implicit = grouped((one for one in landed if not one.scheme.explicit), lambda one: one.scheme.title)
+    never = [name for name, rows in implicit.items() if max(0.0, *(one.largest for one in rows)) <= 1.0]
+    notes = (
+        f"{sum(agree)} of {len(agree)} landings agree with figures reckoned apart, to the last digit given.",
+        f"Implicit schemes that never throw the mass back faster than it came: {', '.join(never)}.",
+    )
+    caption = "Rebound of a mass from an elastic bed; 1 is right, more is energy from nowhere."
+    return Section([LANDINGS.table(landed)], [Picture("landings", caption, _draw, (10.0, 8.0))], notes)
+
+
+def _draw(figure: Figure) -> None:
+    """Restitution over the landing phase, a panel for each omega dt."""
+    panels = figure.subplots(2, 2, sharex=True)
+    for axes, (omega_dt, low, high) in zip(panels.flat, _SHOWN, strict=True):
+        for index, name in enumerate(_DRAWN):
+            speeds = speeds_over_phases(SCHEMES[name], omega_dt)
+            axes.plot(PHASES, speeds, label=SCHEMES[name].title, **style(index), markevery=(6 * index, 50))
+        axes.axhline(1.0, color="0.4", linewidth=0.8, zorder=0)
+        axes.set_ylim(low, high)
+        label(axes, f"ω dt = {omega_dt:g}{_off(omega_dt, low)}", "", "speed after / before landing [-]")
+    for axes in panels[1]:
+        axes.set_xlabel("landing phase, share of the step left at the bed [-]")
+    legend_below(figure, panels.flat[0])
+
+
+def _off(omega_dt: float, low: float) -> str:
+    """Where backward Euler lies, if it is below the panel."""
+    speeds = speeds_over_phases(SCHEMES["backward-euler"], omega_dt)
+    if speeds.min() >= low:
+        return ""
+    return f"  (backward Euler below: {speeds.min():.2f} to {speeds.max():.2f})"
 
 
 def landings() -> list[Landing]:

@@ -1,13 +1,36 @@
-"""The cells of the ladder: a family for each thing that is taken to its ends."""
+"""The cells of the ladder: decks of one element of 2 m, and a family for each thing that is taken to its ends."""
 
 from __future__ import annotations
 
+import random
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from mudline.study.stability.ladder.decks import DIAMETER, Pairs, curve_deck, linear_deck
-from mudline.study.stability.ladder.exact import ExactCurve, ExactLaw, ExactLinear
+from mudline.study.exact import ExactCurve, ExactLaw, ExactLinear
 
+Pairs = Sequence[tuple[str, str]]
+
+DIAMETER = "0.3"
+LENGTH = 2.0
+
+_LINE = """\
+$MODEL
+*NODE
+ 1, -0.05, 0.0, 0.0
+ 2, -0.05, 2.0, 0.0
+*ELEMENT
+ 1, 1, 2
+*GEOMETRIC SETS
+ OPTION=RIGID
+ SET=ALL
+ 207.0E9, 79.6E9, {diameter}, {inner}, 7850.0
+"""
+_SUCTION = """\
+*SEABED SUCTION
+ SET=ALL
+ COHESION={cohesion}
+"""
+_SEED = 20040503
 TINY = ("1E-3", "1E-100", "1E-300", "2.3E-308", "2.2E-308", "1E-310", "5E-324", "1E-400")
 HUGE = ("1E3", "1E20", "1E100", "1E200", "1E300", "1E307", "1E308", "1.7976931348623157E308", "1E309", "1E400")
 
@@ -22,7 +45,7 @@ class Cell:
     law: ExactLaw | None
 
 
-def cells() -> list[Cell]:
+def all_cells() -> list[Cell]:
     """All cells whose results do not depend on motion, family by family."""
     return [
         *_linear("linear stiffness", powers(-3, 15)),
@@ -112,3 +135,55 @@ def _curve(family: str, value: str, rows: Pairs, diameter: str = DIAMETER) -> Ce
     usable = len({ratio for ratio, _ in points}) == len(points) and all(abs(n) < 1e309 for pair in points for n in pair)
     law = ExactCurve(points, float(diameter)) if usable else None
     return Cell(family, value, curve_deck(rows, diameter), law)
+
+
+def chance_cells(count: int) -> list[Cell]:
+    """Decks by chance, always the same ones: a linear law to every three curves, of numbers of any size."""
+    rng = random.Random(_SEED)  # noqa: S311 - nothing secret about it
+    return [_by_chance(rng, index) for index in range(count)]
+
+
+def _by_chance(rng: random.Random, index: int) -> Cell:
+    diameter = _number(rng, -6, 3)
+    value = str(index + 1)
+    if index % 4 == 0:
+        stiffness = _number(rng, -320, 308)
+        return Cell(
+            "by chance", value, linear_deck(stiffness, diameter), ExactLinear(float(stiffness), float(diameter))
+        )
+    far = rng.choice((1, 9, 100, 308))
+    rows = [(_signed(rng, far), _signed(rng, far)) for _ in range(rng.randint(2, 6))]
+    return _curve("by chance", value, rows, diameter)
+
+
+def _signed(rng: random.Random, far: int) -> str:
+    return rng.choice(("", "", "", "-")) + _number(rng, -far, far)
+
+
+def _number(rng: random.Random, low: int, high: int) -> str:
+    return f"{rng.uniform(1.0, 9.999):.{rng.choice((0, 3, 16))}f}E{rng.randint(low, high - 1)}"
+
+
+def linear_deck(stiffness: str, diameter: str = DIAMETER) -> str:
+    """A linear seabed."""
+    return _line(diameter) + _on(stiffness)
+
+
+def curve_deck(points: Pairs, diameter: str = DIAMETER) -> str:
+    """A force-embedment curve; numbers as they are to stand in the deck."""
+    rows = "".join(f" {ratio}, {force}\n" for ratio, force in points)
+    return _line(diameter) + _on("Extreme") + "*SEABED STIFFNESS\n CURVE=Extreme\n" + rows
+
+
+def suction_deck(cohesion: str) -> str:
+    """A linear seabed with suction."""
+    return linear_deck("50000.0") + _SUCTION.format(cohesion=cohesion)
+
+
+def _line(diameter: str) -> str:
+    """A pipe of half the diameter inside."""
+    return _LINE.format(diameter=diameter, inner=repr(0.5 * float(diameter)))
+
+
+def _on(stiffness: str) -> str:
+    return f"*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS={stiffness}\n"

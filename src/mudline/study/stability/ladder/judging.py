@@ -1,10 +1,12 @@
-"""A cell goes the whole way, from text to forces, and is judged."""
+"""A cell goes the whole way, from text to forces, is compared with exact results, and is judged."""
 
 from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
+from enum import StrEnum
 from fractions import Fraction
 from math import isfinite
 from sys import float_info
@@ -18,14 +20,57 @@ from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Problem, Severity
 from mudline.scene.build import resolve
 from mudline.scene.model import Scene
-from mudline.study.stability.ladder.cells import Cell
-from mudline.study.stability.ladder.comparing import BOUND, Compared, Tally, compare
-from mudline.study.stability.ladder.exact import ExactCurve, ExactLaw
-from mudline.study.stability.ladder.verdict import Judgement, Verdict
+from mudline.study.exact import BOUND, Compared, ExactCurve, ExactLaw, Tally
+from mudline.study.stability.ladder.cells import LENGTH, Cell
 
 FILE = "cell.keyxm"
 _ABOVE = (0.0, 5e-324, 0.05, 1e6)
 _LARGEST = Fraction(float_info.max) * (1 - Fraction(1, 2**50))
+
+
+class Verdict(StrEnum):
+    """Only the first three may ever appear."""
+
+    RIGHT = "right"
+    """Every result is within the bound."""
+    UP_TO = "right, beyond refused"
+    """Results are within the bound; where one would overflow it is refused, with a line of the deck."""
+    REFUSED = "refused"
+    """The deck is refused, with a line of the deck."""
+    WRONG = "WRONG"
+    """A result is outside its bound, or not finite."""
+    UNTOLD = "REFUSED WITHOUT A LINE"
+    """A refusal that names no line, or one of a result that a float64 can hold."""
+    NOISY = "WARNED"
+    """A numpy warning came out, or an error that is none of ours."""
+
+    @property
+    def sound(self) -> bool:
+        """Whether it may appear."""
+        return self in {Verdict.RIGHT, Verdict.UP_TO, Verdict.REFUSED}
+
+
+@dataclass(frozen=True, slots=True)
+class Judgement:
+    """A cell and what came of it.
+
+    Attributes:
+        family: what grows along the ladder.
+        value: where on it, as the deck has it.
+        verdict: see `Verdict`.
+        results: how many numbers were compared.
+        error: the largest error, in roundings (2^-53) of the largest term; 0 where nothing was compared.
+        bound: roundings that are allowed.
+        told: the diagnostic of a refusal, else what is wrong.
+    """
+
+    family: str
+    value: str
+    verdict: Verdict
+    results: int = 0
+    error: float = 0.0
+    bound: float = 0.0
+    told: str = ""
 
 
 def judge(cell: Cell) -> Judgement:
@@ -145,3 +190,33 @@ def _compare_curve(tally: Tally, scene: Scene, law: ExactCurve) -> None:
         force, slope = curve.evaluate(ratio)
         tally.add(f"the curve at {ratio!r}", Compared(float(force), spring.force, spring.term))
         tally.add(f"the slope of the curve at {ratio!r}", Compared(float(slope), spring.slope, abs(spring.slope)))
+
+
+def compare(tally: Tally, law: ExactLaw, height: float, result: ContactResult) -> None:
+    """One element whose two nodes lie at `height`: what it gives against what it should."""
+    for what, compared in _pairs(law, height, result):
+        tally.add(f"{what} at height {height!r}", compared)
+
+
+def _pairs(law: ExactLaw, height: float, result: ContactResult) -> Iterator[tuple[str, Compared]]:
+    """Each link of the chain from what the link before gave: none hides behind the condition of another."""
+    depth, ratio = float(result.depth[0]), float(result.ratio[0])
+    exact_ratio = Fraction(depth) / Fraction(law.diameter)
+    yield "the depth", _itself(depth, -Fraction(height))
+    yield "the embedment ratio", _itself(ratio, exact_ratio)
+    numbers = [float(values[0]) for values in (result.force, result.slope, result.stiffness)]
+    if depth > 0.0:
+        spring = law.spring(Fraction(depth), Fraction(ratio))
+        yield "the force", Compared(numbers[0], spring.force, spring.term)
+        yield "the slope", _itself(numbers[1], spring.slope)
+        yield "the stiffness", _itself(numbers[2], spring.stiffness)
+    else:
+        for what, number in zip(("the force", "the slope", "the stiffness"), numbers, strict=True):
+            yield what, _itself(number, Fraction(0))
+    for node in range(2):
+        half = Fraction(numbers[0]) * Fraction(LENGTH) / 2 if isfinite(numbers[0]) else Fraction(0)
+        yield "a reaction", _itself(float(result.reaction[node, 0]), half)
+
+
+def _itself(found: float, exact: Fraction) -> Compared:
+    return Compared(found, exact, abs(exact))

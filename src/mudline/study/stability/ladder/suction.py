@@ -9,11 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from mudline.study.stability.ladder.comparing import Compared, Tally
-from mudline.study.stability.ladder.decks import DIAMETER, suction_deck
-from mudline.study.stability.ladder.exact import SMALLEST
-from mudline.study.stability.ladder.judging import guarded, located, scene_of
-from mudline.study.stability.ladder.verdict import Judgement, Verdict
+from mudline.study.exact import SMALLEST, Compared, Tally
+from mudline.study.stability.ladder.cells import DIAMETER, suction_deck
+from mudline.study.stability.ladder.judging import Judgement, Verdict, guarded, located, scene_of
 
 BOUND = 64.0
 """Roundings of the largest suction. Powers and products behind a law take some 15; on the release, where the distance

@@ -9,17 +9,13 @@ import numpy as np
 import pytest
 
 from mudline.diagnostics import DeckError, Diagnostic, Severity
-from mudline.study.stability.ladder.cells import Cell, cells
-from mudline.study.stability.ladder.chance import chance_cells
-from mudline.study.stability.ladder.comparing import BOUND, Compared, Tally
-from mudline.study.stability.ladder.decks import curve_deck, linear_deck
-from mudline.study.stability.ladder.exact import ExactCurve, ExactLinear
-from mudline.study.stability.ladder.judging import guarded, judge, refusal
+from mudline.study.exact import BOUND, Compared, ExactCurve, ExactLinear, Tally
+from mudline.study.stability.ladder.cells import Cell, all_cells, chance_cells, curve_deck, linear_deck
+from mudline.study.stability.ladder.judging import Judgement, Verdict, guarded, judge, refusal
 from mudline.study.stability.ladder.suction import BOUND as SUCTION_BOUND
 from mudline.study.stability.ladder.suction import judge_suction, suction_cells
-from mudline.study.stability.ladder.verdict import Judgement, Verdict
 
-CELLS = cells()
+CELLS = all_cells()
 FAMILIES = sorted({cell.family for cell in CELLS})
 LINEAR = ExactLinear(50000.0, 0.3)
 

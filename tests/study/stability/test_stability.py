@@ -6,15 +6,13 @@ import json
 
 import pytest
 
-from mudline.deck.loading import load_bytes
-from mudline.scene.build import resolve
 from mudline.study.report import StudyOptions, StudyReport
-from mudline.study.sample import TEXT
+from mudline.study.sample import TEXT, sample_scene
 from mudline.study.schemes import SCHEMES
-from mudline.study.stability import run, whole
-from mudline.study.stability.ladder.cells import cells
-from mudline.study.stability.ladder.judging import judge
-from mudline.study.stability.ladder.verdict import Judgement, Verdict
+from mudline.study.stability import critical, ladder, run
+from mudline.study.stability.ladder.cells import all_cells
+from mudline.study.stability.ladder.judging import Judgement, Verdict, judge
+from tests.study.builders import scene_of
 
 TABLES = ["contacts", "critical-steps", "landings", "newton-cycles", "release", "ladder", "ladder-cells"]
 
@@ -26,10 +24,10 @@ def told() -> list[str]:
 
 @pytest.fixture(scope="module")
 def report(told: list[str]) -> StudyReport:
-    return run(None, StudyOptions(progress=told.append))
+    return run(sample_scene(), StudyOptions(progress=told.append))
 
 
-def test_the_sample_is_studied_where_there_is_no_deck(report: StudyReport, told: list[str]) -> None:
+def test_the_sample_is_studied(report: StudyReport, told: list[str]) -> None:
     assert [table.name for table in report.tables] == TABLES
     assert [picture.name for picture in report.pictures] == ["critical-steps", "landings", "ladder"]
     assert report.omissions == ()
@@ -60,14 +58,12 @@ def test_pictures_are_drawn(report: StudyReport) -> None:
 
 
 def test_a_deck_without_mass_or_suction_is_told_so(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(whole, "cells", lambda: cells()[:3])
-    monkeypatch.setattr(whole, "suction_cells", list)
-    monkeypatch.setattr(whole, "BY_CHANCE", 5)
+    monkeypatch.setattr(ladder, "all_cells", lambda: all_cells()[:3])
+    monkeypatch.setattr(ladder, "suction_cells", list)
+    monkeypatch.setattr(ladder, "BY_CHANCE", 5)
     text = TEXT.partition("*SEABED CONTACT")[0].replace("7850.0", "0.0")
     told: list[str] = []
-    found = run(
-        resolve(load_bytes(text.encode(), "deck.keyx", units="user")), StudyOptions(full=True, progress=told.append)
-    )
+    found = run(scene_of(text, "deck.keyx", "user"), StudyOptions(full=True, progress=told.append))
     assert found.notes[0].startswith("No contact of this deck has a frequency")
     assert {one.what for one in found.omissions} >= {"release of suction", "linear on Sand"}
     assert "force/length2" in found.tables[0].columns[2].unit
@@ -76,20 +72,20 @@ def test_a_deck_without_mass_or_suction_is_told_so(monkeypatch: pytest.MonkeyPat
 
 
 def test_only_the_fastest_contacts_are_stepped_by_default(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(whole, "MOST_CONTACTS", 1)
-    monkeypatch.setattr(whole, "cells", lambda: cells()[:3])
-    monkeypatch.setattr(whole, "suction_cells", list)
-    monkeypatch.setattr(whole, "SCHEMES", {})
-    found = run(None, StudyOptions())
+    monkeypatch.setattr(critical, "MOST_CONTACTS", 1)
+    monkeypatch.setattr(ladder, "all_cells", lambda: all_cells()[:3])
+    monkeypatch.setattr(ladder, "suction_cells", list)
+    monkeypatch.setattr(critical, "SCHEMES", {})
+    found = run(sample_scene(), StudyOptions())
     assert [(one.what, one.reason[:18]) for one in found.omissions] == [("linear on Sand", "not stepped: slowe")]
 
 
 def test_a_segment_too_narrow_to_swing_in_is_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(whole, "cells", lambda: cells()[:3])
-    monkeypatch.setattr(whole, "suction_cells", list)
-    monkeypatch.setattr(whole, "SCHEMES", {})
+    monkeypatch.setattr(ladder, "all_cells", lambda: all_cells()[:3])
+    monkeypatch.setattr(ladder, "suction_cells", list)
+    monkeypatch.setattr(critical, "SCHEMES", {})
     text = TEXT.replace(" 0.02,  640.0\n", " 0.0100000000001,  640.0\n")
-    found = run(resolve(load_bytes(text.encode(), "deck.keyxm")), StudyOptions())
+    found = run(scene_of(text), StudyOptions())
     assert [tuple(one) for one in found.omissions] == [
         ("curve:Soft Clay on Clay", "not stepped: a small swing there is lost in rounding")
     ]
@@ -97,11 +93,11 @@ def test_a_segment_too_narrow_to_swing_in_is_left_out(monkeypatch: pytest.Monkey
 
 def test_what_is_not_sound_stands_in_the_notes(monkeypatch: pytest.MonkeyPatch) -> None:
     wrong = Judgement("softness", "1E9", Verdict.WRONG, 3, 99.0, 8.0, "the force is off")
-    monkeypatch.setattr(whole, "cells", lambda: cells()[:3])
-    monkeypatch.setattr(whole, "judge", lambda cell: wrong if cell.value == "1E-2" else judge(cell))
-    monkeypatch.setattr(whole, "suction_cells", list)
-    monkeypatch.setattr(whole, "SCHEMES", {})
-    found = run(None, StudyOptions())
+    monkeypatch.setattr(ladder, "all_cells", lambda: all_cells()[:3])
+    monkeypatch.setattr(ladder, "judge", lambda cell: wrong if cell.value == "1E-2" else judge(cell))
+    monkeypatch.setattr(ladder, "suction_cells", list)
+    monkeypatch.setattr(critical, "SCHEMES", {})
+    found = run(sample_scene(), StudyOptions())
     assert found.notes[-1] == "softness 1E9: WRONG: the force is off"
     assert found.notes[-2].startswith("2 of 3 cells")
     assert {table.name: table for table in found.tables}["ladder"].rows[-1][5] == 1
