@@ -64,9 +64,9 @@ def draw_lines(axes: Axes, lines: Mapping[str, Points], scale: Literal["loglog",
         draw([x for x, _ in points], [y for _, y in points], label=name, **style(index))
 
 
-def panels(figure: Figure, count: int, across: int) -> list[Axes]:
+def panels(figure: Figure, count: int, across: int, *, sharey: bool = False) -> list[Axes]:
     """So many axes, `across` of them in a row."""
-    found: list[Axes] = list(figure.subplots(-(-count // across), across, squeeze=False).flat)
+    found: list[Axes] = list(figure.subplots(-(-count // across), across, squeeze=False, sharey=sharey).flat)
     for axes in found[count:]:
         axes.remove()
     return found[:count]

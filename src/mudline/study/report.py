@@ -148,7 +148,7 @@ class Section(NamedTuple):
 
 def paragraphs(text: str) -> list[str]:
     """The notes of a text, one from each paragraph, without its line breaks."""
-    return [" ".join(paragraph.split()) for paragraph in text.split("\n\n")]
+    return [" ".join(paragraph.split()) for paragraph in text.strip().split("\n\n")]
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,7 +16,7 @@ import numpy as np
 from mudline.contact.arrays import FloatArray
 from mudline.contact.laws.friction import FrictionHistory, FrictionLaw, slide
 from mudline.study.motion import Forces, History, Motion, Trajectory
-from mudline.study.precision.case import RUNS, Case, Start, uneven
+from mudline.study.precision.integration import RUNS, Case, Start, uneven
 
 _SPEED = 3.0
 """Of omega Th: most of the way is slip."""

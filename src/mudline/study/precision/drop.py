@@ -12,7 +12,7 @@ import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.study.motion import Forces, History, Motion, Trajectory
-from mudline.study.precision.case import RUNS, Case, Start
+from mudline.study.precision.integration import RUNS, Case, Start
 from mudline.study.precision.laws import Law
 from mudline.study.precision.reference import contact_time
 from mudline.study.report import StudyError

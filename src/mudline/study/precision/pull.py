@@ -15,7 +15,7 @@ import numpy as np
 from mudline.contact.arrays import FloatArray
 from mudline.contact.laws.suction import SuctionHistory, SuctionLaw, SuctionState, step
 from mudline.study.motion import Forces, History, Motion, Trajectory
-from mudline.study.precision.case import RUNS, Case, Start, uneven
+from mudline.study.precision.integration import RUNS, Case, Start, uneven
 from mudline.study.precision.laws import Law
 from mudline.study.precision.reference import Event, Stop, next_event
 from mudline.study.report import StudyError

@@ -11,23 +11,21 @@ import pytest
 from mudline.contact import LawAssignment
 from mudline.contact.laws.suction import SuctionHistory, SuctionLaw, from_cohesion, step
 from mudline.curves import ForceCurve
-from mudline.deck.loading import load_bytes
-from mudline.scene.build import resolve
+from mudline.scene.section_weight import mass_per_length, submerged_weight
 from mudline.study.precision import integration, reference
 from mudline.study.precision import pull as pull_module
-from mudline.study.precision.case import Case
-from mudline.study.precision.cases import all_cases, reference_drop
+from mudline.study.precision.cases import all_cases, friction_of, reference_drop, seabed_of, suction_of
 from mudline.study.precision.drag import Drag, drag_case
 from mudline.study.precision.drop import drop_case, drop_to
-from mudline.study.precision.integration import row
+from mudline.study.precision.integration import Case, row
 from mudline.study.precision.laws import CurveLaw, LinearLaw, smoothed_spring
 from mudline.study.precision.pull import Pull, SuctionNumbers, breakout, pull_case
 from mudline.study.precision.reference import bounce, contact_time
-from mudline.study.precision.seabed import friction_of, seabed_of, suction_of
 from mudline.study.report import Omission, StudyError
 from mudline.study.sample import TEXT, sample_scene
 from mudline.study.schemes import SCHEMES
 from tests.contact.builders import changed
+from tests.study.builders import scene_of
 
 CLAY = CurveLaw("clay", ForceCurve([(0.0, 0.0), (0.02, 640.0), (0.1, 1480.0), (0.5, 2450.0)]), 0.3)
 
@@ -228,7 +226,7 @@ def test_friction_of_a_deck_is_taken_from_it() -> None:
 
 
 def test_case_that_overflows_is_told_of() -> None:
-    found = resolve(load_bytes(TEXT.replace(", 0.003,", ", 1.0E-307,").encode(), "a.keyxm")).require()
+    found = scene_of(TEXT.replace(", 0.003,", ", 1.0E-307,"))
     omissions: list[Omission] = []
     with np.errstate(all="ignore"):
         cases = all_cases(found, seabed_of(found), omissions, [])
@@ -241,3 +239,11 @@ def test_curve_of_many_points_does_without_stops(monkeypatch: pytest.MonkeyPatch
     stopping = bounce(CLAY, drop.mass, drop.weight, drop.speed)
     monkeypatch.setattr(reference, "_MOST_BREAKS", 0)
     assert bounce(CLAY, drop.mass, drop.weight, drop.speed).time == pytest.approx(stopping.time, rel=1e-6)
+
+
+def test_mass_and_weight_of_the_sample() -> None:
+    found = sample_scene()
+    area = np.pi / 4 * (0.3**2 - 0.25**2)
+    assert mass_per_length(found) == pytest.approx(np.full(10, 7850 * area))
+    weight = (7850 * area - 1025 * np.pi / 4 * 0.3**2) * 9.81
+    assert submerged_weight(found) == pytest.approx(np.full(10, weight))

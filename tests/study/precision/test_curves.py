@@ -12,10 +12,8 @@ from hypothesis import strategies as st
 
 from mudline.curves import ForceCurve
 from mudline.study.precision import curves as curve_study
-from mudline.study.precision.backbones import DEEPEST, f114, randolph_quiggin
-from mudline.study.precision.curves import evaluate_methods, sampled_backbones
-from mudline.study.precision.exact import exact_forces, largest_error
-from mudline.study.precision.methods import methods
+from mudline.study.precision.backbones import DEEPEST, f114, randolph_quiggin, sampled_backbones
+from mudline.study.precision.curves import evaluate_methods, exact_forces, largest_error, methods
 from mudline.study.report import Omission, StudyOptions
 
 CLAY = ForceCurve([(0.0, 0.0), (0.1, 2000.0), (0.3, 4500.0), (0.5, 6000.0)], "clay")
