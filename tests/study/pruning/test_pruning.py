@@ -10,25 +10,30 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mudline.deck.loading import load_bytes
-from mudline.scene.build import resolve
 from mudline.study import pruning, timing
-from mudline.study.pruning import growth, imports, running
+from mudline.study.pruning import cost as costs
+from mudline.study.pruning import growth, imports
 from mudline.study.pruning.cost import cost, curve_alone
-from mudline.study.pruning.fitting import exponent, per_unit, upper_half
-from mudline.study.pruning.growing_deck import deck_with_sets
-from mudline.study.pruning.growth import GrowthRow, fits, spread
-from mudline.study.pruning.pictures import growth_picture
-from mudline.study.pruning.pipe import Pipe
-from mudline.study.pruning.variants import CURVE, Variant, line, variants
+from mudline.study.pruning.growth import (
+    GrowthRow,
+    deck_with_sets,
+    exponent,
+    fits,
+    growth_picture,
+    per_unit,
+    spread,
+    upper_half,
+)
+from mudline.study.pruning.scenes import CURVE, Pipe, Variant, line, variants
 from mudline.study.report import Omission, StudyOptions, StudyReport
-from mudline.study.sample import TEXT
+from mudline.study.sample import TEXT, sample_scene
 from mudline.study.timing import Timing, spent
 from tests.cli.runner import run
 from tests.contact.builders import CLAY, everything
 from tests.growth import calls
+from tests.study.builders import scene_of
 
-SAMPLES = Path(__file__).parents[2] / "samples"
+SAMPLES = Path(__file__).parents[3] / "samples"
 ELEMENTS, LONGEST = growth.ELEMENTS, growth.LADDERS["sets"][-1]
 PIPE = Pipe(CLAY, 6.0e4, 0.3, 2.0)
 PLAIN = Variant(CURVE, lambda nodes: line(PIPE, nodes))
@@ -36,8 +41,8 @@ PLAIN = Variant(CURVE, lambda nodes: line(PIPE, nodes))
 
 @pytest.fixture(autouse=True)
 def small(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(running, "LADDER", (20, 60))
-    monkeypatch.setattr(running, "MOST", 100)
+    monkeypatch.setattr(costs, "LADDER", (20, 60))
+    monkeypatch.setattr(costs, "MOST", 100)
     monkeypatch.setattr(growth, "LADDERS", dict.fromkeys(growth.LADDERS, (2, 4)))
     monkeypatch.setattr(growth, "NODES", 51)
     monkeypatch.setattr(growth, "FEW_NODES", 21)
@@ -59,7 +64,7 @@ def without_interpreters(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def report(text: str = TEXT, *, full: bool = False) -> StudyReport:
-    return pruning.run(resolve(load_bytes(text.encode(), "deck.keyxm")).require(), StudyOptions(full))
+    return pruning.run(scene_of(text), StudyOptions(full))
 
 
 def test_fits_find_power_laws() -> None:
@@ -148,7 +153,7 @@ def test_an_interpreter_that_fails_is_an_omission(monkeypatch: pytest.MonkeyPatc
 
 @pytest.mark.parametrize("sets", [1, 3, 16])
 def test_decks_with_sets_share_out_the_elements(sets: int) -> None:
-    scene = resolve(load_bytes(deck_with_sets(sets, 16).encode(), "sets.keyxm")).require()
+    scene = scene_of(deck_with_sets(sets, 16))
     inputs = scene.contact_input()
     assert len(scene.element_ids) == 16
     assert len(set(inputs.assigned["linear"]["stiffness"])) == sets
@@ -179,7 +184,7 @@ def test_report() -> None:
 @pytest.mark.usefixtures("hasty", "without_interpreters")
 def test_full_report_has_the_largest_scenes_too() -> None:
     told: list[str] = []
-    found = pruning.run(None, StudyOptions(full=True, progress=told.append))
+    found = pruning.run(sample_scene(), StudyOptions(full=True, progress=told.append))
     assert max(row[1] for row in found.tables[4].rows if isinstance(row[1], int)) == 100
     assert found.omissions == ()
     assert "100 nodes: everything" in told

@@ -12,12 +12,21 @@ from hypothesis import strategies as st
 from mudline.contact import ContactInput, ContactModel
 from mudline.contact.seabed import Seabed
 from mudline.curves import ForceCurve
-from mudline.study.pruning import seabeds
-from mudline.study.pruning.bare import bare_evaluation
-from mudline.study.pruning.motion import positions, series
-from mudline.study.pruning.pipe import Pipe, pipe_of
-from mudline.study.pruning.tiling import tiled
-from mudline.study.pruning.variants import AS_IT_IS, CURVE, EVERYTHING, Variant, line, variants
+from mudline.study.pruning import scenes
+from mudline.study.pruning.cost import bare_evaluation
+from mudline.study.pruning.scenes import (
+    AS_IT_IS,
+    CURVE,
+    EVERYTHING,
+    Pipe,
+    Variant,
+    line,
+    pipe_of,
+    positions,
+    series,
+    tiled,
+    variants,
+)
 from mudline.study.sample import sample_scene
 from tests.contact.builders import CLAY, everything, only
 
@@ -138,7 +147,7 @@ def test_bare_numpy_gives_what_the_evaluator_gives() -> None:
         assert mine == pytest.approx(getattr(result, name), rel=1e-13)
 
 
-@pytest.mark.parametrize("seabed", [seabeds.planes(5, 100.0), seabeds.profile(20, 100.0), seabeds.scattered(30, 100.0)])
+@pytest.mark.parametrize("seabed", [scenes.planes(5, 100.0), scenes.profile(20, 100.0), scenes.scattered(30, 100.0)])
 def test_beds_are_there_all_along_the_line(seabed: Seabed) -> None:
     level = seabed.elevation(np.linspace(0.0, 100.0, 50), np.zeros(50))
     assert np.isfinite(level).all()
@@ -146,6 +155,6 @@ def test_beds_are_there_all_along_the_line(seabed: Seabed) -> None:
 
 
 def test_each_plane_of_a_valley_counts_somewhere() -> None:
-    level = seabeds.planes(4, 90.0).elevation(np.linspace(-30.0, 200.0, 2000), np.zeros(2000))
+    level = scenes.planes(4, 90.0).elevation(np.linspace(-30.0, 200.0, 2000), np.zeros(2000))
     assert len(set(np.round(np.diff(level), 9))) >= 2
-    assert seabeds.planes(1, 10.0).same_normal is not None
+    assert scenes.planes(1, 10.0).same_normal is not None
