@@ -72,7 +72,7 @@ def test_command_says_everything_or_little(tmp_path: Path) -> None:
 
 
 @pytest.mark.usefixtures("made")
-def test_command_tells_what_is_missing(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_command_says_what_is_missing(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
     outcome = run("study", "precision", "-q", "-o", tmp_path)
     assert outcome.code == 1
@@ -91,7 +91,7 @@ def test_command_refuses_bad_places_and_decks(tmp_path: Path) -> None:
     assert run("study", "guessing").code == 2
 
 
-def test_command_tells_why_a_study_cannot_be_made(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_command_says_why_a_study_cannot_be_made(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(precision, "run", Mock(side_effect=StudyError("there is nothing to study")))
     outcome = run("study", "precision")
     assert (outcome.code, outcome.err) == (1, "mudline: built-in-sample.keyxm: there is nothing to study\n")

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from mudline.study.motion import Forces, History, Motion, Scheme, march
 from mudline.study.newton import Newton
 from mudline.study.schemes import SCHEMES, OneStep, generalised_alpha, hht
-from mudline.study.stability.landings import ElasticBed, restitution
+from mudline.study.stability.landings import ElasticSeabed, restitution
 
 Floats = NDArray[np.float64]
 
@@ -117,7 +117,7 @@ def test_spectral_radius(name: str) -> None:
 
 
 @pytest.mark.parametrize("scheme", [scheme for scheme in SCHEMES.values() if 0.0 < scheme.limit < np.inf])
-def test_limit_parts_stable_from_unstable(scheme: Scheme) -> None:
+def test_limit_separates_stable_from_unstable(scheme: Scheme) -> None:
     assert spectral_radius(scheme, 0.999 * scheme.limit) <= 1.0 + 1e-9
     assert spectral_radius(scheme, 1.001 * scheme.limit) > 1.0 + 1e-4
 
@@ -204,9 +204,9 @@ def test_force_that_depends_on_velocity(name: str, order: float) -> None:
 
 
 def test_central_difference_and_verlet_are_one_without_velocity_in_the_force() -> None:
-    bed = ElasticBed(np.ones(3), np.full(3, 0.3))
-    start = Motion.start(bed, np.array([0.1, 0.5, 0.9]), np.full(3, -1.0))
-    runs = [march(SCHEMES[name], bed, start, 1.0, 30).position for name in ("central-difference", "velocity-verlet")]
+    seabed = ElasticSeabed(np.ones(3), np.full(3, 0.3))
+    start = Motion.start(seabed, np.array([0.1, 0.5, 0.9]), np.full(3, -1.0))
+    runs = [march(SCHEMES[name], seabed, start, 1.0, 30).position for name in ("central-difference", "velocity-verlet")]
     assert np.array_equal(runs[0], runs[1])
 
 
@@ -251,7 +251,7 @@ def test_newton_cycles_on_friction_and_halving_cures_it() -> None:
     assert cured.residual[0] == 0.0
 
 
-def test_newton_stops_at_what_is_no_number() -> None:
+def test_newton_stops_at_what_is_not_a_number() -> None:
     solution = Newton(least=1).solve(lambda u: (u * np.nan, u, u), np.array([1.0]))
     assert solution.iterations[0] == 0
     assert np.isnan(solution.residual[0])

@@ -45,7 +45,7 @@ def timed(call: Callable[[], object], *, runs: int = 7, at_least: float = 0.0, w
     return _timing(taken)
 
 
-def spent(call: Callable[[], object], *, few: bool = False) -> Timing:
+def processor_time(call: Callable[[], object], *, few: bool = False) -> Timing:
     """Processor seconds of a call, so that other programs do not count: once to warm up, then several times.
 
     `few`: not so often. Short calls are repeated within a run until the clock is fine enough.

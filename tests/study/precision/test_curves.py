@@ -45,7 +45,7 @@ def test_what_is_not_finite_is_wrong_without_bound() -> None:
     assert largest_error(np.array([np.nan]), [Fraction(0)], 1.0) == float("inf")
 
 
-def test_rows_tell_the_methods_apart() -> None:
+def test_rows_distinguish_the_methods() -> None:
     curve = ForceCurve([(0.0, 0.0), (0.0123, 900.0), (0.1, 2000.0), (0.3, 4500.0), (0.5, 6000.0)])
     rows = {row.method: row for row in evaluate_methods("clay", curve, StudyOptions(), [])}
     assert list(rows)[:6] == ["mudline, numpy", "mudline, fast", "np.interp", "scipy PPoly", "scipy PCHIP", "float32"]

@@ -14,7 +14,7 @@ from mudline.curves import ForceCurve
 from mudline.scene.section_weight import mass_per_length, submerged_weight
 from mudline.study.precision import integration, reference
 from mudline.study.precision import pull as pull_module
-from mudline.study.precision.cases import all_cases, friction_of, reference_drop, seabed_of, suction_of
+from mudline.study.precision.cases import all_cases, contacts_of, friction_of, reference_drop, suction_of
 from mudline.study.precision.drag import Drag, drag_case
 from mudline.study.precision.drop import drop_case, drop_to
 from mudline.study.precision.integration import Case, row
@@ -37,13 +37,13 @@ def suction(regularisation: float = 1e-3) -> SuctionNumbers:
 
 
 def test_linear_law_and_its_work() -> None:
-    law = LinearLaw("bed", 5e4, 0.005)
+    law = LinearLaw("contact", 5e4, 0.005)
     z = np.array([-0.005, -0.0025, 0.0, 0.0025, 0.005, 0.05])
     assert law.spring(z)[0] == pytest.approx([0, 15.625, 62.5, 140.625, 250, 2500])
     assert law.work(np.array([0.05]))[0] == pytest.approx(62.708333333333)
     assert law.work(np.array([-0.006]))[0] == 0.0
     assert law.breaks().tolist() == [0.005]
-    kinked = LinearLaw("bed", 5e4)
+    kinked = LinearLaw("contact", 5e4)
     assert kinked.spring(np.array([-1.0, 0.02]))[0].tolist() == [0.0, 1000.0]
     assert kinked.work(np.array([-1.0, 0.02])).tolist() == [0.0, 10.0]
     assert kinked.breaks().size == 0
@@ -92,7 +92,7 @@ def test_energies_and_integration_agree(law: CurveLaw | LinearLaw) -> None:
     assert flight.speed == pytest.approx(drop.speed, rel=1e-10)
 
 
-def test_bed_that_never_carries_is_refused() -> None:
+def test_seabed_that_never_carries_is_refused() -> None:
     soft = CurveLaw("mud", ForceCurve([(0.0, 0.0), (0.5, 10.0), (1.0, 5.0)]), 0.3)
     with pytest.raises(StudyError, match="mud never stops a mass"):
         drop_to(soft, 170.0, 900.0, 0.05)
@@ -101,11 +101,11 @@ def test_bed_that_never_carries_is_refused() -> None:
 def test_endless_search_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(reference, "_MOST_EVALUATIONS", 20)
     with pytest.raises(StudyError, match="takes too long to find"):
-        contact_time(LinearLaw("bed", 1.0), 1.0, 0.0, 1.0)
+        contact_time(LinearLaw("contact", 1.0), 1.0, 0.0, 1.0)
     monkeypatch.setattr(reference, "_MOST_EVALUATIONS", 100_000)
     monkeypatch.setattr(reference, "_MOST_PHASES", 1)
-    with pytest.raises(StudyError, match="does not let go"):
-        contact_time(LinearLaw("bed", 1.0), 1.0, 0.0, 1.0)
+    with pytest.raises(StudyError, match="does not release"):
+        contact_time(LinearLaw("contact", 1.0), 1.0, 0.0, 1.0)
 
 
 def test_suction_numbers_are_those_of_the_law() -> None:
@@ -138,9 +138,9 @@ def test_breakout(monkeypatch: pytest.MonkeyPatch) -> None:
     kinetic = 85.0 * (exact.speed**2 - pull.passing() ** 2)
     assert kinetic == pytest.approx(pull.pull * exact.uplift - exact.work, rel=1e-9)
     with pytest.raises(StudyError, match="without slowing down"):
-        breakout(Pull("clay", LinearLaw("bed", 1e7), suction(), 170.0, 0.01, 1e-5))
+        breakout(Pull("clay", LinearLaw("contact", 1e7), suction(), 170.0, 0.01, 1e-5))
     monkeypatch.setattr(pull_module, "_STOPS", 1)
-    with pytest.raises(StudyError, match="again and again"):
+    with pytest.raises(StudyError, match="repeatedly"):
         breakout(pull)
 
 
@@ -181,7 +181,7 @@ def test_runs_that_fail_say_why() -> None:
     assert found.errors == (None, None, None)
     assert (found.failed, found.reason) == (8, "8 of 8 runs: step 2: the motion grew without bound")
     slow = row(CASES["drop"], SCHEMES["backward-euler"], 3.0)
-    assert "no step ended off the bed" in slow.reason
+    assert "no step ended above the seabed" in slow.reason
     stuck = row(CASES["drag"], SCHEMES["newmark"], 10.0)
     assert "Newton's method left a residual" in stuck.reason
 
@@ -199,37 +199,37 @@ def test_suction_of_a_deck_is_taken_from_it() -> None:
     inputs = found.contact_input()
     law = SuctionLaw(*(np.array([low, 2.0 * low]) for low in (2000.0, 0.18, 0.3, 0.26, 0.2, 0.4, 1.0, 1e-3, 0.4)))
     given = replace(inputs, laws=(LawAssignment("suction", np.array([5, 0]), law._asdict()),))
-    bed = seabed_of(found).beds[0]
+    contact = contacts_of(found).contacts[0]
     notes: list[str] = []
     for element, place in ((5, 0), (0, 1)):
-        assert suction_of(found, given, bed._replace(element=element), notes) == tuple(float(v[place]) for v in law)
-    assert suction_of(found, given, bed._replace(element=9), notes).force_factor == 4000.0
+        assert suction_of(found, given, contact._replace(element=element), notes) == tuple(float(v[place]) for v in law)
+    assert suction_of(found, given, contact._replace(element=9), notes).force_factor == 4000.0
     assert not notes
-    assert suction_of(found, replace(inputs, laws=()), bed, notes).force_factor == pytest.approx(2086.5435606)
+    assert suction_of(found, replace(inputs, laws=()), contact, notes).force_factor == pytest.approx(2086.5435606)
     assert "Bridge" in notes[0]
 
 
 def test_friction_of_a_deck_is_taken_from_it() -> None:
     found = sample_scene()
-    bed = seabed_of(found).beds[0]
+    contact = contacts_of(found).contacts[0]
     inputs = found.contact_input()
     notes: list[str] = []
-    drag = friction_of(inputs, bed, notes)
-    assert drag.limit == pytest.approx(0.35 * bed.weight)
+    drag = friction_of(inputs, contact, notes)
+    assert drag.limit == pytest.approx(0.35 * contact.weight)
     assert drag.stiffness == pytest.approx(drag.limit / 0.003)
-    stiff = friction_of(changed(inputs, "friction", axial_stiffness=4e4), bed, notes)
+    stiff = friction_of(changed(inputs, "friction", axial_stiffness=4e4), contact, notes)
     assert stiff.stiffness == pytest.approx(4e4 / 2.0)
     assert not notes
-    bare = friction_of(replace(inputs, laws=()), bed, notes)
-    assert (bare.limit, bare.stiffness) == pytest.approx((0.5 * bed.weight, 0.5 * bed.weight / 0.003))
-    assert "no friction along the line" in notes[0]
+    bare = friction_of(replace(inputs, laws=()), contact, notes)
+    assert (bare.limit, bare.stiffness) == pytest.approx((0.5 * contact.weight, 0.5 * contact.weight / 0.003))
+    assert "no axial friction" in notes[0]
 
 
-def test_case_that_overflows_is_told_of() -> None:
+def test_case_that_overflows_is_reported() -> None:
     found = scene_of(TEXT.replace(", 0.003,", ", 1.0E-307,"))
     omissions: list[Omission] = []
     with np.errstate(all="ignore"):
-        cases = all_cases(found, seabed_of(found), omissions, [])
+        cases = all_cases(found, contacts_of(found), omissions, [])
     assert "drag" not in {case.name for case in cases}
     assert [omission.reason for omission in omissions] == ["its stiffness or its duration overflows"]
 

@@ -28,8 +28,8 @@ def short(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_report_of_the_sample(tmp_path: Path) -> None:
-    told: list[str] = []
-    report = precision.run(sample_scene(), StudyOptions(progress=told.append))
+    progress: list[str] = []
+    report = precision.run(sample_scene(), StudyOptions(progress=progress.append))
     assert [table.name for table in report.tables] == [
         "curves",
         "backbones",
@@ -43,7 +43,7 @@ def test_report_of_the_sample(tmp_path: Path) -> None:
     assert len(report.tables[4].rows) == 5 * 9 * 2
     assert all(len(row) == len(table.columns) for table in report.tables for row in table.rows)
     assert any("omega dt 10" in omission.what for omission in report.omissions)
-    assert any("time integration" in words for words in told)
+    assert any("time integration" in words for words in progress)
     files = {path.name for path in report.write(tmp_path)}
     pictures = {
         f"precision-{name}.png" for name in ("curves", "backbones", "drop", "pull-drag", "run-time", "smoothing")
@@ -63,7 +63,7 @@ def test_deck_with_less() -> None:
     report = precision.run(scene_of(text), StudyOptions())
     assert "curve Third" in {omission.what for omission in report.omissions}
     assert any("mass of the pipe is not known" in note for note in report.notes)
-    assert any("no known weight" in note for note in report.notes)
+    assert any("submerged weight of the pipe is unknown" in note for note in report.notes)
     assert [row[0] for row in report.tables[2].rows] == ["drop-reference", "drop-linear", "pull", "drag"]
     full = precision.run(scene_of(text), StudyOptions(full=True))
     assert "curve Third" not in {omission.what for omission in full.omissions}

@@ -27,7 +27,7 @@ from mudline.study.pruning.growth import (
 from mudline.study.pruning.scenes import CURVE, Pipe, Variant, line, variants
 from mudline.study.report import Omission, StudyOptions, StudyReport
 from mudline.study.sample import TEXT, sample_scene
-from mudline.study.timing import Timing, spent
+from mudline.study.timing import Timing, processor_time
 from tests.cli.runner import run
 from tests.contact.builders import CLAY, everything
 from tests.growth import calls
@@ -86,12 +86,12 @@ def test_a_fit_of_one_size_is_not_drawn() -> None:
 
 def test_the_clock_counts_work(monkeypatch: pytest.MonkeyPatch) -> None:
     values = np.random.default_rng(1).random(200_000)
-    short, long = spent(lambda: np.sort(values[:20_000])), spent(lambda: np.sort(values))
+    short, long = processor_time(lambda: np.sort(values[:20_000])), processor_time(lambda: np.sort(values))
     assert 0.0 < short.best <= short.median
     assert long.best > 3.0 * short.best
     assert long.runs >= 5
     monkeypatch.setattr(timing, "_SLOW", -1.0)
-    assert spent(lambda: np.sort(values)).runs == 2
+    assert processor_time(lambda: np.sort(values)).runs == 2
 
 
 def test_cost_of_a_scene() -> None:
@@ -111,14 +111,14 @@ def test_the_curve_is_a_part_of_the_scene(monkeypatch: pytest.MonkeyPatch) -> No
         made = float(calls(call))
         return Timing(made, made, 1)
 
-    monkeypatch.setattr("mudline.study.pruning.cost.spent", counted)
+    monkeypatch.setattr("mudline.study.pruning.cost.processor_time", counted)
     row = curve_alone(PIPE, 5000)
     assert row.curve < row.bare
     assert row.over_curve > 1.0
     assert row.over_bare == pytest.approx(row.scene / row.bare)
 
 
-def test_imports_are_told_apart() -> None:
+def test_imports_are_distinguished() -> None:
     found = {one.name: one for one in variants(everything(9, 1), PIPE)}
     chosen = [found[name] for name in ("curve", "linear law", "curve, unloading")]
     omissions: list[Omission] = []
@@ -183,12 +183,12 @@ def test_report() -> None:
 
 @pytest.mark.usefixtures("hasty", "without_interpreters")
 def test_full_report_has_the_largest_scenes_too() -> None:
-    told: list[str] = []
-    found = pruning.run(sample_scene(), StudyOptions(full=True, progress=told.append))
+    progress: list[str] = []
+    found = pruning.run(sample_scene(), StudyOptions(full=True, progress=progress.append))
     assert max(row[1] for row in found.tables[4].rows if isinstance(row[1], int)) == 100
     assert found.omissions == ()
-    assert "100 nodes: everything" in told
-    assert "planes: 16" in told
+    assert "100 nodes: everything" in progress
+    assert "planes: 16" in progress
 
 
 @pytest.mark.usefixtures("hasty", "without_interpreters")

@@ -63,7 +63,7 @@ def test_stages_are_on_as_named() -> None:
 
 
 @pytest.mark.parametrize("name", STAGES)
-def test_every_element_of_a_pressed_scene_touches_and_every_step_is_finite(name: str) -> None:
+def test_every_element_of_an_embedded_scene_touches_and_every_step_is_finite(name: str) -> None:
     variant = found()[name]
     inputs = variant.make(500)
     points = positions(variant, inputs, PIPE)
@@ -148,7 +148,7 @@ def test_bare_numpy_gives_what_the_evaluator_gives() -> None:
 
 
 @pytest.mark.parametrize("seabed", [scenes.planes(5, 100.0), scenes.profile(20, 100.0), scenes.scattered(30, 100.0)])
-def test_beds_are_there_all_along_the_line(seabed: Seabed) -> None:
+def test_seabeds_are_there_all_along_the_line(seabed: Seabed) -> None:
     level = seabed.elevation(np.linspace(0.0, 100.0, 50), np.zeros(50))
     assert np.isfinite(level).all()
     assert np.ptp(level) > 0.0

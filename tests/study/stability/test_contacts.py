@@ -61,7 +61,7 @@ def test_nodes_with_a_stiffness_of_their_own() -> None:
     assert "nodal stiffness 100000" in {omission.what for omission in left_out}
 
 
-def test_the_way_back_may_be_the_stiffest() -> None:
+def test_unloading_may_be_the_stiffest() -> None:
     back = TEXT.replace("*SEABED SUCTION", "*SEABED UNLOADING\n SET=Clay\n STIFFNESS={}\n*SEABED SUCTION")
     scene = scene_of(back.format("4.0E5"))
     found, _ = find_contacts(scene)
@@ -82,18 +82,18 @@ def test_the_continued_end_may_be_the_steepest() -> None:
     assert 0.0 < found[-1].reach <= found[-1].depth
 
 
-@pytest.mark.parametrize(("extra", "told"), [("", ["24.29"]), (" 99, 1, 77\n", [])])
-def test_a_stiffness_of_nodes_counts_for_the_step(extra: str, told: list[str]) -> None:
+@pytest.mark.parametrize(("extra", "expected"), [("", ["24.29"]), (" 99, 1, 77\n", [])])
+def test_a_stiffness_of_nodes_counts_for_the_step(extra: str, expected: list[str]) -> None:
     """The last node carries half of an element, 1 m; a deck whose nodes are not known has no step to tell of."""
     text = TEXT.replace(" SMOOTHING=AUTO", " NODAL STIFFNESS=1.0E5").replace(" STIFFNESS=Soft Clay", " STIFFNESS=1.0")
     text = text.replace(" 1, 1, 2\n GEN=1, 10\n", f" 1, 1, 2\n GEN=1, 10\n{extra}")
     text += "*TIME\n STEP=FIXED\n 0.0, 120.0, 0.1, 24.0\n"
     findings = lint_bytes(text.encode(), "deck.keyxm", select(["STB002"]))
-    assert [found.message.partition("omega = ")[2][:5] for found in findings] == told
+    assert [found.message.partition("omega = ")[2][:5] for found in findings] == expected
 
 
 @pytest.mark.parametrize(("stiffness", "omega"), [("4.0E5", (4e5 / MASS) ** 0.5), ("1.0E3", (1.5e5 / MASS) ** 0.5)])
-def test_the_way_back_counts_for_the_step_where_it_is_stiffer(stiffness: str, omega: float) -> None:
+def test_unloading_counts_for_the_step_where_it_is_stiffer(stiffness: str, omega: float) -> None:
     text = f"{TEXT}*TIME\n STEP=FIXED\n 0.0, 120.0, 0.1, 24.0\n"
     text = text.replace("$LOAD CASE", f"*SEABED UNLOADING\n SET=Clay\n STIFFNESS={stiffness}\n$LOAD CASE")
     (found,) = lint_bytes(text.encode(), "deck.keyxm", select(["STB002"]))
@@ -101,7 +101,7 @@ def test_the_way_back_counts_for_the_step_where_it_is_stiffer(stiffness: str, om
 
 
 @pytest.mark.parametrize("step", ["0.1", "0.0168", "0.0169"])
-def test_a_restart_is_told_of_the_step_that_does_on_the_bed_of_its_static_deck(tmp_path: Path, step: str) -> None:
+def test_a_restart_is_reported_the_step_that_does_on_the_bed_of_its_static_deck(tmp_path: Path, step: str) -> None:
     (tmp_path / "static.keyxm").write_text(TEXT, encoding="utf-8")
     dynamic = f"$LOAD CASE\n*RESTART\n LAST=static\n*TIME\n STEP=FIXED\n 0.0, 120.0, {step}, 24.0\n"
     path_ = tmp_path / "dynamic.keyxm"

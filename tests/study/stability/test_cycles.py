@@ -6,7 +6,16 @@ import numpy as np
 import pytest
 
 from mudline.study.newton import Newton
-from mudline.study.stability.cycles import EXAMPLE, STARTS, Pulled, bracketed, cyclings, ensemble, path, residual
+from mudline.study.stability.cycles import (
+    EXAMPLE,
+    STARTS,
+    FrictionProblem,
+    bracketed,
+    cycle_counts,
+    ensemble,
+    path,
+    residual,
+)
 
 
 def test_the_cycle_of_the_example_and_its_cure() -> None:
@@ -26,9 +35,9 @@ def test_the_friction_of_the_evaluator_is_the_one_of_the_formula() -> None:
 
 
 def test_a_bracket_cures_every_cycle() -> None:
-    for one in cyclings():
+    for one in cycle_counts():
         assert one.bracketed == 0
         assert one.plain == 0 or (one.ratio > 1.0 and one.share < 1.0)
         assert one.halved == 0 or one.ratio >= 1e4
-    assert ensemble(EXAMPLE, Newton()).lost > 95
-    assert (bracketed(Pulled(1.0, 99.0, 10.0, float("nan")), STARTS[:1]) == -1).all()
+    assert ensemble(EXAMPLE, Newton()).failed > 95
+    assert (bracketed(FrictionProblem(1.0, 99.0, 10.0, float("nan")), STARTS[:1]) == -1).all()

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from mudline.study.schemes import SCHEMES
-from mudline.study.stability.landings import LANDERS, OMEGA_DTS, landing, landings
+from mudline.study.stability.landings import LANDING_SCHEMES, OMEGA_DTS, landing, landings
 
 
-def test_landings_agree_with_the_figures_reckoned_apart() -> None:
+def test_landings_agree_with_the_figures_computed_independently() -> None:
     found = landings()
-    assert len(found) == len(LANDERS) * len(OMEGA_DTS)
+    assert len(found) == len(LANDING_SCHEMES) * len(OMEGA_DTS)
     compared = [one for one in found if one.compared]
     assert len(compared) == 33
     assert all(one.agrees for one in compared)
@@ -19,5 +19,5 @@ def test_landings_agree_with_the_figures_reckoned_apart() -> None:
 
 def test_only_two_implicit_schemes_never_gain_energy() -> None:
     gains = {one.scheme.name for one in landings() if one.largest > 1.0 and not one.scheme.explicit}
-    implicit = {name for name in LANDERS if not SCHEMES[name].explicit}
+    implicit = {name for name in LANDING_SCHEMES if not SCHEMES[name].explicit}
     assert implicit - gains == {"generalised-alpha-0", "backward-euler"}

@@ -13,7 +13,7 @@ from mudline.study.stability.release import equilibria, releases
 from tests.study.builders import scene_of
 
 
-def test_one_equilibrium_needs_the_stiffness_that_is_told() -> None:
+def test_one_equilibrium_needs_the_stiffness_that_is_given() -> None:
     scene = sample_scene()
     suction = scene.contact_input().assigned["suction"]
     found = releases(scene, suction)

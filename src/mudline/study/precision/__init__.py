@@ -6,7 +6,7 @@ import numpy as np
 
 from mudline.scene.model import Scene
 from mudline.study.precision.backbones import study_backbones
-from mudline.study.precision.cases import all_cases, seabed_of
+from mudline.study.precision.cases import all_cases, contacts_of
 from mudline.study.precision.curves import study_curves
 from mudline.study.precision.integration import study_motions
 from mudline.study.precision.smoothing import study_smoothing
@@ -18,8 +18,8 @@ _NOTES = """
 Errors of curves: the largest of 1500 random ratios and the points themselves, against exact rational arithmetic on the
 same points, over the largest force. Times: best of repeated evaluations of 100 000 random ratios.
 
-Errors of motions: the largest of eight runs that meet the bed at different phases of a step; they are stepped side by
-side, and their run time is that of all eight.
+Errors of motions: the largest of eight runs that reach the seabed at different phases of a step; they are stepped side
+by side, and their run time is that of all eight.
 
 Newton's method has converged where |residual| < 1e-8 in the unit of force, or is no more than 16 times the round-off
 of its largest term; a step has failed after 50 iterations.
@@ -32,16 +32,16 @@ def run(scene: Scene, options: StudyOptions) -> StudyReport:
 
     Raises DeckError where the scene cannot be evaluated, and ImportError without scipy.
     """
-    seabed = seabed_of(scene)
-    notes = [*paragraphs(_NOTES), *seabed.notes]
+    studied = contacts_of(scene)
+    notes = [*paragraphs(_NOTES), *studied.notes]
     curves, backbones = study_curves(scene, options), study_backbones(options)
     omissions: list[Omission] = []
-    cases = all_cases(scene, seabed, omissions, notes)
+    cases = all_cases(scene, studied, omissions, notes)
     sections = (
         curves,
         backbones,
         Section(notes=notes, omissions=omissions),
         study_motions(cases, options),
-        study_smoothing(scene, seabed.beds, options),
+        study_smoothing(scene, studied.contacts, options),
     )
     return StudyReport.of("precision", f"Precision: {scene.deck.file}", sections)

@@ -33,8 +33,8 @@ _REACH = 0.25
 """Of the diameter: how deep the masses fall."""
 
 
-class Bed(NamedTuple):
-    """An elastic law of the scene, and what lies on it, per unit length and in the deck's units."""
+class ElasticContact(NamedTuple):
+    """An elastic law of the scene, and the pipe on it, per unit length and in the deck's units."""
 
     law: Law
     diameter: float
@@ -48,27 +48,29 @@ class Bed(NamedTuple):
         return self.law.steepest(0.0)
 
 
-class Seabed(NamedTuple):
-    """What is studied, and what was taken for granted."""
+class StudiedContacts(NamedTuple):
+    """What is studied, and what was assumed."""
 
-    beds: list[Bed]
+    contacts: list[ElasticContact]
     inputs: ContactInput
     notes: list[str]
 
 
-def seabed_of(scene: Scene) -> Seabed:
+def contacts_of(scene: Scene) -> StudiedContacts:
     """The stiffest curve and the stiffest linear law of a scene; raises DeckError where it cannot be evaluated."""
     inputs, arrays = scene.contact_input(), scene.law_arrays()
     notes: list[str] = []
     mass, weight = mass_per_length(scene), submerged_weight(scene)
-    beds = []
+    contacts = []
     for kind in (LawKind.CURVE, LawKind.LINEAR):
         elements = _distinct(arrays, scene.diameter, kind)
-        found = [_bed(scene, arrays, (float(mass[i]), float(weight[i])), i, notes) for i in elements]
-        beds += sorted((bed for bed in found if bed.stiffness > 0.0), key=lambda bed: -bed.stiffness)[:1]
-    if not beds:
+        found = [_contact(scene, arrays, (float(mass[i]), float(weight[i])), i, notes) for i in elements]
+        contacts += sorted(
+            (contact for contact in found if contact.stiffness > 0.0), key=lambda contact: -contact.stiffness
+        )[:1]
+    if not contacts:
         notes.append("The deck has no curve and no linear law to fall on: only the reference case was run.")
-    return Seabed(beds, inputs, list(dict.fromkeys(notes)))
+    return StudiedContacts(contacts, inputs, list(dict.fromkeys(notes)))
 
 
 def _distinct(arrays: LawArrays, diameter: FloatArray, kind: LawKind) -> list[int]:
@@ -80,46 +82,50 @@ def _distinct(arrays: LawArrays, diameter: FloatArray, kind: LawKind) -> list[in
     return found
 
 
-def _bed(scene: Scene, arrays: LawArrays, given: tuple[float, float], element: int, notes: list[str]) -> Bed:
+def _contact(
+    scene: Scene, arrays: LawArrays, given: tuple[float, float], element: int, notes: list[str]
+) -> ElasticContact:
     mass, weight = given
     diameter = float(scene.diameter[element])
     if math.isnan(diameter):
         diameter = _DIAMETER
     if math.isnan(mass):
         mass = _MASS
-        notes.append(f"The mass of the pipe is not known: {_MASS:g} per unit length is taken.")
+        notes.append(f"The mass of the pipe is not known: {_MASS:g} per unit length is used.")
     if not weight > 0.0:
         known = surroundings(scene).gravity
         gravity = DEFAULT_GRAVITY.get(scene.units, DEFAULT_GRAVITY["metric"]) if math.isnan(known) else known
         weight = 0.5 * mass * gravity
-        notes.append("The pipe has no known weight in water that presses on the bed: half of its own weight is taken.")
+        notes.append("The submerged weight of the pipe is unknown or not positive: half of its weight in air is used.")
     name = scene.law_names[element].removeprefix("curve:")
     law: Law
     if arrays.law[element] == LawKind.CURVE:
         law = CurveLaw(name, arrays.curves[int(arrays.curve_index[element])], diameter)
     else:
         law = LinearLaw(name, float(arrays.linear_stiffness[element]))
-    return Bed(law, diameter, mass, weight, element)
+    return ElasticContact(law, diameter, mass, weight, element)
 
 
-def static_depth(bed: Bed) -> float:
+def static_depth(contact: ElasticContact) -> float:
     """Penetration under the weight; a twentieth of the diameter where there is none."""
-    if isinstance(bed.law, CurveLaw):
-        depths = [ratio * bed.diameter for ratio in bed.law.curve.ratios_at_force(bed.weight) if ratio > 0.0]
-        return min(depths, default=0.05 * bed.diameter)
-    return bed.weight / bed.stiffness
+    if isinstance(contact.law, CurveLaw):
+        depths = [
+            ratio * contact.diameter for ratio in contact.law.curve.ratios_at_force(contact.weight) if ratio > 0.0
+        ]
+        return min(depths, default=0.05 * contact.diameter)
+    return contact.weight / contact.stiffness
 
 
-def suction_of(scene: Scene, inputs: ContactInput, bed: Bed, notes: list[str]) -> SuctionNumbers:
-    """The suction law of the bed's element, else of another, else of Bridge et al. with 5 kPa."""
+def suction_of(scene: Scene, inputs: ContactInput, contact: ElasticContact, notes: list[str]) -> SuctionNumbers:
+    """The suction law of the contact's element, else of another, else of Bridge et al. with 5 kPa."""
     given = inputs.assigned.get("suction")
     if given is not None:
-        index = int((given.rows == bed.element).argmax())  # the first where it has none
+        index = int((given.rows == contact.element).argmax())  # the first where it has none
         return SuctionNumbers(**{name: float(values[index]) for name, values in given.parameters.items()})
     length, force = _UNITS.get(scene.units, (1.0, 1.0))
-    notes.append("The deck has no suction with a history: that of Bridge et al. (2004) with 5 kPa is taken.")
+    notes.append("The deck has no suction with a history: that of Bridge et al. (2004) with 5 kPa is used.")
     cohesion = np.array([_COHESION / force * length**2])
-    factors = from_cohesion(cohesion, np.array([bed.diameter]), length, force)
+    factors = from_cohesion(cohesion, np.array([contact.diameter]), length, force)
     powers = {name: float(values[0]) for name, values in factors._asdict().items()}
     return SuctionNumbers(**powers, first_corner=0.2, second_corner=0.8, cyclic=1.0, regularisation=1e-3 / length)
 
@@ -129,20 +135,24 @@ def usual_velocity(scene: Scene) -> float:
     return 0.1 / _UNITS.get(scene.units, (1.0, 1.0))[0]
 
 
-def friction_of(inputs: ContactInput, bed: Bed, notes: list[str]) -> Drag:
-    """Friction along the line at the bed's element, else of 0.5, mobilised over a hundredth of the diameter."""
+def friction_of(inputs: ContactInput, contact: ElasticContact, notes: list[str]) -> Drag:
+    """Friction along the line at the contact's element, else of 0.5, mobilised over a hundredth of the diameter."""
     given = inputs.assigned.get("friction")
-    length = float(inputs.length[bed.element])
-    at = np.zeros(0, np.intp) if given is None else np.flatnonzero(given.rows == inputs.element_nodes[bed.element, 0])
+    length = float(inputs.length[contact.element])
+    at = (
+        np.zeros(0, np.intp)
+        if given is None
+        else np.flatnonzero(given.rows == inputs.element_nodes[contact.element, 0])
+    )
     if given is None or not (at.size and given["axial_coefficient"][at[0]] > 0.0 and length > 0.0):
-        notes.append("The bed has no friction along the line: 0.5, mobilised over a hundredth of D, is taken.")
-        limit = _FRICTION * bed.weight
-        return Drag(bed.law.name, bed.mass, limit, limit / (_MOBILISATION * bed.diameter))
+        notes.append("The deck has no axial friction there: 0.5, mobilised over a hundredth of D, is used.")
+        limit = _FRICTION * contact.weight
+        return Drag(contact.law.name, contact.mass, limit, limit / (_MOBILISATION * contact.diameter))
     names = ("axial_coefficient", "axial_stiffness", "axial_mobilisation")
     coefficient, constant, mobilisation = (float(given[name][at[0]]) for name in names)
-    limit = coefficient * bed.weight
+    limit = coefficient * contact.weight
     stiffness = limit / mobilisation if math.isnan(constant) else constant / length
-    return Drag(bed.law.name, bed.mass, limit, stiffness)
+    return Drag(contact.law.name, contact.mass, limit, stiffness)
 
 
 def reference_drop() -> Drop:
@@ -153,30 +163,32 @@ def reference_drop() -> Drop:
     return Drop(LinearLaw("50 kN/m", stiffness), mass, mass * 9.81, speed, deepest)
 
 
-def all_cases(scene: Scene, seabed: Seabed, omissions: list[Omission], notes: list[str]) -> list[Case]:
+def all_cases(scene: Scene, studied: StudiedContacts, omissions: list[Omission], notes: list[str]) -> list[Case]:
     """The reference, then for each seabed a drop, and for the first a pull and a drag."""
     cases = [drop_case("drop-reference", "dropped, published case", reference_drop())]
-    for bed in seabed.beds:
-        _add(cases, omissions, f"drop on {bed.law.name}", partial(_drop, bed))
-    for bed in seabed.beds[:1]:
-        _add(cases, omissions, f"pull off {bed.law.name}", partial(_pull, scene, seabed, bed, notes))
-        _add(cases, omissions, f"drag along {bed.law.name}", partial(_drag, seabed, bed, notes))
+    for contact in studied.contacts:
+        _add(cases, omissions, f"drop on {contact.law.name}", partial(_drop, contact))
+    for contact in studied.contacts[:1]:
+        _add(cases, omissions, f"pull off {contact.law.name}", partial(_pull, scene, studied, contact, notes))
+        _add(cases, omissions, f"drag along {contact.law.name}", partial(_drag, studied, contact, notes))
     return cases
 
 
-def _drop(bed: Bed) -> Case:
-    kind = "curve" if isinstance(bed.law, CurveLaw) else "linear"
-    drop = drop_to(bed.law, bed.mass, bed.weight, _REACH * bed.diameter)
-    return drop_case(f"drop-{kind}", f"dropped on {bed.law.name}", drop)
+def _drop(contact: ElasticContact) -> Case:
+    kind = "curve" if isinstance(contact.law, CurveLaw) else "linear"
+    drop = drop_to(contact.law, contact.mass, contact.weight, _REACH * contact.diameter)
+    return drop_case(f"drop-{kind}", f"dropped on {contact.law.name}", drop)
 
 
-def _pull(scene: Scene, seabed: Seabed, bed: Bed, notes: list[str]) -> Case:
-    suction = suction_of(scene, seabed.inputs, bed, notes)
-    return pull_case(Pull(bed.law.name, bed.law, suction, bed.mass, static_depth(bed), usual_velocity(scene)))
+def _pull(scene: Scene, studied: StudiedContacts, contact: ElasticContact, notes: list[str]) -> Case:
+    suction = suction_of(scene, studied.inputs, contact, notes)
+    return pull_case(
+        Pull(contact.law.name, contact.law, suction, contact.mass, static_depth(contact), usual_velocity(scene))
+    )
 
 
-def _drag(seabed: Seabed, bed: Bed, notes: list[str]) -> Case:
-    return drag_case(friction_of(seabed.inputs, bed, notes))
+def _drag(studied: StudiedContacts, contact: ElasticContact, notes: list[str]) -> Case:
+    return drag_case(friction_of(studied.inputs, contact, notes))
 
 
 def _add(cases: list[Case], omissions: list[Omission], what: str, make: Callable[[], Case]) -> None:

@@ -33,7 +33,7 @@ _CHECKED = 1500
 _TIMED = 100_000
 _BEYOND = 1.1
 _FLOOR = 1e-17
-"""Errors below it, nought among them, are drawn here."""
+"""Smaller errors, zero included, are drawn here."""
 
 
 class CurveRow(NamedTuple):

@@ -80,7 +80,7 @@ def drop_case(name: str, title: str, drop: Drop) -> Case:
         1e3 * drop.deepest,
         lambda dt: _start(drop, dt),
         lambda run: _errors(drop, run),
-        "no step ended off the bed in 1.15 times the exact time and 8 steps",
+        "no step ended above the seabed in 1.15 times the exact time and 8 steps",
     )
 
 

@@ -179,7 +179,7 @@ def row(case: Case, scheme: Scheme, omega_dt: float) -> StepRow:
     start = case.start(nominal)
     steps = math.ceil(case.duration / float(start.dt.min())) + _MORE_STEPS
     if steps > _MOST_STEPS:
-        reason = f"it would take {steps} steps: the stiffnesses of the bed are too far apart"
+        reason = f"it would take {steps} steps: the stiffnesses of the seabed differ too much"
         return StepRow(case.name, scheme.name, omega_dt, nominal, steps, _FAILED, 0.0, 0.0, 0.0, RUNS, reason)
     run = march(scheme, case.system, start.motion, start.dt, steps, case.bound)
     with np.errstate(all="ignore"):

@@ -15,7 +15,7 @@ from mudline.results.units import unit_names
 from mudline.scene.model import Scene
 from mudline.study.newton import Newton
 from mudline.study.picture import Picture, Points, draw_lines, label
-from mudline.study.precision.cases import Bed, reference_drop
+from mudline.study.precision.cases import ElasticContact, reference_drop
 from mudline.study.precision.drop import Drop, drop_case
 from mudline.study.precision.integration import row
 from mudline.study.precision.laws import LinearLaw, smoothed_spring
@@ -109,13 +109,14 @@ IMPACTS = Layout[ImpactRow](
 )
 
 
-def study_smoothing(scene: Scene, beds: Sequence[Bed], options: StudyOptions) -> Section:
+def study_smoothing(scene: Scene, contacts: Sequence[ElasticContact], options: StudyOptions) -> Section:
     """At rest on the published case and on the scene's stiffest law as if it were linear; and the published impact."""
     options.progress("smoothing")
     widths = np.unique([float(f"{width:.4g}") for width in (*WIDTHS, *(share * 1e-5 for share in SHARES))])
     rest = list(at_rest(PUBLISHED, widths))
-    for bed in beds[:1]:
-        own = Rest(bed.law.name, bed.stiffness, 2e-5 * bed.stiffness, bed.weight, 0.7 * bed.diameter)
+    for contact in contacts[:1]:
+        stiffness, start = contact.stiffness, 0.7 * contact.diameter
+        own = Rest(contact.law.name, stiffness, 2e-5 * stiffness, contact.weight, start)
         rest += at_rest(own, np.array(SHARES) * own.kinked)
     hits = list(impacts(weightless(reference_drop())))
     tables = SMOOTHING.table(rest, length=unit_names(scene.units).length), IMPACTS.table(hits)

@@ -21,20 +21,20 @@ _ORDER = ("curve", "stages", "imports", "growth", "nodes", "sizes", "modules")
 _NOTES = """
 Times are those of the processor, the best of repeated runs, so that other programs hardly count; per node and step of a
 series of three steps (laid, lifted in waves, dragged aside), whose results are thrown away. Apart from the scene as it
-is, which lies where the deck has it, all nodes are pressed into the bed, so that every element touches it: that is the
-dearest case.
+is, which lies where the deck has it, all nodes are embedded in the seabed, so that every element touches it: the worst
+case.
 
-The scene as it is: the deck's elements over and over up to the number of nodes, with its own bed and laws. The others:
-a straight line with the curve that most of the deck's elements have, and the middle one of its diameters and lengths;
-stages are forced on with usual numbers, on every element or node.
+The scene as it is: the deck's elements, repeated up to the number of nodes, with its own seabed and laws. The others:
+a straight line with the curve that most of the deck's elements have, and the median of its diameters and lengths;
+stages are switched on with typical values, on every element or node.
 
 Memory: the most that one evaluation of one step had at a time, beyond the input, its result included.
 
 Imports: each scene in a fresh interpreter that has loaded numpy; the time is for loading, preparing and evaluating
 eleven nodes.
 
-Exponents: slopes of straight lines through the logarithms. Sets: reading the deck until its evaluator stands, the
-number of elements kept. Points, curves, planes: one evaluation of one step, the number of nodes kept.
+Exponents: slopes of straight lines through the logarithms. Sets: from reading the deck to its evaluator, with a
+constant number of elements. Points, curves, planes: one evaluation of one step, with a constant number of nodes.
 """
 
 
@@ -48,7 +48,7 @@ def run(scene: Scene, options: StudyOptions) -> StudyReport:
     notes = paragraphs(_NOTES)
     pipe = pipe_of(inputs, next(iter(sample_scene().curves.values())))
     if not inputs.has("curve"):
-        notes.append("The deck's elements have no curve: that of the built-in sample stands for one.")
+        notes.append("The deck's elements have no curve: that of the built-in sample is used.")
     found = variants(inputs, pipe)
     alone = cost.study_curve(pipe, options)
     imports, growth = study_imports(found, options), study_growth(pipe, options)

@@ -16,7 +16,7 @@ from mudline.contact.model import ContactModel
 from mudline.study.picture import Picture, draw_lines, label, legend_below, style
 from mudline.study.pruning.scenes import CURVE, STEPS, Pipe, Variant, line, positions, series
 from mudline.study.report import Layout, Section, StudyOptions, grouped
-from mudline.study.timing import Timing, spent
+from mudline.study.timing import Timing, processor_time
 
 if TYPE_CHECKING:  # only who draws loads matplotlib
     from matplotlib.axes import Axes
@@ -179,7 +179,7 @@ def cost(variant: Variant, pipe: Pipe, nodes: int) -> CostRow:
     model = ContactModel(inputs)
     points = positions(variant, inputs, pipe)
     taken = stepping(model, series(points, pipe))
-    prepared = spent(lambda: ContactModel(inputs), few=True)
+    prepared = processor_time(lambda: ContactModel(inputs), few=True)
     per = 1e9 / (nodes * STEPS)
     touching, peak = _evaluated(model, points)
     return CostRow(
@@ -202,7 +202,7 @@ def stepping(model: ContactModel, moved: FloatArray) -> Timing:
         for _ in model.stream(moved, times=times):
             pass
 
-    return spent(run)
+    return processor_time(run)
 
 
 def curve_alone(pipe: Pipe, nodes: int) -> CurveRow:
@@ -219,7 +219,7 @@ def curve_alone(pipe: Pipe, nodes: int) -> CurveRow:
     least = [np.inf] * len(calls)
     for _ in range(3):  # turn by turn: a machine that gets busy slows all of them
         for index, call in enumerate(calls):
-            least[index] = min(least[index], spent(call).best)
+            least[index] = min(least[index], processor_time(call).best)
     curve, bare, scene = (1e9 * seconds / nodes for seconds in least)
     return CurveRow(nodes, curve, bare, scene)
 

@@ -19,7 +19,7 @@ from mudline.study.picture import Picture, label, panels, style
 from mudline.study.pruning.cost import stepping
 from mudline.study.pruning.scenes import Pipe, Variant, everything, line, planes, positions, series
 from mudline.study.report import Layout, Section, StudyOptions, grouped
-from mudline.study.timing import spent
+from mudline.study.timing import processor_time
 
 if TYPE_CHECKING:  # only who draws loads matplotlib
     from matplotlib.axes import Axes
@@ -192,7 +192,7 @@ def _sets(pipe: Pipe, size: int) -> float:
     """Reading the deck until its evaluator stands."""
     del pipe
     text = deck_with_sets(size, ELEMENTS).encode()
-    return spent(lambda: resolve(load_bytes(text, "sets.keyxm")).contact(), few=True).best
+    return processor_time(lambda: resolve(load_bytes(text, "sets.keyxm")).contact(), few=True).best
 
 
 def _planes(pipe: Pipe, size: int) -> float:
@@ -202,7 +202,7 @@ def _planes(pipe: Pipe, size: int) -> float:
 def _pressed(pipe: Pipe, inputs: ContactInput) -> float:
     model = ContactModel(inputs)
     points = positions(Variant("", lambda _: inputs), inputs, pipe)
-    return spent(lambda: model.evaluate(points)).best
+    return processor_time(lambda: model.evaluate(points)).best
 
 
 def _stepped(make: Callable[[Pipe, int], ContactInput]) -> Callable[[Pipe, int], float]:

@@ -62,7 +62,7 @@ class Variant:
     Attributes:
         name: for tables.
         make: gives the input with so many nodes.
-        lies: whether the nodes stay where the deck has them, instead of being pressed into the seabed.
+        lies: whether the nodes stay where the deck has them, instead of being embedded in the seabed.
     """
 
     name: str
@@ -82,7 +82,7 @@ def line(pipe: Pipe, nodes: int, laws: Sequence[str] = ("curve",)) -> ContactInp
         element_nodes=chain(nodes),
         length=np.full(elements, pipe.length),
         diameter=np.full(elements, pipe.diameter),
-        laws=tuple(forced(law, pipe, nodes) for law in laws),
+        laws=tuple(law_everywhere(law, pipe, nodes) for law in laws),
         curves=(pipe.curve,) if "curve" in laws else (),
     )
 
@@ -120,16 +120,16 @@ def everything(pipe: Pipe, nodes: int) -> ContactInput:
     """Every law on every element and node, curves and linear laws by turns, on two planes."""
     by_turns = [
         replace(law, rows=law.rows[first::2])
-        for first, law in enumerate(forced(name, pipe, nodes) for name in ("curve", "smoothed"))
+        for first, law in enumerate(law_everywhere(name, pipe, nodes) for name in ("curve", "smoothed"))
     ]
     return replace(
         line(pipe, nodes),
-        laws=(*by_turns, *(forced(law, pipe, nodes) for law in _BESIDE)),
+        laws=(*by_turns, *(law_everywhere(law, pipe, nodes) for law in _BESIDE)),
         seabed=planes(2, pipe.length * nodes),
     )
 
 
-def forced(law: str, pipe: Pipe, nodes: int) -> LawAssignment:
+def law_everywhere(law: str, pipe: Pipe, nodes: int) -> LawAssignment:
     """A law of this name on a chain of so many nodes."""
     rows = np.arange(nodes if law_named(law).acts_on == "nodes" else nodes - 1)
     parameters = _numbers(pipe)[law]

@@ -1,4 +1,4 @@
-"""How stable a deck's contacts are under time steps, Newton's method, suction that lets go, and extreme numbers."""
+"""How stable a deck's contacts are under time steps, Newton's method, the release of suction, and extreme numbers."""
 
 from __future__ import annotations
 

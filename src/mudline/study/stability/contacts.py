@@ -28,8 +28,8 @@ class Contact(NamedTuple):
     omega: root of stiffness over mass, radians per unit of time.
     depth: a penetration in the middle of where the law has this stiffness.
     reach: how far to both sides it has it.
-    scale: the largest distance that the law computes with there: a swing below its rounding is lost.
-    unloading: whether the stiffness is that of the way back.
+    scale: the largest distance that the law computes with there: an oscillation below its rounding is not resolved.
+    unloading: whether the stiffness is that of the unloading line.
     """
 
     name: str
@@ -74,7 +74,7 @@ class _Steepest(NamedTuple):
 
 
 def find_contacts(scene: Scene) -> tuple[list[Contact], list[Omission]]:
-    """The contacts that swing, the stiffest first, and those of which no frequency is known."""
+    """The contacts that oscillate, the fastest first, and those of which no frequency is known."""
     springs = np.flatnonzero(np.isin(scene.law, (LawKind.CURVE, LawKind.LINEAR)))
     back = scene.extensions.get(UNLOADING)
     ways = np.full(len(scene.law), -1) if back is None else back.of_element
@@ -103,7 +103,7 @@ def find_contacts(scene: Scene) -> tuple[list[Contact], list[Omission]]:
 
 
 def _nodal(scene: Scene, masses: FloatArray) -> tuple[list[Contact], list[Omission]]:
-    """Nodes with a stiffness of their own: of each stiffness the node that swings fastest, per unit of its length."""
+    """Nodes with a stiffness of their own: of each stiffness the fastest node, per unit of its length."""
     springs = scene.contact_input().assigned.get("nodal")
     if springs is None:
         return [], []
@@ -124,9 +124,9 @@ def _nodal(scene: Scene, masses: FloatArray) -> tuple[list[Contact], list[Omissi
         node = int(nodes[np.nanargmax(frequency[nodes])])
         element = int(np.flatnonzero((scene.element_nodes == node).any(axis=1))[0])
         name = f"nodal {stiffness:.6g} at node {scene.node_ids[node]}"
-        per_length, swings = float(stiffness / length[node]), float(frequency[node])
+        per_length, own = float(stiffness / length[node]), float(frequency[node])
         load = float(mass[node] / length[node])
-        found.append(Contact(name, element, len(nodes), per_length, load, swings, *_small(scene, element)))
+        found.append(Contact(name, element, len(nodes), per_length, load, own, *_small(scene, element)))
     return found, left_out
 
 

@@ -90,9 +90,11 @@ CRITICAL_STEPS = Layout[Measured](
 def study_steps(scene: Scene, options: StudyOptions) -> Section:
     """Every scheme on the fastest contacts of a scene, or in a full run on all of them."""
     found, omissions = find_contacts(scene)
-    wide = [one for one in found if can_swing(one)]
+    wide = [one for one in found if can_oscillate(one)]
     omissions += [
-        Omission(one.name, "not stepped: a small swing there is lost in rounding") for one in found if one not in wide
+        Omission(one.name, "not stepped: a small oscillation there is below rounding")
+        for one in found
+        if one not in wide
     ]
     stepped = wide if options.full else wide[:MOST_CONTACTS]
     omissions += [
@@ -111,9 +113,10 @@ def _notes(found: Sequence[Contact], measured: Sequence[Measured]) -> list[str]:
     if not found:
         return ["No contact of this deck has a frequency: laws with a stiffness and sections with a mass are needed."]
     fastest = found[0]
+    advised = rounded_down(ADVISED_OMEGA_DT / fastest.omega)
     step = (
-        f"The fastest contact, {fastest.name}, swings with {fastest.omega:.4g} rad/s: give implicit schemes a step of "
-        f"{rounded_down(ADVISED_OMEGA_DT / fastest.omega):.3g} s or less (omega dt = {ADVISED_OMEGA_DT:g})."
+        f"The fastest contact, {fastest.name}, oscillates at {fastest.omega:.4g} rad/s: use a step of "
+        f"{advised:.3g} s or less in implicit schemes (omega dt = {ADVISED_OMEGA_DT:g})."
     )
     runs = (
         f"{sum(one.as_predicted for one in measured)} of {len(measured)} runs of a scheme on a contact did as "
@@ -125,7 +128,7 @@ def _notes(found: Sequence[Contact], measured: Sequence[Measured]) -> list[str]:
 def _picture(measured: Sequence[Measured]) -> Picture:
     """What each scheme did on each contact, at steps around the critical one."""
     rows = [one for one in measured if one.tried]
-    caption = "Each mark is a run on a contact of the deck; the predicted step should part them."
+    caption = "Each mark is a run on a contact of the deck; the predicted step should separate them."
     return Picture("critical-steps", caption, partial(_draw, rows), (10.0, 2.2 + 0.34 * max(len(rows), 2)))
 
 
@@ -147,8 +150,8 @@ def _draw(rows: Sequence[Measured], figure: Figure) -> None:
     legend_below(figure, axes, 3)
 
 
-def can_swing(contact: Contact) -> bool:
-    """Whether a small swing is more than the rounding of depths and forces."""
+def can_oscillate(contact: Contact) -> bool:
+    """Whether a small oscillation is more than the rounding of depths and forces."""
     wide = _NARROWEST * contact.scale < contact.reach < np.inf
     felt = _SOFTEST < contact.stiffness * contact.reach < np.inf
     return wide and felt and _SLOWEST < contact.omega < 1.0 / _SLOWEST
@@ -177,7 +180,7 @@ def _change(words: list[str]) -> float:
 
 def _outcomes(scene: Scene, contact: Contact, scheme: Scheme, omega_dt: FloatArray) -> list[str]:
     """What a small motion does, for values (k,) of omega dt."""
-    system = Pressed(scene, contact, len(omega_dt))
+    system = LoadedContact(scene, contact, len(omega_dt))
     if isinstance(scheme, OneStep):
         enough = 64.0 * float(np.finfo(np.float64).eps) * max(abs(system.load), contact.stiffness * contact.scale)
         scheme = scheme.solved_by(replace(Newton(), tolerance=enough))
@@ -190,7 +193,7 @@ def _outcomes(scene: Scene, contact: Contact, scheme: Scheme, omega_dt: FloatArr
     return words
 
 
-class Pressed:
+class LoadedContact:
     """`runs` copies of an element of the scene, under a load that holds them at the depth of the contact.
 
     Positions are heights above there, forces are per unit length: those of the evaluator, less the load.
@@ -222,7 +225,7 @@ class Pressed:
 def _copies(scene: Scene, contact: Contact, runs: int) -> ContactInput:
     """Elements on the curve of the contact, else with its stiffness: a node's is spread over its length.
 
-    A small swing on an unloading line is one on a spring.
+    A small oscillation on an unloading line is one on a spring.
     """
     arrays, element = scene.law_arrays(), contact.element
     law = LawAssignment("linear", np.arange(runs), {"stiffness": contact.stiffness})

@@ -28,7 +28,7 @@ RATIOS = (1.0, 9.0, 99.0, 1e4, 1e6)
 FORCES = (0.1, 0.5, 0.9, 1.5)
 
 
-class Pulled(NamedTuple):
+class FrictionProblem(NamedTuple):
     """kb, kt, mu N and F, in any one system of units."""
 
     structure: float
@@ -37,7 +37,7 @@ class Pulled(NamedTuple):
     force: float
 
 
-EXAMPLE = Pulled(1.0, 99.0, 10.0, 5.0)
+EXAMPLE = FrictionProblem(1.0, 99.0, 10.0, 5.0)
 
 
 class Path(NamedTuple):
@@ -63,12 +63,12 @@ class Ensemble(NamedTuple):
     most: int
 
     @property
-    def lost(self) -> int:
+    def failed(self) -> int:
         """How many did not."""
         return self.starts - self.converged
 
 
-def path(pulled: Pulled, start: float, newton: Newton) -> Path:
+def path(pulled: FrictionProblem, start: float, newton: Newton) -> Path:
     """Follow Newton's method from one start: the points that it took, the start first."""
     points = [start]
     for most in range(1, newton.most + 1):
@@ -83,7 +83,7 @@ def path(pulled: Pulled, start: float, newton: Newton) -> Path:
     return Path(points, len(points) - 1, bool(solution.residual[0] == 0.0))
 
 
-def ensemble(pulled: Pulled, newton: Newton) -> Ensemble:
+def ensemble(pulled: FrictionProblem, newton: Newton) -> Ensemble:
     """Solve from all of `STARTS`."""
     solution = newton.solve(lambda u: residual(pulled, u), STARTS)
     good = solution.residual == 0.0
@@ -92,7 +92,7 @@ def ensemble(pulled: Pulled, newton: Newton) -> Ensemble:
     return Ensemble(len(STARTS), int(good.sum()), mean, int(done.max(initial=0)))
 
 
-def residual(pulled: Pulled, u: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+def residual(pulled: FrictionProblem, u: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Residuals at displacements (k,), their derivatives, and their largest terms."""
     count = len(u)
     law = FrictionLaw(
@@ -112,7 +112,7 @@ def residual(pulled: Pulled, u: FloatArray) -> tuple[FloatArray, FloatArray, Flo
     return own - friction - pulled.force, pulled.structure - held.by_position[:, 0, 0], size
 
 
-class Cycling(NamedTuple):
+class CycleCount(NamedTuple):
     """Ensembles of one case.
 
     ratio: spring over structure, kt / kb.
@@ -131,7 +131,7 @@ class Cycling(NamedTuple):
     most: int
 
 
-CYCLES = Layout[Cycling](
+CYCLES = Layout[CycleCount](
     "newton-cycles",
     "Newton's method on friction that slips",
     {
@@ -156,27 +156,27 @@ def study_cycles() -> Section:
         f"{_points(plain.iterates)}, ... without end; with halved corrections {_points(halved.iterates)}: "
         f"{halved.iterations} iterations."
     )
-    return Section([CYCLES.table(cyclings())], notes=[note])
+    return Section([CYCLES.table(cycle_counts())], notes=[note])
 
 
 def _points(iterates: Sequence[float]) -> str:
     return ", ".join(f"{point:.4g}" for point in iterates)
 
 
-def cyclings() -> list[Cycling]:
+def cycle_counts() -> list[CycleCount]:
     """Springs from as stiff as the structure to 10^6 times as stiff, forces below and above the limit."""
-    return [_cycling(ratio, share) for ratio in RATIOS for share in FORCES]
+    return [_cycle_count(ratio, share) for ratio in RATIOS for share in FORCES]
 
 
-def _cycling(ratio: float, share: float) -> Cycling:
-    pulled = Pulled(1.0, ratio, 10.0, 10.0 * share)
+def _cycle_count(ratio: float, share: float) -> CycleCount:
+    pulled = FrictionProblem(1.0, ratio, 10.0, 10.0 * share)
     plain, halved = (ensemble(pulled, Newton(most=MOST, halving=halving)) for halving in (False, True))
     safe = bracketed(pulled, STARTS)
-    lost = int((safe < 0).sum())
-    return Cycling(ratio, share, len(STARTS), plain.lost, halved.lost, lost, int(safe.max()))
+    failed = int((safe < 0).sum())
+    return CycleCount(ratio, share, len(STARTS), plain.failed, halved.failed, failed, int(safe.max()))
 
 
-def bracketed(pulled: Pulled, starts: FloatArray) -> IndexArray:
+def bracketed(pulled: FrictionProblem, starts: FloatArray) -> IndexArray:
     """Iterations (k,) of Newton's method with a bracket from `starts` (k,); -1 where it does not converge."""
     u = np.array(starts)
     low, high = np.full(u.shape, -np.inf), np.full(u.shape, np.inf)

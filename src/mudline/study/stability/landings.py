@@ -25,7 +25,7 @@ if TYPE_CHECKING:  # only who draws loads matplotlib
 
 PHASES: FloatArray = (np.arange(400) + 0.5) / 400
 OMEGA_DTS = (0.1, 0.5, 1.0, 4.4721, 10.0, 100.0)
-LANDERS = (
+LANDING_SCHEMES = (
     "velocity-verlet",
     "rk4",
     "newmark",
@@ -51,7 +51,7 @@ _COMPARED = {
 """Least/mean/largest for each of `OMEGA_DTS`."""
 _SHOWN = ((0.1, 0.9965, 1.0025), (0.5, 0.89, 1.04), (1.0, 0.2, 1.15), (10.0, -0.1, 3.0))
 """omega dt of each panel, and what it shows of the axis."""
-_DRAWN = tuple(name for name in LANDERS if name != "generalised-alpha-1")
+_DRAWN = tuple(name for name in LANDING_SCHEMES if name != "generalised-alpha-1")
 """With a spectral radius of 1 generalised-alpha does what Newmark's scheme does."""
 _SETTLING = 64
 """Steps besides those of the contact: backward Euler creeps out of the seabed at large steps, and the acceleration that
@@ -99,17 +99,17 @@ LANDINGS = Layout[Landing](
 
 
 def study_landings(options: StudyOptions) -> Section:
-    """All schemes at all steps: which of them throw the mass back faster than it came."""
+    """All schemes at all steps: in which of them the rebound is faster than the landing."""
     options.progress("landings")
     landed = landings()
     agree = [one.agrees for one in landed if one.agrees is not None]
     implicit = grouped((one for one in landed if not one.scheme.explicit), lambda one: one.scheme.title)
     never = [name for name, rows in implicit.items() if max(0.0, *(one.largest for one in rows)) <= 1.0]
     notes = (
-        f"{sum(agree)} of {len(agree)} landings agree with figures reckoned apart, to the last digit given.",
-        f"Implicit schemes that never throw the mass back faster than it came: {', '.join(never)}.",
+        f"{sum(agree)} of {len(agree)} landings agree with independently computed figures, to the last digit given.",
+        f"Implicit schemes whose rebound is never faster than the landing: {', '.join(never)}.",
     )
-    caption = "Rebound of a mass from an elastic bed; 1 is right, more is energy from nowhere."
+    caption = "Rebound of a mass from an elastic seabed; 1 is exact, above 1 energy is gained."
     return Section([LANDINGS.table(landed)], [Picture("landings", caption, _draw, (10.0, 8.0))], notes)
 
 
@@ -124,7 +124,7 @@ def _draw(figure: Figure) -> None:
         axes.set_ylim(low, high)
         label(axes, f"ω dt = {omega_dt:g}{_off(omega_dt, low)}", "", "speed after / before landing [-]")
     for axes in panels[1]:
-        axes.set_xlabel("landing phase, share of the step left at the bed [-]")
+        axes.set_xlabel("landing phase, share of the step left at the seabed [-]")
     legend_below(figure, panels.flat[0])
 
 
@@ -138,7 +138,7 @@ def _off(omega_dt: float, low: float) -> str:
 
 def landings() -> list[Landing]:
     """All schemes at all steps."""
-    return [landing(SCHEMES[name], omega_dt) for name in LANDERS for omega_dt in OMEGA_DTS]
+    return [landing(SCHEMES[name], omega_dt) for name in LANDING_SCHEMES for omega_dt in OMEGA_DTS]
 
 
 def landing(scheme: Scheme, omega_dt: float) -> Landing:
@@ -164,7 +164,7 @@ def _last_digit(text: str) -> float:
 
 
 @dataclass(frozen=True, slots=True)
-class ElasticBed:
+class ElasticSeabed:
     """m a = k max(-x, 0): a seabed below x = 0."""
 
     mass: FloatArray
@@ -182,7 +182,7 @@ def restitution(scheme: Scheme, omega_dt: float, phases: FloatArray) -> FloatArr
 
     The speed after is that of the free flight, when the acceleration that a scheme carries along has died away.
     """
-    system = ElasticBed(np.ones(len(phases)), np.full(len(phases), omega_dt * omega_dt))
+    system = ElasticSeabed(np.ones(len(phases)), np.full(len(phases), omega_dt * omega_dt))
     start = Motion.start(system, np.asarray(phases, np.float64), np.full(len(phases), -1.0))
     run = march(scheme, system, start, 1.0, int(np.ceil(2.0 * np.pi / omega_dt)) + _SETTLING)
     left = (run.position[-1] > 0.0) & (run.velocity[-1] > 0.0)

@@ -1,6 +1,6 @@
-"""Suction that lets go: where a static solution is unique, and where the pipe snaps off.
+"""Release of suction: where a static solution is unique, and where the pipe snaps off.
 
-On the release the suction falls with slope F_max / ((1 - xc2) Delta_B). A pipe that hangs on a structure of
+On the release the suction falls with slope F_max / ((1 - xc2) Delta_B). A pipe suspended from a structure of
 stiffness ks (per unit length), whose far end is raised slowly, has one equilibrium at each height of that end only for
 a greater ks.
 """
@@ -50,7 +50,7 @@ def _equilibria(index: int) -> Callable[[Release], int]:
 
 RELEASE = Layout[Release](
     "release",
-    "Structural stiffness for one equilibrium while suction lets go",
+    "Structural stiffness for one equilibrium during the release of suction",
     {
         "element": lambda one: one.element,
         "velocity [{length}/s]": lambda one: one.velocity,
@@ -63,7 +63,7 @@ RELEASE = Layout[Release](
 
 
 def study_release(scene: Scene, options: StudyOptions) -> Section:
-    """What suction asks of a structure when it lets go, on the laws of a scene."""
+    """What suction asks of a structure during its release, on the laws of a scene."""
     options.progress("release of suction")
     suction = scene.contact_input().assigned.get("suction")
     omissions = [] if suction is not None else [Omission("release of suction", "no element has *SEABED SUCTION")]

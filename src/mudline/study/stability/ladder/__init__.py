@@ -1,7 +1,7 @@
 """A ladder of extremes: small decks with numbers at the ends of what numbers can be, against exact arithmetic.
 
-Every deck is text, and goes the whole way: read, resolved, evaluated. A result is right, within a stated bound, or it
-is refused with a diagnostic that names a line of the deck; nothing else is let through.
+Every deck is text, and goes through the whole program: read, resolved, evaluated. A result is right, within a stated
+bound, or it is refused with a diagnostic that names a line of the deck; nothing else is accepted.
 """
 
 from __future__ import annotations
@@ -14,22 +14,22 @@ import numpy as np
 
 from mudline.study.picture import Picture
 from mudline.study.report import Layout, Section, StudyOptions, grouped
-from mudline.study.stability.ladder.cells import all_cells, chance_cells
+from mudline.study.stability.ladder.cells import all_cells, random_cells
 from mudline.study.stability.ladder.judging import Judgement, Verdict, judge
 from mudline.study.stability.ladder.suction import judge_suction, suction_cells
 
 if TYPE_CHECKING:  # only who draws loads matplotlib
     from matplotlib.figure import Figure
 
-BY_CHANCE = 4000
-"""Decks by chance in a full run."""
+RANDOM_DECKS = 4000
+"""Random decks in a full run."""
 _COLORS = {
     Verdict.RIGHT: "#9ecae1",
-    Verdict.UP_TO: "#c7e9c0",
+    Verdict.RIGHT_UNTIL_REFUSED: "#c7e9c0",
     Verdict.REFUSED: "#fdd49e",
     Verdict.WRONG: "#b2182b",
-    Verdict.UNTOLD: "#67001f",
-    Verdict.NOISY: "#3f007d",
+    Verdict.NO_LINE: "#67001f",
+    Verdict.WARNED: "#3f007d",
 }
 
 
@@ -44,9 +44,9 @@ FAMILIES = Layout[Sequence[Judgement]](
         "family": lambda part: part[0].family,
         "cells": len,
         "right": lambda part: _count(part, Verdict.RIGHT),
-        "refused beyond": lambda part: _count(part, Verdict.UP_TO),
+        "refused beyond": lambda part: _count(part, Verdict.RIGHT_UNTIL_REFUSED),
         "refused": lambda part: _count(part, Verdict.REFUSED),
-        "anything else": lambda part: sum(not one.verdict.sound for one in part),
+        "anything else": lambda part: sum(not one.verdict.acceptable for one in part),
         "numbers compared": lambda part: sum(one.results for one in part),
         "largest error [2^-53]": lambda part: max(one.error for one in part),
         "bound [2^-53]": lambda part: max(one.bound for one in part),
@@ -62,27 +62,28 @@ CELLS = Layout[Judgement](
         "numbers compared": lambda one: one.results,
         "largest error [2^-53]": lambda one: one.error,
         "bound [2^-53]": lambda one: one.bound,
-        "told": lambda one: one.told,
+        "told": lambda one: one.message,
     },
     brief=False,
 )
 
 
 def study_ladder(options: StudyOptions) -> Section:
-    """The verdict on every cell, and in a full run on decks by chance."""
+    """The verdict on every cell, and in a full run on random decks."""
     options.progress("ladder of extremes")
     judgements = [*map(judge, all_cells()), *map(judge_suction, suction_cells())]
     picture = _picture(grouped(judgements, lambda one: one.family))
     if options.full:
-        options.progress(f"{BY_CHANCE} decks by chance")
-        judgements += map(judge, chance_cells(BY_CHANCE))
+        options.progress(f"{RANDOM_DECKS} random decks")
+        judgements += map(judge, random_cells(RANDOM_DECKS))
     tables = FAMILIES.table(grouped(judgements, lambda one: one.family).values()), CELLS.table(judgements)
-    unsound = [one for one in judgements if not one.verdict.sound]
-    sound = (
-        f"{len(judgements) - len(unsound)} of {len(judgements)} cells of the ladder of extremes are right within their "
-        "bound or refused with a line of the deck."
+    rejected = [one for one in judgements if not one.verdict.acceptable]
+    right = len(judgements) - len(rejected)
+    summary = (
+        f"{right} of {len(judgements)} cells of the ladder of extremes are right within their bound or refused with a "
+        "line of the deck."
     )
-    notes = [sound, *(f"{one.family} {one.value}: {one.verdict.value}: {one.told}" for one in unsound)]
+    notes = [summary, *(f"{one.family} {one.value}: {one.verdict.value}: {one.message}" for one in rejected)]
     return Section(tables, [picture], notes)
 
 

@@ -137,23 +137,21 @@ def _curve(family: str, value: str, rows: Pairs, diameter: str = DIAMETER) -> Ce
     return Cell(family, value, curve_deck(rows, diameter), law)
 
 
-def chance_cells(count: int) -> list[Cell]:
-    """Decks by chance, always the same ones: a linear law to every three curves, of numbers of any size."""
+def random_cells(count: int) -> list[Cell]:
+    """Random decks, always the same ones: a linear law to every three curves, of numbers of any size."""
     rng = random.Random(_SEED)  # noqa: S311 - nothing secret about it
-    return [_by_chance(rng, index) for index in range(count)]
+    return [_random_cell(rng, index) for index in range(count)]
 
 
-def _by_chance(rng: random.Random, index: int) -> Cell:
+def _random_cell(rng: random.Random, index: int) -> Cell:
     diameter = _number(rng, -6, 3)
     value = str(index + 1)
     if index % 4 == 0:
         stiffness = _number(rng, -320, 308)
-        return Cell(
-            "by chance", value, linear_deck(stiffness, diameter), ExactLinear(float(stiffness), float(diameter))
-        )
+        return Cell("random", value, linear_deck(stiffness, diameter), ExactLinear(float(stiffness), float(diameter)))
     far = rng.choice((1, 9, 100, 308))
     rows = [(_signed(rng, far), _signed(rng, far)) for _ in range(rng.randint(2, 6))]
-    return _curve("by chance", value, rows, diameter)
+    return _curve("random", value, rows, diameter)
 
 
 def _signed(rng: random.Random, far: int) -> str:
@@ -170,7 +168,7 @@ def linear_deck(stiffness: str, diameter: str = DIAMETER) -> str:
 
 
 def curve_deck(points: Pairs, diameter: str = DIAMETER) -> str:
-    """A force-embedment curve; numbers as they are to stand in the deck."""
+    """A force-embedment curve; numbers as the deck has them."""
     rows = "".join(f" {ratio}, {force}\n" for ratio, force in points)
     return _line(diameter) + _on("Extreme") + "*SEABED STIFFNESS\n CURVE=Extreme\n" + rows
 

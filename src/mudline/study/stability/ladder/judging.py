@@ -1,4 +1,4 @@
-"""A cell goes the whole way, from text to forces, is compared with exact results, and is judged."""
+"""A cell is evaluated from its text to forces, is compared with exact results, and is judged."""
 
 from __future__ import annotations
 
@@ -33,21 +33,21 @@ class Verdict(StrEnum):
 
     RIGHT = "right"
     """Every result is within the bound."""
-    UP_TO = "right, beyond refused"
+    RIGHT_UNTIL_REFUSED = "right, beyond refused"
     """Results are within the bound; where one would overflow it is refused, with a line of the deck."""
     REFUSED = "refused"
     """The deck is refused, with a line of the deck."""
     WRONG = "WRONG"
     """A result is outside its bound, or not finite."""
-    UNTOLD = "REFUSED WITHOUT A LINE"
+    NO_LINE = "REFUSED WITHOUT A LINE"
     """A refusal that names no line, or one of a result that a float64 can hold."""
-    NOISY = "WARNED"
+    WARNED = "WARNED"
     """A numpy warning came out, or an error that is none of ours."""
 
     @property
-    def sound(self) -> bool:
+    def acceptable(self) -> bool:
         """Whether it may appear."""
-        return self in {Verdict.RIGHT, Verdict.UP_TO, Verdict.REFUSED}
+        return self in {Verdict.RIGHT, Verdict.RIGHT_UNTIL_REFUSED, Verdict.REFUSED}
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +61,7 @@ class Judgement:
         results: how many numbers were compared.
         error: the largest error, in roundings (2^-53) of the largest term; 0 where nothing was compared.
         bound: roundings that are allowed.
-        told: the diagnostic of a refusal, else what is wrong.
+        message: the diagnostic of a refusal, else what is wrong.
     """
 
     family: str
@@ -70,7 +70,7 @@ class Judgement:
     results: int = 0
     error: float = 0.0
     bound: float = 0.0
-    told: str = ""
+    message: str = ""
 
 
 def judge(cell: Cell) -> Judgement:
@@ -79,16 +79,18 @@ def judge(cell: Cell) -> Judgement:
 
 
 def guarded(family: str, value: str, judged: Callable[[], Judgement]) -> Judgement:
-    """What is judged, with every numpy warning an error, refusals of decks and all other errors told."""
+    """What is judged, with every numpy warning an error, refusals of decks and all other errors reported."""
     with np.errstate(all="raise"), warnings.catch_warnings():
         warnings.simplefilter("error")
         try:
             return judged()
         except DeckError as error:
-            told = refusal(error)
-            return Judgement(family, value, Verdict.REFUSED if told else Verdict.UNTOLD, told=told or str(error))
+            message = refusal(error)
+            return Judgement(
+                family, value, Verdict.REFUSED if message else Verdict.NO_LINE, message=message or str(error)
+            )
         except (ArithmeticError, Warning, ValueError, LookupError, TypeError) as error:
-            return Judgement(family, value, Verdict.NOISY, told=f"{type(error).__name__}: {error}")
+            return Judgement(family, value, Verdict.WARNED, message=f"{type(error).__name__}: {error}")
 
 
 def scene_of(text: str) -> Scene:
@@ -119,15 +121,17 @@ def refusal(error: DeckError) -> str:
 def _judged(cell: Cell) -> Judgement:
     scene = scene_of(cell.text)
     if cell.law is None:
-        return Judgement(cell.family, cell.value, Verdict.WRONG, told="a deck that holds no law was taken")
+        return Judgement(cell.family, cell.value, Verdict.WRONG, message="a deck without a valid law was accepted")
     tally, heights = Tally(), _heights(cell.law)
     if isinstance(cell.law, ExactCurve):
         _compare_curve(tally, scene, cell.law)
-    told = _compare_heights(tally, scene, cell.law, heights)
-    if told is None:
-        return Judgement(cell.family, cell.value, Verdict.UNTOLD, told="a value was refused that a float64 can hold")
-    verdict = Verdict.WRONG if tally.fault else Verdict.UP_TO if told else Verdict.RIGHT
-    return Judgement(cell.family, cell.value, verdict, tally.results, tally.error, BOUND, tally.fault or told)
+    message = _compare_heights(tally, scene, cell.law, heights)
+    if message is None:
+        return Judgement(
+            cell.family, cell.value, Verdict.NO_LINE, message="a value was refused that a float64 can hold"
+        )
+    verdict = Verdict.WRONG if tally.fault else Verdict.RIGHT_UNTIL_REFUSED if message else Verdict.RIGHT
+    return Judgement(cell.family, cell.value, verdict, tally.results, tally.error, BOUND, tally.fault or message)
 
 
 def _heights(law: ExactLaw) -> list[float]:
@@ -151,7 +155,7 @@ def _compare_heights(tally: Tally, scene: Scene, law: ExactLaw, heights: list[fl
 
 
 def _one_by_one(tally: Tally, scene: Scene, law: ExactLaw, heights: list[float]) -> str | None:
-    told = ""
+    message = ""
     for height in heights:
         try:
             result = _evaluated(scene, [height])
@@ -159,10 +163,10 @@ def _one_by_one(tally: Tally, scene: Scene, law: ExactLaw, heights: list[float])
             line = refusal(error)
             if not line or not _overflows(law, height):
                 return None
-            told = told or line
+            message = message or line
         else:
             compare(tally, law, height, result.step(0))
-    return told
+    return message
 
 
 def _overflows(law: ExactLaw, height: float) -> bool:
