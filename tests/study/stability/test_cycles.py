@@ -12,17 +12,17 @@ from mudline.study.stability.cycles import (
     FrictionProblem,
     bracketed,
     cycle_counts,
-    ensemble,
-    path,
+    newton_failures,
+    newton_path,
     residual,
 )
 
 
 def test_the_cycle_of_the_example_and_its_cure() -> None:
-    plain = path(EXAMPLE, 1.0, Newton(most=5))
+    plain = newton_path(EXAMPLE, 1.0, Newton(most=5))
     assert plain.iterates == pytest.approx([1.0, -5.0, 15.0, -5.0, 15.0, -5.0])
     assert not plain.converged
-    cured = path(EXAMPLE, 1.0, Newton(halving=True))
+    cured = newton_path(EXAMPLE, 1.0, Newton(halving=True))
     assert (cured.iterations, cured.converged) == (3, True)
     assert cured.iterates[-1] == pytest.approx(0.05, abs=1e-12)
 
@@ -39,5 +39,5 @@ def test_a_bracket_cures_every_cycle() -> None:
         assert one.bracketed == 0
         assert one.plain == 0 or (one.ratio > 1.0 and one.share < 1.0)
         assert one.halved == 0 or one.ratio >= 1e4
-    assert ensemble(EXAMPLE, Newton()).failed > 95
+    assert newton_failures(EXAMPLE, Newton()) > 95
     assert (bracketed(FrictionProblem(1.0, 99.0, 10.0, float("nan")), STARTS[:1]) == -1).all()

@@ -150,35 +150,15 @@ class Method(NamedTuple):
 
 def methods(tables: tuple[int, ...] = TABLES) -> Iterator[Method]:
     """All of them; "fast" needs its extra when it is prepared."""
-    yield Method("mudline, numpy", "mudline, numpy", _numpy)
-    yield Method("mudline, fast", "mudline, fast", _fast)
-    yield Method("np.interp", "np.interp", _interp)
-    yield Method("scipy PPoly", "scipy PPoly", _ppoly)
-    yield Method("scipy PCHIP", "scipy PCHIP", _pchip)
-    yield Method("float32", "float32", _float32)
+    for name, prepare in _METHODS.items():
+        yield Method(name, name, prepare)
     for entries in tables:
         yield Method(f"table of {entries}", "uniform tables, 16 to 65536", partial(_table, entries=entries))
-
-
-def _numpy(curve: ForceCurve) -> Evaluation:
-    return lambda ratios: curve.evaluate(ratios, backend="numpy")[0]
 
 
 def _fast(curve: ForceCurve) -> Evaluation:
     curve.evaluate(curve.ratios, backend="fast")
     return lambda ratios: curve.evaluate(ratios, backend="fast")[0]
-
-
-def _interp(curve: ForceCurve) -> Evaluation:
-    return lambda ratios: np.interp(ratios, curve.ratios, curve.forces)
-
-
-def _ppoly(curve: ForceCurve) -> Evaluation:
-    return PPoly(np.array([curve.slopes, curve.forces[:-1]]), curve.ratios)
-
-
-def _pchip(curve: ForceCurve) -> Evaluation:
-    return PchipInterpolator(curve.ratios, curve.forces)
 
 
 def _float32(curve: ForceCurve) -> Evaluation:
@@ -190,6 +170,16 @@ def _float32(curve: ForceCurve) -> Evaluation:
         return forces[left] + slopes[left] * (single - ratios[left])
 
     return evaluate
+
+
+_METHODS: dict[str, Callable[[ForceCurve], Evaluation]] = {
+    "mudline, numpy": lambda curve: lambda ratios: curve.evaluate(ratios, backend="numpy")[0],
+    "mudline, fast": _fast,
+    "np.interp": lambda curve: lambda ratios: np.interp(ratios, curve.ratios, curve.forces),
+    "scipy PPoly": lambda curve: PPoly(np.array([curve.slopes, curve.forces[:-1]]), curve.ratios),
+    "scipy PCHIP": lambda curve: PchipInterpolator(curve.ratios, curve.forces),
+    "float32": _float32,
+}
 
 
 def _table(curve: ForceCurve, entries: int) -> Evaluation:

@@ -86,15 +86,15 @@ def drag_case(drag: Drag) -> Case:
         return np.abs(found - 1.0)
 
     return Case(
-        "drag",
-        f"dragged on {drag.name}, friction",
-        ("maximum displacement", "return velocity", "energy"),
-        "closed form",
-        system,
-        omega,
-        sticks + slips + 0.5 * math.pi / omega,
-        1e3 * travel,
-        start,
-        errors,
-        "",
+        name="drag",
+        title=f"dragged on {drag.name}, friction",
+        quantities=("maximum displacement", "return velocity", "energy"),
+        reference="closed form",
+        system=system,
+        omega=omega,
+        duration=sticks + slips + 0.5 * math.pi / omega,
+        bound=1e3 * travel,
+        start=start,
+        errors=errors,
+        missing="",
     )

@@ -164,17 +164,17 @@ def pull_case(pull: Pull) -> Case:
         return Start(Motion.start(system, start_height, np.zeros(RUNS), memory), uneven(dt))
 
     return Case(
-        "pull",
-        f"pulled off {pull.name}, suction",
-        ("largest suction", "speed at breakout", "work against suction"),
-        "event-located integration (DOP853, rtol 1e-12)",
-        system,
-        omega,
-        1.05 * (rest + exact.time),
-        1e3 * (exact.uplift + pull.embedment),
-        start,
-        lambda run: _errors(pull, exact, run),
-        "the mass did not break out in time",
+        name="pull",
+        title=f"pulled off {pull.name}, suction",
+        quantities=("largest suction", "speed at breakout", "work against suction"),
+        reference="event-located integration (DOP853, rtol 1e-12)",
+        system=system,
+        omega=omega,
+        duration=1.05 * (rest + exact.time),
+        bound=1e3 * (exact.uplift + pull.embedment),
+        start=start,
+        errors=lambda run: _errors(pull, exact, run),
+        missing="the mass did not break out in time",
     )
 
 
