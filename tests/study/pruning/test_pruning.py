@@ -34,7 +34,7 @@ from tests.growth import calls
 from tests.study.builders import scene_of
 
 SAMPLES = Path(__file__).parents[3] / "samples"
-ELEMENTS, LONGEST = growth.ELEMENTS, growth.LADDERS["sets"][-1]
+ELEMENTS, LONGEST = growth.ELEMENTS, growth.LADDERS["sets"].sizes[-1]
 PIPE = Pipe(CLAY, 6.0e4, 0.3, 2.0)
 PLAIN = Variant(CURVE, lambda nodes: line(PIPE, nodes))
 
@@ -43,7 +43,7 @@ PLAIN = Variant(CURVE, lambda nodes: line(PIPE, nodes))
 def small(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(costs, "LADDER", (20, 60))
     monkeypatch.setattr(costs, "MOST", 100)
-    monkeypatch.setattr(growth, "LADDERS", dict.fromkeys(growth.LADDERS, (2, 4)))
+    monkeypatch.setattr(growth, "LADDERS", {what: one._replace(sizes=(2, 4)) for what, one in growth.LADDERS.items()})
     monkeypatch.setattr(growth, "NODES", 51)
     monkeypatch.setattr(growth, "FEW_NODES", 21)
     monkeypatch.setattr(growth, "ELEMENTS", 16)

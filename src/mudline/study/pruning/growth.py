@@ -28,15 +28,14 @@ if TYPE_CHECKING:  # only who draws loads matplotlib
 NODES = 10_001
 FEW_NODES = 1001
 ELEMENTS = 2048
-LADDERS = {
-    "points on the curve": (2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096),
-    "curves": (1, 2, 4, 8, 16, 32, 64, 128, 256, 512),
-    "sets": (1, 2, 4, 8, 16, 32, 64, 128, 256, 512),
-    "planes": (1, 2, 4, 8, 16, 32, 64, 128, 256),
-    "steps, curve": (1, 2, 4, 8, 16, 32, 64, 128, 256),
-    "steps, everything": (1, 2, 4, 8, 16, 32, 64),
-}
 _DEEPEST = 0.5
+
+
+class Ladder(NamedTuple):
+    """Sizes of one thing, and the seconds that a scene of a pipe takes with it."""
+
+    sizes: Sequence[int]
+    measure: Callable[[Pipe, int], float]
 
 
 class GrowthRow(NamedTuple):
@@ -133,10 +132,10 @@ def _slope(
 
 def growth(pipe: Pipe, options: StudyOptions) -> Iterator[GrowthRow]:
     """All ladders; longer by a factor of four with `full`."""
-    for what, sizes in LADDERS.items():
+    for what, (sizes, measure) in LADDERS.items():
         for size in [*sizes, *((4 * sizes[-1],) if options.full else ())]:
             options.progress(f"{what}: {size}")
-            yield GrowthRow(what, size, _MEASURED[what](pipe, size))
+            yield GrowthRow(what, size, measure(pipe, size))
 
 
 def fits(rows: Sequence[GrowthRow]) -> Iterator[Fit]:
@@ -214,13 +213,13 @@ def _stepped(make: Callable[[Pipe, int], ContactInput]) -> Callable[[Pipe, int],
     return measured
 
 
-_MEASURED: dict[str, Callable[[Pipe, int], float]] = {
-    "points on the curve": _points,
-    "curves": _curves,
-    "sets": _sets,
-    "planes": _planes,
-    "steps, curve": _stepped(line),
-    "steps, everything": _stepped(everything),
+LADDERS = {
+    "points on the curve": Ladder((2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096), _points),
+    "curves": Ladder((1, 2, 4, 8, 16, 32, 64, 128, 256, 512), _curves),
+    "sets": Ladder((1, 2, 4, 8, 16, 32, 64, 128, 256, 512), _sets),
+    "planes": Ladder((1, 2, 4, 8, 16, 32, 64, 128, 256), _planes),
+    "steps, curve": Ladder((1, 2, 4, 8, 16, 32, 64, 128, 256), _stepped(line)),
+    "steps, everything": Ladder((1, 2, 4, 8, 16, 32, 64), _stepped(everything)),
 }
 
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from mudline.study.exact import ExactCurve, ExactLaw, ExactLinear
 
@@ -45,89 +46,27 @@ class Cell:
     law: ExactLaw | None
 
 
-def all_cells() -> list[Cell]:
-    """All cells whose results do not depend on motion, family by family."""
-    return [
-        *_linear("linear stiffness", powers(-3, 15)),
-        *_slopes(),
-        *_jumps("jump to stiffer", up=True),
-        *_jumps("jump to softer", up=False),
-        *_widths(),
-        *_ratios(),
-        *_diameters(),
-        *_softening(),
-        *_linear("tiny linear stiffness", TINY),
-        *_linear("huge linear stiffness", HUGE),
-        *_forces("tiny curve forces", TINY),
-        *_forces("huge curve forces", HUGE),
-        *_far("tiny curve ratios", TINY),
-        *_far("huge curve ratios", HUGE),
-    ]
+class Family(NamedTuple):
+    """What is taken to its ends: the values, as decks have them, and how a cell is made of the family and a value."""
+
+    name: str
+    values: Sequence[str]
+    cell: Callable[[str, str], Cell]
 
 
 def powers(first: int, last: int) -> list[str]:
-    """Powers of ten, as a deck has them."""
+    """Powers of ten from the first on to the last, as a deck has them."""
     return [f"1E{power}" for power in range(first, last + 1)]
 
 
-def _linear(family: str, values: Sequence[str]) -> Iterator[Cell]:
-    for value in values:
-        yield Cell(family, value, linear_deck(value), ExactLinear(float(value), float(DIAMETER)))
+def all_cells() -> list[Cell]:
+    """All cells whose results do not depend on motion, family by family."""
+    return [family.cell(family.name, value) for family in FAMILIES for value in family.values]
 
 
-def _slopes() -> Iterator[Cell]:
-    """The same slope on a curve of two points."""
-    for value in powers(-3, 15):
-        yield _curve("curve stiffness", value, [("0", "0"), ("1", value)])
-
-
-def _jumps(family: str, *, up: bool) -> Iterator[Cell]:
-    """Segments whose slopes are so many times apart."""
-    for value in powers(0, 12):
-        far = float(value) * 0.1
-        rows = [("0", "0"), ("0.1", "0.1"), ("0.2", repr(0.1 + far)), ("0.3", repr(0.2 + far))]
-        if not up:
-            rows = [("0", "0"), ("0.1", repr(far)), ("0.2", repr(far + 0.1)), ("0.3", repr(far + 0.1 + far))]
-        yield _curve(family, value, rows)
-
-
-def _widths() -> Iterator[Cell]:
-    """A rise of 1000 on a segment so wide, which begins at a ratio of 0.1."""
-    for power in range(-1, -19, -1):
-        end = "0." + str(10 ** (-power - 1) + 1).zfill(-power)
-        if power == -1:
-            end = "0.2"
-        yield _curve("segment width", f"1E{power}", [("0", "0"), ("0.1", "1000"), (end, "2000"), ("0.5", "3000")])
-
-
-def _ratios() -> Iterator[Cell]:
-    """A curve from one end to the other."""
-    for value in powers(0, 9):
-        rows = [(f"-{value}", "-5000"), ("0", "0"), ("0.1", "1000"), (value, "9000")]
-        yield _curve("ratios up to", value, rows)
-
-
-def _diameters() -> Iterator[Cell]:
-    rows = [("0", "0"), ("0.1", "2000"), ("0.3", "4500"), ("0.5", "6000")]
-    for value in powers(-6, 3):
-        yield _curve("diameter", value, rows, value)
-
-
-def _softening() -> Iterator[Cell]:
-    """A curve that falls behind its peak, the last segment this steep; it pulls in the end."""
-    for value in powers(0, 9):
-        fall = 1000.0 - 0.1 * float(value)
-        yield _curve("softening slope", f"-{value}", [("0", "0"), ("0.1", "1000"), ("0.2", repr(fall))])
-
-
-def _forces(family: str, values: Sequence[str]) -> Iterator[Cell]:
-    for value in values:
-        yield _curve(family, value, [("0", "0"), ("0.1", value), ("0.4", value)])
-
-
-def _far(family: str, values: Sequence[str]) -> Iterator[Cell]:
-    for value in values:
-        yield _curve(family, value, [("0", "0"), (value, "1000")])
+def _linear(family: str, value: str, diameter: str = DIAMETER, stiffness: str = "") -> Cell:
+    law = ExactLinear(float(stiffness or value), float(diameter))
+    return Cell(family, value, linear_deck(stiffness or value, diameter), law)
 
 
 def _curve(family: str, value: str, rows: Pairs, diameter: str = DIAMETER) -> Cell:
@@ -135,6 +74,60 @@ def _curve(family: str, value: str, rows: Pairs, diameter: str = DIAMETER) -> Ce
     usable = len({ratio for ratio, _ in points}) == len(points) and all(abs(n) < 1e309 for pair in points for n in pair)
     law = ExactCurve(points, float(diameter)) if usable else None
     return Cell(family, value, curve_deck(rows, diameter), law)
+
+
+def _curves(rows: Callable[[str], Pairs]) -> Callable[[str, str], Cell]:
+    """Cells on curves whose points follow from the value."""
+    return lambda family, value: _curve(family, value, rows(value))
+
+
+def _stiffer(value: str) -> Pairs:
+    """Segments whose slopes are so many times apart."""
+    far = float(value) * 0.1
+    return [("0", "0"), ("0.1", "0.1"), ("0.2", repr(0.1 + far)), ("0.3", repr(0.2 + far))]
+
+
+def _softer(value: str) -> Pairs:
+    far = float(value) * 0.1
+    return [("0", "0"), ("0.1", repr(far)), ("0.2", repr(far + 0.1)), ("0.3", repr(far + 0.1 + far))]
+
+
+def _narrow(value: str) -> Pairs:
+    """A rise of 1000 on a segment so wide, which begins at a ratio of 0.1."""
+    power = int(value.removeprefix("1E-"))
+    end = "0.2" if power == 1 else "0." + str(10 ** (power - 1) + 1).zfill(power)
+    return [("0", "0"), ("0.1", "1000"), (end, "2000"), ("0.5", "3000")]
+
+
+def _softening(value: str) -> Pairs:
+    """A curve that falls behind its peak, the last segment this steep; it pulls in the end."""
+    return [("0", "0"), ("0.1", "1000"), ("0.2", repr(1000.0 + 0.1 * float(value)))]
+
+
+_MIDDLING = [("0", "0"), ("0.1", "2000"), ("0.3", "4500"), ("0.5", "6000")]
+_FORCES = _curves(lambda value: [("0", "0"), ("0.1", value), ("0.4", value)])
+_RATIOS = _curves(lambda value: [("0", "0"), (value, "1000")])
+FAMILIES = (
+    Family("linear stiffness", powers(-3, 15), _linear),
+    Family("curve stiffness", powers(-3, 15), _curves(lambda value: [("0", "0"), ("1", value)])),
+    Family("jump to stiffer", powers(0, 12), _curves(_stiffer)),
+    Family("jump to softer", powers(0, 12), _curves(_softer)),
+    Family("segment width", powers(-18, -1)[::-1], _curves(_narrow)),
+    Family(
+        "ratios up to",
+        powers(0, 9),
+        _curves(lambda value: [(f"-{value}", "-5000"), ("0", "0"), ("0.1", "1000"), (value, "9000")]),
+    ),
+    Family("diameter", powers(-6, 3), lambda family, value: _curve(family, value, _MIDDLING, value)),
+    Family("softening slope", [f"-{value}" for value in powers(0, 9)], _curves(_softening)),
+    Family("tiny linear stiffness", TINY, _linear),
+    Family("huge linear stiffness", HUGE, _linear),
+    Family("tiny curve forces", TINY, _FORCES),
+    Family("huge curve forces", HUGE, _FORCES),
+    Family("tiny curve ratios", TINY, _RATIOS),
+    Family("huge curve ratios", HUGE, _RATIOS),
+)
+"""The ladder; to add to it, add a row."""
 
 
 def random_cells(count: int) -> list[Cell]:
@@ -147,8 +140,7 @@ def _random_cell(rng: random.Random, index: int) -> Cell:
     diameter = _number(rng, -6, 3)
     value = str(index + 1)
     if index % 4 == 0:
-        stiffness = _number(rng, -320, 308)
-        return Cell("random", value, linear_deck(stiffness, diameter), ExactLinear(float(stiffness), float(diameter)))
+        return _linear("random", value, diameter, _number(rng, -320, 308))
     far = rng.choice((1, 9, 100, 308))
     rows = [(_signed(rng, far), _signed(rng, far)) for _ in range(rng.randint(2, 6))]
     return _curve("random", value, rows, diameter)
