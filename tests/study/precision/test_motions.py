@@ -199,37 +199,36 @@ def test_suction_of_a_deck_is_taken_from_it() -> None:
     inputs = found.contact_input()
     law = SuctionLaw(*(np.array([low, 2.0 * low]) for low in (2000.0, 0.18, 0.3, 0.26, 0.2, 0.4, 1.0, 1e-3, 0.4)))
     given = replace(inputs, laws=(LawAssignment("suction", np.array([5, 0]), law._asdict()),))
-    contact = contacts_of(found).contacts[0]
-    notes: list[str] = []
+    studied = contacts_of(found)._replace(inputs=given)
+    contact = studied.contacts[0]
     for element, place in ((5, 0), (0, 1)):
-        assert suction_of(found, given, contact._replace(element=element), notes) == tuple(float(v[place]) for v in law)
-    assert suction_of(found, given, contact._replace(element=9), notes).force_factor == 4000.0
-    assert not notes
-    assert suction_of(found, replace(inputs, laws=()), contact, notes).force_factor == pytest.approx(2086.5435606)
-    assert "Bridge" in notes[0]
+        assert suction_of(studied, contact._replace(element=element)) == tuple(float(v[place]) for v in law)
+    assert suction_of(studied, contact._replace(element=9)).force_factor == 4000.0
+    assert not studied.notes
+    bare = studied._replace(inputs=replace(inputs, laws=()))
+    assert suction_of(bare, contact).force_factor == pytest.approx(2086.5435606)
+    assert "Bridge" in bare.notes[0]
 
 
 def test_friction_of_a_deck_is_taken_from_it() -> None:
-    found = sample_scene()
-    contact = contacts_of(found).contacts[0]
-    inputs = found.contact_input()
-    notes: list[str] = []
-    drag = friction_of(inputs, contact, notes)
+    studied = contacts_of(sample_scene())
+    contact, inputs = studied.contacts[0], studied.inputs
+    drag = friction_of(studied, contact)
     assert drag.limit == pytest.approx(0.35 * contact.weight)
     assert drag.stiffness == pytest.approx(drag.limit / 0.003)
-    stiff = friction_of(changed(inputs, "friction", axial_stiffness=4e4), contact, notes)
+    stiff = friction_of(studied._replace(inputs=changed(inputs, "friction", axial_stiffness=4e4)), contact)
     assert stiff.stiffness == pytest.approx(4e4 / 2.0)
-    assert not notes
-    bare = friction_of(replace(inputs, laws=()), contact, notes)
+    assert not studied.notes
+    bare = friction_of(studied._replace(inputs=replace(inputs, laws=())), contact)
     assert (bare.limit, bare.stiffness) == pytest.approx((0.5 * contact.weight, 0.5 * contact.weight / 0.003))
-    assert "no axial friction" in notes[0]
+    assert "no axial friction" in studied.notes[0]
 
 
 def test_case_that_overflows_is_reported() -> None:
     found = scene_of(TEXT.replace(", 0.003,", ", 1.0E-307,"))
     omissions: list[Omission] = []
     with np.errstate(all="ignore"):
-        cases = all_cases(found, contacts_of(found), omissions, [])
+        cases = all_cases(contacts_of(found), omissions)
     assert "drag" not in {case.name for case in cases}
     assert [omission.reason for omission in omissions] == ["its stiffness or its duration overflows"]
 

@@ -33,14 +33,13 @@ def run(scene: Scene, options: StudyOptions) -> StudyReport:
     Raises DeckError where the scene cannot be evaluated, and ImportError without scipy.
     """
     studied = contacts_of(scene)
-    notes = [*paragraphs(_NOTES), *studied.notes]
     curves, backbones = study_curves(scene, options), study_backbones(options)
     omissions: list[Omission] = []
-    cases = all_cases(scene, studied, omissions, notes)
+    cases = all_cases(studied, omissions)
     sections = (
         curves,
         backbones,
-        Section(notes=notes, omissions=omissions),
+        Section(notes=[*paragraphs(_NOTES), *studied.notes], omissions=omissions),
         study_motions(cases, options),
         study_smoothing(scene, studied.contacts, options),
     )

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -49,28 +48,26 @@ class ElasticContact(NamedTuple):
 
 
 class StudiedContacts(NamedTuple):
-    """What is studied, and what was assumed."""
+    """A scene and its contacts that are studied; the notes grow with every value that is assumed."""
 
-    contacts: list[ElasticContact]
+    scene: Scene
     inputs: ContactInput
+    contacts: list[ElasticContact]
     notes: list[str]
 
 
 def contacts_of(scene: Scene) -> StudiedContacts:
     """The stiffest curve and the stiffest linear law of a scene; raises DeckError where it cannot be evaluated."""
-    inputs, arrays = scene.contact_input(), scene.law_arrays()
-    notes: list[str] = []
-    mass, weight = mass_per_length(scene), submerged_weight(scene)
-    contacts = []
+    studied = StudiedContacts(scene, scene.contact_input(), [], [])
+    masses, weights = mass_per_length(scene), submerged_weight(scene)
     for kind in (LawKind.CURVE, LawKind.LINEAR):
-        elements = _distinct(arrays, scene.diameter, kind)
-        found = [_contact(scene, arrays, (float(mass[i]), float(weight[i])), i, notes) for i in elements]
-        contacts += sorted(
-            (contact for contact in found if contact.stiffness > 0.0), key=lambda contact: -contact.stiffness
-        )[:1]
-    if not contacts:
-        notes.append("The deck has no curve and no linear law to fall on: only the reference case was run.")
-    return StudiedContacts(contacts, inputs, list(dict.fromkeys(notes)))
+        elements = _distinct(scene.law_arrays(), scene.diameter, kind)
+        found = [_contact(studied, element, float(masses[element]), float(weights[element])) for element in elements]
+        stiff = [contact for contact in found if contact.stiffness > 0.0]
+        studied.contacts.extend(sorted(stiff, key=lambda contact: -contact.stiffness)[:1])
+    if not studied.contacts:
+        studied.notes.append("The deck has no curve and no linear law to fall on: only the reference case was run.")
+    return studied
 
 
 def _distinct(arrays: LawArrays, diameter: FloatArray, kind: LawKind) -> list[int]:
@@ -82,21 +79,21 @@ def _distinct(arrays: LawArrays, diameter: FloatArray, kind: LawKind) -> list[in
     return found
 
 
-def _contact(
-    scene: Scene, arrays: LawArrays, given: tuple[float, float], element: int, notes: list[str]
-) -> ElasticContact:
-    mass, weight = given
+def _contact(studied: StudiedContacts, element: int, mass: float, weight: float) -> ElasticContact:
+    scene, arrays = studied.scene, studied.scene.law_arrays()
     diameter = float(scene.diameter[element])
     if math.isnan(diameter):
         diameter = _DIAMETER
     if math.isnan(mass):
         mass = _MASS
-        notes.append(f"The mass of the pipe is not known: {_MASS:g} per unit length is used.")
+        studied.notes.append(f"The mass of the pipe is not known: {_MASS:g} per unit length is used.")
     if not weight > 0.0:
         known = surroundings(scene).gravity
         gravity = DEFAULT_GRAVITY.get(scene.units, DEFAULT_GRAVITY["metric"]) if math.isnan(known) else known
         weight = 0.5 * mass * gravity
-        notes.append("The submerged weight of the pipe is unknown or not positive: half of its weight in air is used.")
+        studied.notes.append(
+            "The submerged weight of the pipe is unknown or not positive: half of its weight in air is used."
+        )
     name = scene.law_names[element].removeprefix("curve:")
     law: Law
     if arrays.law[element] == LawKind.CURVE:
@@ -116,14 +113,14 @@ def static_depth(contact: ElasticContact) -> float:
     return contact.weight / contact.stiffness
 
 
-def suction_of(scene: Scene, inputs: ContactInput, contact: ElasticContact, notes: list[str]) -> SuctionNumbers:
+def suction_of(studied: StudiedContacts, contact: ElasticContact) -> SuctionNumbers:
     """The suction law of the contact's element, else of another, else of Bridge et al. with 5 kPa."""
-    given = inputs.assigned.get("suction")
+    given = studied.inputs.assigned.get("suction")
     if given is not None:
         index = int((given.rows == contact.element).argmax())  # the first where it has none
         return SuctionNumbers(**{name: float(values[index]) for name, values in given.parameters.items()})
-    length, force = _UNITS.get(scene.units, (1.0, 1.0))
-    notes.append("The deck has no suction with a history: that of Bridge et al. (2004) with 5 kPa is used.")
+    length, force = _UNITS.get(studied.scene.units, (1.0, 1.0))
+    studied.notes.append("The deck has no suction with a history: that of Bridge et al. (2004) with 5 kPa is used.")
     cohesion = np.array([_COHESION / force * length**2])
     factors = from_cohesion(cohesion, np.array([contact.diameter]), length, force)
     powers = {name: float(values[0]) for name, values in factors._asdict().items()}
@@ -135,8 +132,9 @@ def usual_velocity(scene: Scene) -> float:
     return 0.1 / _UNITS.get(scene.units, (1.0, 1.0))[0]
 
 
-def friction_of(inputs: ContactInput, contact: ElasticContact, notes: list[str]) -> Drag:
+def friction_of(studied: StudiedContacts, contact: ElasticContact) -> Drag:
     """Friction along the line at the contact's element, else of 0.5, mobilised over a hundredth of the diameter."""
+    inputs = studied.inputs
     given = inputs.assigned.get("friction")
     length = float(inputs.length[contact.element])
     at = (
@@ -145,7 +143,7 @@ def friction_of(inputs: ContactInput, contact: ElasticContact, notes: list[str])
         else np.flatnonzero(given.rows == inputs.element_nodes[contact.element, 0])
     )
     if given is None or not (at.size and given["axial_coefficient"][at[0]] > 0.0 and length > 0.0):
-        notes.append("The deck has no axial friction there: 0.5, mobilised over a hundredth of D, is used.")
+        studied.notes.append("The deck has no axial friction there: 0.5, mobilised over a hundredth of D, is used.")
         limit = _FRICTION * contact.weight
         return Drag(contact.law.name, contact.mass, limit, limit / (_MOBILISATION * contact.diameter))
     names = ("axial_coefficient", "axial_stiffness", "axial_mobilisation")
@@ -163,42 +161,50 @@ def reference_drop() -> Drop:
     return Drop(LinearLaw("50 kN/m", stiffness), mass, mass * 9.81, speed, deepest)
 
 
-def all_cases(scene: Scene, studied: StudiedContacts, omissions: list[Omission], notes: list[str]) -> list[Case]:
-    """The reference, then for each seabed a drop, and for the first a pull and a drag."""
+def all_cases(studied: StudiedContacts, omissions: list[Omission]) -> list[Case]:
+    """The reference, then `MOTIONS`; a motion that cannot be integrated is omitted with its reason."""
     cases = [drop_case("drop-reference", "dropped, published case", reference_drop())]
-    for contact in studied.contacts:
-        _add(cases, omissions, f"drop on {contact.law.name}", partial(_drop, contact))
-    for contact in studied.contacts[:1]:
-        _add(cases, omissions, f"pull off {contact.law.name}", partial(_pull, scene, studied, contact, notes))
-        _add(cases, omissions, f"drag along {contact.law.name}", partial(_drag, studied, contact, notes))
+    for words, make, everywhere in MOTIONS:
+        for contact in studied.contacts if everywhere else studied.contacts[:1]:
+            what = f"{words} {contact.law.name}"
+            try:
+                case = make(studied, contact)
+            except (StudyError, ArithmeticError, ValueError) as error:
+                omissions.append(Omission(what, str(error)))
+                continue
+            if math.isfinite(case.omega) and math.isfinite(case.duration) and case.omega > 0.0:
+                cases.append(case)
+            else:
+                omissions.append(Omission(what, "its stiffness or its duration overflows"))
     return cases
 
 
-def _drop(contact: ElasticContact) -> Case:
+def _drop(_: StudiedContacts, contact: ElasticContact) -> Case:
     kind = "curve" if isinstance(contact.law, CurveLaw) else "linear"
     drop = drop_to(contact.law, contact.mass, contact.weight, _REACH * contact.diameter)
     return drop_case(f"drop-{kind}", f"dropped on {contact.law.name}", drop)
 
 
-def _pull(scene: Scene, studied: StudiedContacts, contact: ElasticContact, notes: list[str]) -> Case:
-    suction = suction_of(scene, studied.inputs, contact, notes)
-    return pull_case(
-        Pull(contact.law.name, contact.law, suction, contact.mass, static_depth(contact), usual_velocity(scene))
-    )
+def _pull(studied: StudiedContacts, contact: ElasticContact) -> Case:
+    suction, velocity = suction_of(studied, contact), usual_velocity(studied.scene)
+    return pull_case(Pull(contact.law.name, contact.law, suction, contact.mass, static_depth(contact), velocity))
 
 
-def _drag(studied: StudiedContacts, contact: ElasticContact, notes: list[str]) -> Case:
-    return drag_case(friction_of(studied.inputs, contact, notes))
+def _drag(studied: StudiedContacts, contact: ElasticContact) -> Case:
+    return drag_case(friction_of(studied, contact))
 
 
-def _add(cases: list[Case], omissions: list[Omission], what: str, make: Callable[[], Case]) -> None:
-    """A case, or the reason why there is none: numbers of a deck may be beyond what can be integrated."""
-    try:
-        case = make()
-    except (StudyError, ArithmeticError, ValueError) as error:
-        omissions.append(Omission(what, str(error)))
-        return
-    if math.isfinite(case.omega) and math.isfinite(case.duration) and case.omega > 0.0:
-        cases.append(case)
-    else:
-        omissions.append(Omission(what, "its stiffness or its duration overflows"))
+class MotionKind(NamedTuple):
+    """A motion on the contacts of a scene: its words before the name of a law, and on which contacts it is made."""
+
+    words: str
+    make: Callable[[StudiedContacts, ElasticContact], Case]
+    everywhere: bool
+
+
+MOTIONS = (
+    MotionKind("drop on", _drop, everywhere=True),
+    MotionKind("pull off", _pull, everywhere=False),
+    MotionKind("drag along", _drag, everywhere=False),
+)
+"""On every contact or on the first one; to add a motion, add a row."""
