@@ -15,8 +15,6 @@ import numpy as np
 from mudline.cli import options
 from mudline.cli.evaluate_outputs import (
     PICTURES,
-    RESULTS,
-    TABLES,
     ResultConsumer,
     Sink,
     beside,
@@ -24,9 +22,11 @@ from mudline.cli.evaluate_outputs import (
     files,
     form_of,
     has_library,
-    nowhere,
     printed,
+    result_file,
+    result_forms,
     run,
+    together,
 )
 from mudline.cli.evaluate_text import print_comparison, print_evaluation, print_plan
 from mudline.cli.exits import DONE, FOUND
@@ -70,7 +70,7 @@ _Read = TypeVar("_Read")
 @click.option(
     "-o",
     "--output",
-    metavar="OUT.csv|json|npz|parquet",
+    metavar=f"OUT.{'|'.join(result_forms())}",
     help="Write the results; CSV and Parquet write the nodes to OUT-nodes beside it.",
 )
 @click.option("--plot", "picture", metavar="FILE.png|svg", help="Draw the results (needs the extra mudline[plot]).")
@@ -108,7 +108,7 @@ def command(
 
     Forces are per unit length, in the deck's units; reactions are the total force of the seabed on a node.
     """
-    for needed in (form_of(output, RESULTS), form_of(picture, PICTURES)):
+    for needed in (form_of(output, result_forms()), form_of(picture, PICTURES)):
         if needed and not has_library(needed):
             return FOUND
     loaded = load(deck, units=units, stdin_name=stdin_name)
@@ -153,7 +153,7 @@ def _sink(
         return nullcontext(printed(JsonForm(evaluation, elements)))
     if shown == "csv":
         return nullcontext(printed(CsvForm(evaluation, elements if table == "elements" else NodeTable(evaluation))))
-    return nullcontext(nowhere())
+    return nullcontext(together([]))
 
 
 def _plan(prepared: Prepared, form: str, view: View) -> None:
@@ -226,7 +226,7 @@ def _notify_after(evaluation: Evaluation, slow: _SlowSuction, written: Path | No
         notify(f"suction is pulled slower than REGULARISATION {when}: the force there is less than alpha v^n")
     if written is None:
         return
-    if written.suffix.lower() in TABLES:
+    if result_file(written.suffix.lower().removeprefix(".")).BESIDE:
         notify(f"nodes -> {beside(written).as_posix()}")
     notify(f"{evaluation.scene.deck.file} -> {written.as_posix()}")
 

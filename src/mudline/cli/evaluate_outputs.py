@@ -3,37 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import AbstractContextManager, ExitStack, contextmanager
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
-from typing import BinaryIO, Protocol
+from pkgutil import iter_modules
+from typing import BinaryIO, Protocol, cast
 
 import click
 
+from mudline.cli import result_files
 from mudline.cli.options import View
 from mudline.cli.progress import Progress, wants_bar
 from mudline.cli.streams import emit, encoded, notify, notify_missing, writing
 from mudline.linting.output.visible import visible
-from mudline.results.columns import ElementTable, NodeTable
+from mudline.results.columns import ElementTable
 from mudline.results.evaluation import Evaluation, Part
-from mudline.results.formats import CsvForm, JsonForm, TextForm
-from mudline.results.npz_file import NpzFile
+from mudline.results.formats import TextForm
 from mudline.results.plot_data import PlotData
 
-RESULTS = ("csv", "json", "npz", "parquet")
 PICTURES = ("png", "svg")
-TABLES = (".csv", ".parquet")
-"""Suffixes of files with one table: nodes go to a second one."""
 
-_PARQUET = "mudline.results.parquet_file"
 _PLOT = "mudline.results.evaluation_plot"
-_LIBRARIES = {
-    "parquet": ("pyarrow", "parquet", _PARQUET),
-    "png": ("matplotlib", "plot", _PLOT),
-    "svg": ("matplotlib", "plot", _PLOT),
-}
-"""By form: its library, the extra that brings it, and the module that needs it, which is imported when it is used."""
+_EXTRAS = {"parquet": ("pyarrow", "parquet"), "png": ("matplotlib", "plot"), "svg": ("matplotlib", "plot")}
+"""By form: the library that draws or writes it, and the extra that brings it."""
 
 More = Mapping[str, object]
 """What is known only after the last step, by its key in JSON."""
@@ -46,12 +39,49 @@ class ResultConsumer(Protocol):
         """Take some steps."""
 
 
+class Sink(ResultConsumer, Protocol):
+    """A file or standard output."""
+
+    def finish(self, more: More) -> None:
+        """Write what comes after the last step."""
+
+
+class ResultFile(Protocol):
+    """The module of a form of result files.
+
+    `SUMMARY` says in the documentation what is in it; where it is `BESIDE`, the nodes go to a second file.
+    """
+
+    SUMMARY: str
+    BESIDE: bool
+
+    def opened(
+        self, evaluation: Evaluation, elements: ElementTable, streams: list[BinaryIO], folder: Path, view: View
+    ) -> AbstractContextManager[Sink]:
+        """Return what takes the results and writes them into one or two files of `folder`."""
+
+
 @dataclass(frozen=True, slots=True)
-class Sink:
-    """Where results are written: `take` writes some steps, `finish` what comes after the last step."""
+class Written:
+    """Output by two functions: for some steps, and for what comes after the last step."""
 
     take: Callable[[Part], None]
-    finish: Callable[[More], None]
+    finish: Callable[[More], None] = lambda _: None
+
+
+def as_text(form: TextForm, write: Callable[[Iterator[str]], None]) -> Written:
+    """Text, in pieces that `write` gets."""
+    return Written(lambda part: write(form.body(part)), lambda more: write(form.tail(more)))
+
+
+def together(consumers: Sequence[ResultConsumer]) -> Written:
+    """Several tables, or none; a table has nothing after the last step."""
+
+    def take(part: Part) -> None:
+        for consumer in consumers:
+            consumer.take(part)
+
+    return Written(take)
 
 
 def form_of(output: str | None, known: Sequence[str]) -> str:
@@ -72,13 +102,12 @@ def beside(path: Path) -> Path:
 
 def has_library(form: str) -> bool:
     """Whether the library for a form of files is installed; reports it if not."""
-    if form not in _LIBRARIES:
+    if form not in _EXTRAS:
         return True
-    library, extra, module = _LIBRARIES[form]
     try:
-        import_module(module)
+        import_module(_PLOT) if form in PICTURES else result_file(form)
     except ImportError:
-        notify_missing(f".{form}", library, extra)
+        notify_missing(f".{form}", *_EXTRAS[form])
         return False
     return True
 
@@ -91,57 +120,33 @@ def draw(data: PlotData, path: Path, view: View) -> None:
         notify(f"plot -> {path.as_posix()}")
 
 
-def nowhere() -> Sink:
-    """No output."""
-    return _together([])
+def result_forms() -> list[str]:
+    """Return the forms of result files, found without importing one."""
+    return sorted(found.name for found in iter_modules(result_files.__path__))
+
+
+def result_file(form: str) -> ResultFile:
+    """Return the module of a form of result files; raises ImportError without the library that it needs."""
+    return cast("ResultFile", import_module(f"{result_files.__name__}.{form}"))
 
 
 def printed(form: TextForm) -> Sink:
     """Standard output."""
-    return _text(form, emit)
+    return as_text(form, emit)
 
 
 @contextmanager
 def files(evaluation: Evaluation, elements: ElementTable, path: Path, view: View) -> Iterator[Sink]:
     """The file of an evaluation by its suffix, or two files; they exist when all is written, or not at all."""
-    suffix, nodes = path.suffix.lower(), NodeTable(evaluation)
-    with ExitStack() as opened:
-        stream = opened.enter_context(writing(path))
-        if suffix == ".json":
-            yield _text(JsonForm(evaluation, elements), _to(stream))
-        elif suffix == ".npz":
-            archive = opened.enter_context(NpzFile(evaluation, [elements, nodes], path.parent))
-            yield Sink(archive.take, lambda _: _pack(archive, stream, view))
-        else:
-            pairs = ((elements, stream), (nodes, opened.enter_context(writing(beside(path)))))
-            if suffix == ".csv":
-                yield _together([_text(CsvForm(evaluation, table), _to(into)) for table, into in pairs])
-            else:
-                make = import_module(_PARQUET).ParquetFile
-                yield _together([opened.enter_context(make(evaluation, table, into)) for table, into in pairs])
+    form = result_file(path.suffix.lower().removeprefix("."))
+    with ExitStack() as stack:
+        streams = [stack.enter_context(writing(one)) for one in (path, *([beside(path)] if form.BESIDE else []))]
+        yield stack.enter_context(form.opened(evaluation, elements, streams, path.parent, view))
 
 
-def _text(form: TextForm, write: Callable[[Iterator[str]], None]) -> Sink:
-    return Sink(lambda part: write(form.body(part)), lambda more: write(form.tail(more)))
-
-
-def _to(stream: BinaryIO) -> Callable[[Iterator[str]], None]:
+def text_into(stream: BinaryIO) -> Callable[[Iterator[str]], None]:
+    """Return what writes pieces of text into a file."""
     return lambda pieces: stream.writelines(map(encoded, pieces))
-
-
-def _together(consumers: Sequence[ResultConsumer]) -> Sink:
-    """Several tables, which have nothing after the last step."""
-
-    def take(part: Part) -> None:
-        for consumer in consumers:
-            consumer.take(part)
-
-    return Sink(take, lambda _: None)
-
-
-def _pack(archive: NpzFile, stream: BinaryIO, view: View) -> None:
-    with Progress(archive.count, view, shown=wants_bar(view)) as progress:
-        archive.write(stream, progress.advance)
 
 
 def run(evaluation: Evaluation, consumers: Sequence[ResultConsumer], view: View, *, bar: bool) -> None:

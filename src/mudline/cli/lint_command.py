@@ -14,7 +14,7 @@ from mudline.cli.changes import print_changes
 from mudline.cli.exits import DONE, FOUND
 from mudline.cli.inputs import Input, Inputs, collect
 from mudline.cli.lint_jobs import Effort, SettingsOf, lint_all
-from mudline.cli.lint_outputs import TEXT, Outputs, outputs
+from mudline.cli.lint_outputs import Outputs, complete, outputs
 from mudline.cli.lint_settings import Configured, Given, merged
 from mudline.cli.lint_watch import Watched, refuse, watched
 from mudline.cli.options import View
@@ -25,8 +25,7 @@ from mudline.files import write_atomically
 from mudline.linting.baseline import Baseline, BaselineError, read_baseline
 from mudline.linting.configuration import Configuration
 from mudline.linting.lint_file import FileReport, lint_one
-from mudline.linting.output.concise import concise
-from mudline.linting.output.formats import FORMS, form
+from mudline.linting.output.formats import TEXT, form, form_names
 from mudline.linting.output.statistics import statistics_lines
 from mudline.linting.output.visible import visible
 from mudline.linting.settings import Fixing
@@ -56,7 +55,9 @@ def _words(given: tuple[str, ...]) -> tuple[str, ...]:
     "forms",
     multiple=True,
     metavar="FORM[=FILE]",
-    help=f"Format of standard output: {TEXT} (default), {', '.join(FORMS)}; =FILE writes a file too. Repeatable.",
+    shell_complete=complete,
+    help=f"Format of standard output: {', '.join([f'{TEXT} (default)', *form_names()])}; "
+    "=FILE writes a file too. Repeatable.",
 )
 @click.option("--fix", is_flag=True, help="Apply the safe fixes, in place; the deck of - is printed.")
 @click.option("--unsafe-fixes", "unsafe", is_flag=True, help="With --fix or --diff: also apply fixes that guess.")
@@ -263,7 +264,7 @@ class Report:
 
     @property
     def _as_they_come(self) -> bool:
-        return self.outputs.form not in FORMS and not (self.view.quiet or self.statistics or self.aside)
+        return self.outputs.form == TEXT and not (self.view.quiet or self.statistics or self.aside)
 
     def finish(self) -> None:
         """Write and print what needs all findings."""
@@ -273,15 +274,15 @@ class Report:
             self._print_aside(found)
         elif self.statistics:
             emit(statistics_lines(found))
-        elif self.outputs.form in FORMS:
+        elif self.outputs.form != TEXT:
             emit(form(self.outputs.form, self.names, __version__)(found))
         elif self.view.quiet:
-            emit(concise(found))
+            emit(form("concise", self.names, __version__)(found))
         elif self.names:
             self._summary(found)
 
     def _print_aside(self, found: list[Diagnostic]) -> None:
-        name = self.outputs.form if self.outputs.form in FORMS else "concise"
+        name = "concise" if self.outputs.form == TEXT else self.outputs.form
         pieces = statistics_lines(found) if self.statistics else form(name, self.names, __version__)(found)
         for piece in pieces:
             click.echo(piece, err=True, nl=False)

@@ -13,9 +13,10 @@ from typing import NoReturn
 import click
 
 from mudline.cli.inputs import GITIGNORE, STDIN, is_deck
-from mudline.cli.lint_outputs import TEXT, Outputs
+from mudline.cli.lint_outputs import Outputs
 from mudline.cli.options import View
 from mudline.cli.streams import notify
+from mudline.linting.output.formats import TEXT
 
 WAIT = 0.3
 """Seconds between two checks; more where a check takes long, so that waiting costs little."""

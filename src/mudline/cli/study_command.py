@@ -17,12 +17,10 @@ from mudline.results.numbers import shown
 from mudline.results.units import headed
 from mudline.scene.build import resolve
 from mudline.scene.model import Scene
-from mudline.study.errors import StudyError
-from mudline.study.options import StudyOptions, silent
+from mudline.study.report import Cell, StudyError, StudyOptions, StudyReport, StudyTable, silent
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer
-    from mudline.study.report import Cell, StudyReport, StudyTable
 
 STUDIES = ("precision", "stability", "pruning")
 _EXTRAS = frozenset({"matplotlib", "mpmath", "scipy"})
