@@ -10,8 +10,7 @@ from typing import Any
 
 import click
 
-from mudline.cli import options
-from mudline.cli.exits import DONE
+from mudline.cli import DONE, options
 from mudline.cli.lint_settings import Configured
 from mudline.cli.streams import emit
 from mudline.linting.configuration import KEYS, TABLES, Configuration

@@ -6,8 +6,7 @@ from pathlib import Path, PurePath
 
 import click
 
-from mudline.cli import options
-from mudline.cli.exits import DONE
+from mudline.cli import DONE, options
 from mudline.cli.inputs import STDIN, SUFFIXES, load, refuses_bad_decks
 from mudline.cli.options import View
 from mudline.cli.streams import emit, notify, write_text

@@ -11,8 +11,7 @@ from itertools import groupby
 import click
 import numpy as np
 
-from mudline.cli import options
-from mudline.cli.exits import DONE, FOUND
+from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, load, refuses_bad_decks
 from mudline.cli.options import View
 from mudline.cli.streams import counted, emit

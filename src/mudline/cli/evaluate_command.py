@@ -12,7 +12,7 @@ from typing import TypeVar, cast
 import click
 import numpy as np
 
-from mudline.cli import options
+from mudline.cli import DONE, FOUND, options
 from mudline.cli.evaluate_outputs import (
     PICTURES,
     ResultConsumer,
@@ -29,7 +29,6 @@ from mudline.cli.evaluate_outputs import (
     together,
 )
 from mudline.cli.evaluate_text import print_comparison, print_evaluation, print_plan
-from mudline.cli.exits import DONE, FOUND
 from mudline.cli.inputs import load, refuses_bad_decks
 from mudline.cli.options import View
 from mudline.cli.streams import counted, emit, emit_json, notify, reason

@@ -7,8 +7,7 @@ from pathlib import Path
 
 import click
 
-from mudline.cli import options
-from mudline.cli.exits import DONE
+from mudline.cli import DONE, options
 from mudline.cli.inputs import STDIN, load, refuses_bad_decks
 from mudline.cli.options import View
 from mudline.cli.streams import counted, emit, notify, reason, write_bytes, write_text

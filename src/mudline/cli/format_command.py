@@ -7,9 +7,8 @@ from pathlib import Path
 
 import click
 
-from mudline.cli import options
+from mudline.cli import DONE, FOUND, options
 from mudline.cli.changes import print_diff
-from mudline.cli.exits import DONE, FOUND
 from mudline.cli.inputs import Input, Inputs, collect
 from mudline.cli.options import View
 from mudline.cli.streams import counted, emit, emit_deck, notify, notify_diagnostics, reason

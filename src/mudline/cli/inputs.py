@@ -13,7 +13,7 @@ from typing import NamedTuple, ParamSpec
 
 import click
 
-from mudline.cli.exits import FOUND, WRONG_USAGE
+from mudline.cli import FOUND, WRONG_USAGE
 from mudline.cli.streams import notify, notify_diagnostics, reason
 from mudline.deck.loading import form_of, load_bytes
 from mudline.deck.model import Deck

@@ -1,32 +1,29 @@
-"""`mudline lint`: options, the run over all files, and its findings: at once for people, at the end for programs."""
+"""`mudline lint`: options, and the run over all files."""
 
 from __future__ import annotations
 
 from contextlib import closing
-from dataclasses import KW_ONLY, dataclass, field, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import click
 
-from mudline import __version__
-from mudline.cli import options
+from mudline.cli import DONE, FOUND, options
 from mudline.cli.changes import print_changes
-from mudline.cli.exits import DONE, FOUND
 from mudline.cli.inputs import Input, Inputs, collect
 from mudline.cli.lint_jobs import Effort, SettingsOf, lint_all
-from mudline.cli.lint_outputs import Outputs, complete, outputs
+from mudline.cli.lint_outputs import Report, complete, outputs
 from mudline.cli.lint_settings import Configured, Given, merged
 from mudline.cli.lint_watch import Watched, refuse, watched
 from mudline.cli.options import View
-from mudline.cli.streams import counted, emit, emit_deck, notify, reason, write_text
+from mudline.cli.streams import counted, emit_deck, notify, reason, write_text
 from mudline.deck.loading import form_of
 from mudline.diagnostics import Diagnostic, Severity
 from mudline.files import write_atomically
 from mudline.linting.baseline import Baseline, BaselineError, read_baseline
 from mudline.linting.configuration import Configuration
 from mudline.linting.lint_file import FileReport, lint_one
-from mudline.linting.output.formats import TEXT, form, form_names
-from mudline.linting.output.statistics import statistics_lines
+from mudline.linting.output.formats import TEXT, form_names
 from mudline.linting.output.visible import visible
 from mudline.linting.settings import Fixing
 from mudline.syntax.source import Source
@@ -234,82 +231,3 @@ class Run:
                 self.inputs.fail(f"{file.name}: cannot be written: {reason(error)}")
                 return False
         return True
-
-
-@dataclass
-class Report:
-    """What a run found. `aside`: standard output carries something else, and findings go to standard error."""
-
-    outputs: Outputs
-    view: View
-    _: KW_ONLY
-    statistics: bool
-    aside: bool
-    fixing: bool
-    found: list[Diagnostic] = field(default_factory=list)
-    names: list[str] = field(default_factory=list)
-    fixed: int = 0
-    failing: bool = False
-
-    def add(self, name: str, data: bytes, found: list[Diagnostic], fixed: int, limit: Severity) -> None:
-        """Add the findings that are left in one file, whose content is `data`, and the number of those fixed."""
-        self.names.append(name)
-        self.found += found
-        self.fixed += fixed
-        self.failing = self.failing or any(one.severity.rank >= limit.rank for one in found)
-        if self._as_they_come and found:
-            self.view.printer().findings(found, Source.from_bytes(data, name))
-        if self.view.verbose:
-            notify(f"{name}: {counted(len(found), 'finding')}")
-
-    @property
-    def _as_they_come(self) -> bool:
-        return self.outputs.form == TEXT and not (self.view.quiet or self.statistics or self.aside)
-
-    def finish(self) -> None:
-        """Write and print what needs all findings."""
-        found = sorted(self.found, key=lambda diagnostic: diagnostic.sort_key)
-        self.outputs.write_files(found, self.names)
-        if self.aside:
-            self._print_aside(found)
-        elif self.statistics:
-            emit(statistics_lines(found))
-        elif self.outputs.form != TEXT:
-            emit(form(self.outputs.form, self.names, __version__)(found))
-        elif self.view.quiet:
-            emit(form("concise", self.names, __version__)(found))
-        elif self.names:
-            self._summary(found)
-
-    def _print_aside(self, found: list[Diagnostic]) -> None:
-        name = "concise" if self.outputs.form == TEXT else self.outputs.form
-        pieces = statistics_lines(found) if self.statistics else form(name, self.names, __version__)(found)
-        for piece in pieces:
-            click.echo(piece, err=True, nl=False)
-        if self.fixing and not self.view.quiet and name == "concise":
-            click.echo(self._fixed_summary(found), err=True)
-
-    def _summary(self, found: list[Diagnostic]) -> None:
-        if self.fixing and (self.fixed or found):
-            click.echo(self._fixed_summary(found))
-        elif found:
-            self.view.printer().summary(found, len(self.names))
-        else:
-            click.echo(f"No findings in {counted(len(self.names), 'file')}.")
-        if hint := fixable(found):
-            click.echo(hint)
-
-    def _fixed_summary(self, found: list[Diagnostic]) -> str:
-        total = counted(self.fixed + len(found), "finding")
-        return f"Found {total} ({self.fixed} fixed, {len(found)} remaining) in {counted(len(self.names), 'file')}."
-
-
-def fixable(found: list[Diagnostic]) -> str:
-    """How many findings have fixes of each kind, or ""."""
-    kinds = [one.fix.applicability for one in found if one.fix is not None]
-    safe, unsafe = kinds.count("safe"), kinds.count("unsafe")
-    if not kinds:
-        return ""
-    if not safe:
-        return f"{unsafe} fixable with --fix --unsafe-fixes."
-    return f"{safe} fixable with --fix" + (f", {unsafe} more with --unsafe-fixes." if unsafe else ".")

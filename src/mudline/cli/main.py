@@ -13,8 +13,7 @@ import click
 from click.shell_completion import shell_complete
 
 from mudline import __version__
-from mudline.cli import streams
-from mudline.cli.exits import CLOSED_PIPE, FOUND, WRONG_USAGE
+from mudline.cli import CLOSED_PIPE, FOUND, WRONG_USAGE, streams
 from mudline.cli.streams import notify, reason
 from mudline.linting.plugins import PluginError
 from mudline.spelling import nearest

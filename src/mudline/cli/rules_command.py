@@ -8,8 +8,7 @@ from typing import Any
 
 import click
 
-from mudline.cli import options
-from mudline.cli.exits import DONE
+from mudline.cli import DONE, options
 from mudline.cli.options import View
 from mudline.cli.streams import emit_json
 from mudline.linting.output.visible import visible_lines

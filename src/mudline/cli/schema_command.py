@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import click
 
-from mudline.cli import options
-from mudline.cli.exits import DONE
+from mudline.cli import DONE, options
 from mudline.cli.streams import emit_json
 from mudline.deck.schema import json_schema
 

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from mudline.cli import options
-from mudline.cli.exits import DONE, FOUND
+from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import load, refuses_bad_decks
 from mudline.cli.options import View
 from mudline.cli.streams import counted, emit_json, notify

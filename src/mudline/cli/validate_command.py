@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
-from mudline.cli import options
-from mudline.cli.exits import DONE, FOUND
+from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import Input, Inputs, collect_any_form
 from mudline.cli.options import View
 from mudline.cli.progress import Progress, wants_bar
