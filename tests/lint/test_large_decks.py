@@ -13,7 +13,7 @@ from mudline.linting.context import LintContext
 from mudline.linting.engine import problems_in
 from mudline.linting.registry import rules
 from mudline.scene import numbering
-from mudline.scene.build import resolve
+from mudline.scene.model import resolve
 from mudline.scene.numbering import blocks_of, constant, identity, looked_up, one_index
 
 COUNT = 400_000

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import Diagnostic
-from mudline.scene.build import resolve
-from mudline.scene.model import Scene
+from mudline.scene.model import Scene, resolve
 
 Finding = tuple[str, str, int, int]
 """Severity letter, code, line and column."""

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from mudline.deck.loading import load_bytes
-from mudline.scene.build import resolve
-from mudline.scene.external import read_external
+from mudline.scene.external_elements import read_external
+from mudline.scene.model import resolve
 from tests.growth import call_growth
 from tests.scene.decks import PIPE, Finding, all_told, messages, told
 

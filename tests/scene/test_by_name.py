@@ -7,7 +7,7 @@ from typing import Any, cast
 
 import pytest
 
-from mudline.scene.by_name import ByName, UnknownNameError
+from mudline.scene.resolved import ByName, UnknownNameError
 from tests.scene.decks import scene_of
 
 DECK = """$MODEL

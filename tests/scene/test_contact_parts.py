@@ -14,7 +14,7 @@ from mudline.contact.input import AssignedLaw
 from mudline.contact.tables import Tables
 from mudline.deck.loading import load_bytes, load_path
 from mudline.diagnostics import DeckError
-from mudline.scene.build import resolve
+from mudline.scene.model import resolve
 from mudline.scene.section_weight import submerged_weight
 from tests.scene.contact_decks import METRIC, deck
 from tests.scene.decks import scene_of
@@ -336,7 +336,7 @@ def test_beds_of_points(tmp_path: Path, keyword: str, content: str, why: str) ->
 
 
 def test_a_surface_without_scipy_names_the_extra(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mudline.scene.contact_parts.floor.find_spec", lambda _: None)
+    monkeypatch.setattr("mudline.scene.contact_input.find_spec", lambda _: None)
     (tmp_path / "bed.txt").write_text("-1, -9, -9\n-1, 200, -9\n-1, 0, 99\n")
     path = tmp_path / "deck.keyxm"
     path.write_text(deck(METRIC, LINEAR + "*SEABED PROFILE\n TYPE=3D\n FILE=bed.txt\n"))

@@ -10,10 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.deck.loading import load_path
-from mudline.scene.build import resolve
-from mudline.scene.floor import Floor, FloorKind
-from mudline.scene.model import Scene
-from mudline.scene.profile_file import ProfileError, parse_profile, read_profile
+from mudline.scene.model import Scene, resolve
+from mudline.scene.seabed import Floor, FloorKind, ProfileError, parse_profile, read_profile
 from tests.scene.decks import PIPE, scene_of
 
 PROFILE = "*SEABED PROFILE\n TYPE=2D\n INTERPOLATION=CUBIC SPLINE, DIRECTION=30\n FILE={}\n"
@@ -136,7 +134,7 @@ def test_a_file_that_may_not_be_read(tmp_path: Path, monkeypatch: pytest.MonkeyP
 
 
 def test_a_file_of_enormous_size_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mudline.scene.profile_file.LARGEST_FILE", 3)
+    monkeypatch.setattr("mudline.scene.seabed.LARGEST_FILE", 3)
     (tmp_path / "bed.txt").write_text("0, 0\n1, 1\n", encoding="utf-8")
     with pytest.raises(ProfileError, match="is it a profile"):
         read_profile(tmp_path / "bed.txt", 2)

@@ -14,8 +14,8 @@ from mudline.deck.model import Deck
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Span
 from mudline.keywords.kept import LINE_SETS, Names
-from mudline.scene.build import resolve
-from mudline.scene.harvest import bare, definers, harvested_labels, harvested_sets, may_define
+from mudline.scene.model import resolve
+from mudline.scene.opaque_names import bare, definers, harvested_labels, harvested_sets, may_define
 from mudline.syntax.fields import read_line
 from tests.growth import FOURFOLD, TWOFOLD, call_growth, growth
 from tests.reading.spellings import names, pads, setting, texts

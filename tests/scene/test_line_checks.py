@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mudline.deck.loading import load_bytes
-from mudline.scene.build import resolve
+from mudline.scene.model import resolve
 from tests.reading.spellings import names, texts
 from tests.scene.decks import all_told, messages, scene_of, told
 

@@ -89,7 +89,7 @@ def test_a_slip_of_a_digit_does_not_fill_the_memory() -> None:
 
 
 def test_the_limit_holds_for_all_generators_together(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mudline.scene.nodes.MOST_GENERATED", 10)
+    monkeypatch.setattr("mudline.scene.mesh.MOST_GENERATED", 10)
     ends = " 1, 0, 0\n 11, 0, 1\n 13, 0, 2\n 15, 0, 3\n"
     text = NODE + ends + " GEN=1, 11\n GEN=11, 13\n GEN=13, 15\n"
     assert told(text) == [("E", "REF010", 9, 2)]

@@ -10,7 +10,7 @@ from mudline.contact import ContactModel
 from mudline.contact.input import LawKind
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError
-from mudline.scene.build import resolve
+from mudline.scene.model import resolve
 from tests.scene.decks import CLAY, PIPE, STEEL, scene_of
 
 FULL = PIPE + STEEL + CLAY + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=Clay\n"

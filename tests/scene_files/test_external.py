@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError
-from mudline.scene.build import resolve
-from mudline.scene.external import ExternalElements, read_external
+from mudline.scene.external_elements import ExternalElements, read_external
+from mudline.scene.model import resolve
 
 HEADER = "element,node1,node2,diameter,length,sets"
 

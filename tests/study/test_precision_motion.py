@@ -12,7 +12,7 @@ from mudline.contact import LawAssignment
 from mudline.contact.laws.suction import SuctionHistory, SuctionLaw, from_cohesion, step
 from mudline.curves import ForceCurve
 from mudline.deck.loading import load_bytes
-from mudline.scene.build import resolve
+from mudline.scene.model import resolve
 from mudline.study.errors import StudyError
 from mudline.study.precision import integration, reference
 from mudline.study.precision import pull as pull_module

@@ -12,8 +12,7 @@ import numpy as np
 import pytest
 
 from mudline.deck.loading import load_bytes
-from mudline.scene.build import resolve
-from mudline.scene.model import Scene
+from mudline.scene.model import Scene, resolve
 from mudline.scene.section_weight import mass_per_length, submerged_weight, surroundings
 from mudline.study import precision
 from mudline.study.errors import StudyError

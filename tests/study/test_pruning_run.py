@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from mudline.deck.loading import load_bytes
-from mudline.scene.build import resolve
+from mudline.scene.model import resolve
 from mudline.study import pruning
 from mudline.study.options import StudyOptions
 from mudline.study.pruning import clock, growth, imports, running

@@ -13,8 +13,7 @@ from mudline.contact.stiffest import CRITICAL_OMEGA_DT
 from mudline.deck.loading import load_bytes
 from mudline.linting.engine import lint_bytes
 from mudline.linting.selection import select
-from mudline.scene.build import resolve
-from mudline.scene.model import Scene
+from mudline.scene.model import Scene, resolve
 from mudline.study.sample import TEXT, sample_scene
 from mudline.study.schemes.catalogue import SCHEMES
 from mudline.study.schemes.newton import Newton

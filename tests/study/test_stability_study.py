@@ -7,7 +7,7 @@ import json
 import pytest
 
 from mudline.deck.loading import load_bytes
-from mudline.scene.build import resolve
+from mudline.scene.model import resolve
 from mudline.study.options import StudyOptions
 from mudline.study.report import StudyReport
 from mudline.study.sample import TEXT

@@ -20,8 +20,7 @@ from mudline.cli.writing import writing
 from mudline.linting.output.visible import visible
 from mudline.results.csv_lines import csv_lines
 from mudline.results.curves import curve_rows, point_table, static_table, value_table
-from mudline.scene.build import resolve
-from mudline.scene.model import Scene
+from mudline.scene.model import Scene, resolve
 
 
 @click.command("curves")

@@ -17,7 +17,7 @@ from mudline.cli.options import View
 from mudline.cli.streams import emit
 from mudline.comparison.comparing import compare
 from mudline.comparison.model import Difference
-from mudline.scene.build import resolve
+from mudline.scene.model import resolve
 
 FORMAT = "mudline-diff/1"
 

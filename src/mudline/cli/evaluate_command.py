@@ -38,7 +38,7 @@ from mudline.results.digest import Digest
 from mudline.results.evaluation import Evaluation, Prepared, Tension, evaluate_scene, prepare
 from mudline.results.formats import CsvForm, JsonForm, plan_rows
 from mudline.results.plot_data import PlotData
-from mudline.scene.build import resolve
+from mudline.scene.model import resolve
 
 MOST_ROWS = 40
 """Lines of a table on the terminal, unless more is asked for."""

@@ -13,7 +13,7 @@ import click
 from mudline.cli.terminal import reason
 from mudline.results.evaluation import Evaluation
 from mudline.results.reference import Reference, read_reference
-from mudline.scene.external import ExternalElements, read_external
+from mudline.scene.external_elements import ExternalElements, read_external
 from mudline.scene.model import Scene
 from mudline.scene.positions import Positions, read_positions
 

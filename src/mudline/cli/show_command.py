@@ -16,7 +16,7 @@ from mudline.cli.options import View
 from mudline.cli.streams import emit
 from mudline.cli.terminal import tell
 from mudline.results.summary import summarise
-from mudline.scene.build import resolve
+from mudline.scene.model import resolve
 
 
 @click.command("show")

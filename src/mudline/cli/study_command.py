@@ -16,8 +16,7 @@ from mudline.cli.lazy import printing
 from mudline.cli.options import View
 from mudline.cli.streams import emit
 from mudline.cli.terminal import reason, tell
-from mudline.scene.build import resolve
-from mudline.scene.model import Scene
+from mudline.scene.model import Scene, resolve
 from mudline.study.errors import StudyError
 from mudline.study.options import StudyOptions, silent
 

@@ -12,8 +12,8 @@ from mudline.comparison.model import Difference, Tolerance
 from mudline.comparison.named import curves, parameters, sets
 from mudline.comparison.numbered import elements, nodes
 from mudline.comparison.side import Side
-from mudline.scene.floor import Floor
 from mudline.scene.model import Scene
+from mudline.scene.seabed import Floor
 
 
 def compare(before: Scene, after: Scene, tolerance: float = 0.0) -> list[Difference]:

@@ -12,10 +12,9 @@ from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Blocks, Code, Problem
 from mudline.linting.odd_curves import odd_curves
-from mudline.scene.build import resolve
 from mudline.scene.context import MOST_TOLD
 from mudline.scene.force_curves import SceneCurve
-from mudline.scene.model import Scene
+from mudline.scene.model import Scene, resolve
 from mudline.variations.undefined import (
     misspelt_keywords,
     misspelt_sections,

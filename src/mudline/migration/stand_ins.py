@@ -7,7 +7,7 @@ from itertools import combinations, pairwise
 
 import numpy as np
 
-from mudline.scene.external import ExternalElements
+from mudline.scene.external_elements import ExternalElements
 
 _ALL_PAIRS = 40
 _DIAMETERS = (0.2731, 0.5)

@@ -14,12 +14,10 @@ from mudline.deck.parameters import folded
 from mudline.migration.migrating import Migration
 from mudline.migration.stand_ins import StandIns
 from mudline.migration.sweep import depths_of
-from mudline.scene.bed import BedValues
-from mudline.scene.build import resolve
-from mudline.scene.floor import Floor
-from mudline.scene.model import Scene
+from mudline.scene.laws import BedValues
+from mudline.scene.model import Scene, resolve
 from mudline.scene.numbering import Floats, Indices
-from mudline.scene.profile_file import parse_profile
+from mudline.scene.seabed import Floor, parse_profile
 
 
 class Difference(NamedTuple):

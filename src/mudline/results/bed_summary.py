@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from mudline.results.numbers import finite
-from mudline.scene.floor import Floor, FloorKind
 from mudline.scene.model import Scene
+from mudline.scene.seabed import Floor, FloorKind
 
 _PAIRS = ("friction", "mobilisation")
 _SINGLE = ("lateral", "suction", "extent")

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from mudline.codes import RUN001
 from mudline.contact import ContactModel, ContactResult, ElementError, PositionError
 from mudline.diagnostics import DeckError, Problem, Where
-from mudline.scene.elements import distances
+from mudline.scene.mesh import distances
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices, Mask
 from mudline.scene.positions import Positions

@@ -9,11 +9,10 @@ import numpy as np
 from mudline.contact.input import LawAssignment, LawKind
 from mudline.contact.laws.linear import penetration_under, smoothed_reaction
 from mudline.results.numbers import finite
-from mudline.scene.contact_parts.nodal import nodal_springs
-from mudline.scene.contact_parts.picking import summed
-from mudline.scene.contact_parts.smoothing import element_smoothing
-from mudline.scene.model import LawArrays, Scene
-from mudline.scene.numbering import Floats, Indices
+from mudline.scene.model import Scene
+from mudline.scene.normal_laws import element_smoothing, nodal_springs
+from mudline.scene.numbering import Floats, Indices, summed
+from mudline.scene.resolved import LawArrays
 from mudline.scene.section_weight import submerged_weight
 
 _SIDES = {-1: "below", 0: None, 1: "above"}

@@ -21,8 +21,8 @@ from mudline.keywords import catalogue
 from mudline.keywords.likeness import meant_in, meant_keyword
 from mudline.keywords.model import ListRow
 from mudline.scene.continued import ContinuedDeck
-from mudline.scene.harvest import definers, harvested_labels, harvested_sets, is_laid, may_define
 from mudline.scene.numbering import LARGEST
+from mudline.scene.opaque_names import definers, harvested_labels, harvested_sets, is_laid, may_define
 from mudline.short_repr import short_repr
 from mudline.spelling import Effort, nearest
 from mudline.syntax.tree import canonical_name, mark_of

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import weakref
 from bisect import bisect_right
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import TypeVar
@@ -256,3 +256,38 @@ def _all_different(ids: Ids) -> bool:
         return True
     ordered = np.sort(ids)
     return bool((ordered[1:] != ordered[:-1]).all())
+
+
+def picked(values: Iterable[float], index: Indices) -> Floats:
+    """The value of each index; NaN for -1."""
+    found: Floats = np.array([*values, np.nan], dtype=np.float64)[index]
+    return found
+
+
+def marked(flags: Iterable[bool], index: Indices) -> Mask:
+    """The flag of each index; False for -1."""
+    found: Mask = np.array([*flags, False], dtype=np.bool_)[index]
+    return found
+
+
+def at_nodes(of_element: Indices, element_nodes: Indices, nodes: int) -> Indices:
+    """For each node the last block, by the order of the file, that one of its elements follows; -1 for none."""
+    found = np.full(nodes, -1, dtype=np.intp)
+    for end in element_nodes.T:
+        np.maximum.at(found, end, of_element)
+    return found
+
+
+def summed(values: Floats, element_nodes: Indices, nodes: int) -> Floats:
+    """The sum of the values (m,) of each node's elements."""
+    total = np.zeros(nodes)
+    for end in element_nodes.T:
+        np.add.at(total, end, values)
+    return total
+
+
+def touched(elements: Mask, element_nodes: Indices, nodes: int) -> Mask:
+    """The nodes of which an element is marked."""
+    found = np.zeros(nodes, dtype=np.bool_)
+    found[element_nodes[elements].ravel()] = True
+    return found

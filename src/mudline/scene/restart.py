@@ -1,22 +1,27 @@
-"""`*RESTART`: the decks that a deck continues, found beside it and read."""
+"""`*RESTART`: the decks that a deck continues, found beside it and read once for all decks that continue them."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
-from pathlib import Path
+from functools import lru_cache
+from itertools import islice
+from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 from mudline.codes.references import REF015
+from mudline.deck.evaluation import evaluated
+from mudline.deck.loading import load_path
 from mudline.deck.model import Deck
 from mudline.deck.parameters import Parameters
-from mudline.diagnostics import Problem, Where
+from mudline.diagnostics import DeckError, Problem, Where
 from mudline.keywords.text import shown
-from mudline.scene.base_files import BaseError, read_base
 from mudline.scene.continued import Base, continuation, lent
-from mudline.scene.deck_search import find_deck, tried
+from mudline.scene.deck_values import file_name, find_file
 
 if TYPE_CHECKING:
     from mudline.keywords.library.restart import Restart
+
 
 MOST_FOLLOWED = 20
 """Decks in a chain; a longer one is not followed to its beginning."""
@@ -116,3 +121,110 @@ def _identity(path: Path) -> Path:
         return path.resolve()
     except (OSError, RuntimeError, ValueError):  # a loop of links, a name that no file has
         return path
+
+
+LARGEST_FILE = 200_000_000
+_MOST_KEPT = 32
+_LARGEST_KEPT = 100_000_000
+"""Bytes of all the files that are kept."""
+
+_Version = tuple[int, int]
+"""When a file was changed last, and how long it is."""
+
+
+class BaseError(ValueError):
+    """A file that cannot be continued; the text says why."""
+
+
+class _BaseCache:
+    """The decks that were read last."""
+
+    def __init__(self) -> None:
+        self.decks: dict[str, tuple[_Version, Base]] = {}
+
+    def find(self, key: str, version: _Version) -> Base | None:
+        """The deck of a file, if it has not changed since it was read."""
+        found = self.decks.get(key)
+        return found[1] if found and found[0] == version else None
+
+    def add(self, key: str, version: _Version, base: Base) -> None:
+        """Keep a deck, and let those go that were read long before."""
+        self.decks.pop(key, None)
+        self.decks[key] = (version, base)
+        while len(self.decks) > 1 and (len(self.decks) > _MOST_KEPT or self._bytes() > _LARGEST_KEPT):
+            del self.decks[next(iter(self.decks))]
+
+    def _bytes(self) -> int:
+        return sum(version[1] for version, _ in self.decks.values())
+
+
+_CACHE = _BaseCache()
+
+
+def read_base(path: Path) -> Base:
+    """The deck of a file in any form, its model evaluated. Raises BaseError."""
+    try:
+        stat = path.stat()
+        version = (stat.st_mtime_ns, stat.st_size)
+        key = str(path.absolute())
+        if stat.st_size > LARGEST_FILE:
+            raise BaseError(f"{path.as_posix()} has more than {LARGEST_FILE // 10**6} million bytes")
+        found = _CACHE.find(key, version)
+        if found is None:
+            found = _read_base(path)
+            _CACHE.add(key, version, found)
+    except OSError as error:
+        raise BaseError(f"{path.as_posix()}: {error.strerror or error}") from error
+    return found
+
+
+def _read_base(path: Path) -> Base:
+    try:
+        deck = load_path(path)
+    except DeckError as error:
+        raise BaseError(f"{error.diagnostics[0]}") from error
+    if not deck.sections:
+        raise BaseError(f"{path.as_posix()} has no section: it is no deck")
+    ready, problems = evaluated(deck)
+    model = {number: section for number, section in enumerate(ready.sections) if section.name == "MODEL"}
+    return Base(deck, model, (*deck.problems, *problems))
+
+
+_SUFFIXES = (".keyxm", ".keyxi", ".keyx", ".das")
+_MOST_LISTED = 20_000
+"""Files of a folder that are looked through for a name in another case."""
+
+
+def tried(deck: Deck, written: str) -> list[str]:
+    """The names that a LAST= may stand for: as written, then with the deck's own suffix, then with the others."""
+    name = file_name(written)
+    own = PurePath(deck.file).suffix
+    return list(dict.fromkeys([name, *(name + suffix for suffix in (own, *_SUFFIXES))]))
+
+
+def find_deck(deck: Deck, written: str) -> Path | None:
+    """The file that a LAST= of a deck names; of names that differ in case only, the first in sorted order."""
+    names = tried(deck, written)
+    exact = (find_file(deck.folder, name) for name in names)
+    return next((path for path in exact if path is not None), None) or _in_other_case(deck.folder, names)
+
+
+def _in_other_case(folder: Path | None, names: list[str]) -> Path | None:
+    if folder is None:
+        return None
+    inner = PurePath(names[0]).parent
+    try:
+        listed = _listed(str(folder / inner), (folder / inner).stat().st_mtime_ns)
+    except (OSError, ValueError):
+        return None
+    known = (listed.get(PurePath(name).name.casefold()) for name in names)
+    found = (find_file(folder, (inner / name).as_posix()) for name in known if name is not None)
+    return next((path for path in found if path is not None), None)
+
+
+@lru_cache(maxsize=4)
+def _listed(folder: str, _changed: int) -> dict[str, str]:
+    """The files of a folder by their names without case; listed once for all decks until the folder changes."""
+    with os.scandir(folder) as entries:
+        names = sorted(islice((each.name for each in entries), _MOST_LISTED), reverse=True)
+    return {name.casefold(): name for name in names}

@@ -8,15 +8,13 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
-from mudline.scene.contact_parts.picking import picked
-from mudline.scene.contact_parts.units import DEFAULT_DENSITY, DEFAULT_GRAVITY
-from mudline.scene.given import number
-from mudline.scene.numbering import Floats
+from mudline.scene.deck_values import DEFAULT_DENSITY, DEFAULT_GRAVITY, number
+from mudline.scene.numbering import Floats, picked
 
 if TYPE_CHECKING:
     from mudline.keywords.library.geometric_sets import GeometricSet, GeometricSets
     from mudline.keywords.model import Part
-    from mudline.scene.model import Scene
+    from mudline.scene.resolved import ResolvedDeck
 
 
 class Surroundings(NamedTuple):
@@ -26,7 +24,7 @@ class Surroundings(NamedTuple):
     gravity: float
 
 
-def surroundings(scene: Scene) -> Surroundings:
+def surroundings(scene: ResolvedDeck) -> Surroundings:
     """Those of the last `*OCEAN`, whose defaults are known in metric and imperial units; NaN without one."""
     oceans = [block for _, block in scene.deck.blocks("OCEAN")]
     if not oceans:
@@ -37,13 +35,13 @@ def surroundings(scene: Scene) -> Surroundings:
     )
 
 
-def mass_per_length(scene: Scene) -> Floats:
+def mass_per_length(scene: ResolvedDeck) -> Floats:
     """Mass per length (m,), in the deck's units; NaN where it is not known, or not above 0."""
     mass = _of_elements(scene, _mass)
     return np.where(mass > 0.0, mass, np.nan)
 
 
-def submerged_weight(scene: Scene) -> Floats:
+def submerged_weight(scene: ResolvedDeck) -> Floats:
     """Weight less buoyancy per length (m,), in the deck's units; NaN where it is not known or overflows.
 
     Elements whose diameter comes from a file of elements have the weight of their section, if they have one.
@@ -53,7 +51,7 @@ def submerged_weight(scene: Scene) -> Floats:
     return np.where(np.isfinite(found), found, np.nan)
 
 
-def _of_elements(scene: Scene, value: Callable[[GeometricSet], float]) -> Floats:
+def _of_elements(scene: ResolvedDeck, value: Callable[[GeometricSet], float]) -> Floats:
     """A value of each element's section; NaN without a section."""
     blocks = [
         cast("GeometricSets", scene.deck.sections[section.where.section].blocks[section.where.block]).sets

@@ -10,7 +10,7 @@ import numpy as np
 
 from mudline.diagnostics import Where
 from mudline.scene.context import Context
-from mudline.scene.external import ExternalElements
+from mudline.scene.external_elements import ExternalElements
 from mudline.scene.numbering import Floats, Indices, Mask, Numbered, looked_up
 from mudline.scene.sets import NamedSet, Sets, later_wins
 from mudline.short_repr import short_repr

@@ -15,9 +15,9 @@ from mudline.diagnostics import Severity, Where
 from mudline.keywords.remarks import advice_on
 from mudline.keywords.text import shown
 from mudline.scene.context import Context
-from mudline.scene.external import ExternalElements
-from mudline.scene.harvest import bare
+from mudline.scene.external_elements import ExternalElements
 from mudline.scene.numbering import Ids, Indices, Numbered, constant, identity
+from mudline.scene.opaque_names import bare
 from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:

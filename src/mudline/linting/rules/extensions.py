@@ -10,7 +10,7 @@ from mudline.contact.input import LawKind
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
-from mudline.scene.given import number
+from mudline.scene.deck_values import number
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats
 

@@ -19,8 +19,8 @@ from mudline.linting.registry import rule
 from mudline.linting.rules.curves.columns import swapped
 from mudline.scene.checks.sections import format_of
 from mudline.scene.context import MOST_TOLD
+from mudline.scene.deck_values import surfaces
 from mudline.scene.model import Scene
-from mudline.scene.surfaces import surfaces
 
 if TYPE_CHECKING:
     from mudline.keywords.library.geometric_sets import GeometricSets

@@ -1,4 +1,4 @@
-"""The types of seabed of a model, and what its laws need: an elastic seabed, a stiffness, curves, diameters."""
+"""The types of seabed of a model, and what its laws need: curves, an elastic seabed, a stiffness, diameters."""
 
 from __future__ import annotations
 
@@ -9,16 +9,21 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from mudline.contact.input import LawKind
+from mudline.deck.parameters import folded
 from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
+from mudline.keywords.kept import Names
+from mudline.keywords.remarks import advice_on
 from mudline.keywords.text import shown
 from mudline.scene.checks.declaring import check
-from mudline.scene.laws import typed_blocks
+from mudline.scene.laws import NOTHING, typed_blocks
+from mudline.scene.references import given_names
 
 if TYPE_CHECKING:
     from mudline.keywords.library.elastic_surface import ElasticSurface
     from mudline.keywords.library.embedment import Embedment
     from mudline.scene.force_curves import SceneCurve
-    from mudline.scene.model import Scene
+    from mudline.scene.resolved import ResolvedDeck
+
 
 SBD001 = Code("SBD001", "rigid-with-curve", Severity.ERROR)
 SBD002 = Code("SBD002", "two-seabed-types", Severity.ERROR)
@@ -29,7 +34,7 @@ SBD009 = Code("SBD009", "missing-diameter", Severity.ERROR)
 
 
 @check(SBD001)
-def rigid_with_curve(scene: Scene) -> Iterator[Problem]:
+def rigid_with_curve(scene: ResolvedDeck) -> Iterator[Problem]:
     """A rigid seabed has a force-embedment curve, or a value that only an elastic one has.
 
     Nothing sinks into a rigid seabed, so a curve cannot hold there: it is an error, as one of the two is not what was
@@ -65,7 +70,7 @@ def rigid_with_curve(scene: Scene) -> Iterator[Problem]:
 
 
 @check(SBD002)
-def two_seabed_types(scene: Scene) -> Iterator[Problem]:
+def two_seabed_types(scene: ResolvedDeck) -> Iterator[Problem]:
     """The model has a rigid and an elastic seabed.
 
     A model has one of them for all its elements, whether it says so with TYPE= or with *RIGID SURFACE and *ELASTIC
@@ -98,7 +103,7 @@ def two_seabed_types(scene: Scene) -> Iterator[Problem]:
 
 
 @check(SBD003)
-def missing_type(scene: Scene) -> Iterator[Problem]:
+def missing_type(scene: ResolvedDeck) -> Iterator[Problem]:
     """*SEABED PROPERTIES does not say whether the seabed is rigid or elastic.
 
     The type has no default: write TYPE=RIGID or TYPE=ELASTIC on the first line. A later block without TYPE= goes on
@@ -127,14 +132,14 @@ def missing_type(scene: Scene) -> Iterator[Problem]:
             yield from _without_set(scene, curve.set_name, where._replace(path=("curves", index)), "points")
 
 
-def _without_set(scene: Scene, name: str | None, where: Where, what: str) -> Iterator[Problem]:
+def _without_set(scene: ResolvedDeck, name: str | None, where: Where, what: str) -> Iterator[Problem]:
     if name is None and not scene.context.lacks_value(where, "set"):
         message = f"{what} before any SET= are read as those of SET=ALL (inferred): write SET= before them"
         yield Problem(SBD003, message, None, Severity.WARNING, where)
 
 
 @check(SBD004)
-def missing_embedment(scene: Scene) -> Iterator[Problem]:
+def missing_embedment(scene: ResolvedDeck) -> Iterator[Problem]:
     """*ELASTIC SURFACE gives no stiffness, and there is no *EMBEDMENT.
 
     The first field of *ELASTIC SURFACE may be empty only when curves of *EMBEDMENT carry the elements. Otherwise
@@ -163,7 +168,7 @@ def missing_embedment(scene: Scene) -> Iterator[Problem]:
 
 
 @check(SBD005)
-def embedment_needs_elastic(scene: Scene) -> Iterator[Problem]:
+def embedment_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
     """*EMBEDMENT stands beside a rigid seabed, or beside none.
 
     A force-embedment curve describes how far a pipe sinks, so it holds only on an elastic seabed: *ELASTIC SURFACE, or
@@ -205,7 +210,7 @@ def embedment_needs_elastic(scene: Scene) -> Iterator[Problem]:
 
 
 @check(SBD009)
-def missing_diameter(scene: Scene) -> Iterator[Problem]:
+def missing_diameter(scene: ResolvedDeck) -> Iterator[Problem]:
     """Elements follow a force-embedment curve and have no external diameter.
 
     The embedment ratio is a depth divided by the external diameter: without one there is no ratio, and no force. The
@@ -252,9 +257,55 @@ def missing_diameter(scene: Scene) -> Iterator[Problem]:
         yield lacks_diameter(scene, SBD009, message, scene.laws.grants[index].where)
 
 
-def lacks_diameter(scene: Scene, code: Code, message: str, where: Where) -> Problem:
+def lacks_diameter(scene: ResolvedDeck, code: Code, message: str, where: Where) -> Problem:
     """An external diameter that a law needs and that is not known, wherever it may be given."""
     if scene.section_table.open:
         message += "; a section belongs to a set whose elements this deck does not show"
         return Problem(code, message, None, Severity.WARNING, where, blocks=Blocks.ALWAYS)
     return replace(scene.context.missing(code, message, where, "GEOMETRIC SETS"), blocks=Blocks.ALWAYS)
+
+
+REF002 = Code("REF002", "undefined-curve", Severity.ERROR)
+
+
+@check(REF002)
+def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
+    """A STIFFNESS= names a curve that the deck does not define.
+
+    The elements of the set have no seabed then. A STIFFNESS= that is no number is taken for the name of a curve, so a
+    slip in a number is reported here too. Define the curve in *SEABED STIFFNESS, or correct the name.
+
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Soft Clay
+          0.0, 0.0
+          0.1, 1200.0
+          0.5, 4200.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+        - STIFFNESS=Softclay
+        + STIFFNESS=Soft Clay
+
+    Finds: 10:12
+    """
+    names = {folded(curve.name): curve.name for curve in scene.laws.curves if curve.named and not curve.embedment}
+    followed: set[Where] | None = None
+    for _, where, name in given_names(scene.deck, Names.CURVE):
+        if folded(name) in names:
+            continue
+        near = scene.context.near(name, names)
+        hint = f" (did you mean {names[near]}?)" if near else ""
+        advice = advice_on(name) or "*SEABED STIFFNESS has no such curve"
+        problem = scene.context.missing(
+            REF002, f"curve {shown(name)} is not defined{hint}: {advice}", where, "SEABED STIFFNESS"
+        )
+        followed = _followed(scene) if followed is None else followed
+        yield replace(problem, blocks=Blocks.ALWAYS) if where in followed else problem
+
+
+def _followed(scene: ResolvedDeck) -> set[Where]:
+    """Where the names of missing curves stand that elements follow."""
+    lost = (i for i, grant in enumerate(scene.laws.grants) if grant.kind is LawKind.CURVE and grant.curve == NOTHING)
+    return {scene.laws.grants[index].where for index in lost if (scene.laws.of_element == index).any()}

@@ -14,7 +14,7 @@ from mudline.scene.context import MOST_TOLD
 
 if TYPE_CHECKING:
     from mudline.keywords.library.geometric_sets import GeometricSet, GeometricSets
-    from mudline.scene.model import Scene
+    from mudline.scene.resolved import ResolvedDeck
 
 GEO001 = Code("GEO001", "inner-exceeds-outer", Severity.ERROR)
 GEO004 = Code("GEO004", "zero-length-element", Severity.ERROR)
@@ -29,7 +29,7 @@ def format_of(entry: GeometricSet) -> str:
 
 
 @check(GEO001)
-def inner_exceeds_outer(scene: Scene) -> Iterator[Problem]:
+def inner_exceeds_outer(scene: ResolvedDeck) -> Iterator[Problem]:
     """The internal diameter of a section is not smaller than its external diameter.
 
     The pipe has no wall: its mass and stiffness would be zero or negative. The two fields are exchanged, or the wall
@@ -56,7 +56,7 @@ def inner_exceeds_outer(scene: Scene) -> Iterator[Problem]:
 
 
 @check(GEO004)
-def zero_length_element(scene: Scene) -> Iterator[Problem]:
+def zero_length_element(scene: ResolvedDeck) -> Iterator[Problem]:
     """The two nodes of an element lie at one place.
 
     The element has no length and no direction, so it has neither a stiffness nor a share of the seabed. A node was

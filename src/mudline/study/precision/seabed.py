@@ -10,8 +10,9 @@ import numpy as np
 from mudline.contact import ContactInput, LawKind
 from mudline.contact.arrays import FloatArray
 from mudline.contact.laws.suction import from_cohesion
-from mudline.scene.contact_parts.units import DEFAULT_GRAVITY
-from mudline.scene.model import LawArrays, Scene
+from mudline.scene.deck_values import DEFAULT_GRAVITY
+from mudline.scene.model import Scene
+from mudline.scene.resolved import LawArrays
 from mudline.scene.section_weight import mass_per_length, submerged_weight, surroundings
 from mudline.study.precision.drag import Drag
 from mudline.study.precision.laws import CurveLaw, Law, LinearLaw

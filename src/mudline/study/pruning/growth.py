@@ -12,7 +12,7 @@ from mudline.contact.input import ContactInput, LawAssignment
 from mudline.contact.model import ContactModel
 from mudline.curves import ForceCurve
 from mudline.deck.loading import load_bytes
-from mudline.scene.build import resolve
+from mudline.scene.model import resolve
 from mudline.study.options import StudyOptions
 from mudline.study.pruning.clock import spent
 from mudline.study.pruning.cost import stepping

@@ -10,8 +10,8 @@ from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
-from mudline.scene.floor import FloorKind
 from mudline.scene.force_curves import SceneCurve
+from mudline.scene.seabed import FloorKind
 
 CRV008 = Code("CRV008", "steep-extrapolation", Severity.WARNING)
 CRV013 = Code("CRV013", "flat-last-segment", Severity.WARNING)

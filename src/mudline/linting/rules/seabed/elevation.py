@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from mudline.scene.floor import Floor, FloorKind
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, blocks_of
+from mudline.scene.seabed import Floor, FloorKind
 
 _VERTICAL = 90.0
 

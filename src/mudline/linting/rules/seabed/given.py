@@ -7,8 +7,8 @@ from typing import Any, NamedTuple, cast
 
 from mudline.diagnostics import Where
 from mudline.linting.context import LintContext
+from mudline.scene.deck_values import surfaces
 from mudline.scene.laws import typed_blocks
-from mudline.scene.surfaces import surfaces
 
 _UNKNOWN = float("nan")
 _OF_SET = {

@@ -12,9 +12,9 @@ from mudline.keywords.catalogue import holds_in_soil, is_superseded
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
 from mudline.scene.checks.laws import SBD004
-from mudline.scene.floor import FloorKind
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices, blocks_of
+from mudline.scene.seabed import FloorKind
 
 SBD006 = Code("SBD006", "no-vertical-restraint", Severity.WARNING)
 

@@ -16,8 +16,7 @@ from mudline.contact.errors import ElementError
 from mudline.contact.result import ContactResult
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Problem, Severity
-from mudline.scene.build import resolve
-from mudline.scene.model import Scene
+from mudline.scene.model import Scene, resolve
 from mudline.study.stability.ladder.cells import Cell
 from mudline.study.stability.ladder.comparing import BOUND, Compared, Tally, compare
 from mudline.study.stability.ladder.exact import ExactCurve, ExactLaw

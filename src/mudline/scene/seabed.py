@@ -1,8 +1,9 @@
-"""The shape of the bed that a deck describes: flat, a slope, a profile, a surface or planes."""
+"""The shape of the seabed that a deck describes: flat, a slope, a profile, a surface or planes; files of points."""
 
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass, field, replace
 from enum import Enum
 from pathlib import Path
@@ -13,17 +14,17 @@ import numpy as np
 from mudline.diagnostics import Where
 from mudline.keywords.text import shown
 from mudline.scene.context import Context
-from mudline.scene.deck_files import file_name, find_file
-from mudline.scene.given import number
+from mudline.scene.deck_values import file_name, find_file, number, surfaces
 from mudline.scene.numbering import Floats
-from mudline.scene.profile_file import COMPILED, ProfileError, read_profile
-from mudline.scene.surfaces import surfaces
 from mudline.short_repr import short_repr
+from mudline.syntax.rows import read_number
+from mudline.syntax.source import Source
 
 if TYPE_CHECKING:
     from mudline.keywords.library.seabed_planes import Plane, SeabedPlanes
     from mudline.keywords.library.seabed_profile import SeabedProfile
     from mudline.keywords.surface import Surface
+
 
 _NO_POINTS = np.zeros((0, 2))
 
@@ -116,7 +117,7 @@ def _profile(context: Context, block: SeabedProfile, where: Where, unreadable: l
     kind, columns = (FloorKind.SURFACE, 3) if block.type_ == "3D" else (FloorKind.PROFILE, 2)
     name = file_name(block.file or "")
     place = where._replace(path=("file",))
-    points, missing, fault = _points(context, name, columns, place)
+    points, missing, fault = _read_points(context, name, columns, place)
     if fault:
         unreadable.append((place, f"the profile {shown(name)} cannot be read: {fault}"))
     return Floor(
@@ -130,7 +131,7 @@ def _profile(context: Context, block: SeabedProfile, where: Where, unreadable: l
     )
 
 
-def _points(context: Context, name: str, columns: int, where: Where) -> tuple[Floats, str, str]:
+def _read_points(context: Context, name: str, columns: int, where: Where) -> tuple[Floats, str, str]:
     """The points of a file, why they are not known, and the fault of a file that is there, or is a compiled one."""
     path = find_file(context.deck.folder_of(where), name)
     try:
@@ -159,3 +160,59 @@ def _plane(plane: Plane) -> FloorPlane:
             number(bounds, "z_max", math.inf),
         ),
     )
+
+
+COMPILED = ".fcsbd"
+LARGEST_FILE = 200_000_000
+_PARTS = re.compile(r"[\s,]+")
+
+
+class ProfileError(ValueError):
+    """A file that holds no profile that can be read; the text says why."""
+
+
+def read_profile(path: Path, columns: int) -> Floats:
+    """The points (k, columns) in the order of the file; lines with C in column 1 are comments, blank ones count not.
+
+    `columns` is 2 for Y and elevation of a profile, 3 for X, Y and Z of a surface. Raises OSError, or ProfileError for
+    a compiled file and for the first line that is no point.
+    """
+    if path.suffix.lower() == COMPILED:
+        raise ProfileError(
+            f"a compiled profile ({COMPILED}) is binary and not public: it is kept; give a text file to have it read"
+        )
+    if path.stat().st_size > LARGEST_FILE:
+        raise ProfileError(f"the file has more than {LARGEST_FILE // 10**6} million bytes: is it a profile?")
+    return parse_profile(path.read_bytes(), path.name, columns)
+
+
+def parse_profile(data: bytes, name: str, columns: int) -> Floats:
+    """As `read_profile`, of a file's content."""
+    source = Source.from_bytes(data, name)
+    if not source.readable:
+        raise ProfileError(source.problems[0].message)
+    rows: list[list[float]] = []
+    for at, line in enumerate(source.unified.split("\n"), 1):
+        if line.strip() and not line.startswith("C"):
+            rows.append(_point(line, columns, at))
+    if len(rows) < 2:
+        count = f"{len(rows)} point" + "s" * (len(rows) != 1)
+        raise ProfileError(f"the file has {count}: a profile needs at least two lines `{_wanted(columns)}`")
+    return np.array(rows, dtype=np.float64)
+
+
+def _point(line: str, columns: int, number: int) -> list[float]:
+    words = _PARTS.split(line.strip(" \t\r\n,"))
+    if len(words) != columns:
+        raise ProfileError(f"line {number}: expected {columns} numbers (`{_wanted(columns)}`), found {len(words)}")
+    values: list[float] = []
+    for word in words:
+        value = read_number(word)
+        if value is None:
+            raise ProfileError(f"line {number}: {shown(word)} is no number")
+        values.append(value)
+    return values
+
+
+def _wanted(columns: int) -> str:
+    return "Y, elevation" if columns == 2 else "X, Y, Z"

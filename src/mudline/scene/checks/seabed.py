@@ -12,13 +12,13 @@ from mudline.deck.parameters import folded
 from mudline.diagnostics import Blocks, Code, Problem, Severity
 from mudline.keywords.text import shown
 from mudline.scene.checks.declaring import check
-from mudline.scene.floor import FloorKind
-from mudline.scene.given import number
-from mudline.scene.surfaces import surfaces
+from mudline.scene.deck_values import number, surfaces
+from mudline.scene.seabed import FloorKind
 
 if TYPE_CHECKING:
     from mudline.keywords.library.seabed_planes import PlaneBounds, SeabedPlanes
-    from mudline.scene.model import Scene
+    from mudline.scene.resolved import ResolvedDeck
+
 
 SBD011 = Code("SBD011", "profile-needs-elastic", Severity.ERROR)
 SBD012 = Code("SBD012", "steep-slope", Severity.ERROR)
@@ -31,7 +31,7 @@ _VERTICAL = 90.0
 
 
 @check(SBD011)
-def profile_needs_elastic(scene: Scene) -> Iterator[Problem]:
+def profile_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
     """A rigid seabed has a profile that only an elastic one takes.
 
     A rigid bed is flat, sloping or a polyline in one plane: nodes are moved back to it along its normal. A surface in
@@ -69,7 +69,7 @@ def profile_needs_elastic(scene: Scene) -> Iterator[Problem]:
 
 
 @check(SBD012)
-def steep_slope(scene: Scene) -> Iterator[Problem]:
+def steep_slope(scene: ResolvedDeck) -> Iterator[Problem]:
     """The slope of the bed is steep.
 
     A slope is an angle in degrees: one of 90 or more is no bed at all, and one above 45 is steeper than soil stands. A
@@ -100,7 +100,7 @@ def steep_slope(scene: Scene) -> Iterator[Problem]:
 
 
 @check(SBD023)
-def unreadable_profile(scene: Scene) -> Iterator[Problem]:
+def unreadable_profile(scene: ResolvedDeck) -> Iterator[Problem]:
     """The profile of the seabed cannot be read, or its points make no seabed.
 
     A compiled profile (.fcsbd) is binary, and its format is not public: the deck keeps it, and mudline knows nothing of
@@ -129,7 +129,7 @@ def unreadable_profile(scene: Scene) -> Iterator[Problem]:
 
 
 @check(EXT002)
-def floor_conflict(scene: Scene) -> Iterator[Problem]:
+def floor_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
     """The bed is given twice: by planes and by a profile or a slope.
 
     *SEABED PLANES describes the whole sea floor, and so does *SEABED PROFILE or the slope of a legacy surface. Which of
@@ -164,7 +164,7 @@ def floor_conflict(scene: Scene) -> Iterator[Problem]:
 
 
 @check(EXT007)
-def bad_plane(scene: Scene) -> Iterator[Problem]:
+def bad_plane(scene: ResolvedDeck) -> Iterator[Problem]:
     """A plane of the sea floor is incomplete, vertical or empty.
 
     A plane is a point and a slope, in degrees between -90 and 90; its bounds must hold some ground, the smaller value
@@ -193,7 +193,7 @@ def bad_plane(scene: Scene) -> Iterator[Problem]:
     yield from _repeated(scene)
 
 
-def _faulty_planes(scene: Scene) -> Iterator[Problem]:
+def _faulty_planes(scene: ResolvedDeck) -> Iterator[Problem]:
     for where, block in scene.deck.blocks("SEABED PLANES"):
         for index, plane in enumerate(cast("SeabedPlanes", block).planes):
             place = where._replace(path=("planes", index))
@@ -210,7 +210,7 @@ def _faulty_planes(scene: Scene) -> Iterator[Problem]:
                 yield Problem(EXT007, message, where=place._replace(path=(*place.path, "bounds")))
 
 
-def _known_planes(scene: Scene) -> bool:
+def _known_planes(scene: ResolvedDeck) -> bool:
     """Whether all numbers of planes could be read; of others enough has been said."""
     numbers = (value for plane in scene.floor.planes for value in (*plane.point, plane.slope, plane.direction))
     return not any(map(math.isnan, numbers))
@@ -220,7 +220,7 @@ def _is_empty(bounds: PlaneBounds | None) -> bool:
     return any(number(bounds, f"{axis}_min") >= number(bounds, f"{axis}_max") for axis in "yz")
 
 
-def _repeated(scene: Scene) -> Iterator[Problem]:
+def _repeated(scene: ResolvedDeck) -> Iterator[Problem]:
     """Planes of the deck itself with the name of an earlier one."""
     known: set[str] = set()
     for where, block in scene.deck.blocks("SEABED PLANES"):
@@ -235,10 +235,10 @@ def _repeated(scene: Scene) -> Iterator[Problem]:
             known.add(name)
 
 
-def _fault(scene: Scene) -> str:
+def _fault(scene: ResolvedDeck) -> str:
     """Why the seabed cannot be made from its numbers, or ""."""
     from mudline.contact.seabed.base import SeabedError  # noqa: PLC0415 - a flat seabed does without it
-    from mudline.scene.contact_parts.floor import made_seabed  # noqa: PLC0415 - as above
+    from mudline.scene.contact_input import made_seabed  # noqa: PLC0415 - as above
 
     try:
         made_seabed(scene.floor)

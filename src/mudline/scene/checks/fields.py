@@ -1,4 +1,4 @@
-"""Values outside the range that the declaration of their field gives."""
+"""Values and files that fields give: ranges that their declarations give, files that are not there."""
 
 from __future__ import annotations
 
@@ -6,13 +6,20 @@ from collections.abc import Iterator
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from mudline.diagnostics import Code, Problem, Severity, Where
-from mudline.keywords.model import Block, ListRow, Part, Rows, Slot, layout
+from mudline.codes.references import REF015
+from mudline.deck.model import Deck
+from mudline.deck.parameters import Parameters
+from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
+from mudline.keywords.kept import Names
+from mudline.keywords.model import Block, ListRow, Part, Rows, Slot, layout, names_given
 from mudline.keywords.table import Table
+from mudline.keywords.text import shown
 from mudline.scene.checks.declaring import check
+from mudline.scene.deck_values import file_name, find_file
 
 if TYPE_CHECKING:
-    from mudline.scene.model import Scene
+    from mudline.scene.resolved import ResolvedDeck
+
 
 SBD010 = Code("SBD010", "negative-property", Severity.ERROR)
 
@@ -21,7 +28,7 @@ _GEOMETRY = "geometry"
 
 
 @check(SBD010)
-def negative_property(scene: Scene) -> Iterator[Problem]:
+def negative_property(scene: ResolvedDeck) -> Iterator[Problem]:
     """A stiffness, a friction coefficient, a length or a diameter is negative, or zero where it divides.
 
     Such a value has no physical meaning: a sign was typed by mistake, or the value stands in the wrong field. The same
@@ -112,3 +119,34 @@ def _name(slot: Slot) -> str:
     if slot.label.islower():  # words of the meaning; a symbol has capitals
         return meaning
     return f"{meaning} ({slot.label})" if " of " in meaning else f"{meaning} {slot.label}"
+
+
+@check(REF015)
+def missing_file(scene: ResolvedDeck) -> Iterator[Problem]:
+    """Every FILE= of the deck itself that names no file, if it is known where files could be.
+
+    Without the file of its profile the seabed is not known.
+    """
+    deck = scene.context.written
+    if deck.folder is None:
+        return
+    files = list(_files(deck))
+    parameters = Parameters(deck) if files else None
+    for where, written in files:
+        name = parameters.filled(written) if parameters else written
+        name = file_name(name)
+        if "%" not in name and find_file(deck.folder, name) is None:
+            folder = deck.folder.as_posix()
+            message = (
+                f"the file {shown(name)} is not there (looked in {folder}): correct the name, or put the file there"
+            )
+            profile = bool(scene.floor.missing) and where == scene.floor.where._replace(path=("file",))
+            yield Problem(REF015, message, where=where, blocks=Blocks.ALWAYS if profile else Blocks.NEVER)
+
+
+def _files(deck: Deck) -> Iterator[tuple[Where, str]]:
+    """Every field of a keyword with a model that names a file."""
+    for i, section in enumerate(deck.own_sections):
+        for j, block in enumerate(section.blocks):
+            if isinstance(block, Block):
+                yield from ((Where(i, j, path), name) for path, name in names_given(block, Names.FILE) if name)

@@ -1,4 +1,4 @@
-"""Elements: tables and generators to numbers and node indices."""
+"""Nodes and elements: tables and generators to numbers, coordinates, node indices and lengths."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from mudline.codes.references import REF005, REF006, REF010
-from mudline.diagnostics import Blocks, Severity, Where
+from mudline.codes.references import REF005, REF006, REF007, REF010
+from mudline.diagnostics import Blocks, Problem, Severity, Where
 from mudline.keywords.table import Table
 from mudline.keywords.text import shown
 from mudline.scene.context import MOST_TOLD, Context
-from mudline.scene.external import ExternalElements
+from mudline.scene.external_elements import ExternalElements
 from mudline.scene.numbering import (
     LARGEST,
     MOST_GENERATED,
@@ -26,11 +26,114 @@ from mudline.scene.numbering import (
     blocks_of,
     whole_numbers,
 )
-from mudline.scene.repeats import tell_repeats
 from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:
     from mudline.keywords.library.element import ElementPattern, ElementRows, Elements
+    from mudline.keywords.library.node import NodeRange, NodeRows, Nodes
+
+
+@dataclass(frozen=True, slots=True)
+class _NodeLine:
+    """Nodes between two others, not yet placed."""
+
+    batch: Batch
+    ends: tuple[int, int]
+
+    def place(self, first: Floats, last: Floats) -> None:
+        """Evenly spaced, exactly so where the spacing is a whole number."""
+        count = len(self.batch.ids)
+        for block in blocks_of(count):
+            steps = np.arange(block.start + 1, block.stop + 1)[:, np.newaxis]
+            with np.errstate(over="ignore", invalid="ignore"):
+                self.batch.values[block] = first + (last - first) * steps / (count + 1)
+
+
+def read_nodes(context: Context, external: ExternalElements | None = None) -> Numbered:
+    """The nodes of the model with their coordinates (n, 3); NaN where a coordinate is not known.
+
+    Nodes that only `external` elements name have no coordinates.
+    """
+    gathered = Gathered()
+    waiting: list[_NodeLine] = []
+    for where, block in context.deck.blocks("NODE"):
+        for index, entry in enumerate(cast("Nodes", block).entries):
+            place = where._replace(path=("entries", index))
+            if hasattr(entry, "nodes"):
+                _add_nodes(context, gathered, cast("NodeRows", entry), place)
+            elif line := _node_line(context, gathered, entry.generate, place):
+                gathered.add(line.batch)
+                if not _between(gathered, line):
+                    waiting.append(line)
+    for line in waiting:
+        _late(context, gathered, line)
+    if external is not None:
+        known = gathered.settle(3)
+        extra = np.unique(external.nodes)
+        extra = extra[known.indices(extra) < 0]
+        gathered.add(Batch(extra, np.full((len(extra), 3), np.nan), Where()))
+    nodes = gathered.settle(3)
+    tell_repeats(context, nodes, nodes.repeats, "node")
+    return nodes
+
+
+def _add_nodes(context: Context, gathered: Gathered, entry: NodeRows, where: Where) -> None:
+    table = entry.nodes
+    numbers, known = whole_numbers(table.column(0))
+    values = np.column_stack([table.column(1), table.column(2), table.column(3, default=0.0)])
+    if known.all():
+        gathered.add(Batch(numbers, values, where, "nodes"))
+        return
+    context.unread.add("NODE")
+    rows = np.flatnonzero(known)
+    gathered.add(Batch(numbers[rows], values[rows], where, "nodes", rows))
+
+
+def _node_line(context: Context, gathered: Gathered, given: NodeRange, where: Where) -> _NodeLine | None:
+    place = where._replace(path=(*where.path, "generate"))
+    numbers = context.generator(given, place)
+    if numbers is None:
+        context.unread.add("NODE")
+        return None
+    start, end, step = numbers
+    count = -1 if step < 1 or end <= start or (end - start) % step else (end - start) // step - 1
+    fault = f"GEN={start}, {end}, {step} does not lead from node {start} to node {end}: correct it" if count < 0 else ""
+    if count > MOST_GENERATED - gathered.generated:
+        fault = (
+            f"GEN={start}, {end}, {step} would make {count} nodes: a deck must not generate more than {MOST_GENERATED}"
+        )
+    if fault:
+        context.tell(REF010, fault, place, Severity.ERROR)
+        context.doubtful.setdefault("NODE", []).append((min(start, end), max(start, end)))
+        return None
+    ids = np.arange(start + step, end, step, dtype=np.int64)
+    return _NodeLine(Batch(ids, np.full((count, 3), np.nan), place), (start, end))
+
+
+def _between(gathered: Gathered, line: _NodeLine) -> bool:
+    """Place the nodes of a line, if its ends are defined by now."""
+    first, last = (gathered.find(number) for number in line.ends)
+    if first is None or last is None:
+        return False
+    line.place(first, last)
+    return True
+
+
+def _late(context: Context, gathered: Gathered, line: _NodeLine) -> None:
+    """A line whose ends were not defined before it: they may stand behind it, or nowhere."""
+    where = line.batch.where
+    if _between(gathered, line):
+        first, last = line.ends
+        message = (
+            f"GEN= places nodes between two that exist, and node {first} or {last} is defined only after this line: "
+            "that definition is taken (inferred); put it first"
+        )
+        context.tell(REF006, message, where, Severity.WARNING)
+        return
+    for position, number in enumerate(line.ends):
+        if gathered.find(number) is None:
+            message = f"GEN= places nodes between two that exist: node {number} is not defined; define it in *NODE"
+            context.tell_missing(REF006, message, where._replace(path=(*where.path, position)), "NODE", number)
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,9 +154,9 @@ def read_elements(context: Context, nodes: Numbered, external: ExternalElements 
         for index, entry in enumerate(cast("Elements", block).entries):
             place = where._replace(path=("entries", index))
             if hasattr(entry, "elements"):
-                _table(context, gathered, cast("ElementRows", entry), place)
+                _add_elements(context, gathered, cast("ElementRows", entry), place)
             else:
-                _generate(context, gathered, entry.generate, place)
+                _add_pattern(context, gathered, entry.generate, place)
     own = sum(len(batch.ids) for batch in gathered.batches)
     if external is not None:
         gathered.add(Batch(external.ids, external.nodes.astype(np.float64), Where()))
@@ -67,11 +170,11 @@ def read_elements(context: Context, nodes: Numbered, external: ExternalElements 
     return ElementTable(elements, indices, length)
 
 
-def _table(context: Context, gathered: Gathered, entry: ElementRows, where: Where) -> None:
+def _add_elements(context: Context, gathered: Gathered, entry: ElementRows, where: Where) -> None:
     table = entry.elements
     numbers, known = whole_numbers(table.column(0))
     ends = np.column_stack([table.column(1), table.column(2)])
-    _labels(context, table, where)
+    _check_labels(context, table, where)
     if known.all():
         gathered.add(Batch(numbers, ends, where, "elements"))
         return
@@ -80,7 +183,7 @@ def _table(context: Context, gathered: Gathered, entry: ElementRows, where: Wher
     gathered.add(Batch(numbers[rows], ends[rows], where, "elements", rows))
 
 
-def _labels(context: Context, table: Table, where: Where) -> None:
+def _check_labels(context: Context, table: Table, where: Where) -> None:
     """Labelled nodes come from blocks that are not read; without such a block a label names nothing."""
     labels = [(row, column, word) for (row, column), word in table.words.items() if word and 0 < column < 3]
     if context.definers:
@@ -94,7 +197,7 @@ def _labels(context: Context, table: Table, where: Where) -> None:
             context.note(replace(context.missing(REF006, message, place, "NODE"), blocks=Blocks.ALWAYS))
 
 
-def _generate(context: Context, gathered: Gathered, given: ElementPattern, where: Where) -> None:
+def _add_pattern(context: Context, gathered: Gathered, given: ElementPattern, where: Where) -> None:
     place = where._replace(path=(*where.path, "generate"))
     numbers = context.generator(given, place)
     if numbers is None:
@@ -184,3 +287,30 @@ def distances(points: Floats, others: Floats) -> Floats:
         scale = np.where((largest > 0.0) & (largest < np.inf), largest, 1.0)
         found[odd] = scale * np.sqrt(((span[odd] / scale[:, None]) ** 2).sum(axis=1))
     return found
+
+
+def tell_repeats(context: Context, numbered: Numbered, repeats: Indices, thing: str) -> None:
+    """Tell of definitions (rows) whose number an earlier one has: each row of a table, a generator once."""
+    if not repeats.size:
+        return
+    batches, begins = np.unique(numbered.batches_of(repeats), return_index=True)
+    ends = [*begins.tolist()[1:], len(repeats)]
+    for batch, begin, end in zip(batches.tolist(), begins.tolist(), ends, strict=True):
+        if numbered.batches[batch].table:
+            for row in repeats[begin : min(end, begin + MOST_TOLD + 1)].tolist():
+                _report_repeat(context, numbered, row, thing, 1)
+        else:
+            _report_repeat(context, numbered, int(repeats[begin]), thing, end - begin)
+
+
+def _report_repeat(context: Context, numbered: Numbered, row: int, thing: str, count: int) -> None:
+    where = numbered.where_row(row)
+    number = numbered.ids_of(np.array([row]))
+    first = numbered.where_row(int(numbered.firsts[numbered.indices(number)[0]]))
+    what = f"{thing} {number[0]} is" if count == 1 else f"{count} {thing}s (first: {number[0]}) are"
+    message = f"{what} defined twice: the later definition holds; remove one"
+    if first.section == where.section:
+        context.note(Problem(REF007, message, where=where, blocks=Blocks.NEVER))
+    else:
+        message += " (inferred: the $MODEL sections of a file make one model)"
+        context.tell(REF007, message, where, Severity.WARNING)

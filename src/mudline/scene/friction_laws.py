@@ -1,24 +1,20 @@
-"""Friction of the nodes: `*SEABED FRICTION`, else `FRICTION=` of `*SEABED PROPERTIES` or of the legacy surface."""
+"""Friction of the nodes, and the trenches that elements lie in."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
 from mudline.contact.input import LawAssignment, LawKind
-from mudline.scene.contact_parts.picking import at_nodes, marked, picked, touched
-from mudline.scene.contact_parts.units import LARGEST_MOBILISATION
-from mudline.scene.given import number
-from mudline.scene.numbering import Floats, Indices, Mask
+from mudline.scene.deck_values import LARGEST_MOBILISATION
+from mudline.scene.numbering import Floats, Indices, Mask, at_nodes, marked, touched
 
 if TYPE_CHECKING:
+    from mudline.keywords.library.seabed_trench import TrenchSet
     from mudline.scene.extensions import Extension
-    from mudline.scene.model import Scene
-
-KEYWORD = "SEABED FRICTION"
-_PAIR = ("first", "second")
+    from mudline.scene.resolved import ResolvedDeck
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -30,7 +26,7 @@ class _Springs:
     mobilisation: Floats
 
 
-def node_friction(scene: Scene, lateral: Indices) -> LawAssignment:
+def node_friction(scene: ResolvedDeck, lateral: Indices) -> LawAssignment:
     """The friction of the nodes that have any.
 
     Nodes of elements with a lateral spring (`lateral` (k,)) have no transverse coefficient; nodes of a rigid seabed
@@ -40,14 +36,14 @@ def node_friction(scene: Scene, lateral: Indices) -> LawAssignment:
     springs = _of_properties(scene)
     active = (springs.coefficients > 0.0).any(axis=1)
     ellipse, angle = np.zeros(count, dtype=np.bool_), np.full(count, np.nan)
-    extension = scene.extensions.get(KEYWORD)
+    extension = scene.extensions.get("SEABED FRICTION")
     if extension is not None:
         block = at_nodes(extension.of_element, ends, count)
         here = block >= 0
         springs = _replaced(springs, _of_keyword(extension, block), here)
         active = active | here
         ellipse = marked((getattr(entry, "criterion", None) == "ELLIPSE" for entry in extension.entries), block)
-        angle = picked((number(entry, "directions") for entry in extension.entries), block)
+        angle = extension.values(block, "directions")
     springs.coefficients[np.unique(ends[lateral]), 1] = 0.0
     rows = np.flatnonzero(active & ~touched(scene.law == LawKind.RIGID, ends, count))
     parameters = {"elliptic": ellipse[rows], "angle": angle[rows]}
@@ -58,7 +54,7 @@ def node_friction(scene: Scene, lateral: Indices) -> LawAssignment:
     return LawAssignment("friction", rows, parameters)
 
 
-def _of_properties(scene: Scene) -> _Springs:
+def _of_properties(scene: ResolvedDeck) -> _Springs:
     """Springs by mobilisation length; the default at a node is the least of its elements' lengths, up to a largest."""
     ends, count = scene.element_nodes, len(scene.node_ids)
     block = at_nodes(scene.bed.of_element, ends, count)
@@ -73,7 +69,7 @@ def _of_properties(scene: Scene) -> _Springs:
     return _Springs(given["friction"], np.full((count, 2), np.nan), np.where(np.isfinite(length), length, np.nan))
 
 
-def _shortest(scene: Scene) -> Floats:
+def _shortest(scene: ResolvedDeck) -> Floats:
     """The least length of each node's elements; infinite where none is above 0."""
     shortest = np.full(len(scene.node_ids), np.inf)
     usable = np.isfinite(scene.length) & (scene.length > 0.0)
@@ -83,11 +79,10 @@ def _shortest(scene: Scene) -> Floats:
 
 
 def _of_keyword(extension: Extension, block: Indices) -> _Springs:
-    columns = [
-        [picked((number(getattr(entry, part, None), name) for entry in extension.entries), block) for name in _PAIR]
+    coefficients, stiffness = (
+        np.column_stack([extension.values(block, part, name) for name in ("first", "second")])
         for part in ("coefficients", "stiffness")
-    ]
-    coefficients, stiffness = (np.column_stack(pair) for pair in columns)
+    )
     stiffness[:, 1] = np.where(np.isnan(stiffness[:, 1]), stiffness[:, 0], stiffness[:, 1])
     return _Springs(coefficients, stiffness, np.full(stiffness.shape, np.nan))
 
@@ -99,3 +94,47 @@ def _replaced(springs: _Springs, other: _Springs, where: Mask) -> _Springs:
         np.where(at, other.stiffness, springs.stiffness),
         np.where(at, other.mobilisation, springs.mobilisation),
     )
+
+
+_LINE = (("start_y", "y0"), ("start_z", "z0"), ("end_y", "y1"), ("end_z", "z1"))
+
+
+def trenches(scene: ResolvedDeck) -> list[LawAssignment]:
+    """The elements in trenches with a peak resistance, a tabulated one, or sloped walls."""
+    extension = scene.extensions["SEABED TRENCH"]
+    entries = _trench_sets(scene)
+    if not (extension.of_element >= 0).any():
+        return []
+    walls = np.array([entry.model == "WALL" for entry in entries])
+    tabulated = np.array([_has_table(entry) for entry in entries])
+    table = np.cumsum(tabulated) - 1.0
+    found = []
+    for law, blocks, name in (
+        ("trench peak", ~walls & ~tabulated, "peak"),
+        ("trench table", tabulated, "table"),
+        ("trench wall", walls, "depth"),
+    ):
+        rows = np.flatnonzero((extension.of_element >= 0) & blocks[extension.of_element])
+        block = extension.of_element[rows]
+        path = ("geometry", "depth") if name == "depth" else ("peak",)
+        parameters = {
+            "bottom": extension.values(block, "geometry", "bottom_width"),
+            "upper": extension.values(block, "geometry", "upper_width"),
+            name: table[block] if name == "table" else extension.values(block, *path),
+            **{ours: extension.values(block, "centreline", theirs) for ours, theirs in _LINE},
+        }
+        found.append(LawAssignment(law, rows, parameters))
+    return found
+
+
+def resistance_tables(scene: ResolvedDeck) -> list[Floats]:
+    """The tables (k, 2) of the blocks that have one, in their order."""
+    return [entry.table.values for entry in _trench_sets(scene) if _has_table(entry) and entry.table is not None]
+
+
+def _has_table(entry: TrenchSet) -> bool:
+    return entry.model != "WALL" and entry.peak == "TABLE"
+
+
+def _trench_sets(scene: ResolvedDeck) -> list[TrenchSet]:
+    return cast("list[TrenchSet]", scene.extensions["SEABED TRENCH"].entries)

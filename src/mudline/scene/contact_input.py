@@ -1,0 +1,262 @@
+"""What a scene hands to the evaluator: laws, seabed, and what is left out and why.
+
+Modules of what few decks ask for are imported when a deck does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from importlib.util import find_spec
+from typing import TYPE_CHECKING, Literal, cast
+
+import numpy as np
+
+from mudline.codes import RUN001
+from mudline.contact.errors import ElementError
+from mudline.contact.input import ContactInput, LawAssignment, LawKind
+from mudline.contact.seabed.base import PlanesSeabed, SeabedError, SlopingSeabed
+from mudline.diagnostics import DeckError, Problem, Where
+from mudline.scene.numbering import Floats, Indices, Mask
+from mudline.scene.resolved import LawArrays, ResolvedDeck
+from mudline.scene.seabed import Floor, FloorKind
+from mudline.scene.section_weight import submerged_weight
+
+if TYPE_CHECKING:
+    from mudline.contact.seabed.base import Seabed
+    from mudline.contact.seabed.profile import Interpolation
+
+
+def contact_input(scene: ResolvedDeck, tension: Literal["keep", "cut"]) -> ContactInput:
+    """The arrays that the evaluator is made from; raises DeckError (RUN001) for what no check covers."""
+    if problems := list(_refusals(scene)):
+        raise DeckError(scene.deck.diagnose(problems))
+    try:
+        return _contact_input(scene, tension)
+    except ElementError as error:
+        index = int(np.flatnonzero(scene.element_ids == error.element)[0])
+        raise _refused(scene, str(error), scene.table.numbered.where(index)) from error
+
+
+def _contact_input(scene: ResolvedDeck, tension: Literal["keep", "cut"]) -> ContactInput:
+    arrays = scene.law_arrays()
+    assigned = (*_normal_laws(scene, arrays), *_suction_laws(scene), *_lateral_laws(scene))
+    laws = tuple(law for law in assigned if len(law.rows))
+    return ContactInput(
+        node_ids=scene.node_ids,
+        coordinates=scene.coordinates,
+        element_ids=scene.element_ids,
+        element_nodes=scene.element_nodes,
+        length=np.where(np.isfinite(scene.length), scene.length, 0.0),  # what is not finite has no spring
+        diameter=scene.diameter,
+        laws=laws,
+        curves=arrays.curves,
+        tables=tuple(_tables(scene)),
+        tension=tension,
+        seabed=_seabed(scene),
+        weight=submerged_weight(scene),
+        left_out=_left_out(scene, [law.law for law in laws]),
+    )
+
+
+def _refused(scene: ResolvedDeck, why: str, where: Where) -> DeckError:
+    return DeckError(scene.deck.diagnose([Problem(RUN001, f"{why}; this cannot be evaluated", where=where)]))
+
+
+def _refusals(scene: ResolvedDeck) -> Iterator[Problem]:
+    """What no check covers: a problem for each kind, at the first element concerned."""
+    springs = np.isin(scene.law, (LawKind.CURVE, LawKind.LINEAR))
+    unknown = scene.element_nodes.min(axis=1, initial=0) < 0
+    yield from _refusal(scene, unknown, "ends at a node that is not known", "end at nodes that are not known")
+    endless = springs & ~np.isfinite(scene.length) & ~unknown
+    yield from _refusal(scene, endless, "has no known finite length", "have no known finite length")
+
+
+def _refusal(scene: ResolvedDeck, found: Mask, one: str, many: str) -> Iterator[Problem]:
+    at = np.flatnonzero(found)
+    if at.size:
+        number = scene.element_ids[at[0]]
+        what = f"element {number} {one}" if at.size == 1 else f"{at.size} elements (first: {number}) {many}"
+        where = scene.table.numbered.where(int(at[0]))
+        yield Problem(RUN001, f"{what}; this cannot be evaluated", where=where)
+
+
+def _tables(scene: ResolvedDeck) -> list[Floats]:
+    """The tables that trenches point to."""
+    if "SEABED TRENCH" not in scene.extensions:
+        return []
+    from mudline.scene.friction_laws import resistance_tables  # noqa: PLC0415 - only now is it needed
+
+    return resistance_tables(scene)
+
+
+def _normal_laws(scene: ResolvedDeck, arrays: LawArrays) -> list[LawAssignment]:
+    """Curves, linear laws, nodal laws, unloading."""
+    (on_curve,), (linear,) = (np.nonzero(scene.law == kind) for kind in (LawKind.CURVE, LawKind.LINEAR))
+    laws = [
+        LawAssignment("rigid", np.flatnonzero(scene.law == LawKind.RIGID)),
+        LawAssignment("curve", on_curve, {"curve": arrays.curve_index[on_curve]}),
+    ]
+    smoothed = np.zeros(len(scene.element_ids), dtype=np.bool_)
+    if "SEABED CONTACT" in scene.extensions:
+        from mudline.scene.normal_laws import element_smoothing  # noqa: PLC0415 - only now is it needed
+
+        smoothing = element_smoothing(scene)
+        smoothed[smoothing.rows] = True
+        laws.append(smoothing)
+    plain = linear[~smoothed[linear]]
+    laws.append(LawAssignment("linear", plain, {"stiffness": arrays.linear_stiffness[plain]}))
+    if (scene.law == LawKind.NODAL).any():
+        from mudline.scene.normal_laws import nodal_springs  # noqa: PLC0415 - only now is it needed
+
+        laws.append(nodal_springs(scene))
+    if "SEABED UNLOADING" in scene.extensions:
+        from mudline.scene.normal_laws import unloading_lines  # noqa: PLC0415 - only now is it needed
+
+        laws.append(unloading_lines(scene))
+    return laws
+
+
+def _suction_laws(scene: ResolvedDeck) -> list[LawAssignment]:
+    laws = []
+    if _given(scene, "suction"):
+        stiffness, extent = scene.bed.column("suction"), scene.bed.column("extent")
+        # a spring without an extent of its zone holds nothing
+        rows = np.flatnonzero((stiffness > 0.0) & (extent > 0.0) & (scene.law != LawKind.RIGID))
+        laws.append(LawAssignment("suction spring", rows, {"stiffness": stiffness[rows], "extent": extent[rows]}))
+    if "SEABED SUCTION" in scene.extensions:
+        from mudline.scene.normal_laws import element_suction  # noqa: PLC0415 - only now is it needed
+
+        laws.append(element_suction(scene))
+    return laws
+
+
+def _lateral_laws(scene: ResolvedDeck) -> list[LawAssignment]:
+    """Lateral springs, friction, trenches."""
+    laws = []
+    if _given(scene, "lateral"):
+        lateral = _lateral(scene)
+        laws.append(LawAssignment("lateral", lateral, {"stiffness": scene.bed.column("lateral")[lateral]}))
+    friction = friction_of(scene)
+    if friction is not None:
+        laws.append(friction)
+    if "SEABED TRENCH" in scene.extensions:
+        from mudline.scene.friction_laws import trenches  # noqa: PLC0415 - only now is it needed
+
+        laws += trenches(scene)
+    return laws
+
+
+def friction_of(scene: ResolvedDeck) -> LawAssignment | None:
+    """The friction of the nodes; None where nothing gives any."""
+    if "SEABED FRICTION" not in scene.extensions and not _given(scene, "friction"):
+        return None
+    from mudline.scene.friction_laws import node_friction  # noqa: PLC0415 - only now is it needed
+
+    return node_friction(scene, _lateral(scene))
+
+
+def _lateral(scene: ResolvedDeck) -> Indices:
+    """Elements with a lateral spring."""
+    if not _given(scene, "lateral"):
+        return np.zeros(0, dtype=np.intp)
+    return np.flatnonzero((scene.bed.column("lateral") > 0.0) & (scene.law != LawKind.RIGID))
+
+
+def _given(scene: ResolvedDeck, name: str) -> bool:
+    """Whether some block of the seabed gives a value above 0."""
+    return any(np.greater(getattr(values, name), 0.0).any() for values in scene.bed.values)
+
+
+def _seabed(scene: ResolvedDeck) -> Seabed | None:
+    """The shape of the seabed; None for a flat one at elevation 0.
+
+    Raises DeckError for what no check covers: files of a deck that came from no folder, points that only their
+    triangulation refuses, and a package that is missing.
+    """
+    floor = scene.floor
+    if floor.kind is FloorKind.FLAT:
+        return None
+    if floor.missing:
+        raise _refused(scene, f"the seabed is not known: {floor.missing}", floor.where)
+    if floor.kind is FloorKind.SURFACE and find_spec("scipy") is None:
+        message = "a 3D surface needs scipy, which is not installed: pip install 'mudline[study]'"
+        raise DeckError(scene.deck.diagnose([Problem(RUN001, message, where=floor.where)]))
+    try:
+        return made_seabed(floor)
+    except SeabedError as error:
+        raise _refused(scene, str(error), floor.where) from error
+
+
+def made_seabed(floor: Floor) -> Seabed:
+    """The evaluator's shape of a seabed that is not flat; raises SeabedError for numbers that make none."""
+    if floor.kind is FloorKind.SLOPING:
+        return SlopingSeabed(floor.slope, floor.direction)
+    if floor.kind is FloorKind.PROFILE:
+        from mudline.contact.seabed.profile import ProfileSeabed  # noqa: PLC0415 - only now is it needed
+
+        how = cast("Interpolation", floor.interpolation)
+        return ProfileSeabed(floor.points[:, 0], floor.points[:, 1], how, floor.direction)
+    if floor.kind is FloorKind.PLANES:
+        columns = (
+            [getattr(plane, name) for plane in floor.planes] for name in ("point", "slope", "direction", "bounds")
+        )
+        return PlanesSeabed(*map(np.array, columns))
+    from mudline.contact.seabed.scattered import ScatteredSeabed  # noqa: PLC0415 - only now is it needed
+
+    return ScatteredSeabed(floor.points, cast("Literal['LINEAR', 'CUBIC']", floor.interpolation))
+
+
+def _left_out(scene: ResolvedDeck, laws: Sequence[str]) -> dict[str, str]:
+    """By stage of the plan, what is asked for and not evaluated, or not as it is written; nothing for other stages."""
+    reasons = {
+        "smoothing": _smoothing_left_out(scene),
+        "suction": _suction_left_out(scene),
+        "friction": "; ".join(_friction_left_out(scene, laws)),
+    }
+    return {stage: why for stage, why in reasons.items() if why}
+
+
+def _smoothing_left_out(scene: ResolvedDeck) -> str:
+    if "SEABED CONTACT" not in scene.extensions:
+        return ""
+    from mudline.scene.normal_laws import weightless  # noqa: PLC0415 - only now is it needed
+
+    count = weightless(scene)
+    return f"none for {_counted(count)} of SMOOTHING=AUTO: no submerged weight above 0 is known" if count else ""
+
+
+def _suction_left_out(scene: ResolvedDeck) -> str:
+    suction = _where_given(scene, "suction")
+    if not suction.any():
+        return ""
+    extent = scene.bed.column("extent") > 0.0
+    count = int((suction & ~extent & (scene.law != LawKind.RIGID)).sum())
+    return f"SUCTION= without an extent of its zone holds nothing: {_counted(count)}" if count else ""
+
+
+def _friction_left_out(scene: ResolvedDeck, laws: Sequence[str]) -> list[str]:
+    reasons = []
+    coefficients = _where_given(scene, "friction").any(axis=1)
+    extension = scene.extensions.get("SEABED FRICTION")
+    asked = coefficients if extension is None else coefficients | (extension.of_element >= 0)
+    if count := int((asked & (scene.law == LawKind.RIGID)).sum()):
+        reasons.append(f"none on a rigid bed, whose reaction is that of a constraint: {_counted(count)}")
+    if "lateral" in laws and asked.any():
+        reasons.append("LATERAL= replaces the transverse coefficient")
+    if _where_given(scene, "constant").any():
+        reasons.append(
+            "the constant friction force coefficient is not evaluated: the manual does not say what it means"
+        )
+    if _where_given(scene, "friction_stiffness").any():
+        reasons.append("friction stiffnesses of FRICTION= are for modal and frequency runs (inferred)")
+    return reasons
+
+
+def _where_given(scene: ResolvedDeck, name: str) -> Mask:
+    """Where elements have a value of the bed above 0."""
+    found: Mask = scene.bed.column(name) > 0.0
+    return found
+
+
+def _counted(count: int) -> str:
+    return f"{count} element{'' if count == 1 else 's'}"
