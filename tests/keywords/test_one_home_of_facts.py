@@ -17,7 +17,17 @@ from mudline.keywords.model import set_slots
 ROOT = Path(mudline.__file__).parent
 
 ASKING = frozenset(
-    {"blocks", "supplier", "astray", "missing", "tell_missing", "lost_behind", "get", "add", "setdefault"}
+    {
+        "blocks",
+        "possible_definition",
+        "misplaced",
+        "missing",
+        "report_missing",
+        "has_unread_line_after",
+        "get",
+        "add",
+        "setdefault",
+    }
 )
 CONSTANTS = frozenset({"KEYWORD", "_KEYWORD"})
 

@@ -298,13 +298,13 @@ def test_what_cannot_be_evaluated_is_told_at_its_line(seabed: str, message: str)
     assert refusal(seabed).startswith(message)
 
 
-# rigid beds, floors
+# rigid and shaped seabeds
 
 
 def test_a_rigid_bed_restrains_nodes_along_its_normal() -> None:
     scene = scene_of(deck(METRIC, "*RIGID SURFACE\n 0.3, 0.4\n 1.0\n"))
     contact = scene.contact()
-    assert contact.plan["friction"].why == "none on a rigid bed, whose reaction is that of a constraint: 10 elements"
+    assert contact.plan["friction"].why == "none on a rigid seabed, whose reaction is that of a constraint: 10 elements"
     points = scene.coordinates.copy()
     points[:4, 0] = 5.0
     result = contact.evaluate(np.array([points, points + np.array([9.0, 0.0, 0.0])]))

@@ -94,20 +94,20 @@ def test_all_is_open_where_elements_are_not_shown() -> None:
 def test_a_law_that_could_not_be_read_is_unknown(line: str, expected: list[str]) -> None:
     text = PIPE + f"*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n {line}\n"
     assert [code for _, code, _, _ in all_told(text)] == expected
-    grant = scene_of(text).laws.grants[0]
+    grant = scene_of(text).laws.set_laws[0]
     assert grant.unknown
 
 
 def test_a_law_beside_a_bad_friction_is_known() -> None:
     text = PIPE + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=5\n FRICTION=O.3\n"
-    assert not scene_of(text).laws.grants[0].unknown
+    assert not scene_of(text).laws.set_laws[0].unknown
 
 
 def test_a_lost_line_of_one_set_leaves_the_others_known() -> None:
     text = PIPE + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFNESS=5\n SET=ALL\n LATERAL=0\n"
-    assert [grant.unknown for grant in scene_of(text).laws.grants] == [True, False]
+    assert [grant.unknown for grant in scene_of(text).laws.set_laws] == [True, False]
     last = PIPE + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n LATERAL=0\n SET=ALL\n STIFNESS=5\n$MODES\n"
-    assert [grant.unknown for grant in scene_of(last).laws.grants] == [False, True]
+    assert [grant.unknown for grant in scene_of(last).laws.set_laws] == [False, True]
 
 
 @pytest.mark.parametrize("type_", ["ELASTC", "", "RIGID, ELASTIC"])
@@ -127,7 +127,7 @@ def test_a_curve_that_could_not_be_made_makes_its_law_unknown() -> None:
     text = PIPE + STEEL + CLAY.replace(" 0.5, 4000.0\n", "") + "*SEABED PROPERTIES\n TYPE=ELASTIC\n"
     scene = scene_of(text + " SET=ALL\n STIFFNESS=clay\n")
     assert [problem.code.code for problem in scene.problems] == ["CRV001"]
-    assert scene.laws.grants[0].unknown
+    assert scene.laws.set_laws[0].unknown
 
 
 def test_a_set_that_could_not_be_read_gives_its_law_to_nothing() -> None:

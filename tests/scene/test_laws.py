@@ -22,7 +22,7 @@ def laws(text: str) -> str:
 
 
 def stiffnesses(scene: Scene) -> list[float | None]:
-    grants = [scene.grant(index) for index in range(len(scene.element_ids))]
+    grants = [scene.set_law(index) for index in range(len(scene.element_ids))]
     return [None if grant is None or math.isnan(grant.stiffness) else grant.stiffness for grant in grants]
 
 
@@ -62,7 +62,7 @@ def test_names_of_curves_have_no_case() -> None:
 
 def test_of_two_curves_of_a_name_the_later_is_taken() -> None:
     scene = scene_of(NEW + " SET=a\n STIFFNESS=clay\n*SEABED STIFFNESS\n CURVE=clay\n 0, 0\n 1, 7\n")
-    grant = scene.grant(0)
+    grant = scene.set_law(0)
     assert grant is not None
     assert scene.laws.curves[grant.curve].points.tolist() == [[0, 0], [1, 7]]
 
@@ -165,7 +165,7 @@ def test_without_a_seabed_there_is_no_law() -> None:
     scene = scene_of(BASE)
     assert scene.law_names == ["none"] * 10
     assert scene.law_sets == [None] * 10
-    assert scene.grant(3) is None
+    assert scene.set_law(3) is None
 
 
 # ----------------------------------------------------------------------------------------------------------- checks
@@ -205,7 +205,7 @@ def test_an_elastic_surface_without_stiffness_needs_embedment() -> None:
 def test_a_stiffness_that_could_not_be_read_is_not_missing(row: str) -> None:
     scene = scene_of(BASE + f"*ELASTIC SURFACE\n {row}\n")
     assert "SBD004" not in [problem.code.code for problem in scene.problems]
-    grant = scene.grant(0)
+    grant = scene.set_law(0)
     assert grant is not None
     assert grant.unknown
 

@@ -123,7 +123,7 @@ def test_a_profile_is_looked_for_beside_the_deck_that_names_it(folder: Path) -> 
     (folder / "base" / "bed.txt").write_text("0, -1\n10, -2\n")
     (folder / "base" / "static.keyxm").write_text(STATIC + "*SEABED PROFILE\n TYPE=2D\n FILE=bed.txt\n")
     found = scene(folder, RESTART.format("base\\static"))
-    assert found.floor.points.tolist() == [[0.0, -1.0], [10.0, -2.0]]
+    assert found.seabed.points.tolist() == [[0.0, -1.0], [10.0, -2.0]]
 
 
 # ------------------------------------------------------------------------------------------------------ which file

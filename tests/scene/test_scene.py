@@ -195,4 +195,4 @@ def test_legacy_surfaces_are_evaluated_the_same_way() -> None:
     profile = PIPE + "*RIGID SURFACE\n 0.3\n 0, 0\n 10, 1\n"
     plan = scene_of(profile).contact().plan
     assert plan["floor"].why.startswith("straight lines through 2 points")
-    assert plan["friction"].why == "none on a rigid bed, whose reaction is that of a constraint: 10 elements"
+    assert plan["friction"].why == "none on a rigid seabed, whose reaction is that of a constraint: 10 elements"

@@ -8,15 +8,15 @@ import numpy as np
 import pytest
 
 from mudline.diagnostics import DeckError, Diagnostic, Where
-from mudline.scene.numbering import Batch, Gathered, Numbered
+from mudline.scene.numbering import Batch, Definitions, Numbered
 from mudline.scene.positions import Positions, read_positions
 
 
 def numbered(ids: list[int]) -> Numbered:
     """Nodes of these numbers at the origin, in this order."""
-    gathered = Gathered()
+    gathered = Definitions()
     gathered.add(Batch(np.array(ids, dtype=np.int64), np.zeros((len(ids), 3)), Where(0, 0)))
-    return gathered.settle(3)
+    return gathered.resolve(3)
 
 
 NODES: Numbered = numbered([10, 20, 30])

@@ -14,10 +14,10 @@ from mudline.deck.parameters import folded
 from mudline.migration.migrating import Migration
 from mudline.migration.stand_ins import StandIns
 from mudline.migration.sweep import depths_of
-from mudline.scene.laws import BedValues
+from mudline.scene.laws import ResistanceValues
 from mudline.scene.model import Scene, resolve
 from mudline.scene.numbering import Floats, Indices
-from mudline.scene.seabed import Floor, parse_profile
+from mudline.scene.seabed import SeabedShape, parse_profile
 
 
 class Difference(NamedTuple):
@@ -58,14 +58,14 @@ def verify(migration: Migration) -> Verdict:
 
 
 def _floors(before: Scene, after: Scene, files: dict[str, bytes]) -> Iterator[Difference]:
-    floor = after.floor
+    floor = after.seabed
     if floor.file in files:
         floor = replace(floor, points=parse_profile(files[floor.file], floor.file, 2), missing="", file="")
-    if not before.floor.same(floor):
-        yield Difference("the bed", f"{_shape(before.floor)} before, {_shape(floor)} after")
+    if not before.seabed.same(floor):
+        yield Difference("the bed", f"{_shape(before.seabed)} before, {_shape(floor)} after")
 
 
-def _shape(floor: Floor) -> str:
+def _shape(floor: SeabedShape) -> str:
     return f"{floor.kind.value} (slope {floor.slope!r}, {len(floor.points)} points)"
 
 
@@ -103,8 +103,8 @@ def _kinds(before: Scene, after: Scene) -> Indices:
     columns = [
         before.laws.of_element,
         after.laws.of_element,
-        before.bed.of_element,
-        after.bed.of_element,
+        before.resistance.of_element,
+        after.resistance.of_element,
         before.diameter.view(np.int64),
         after.diameter.view(np.int64),
     ]
@@ -145,10 +145,10 @@ def _laws(before: Scene, after: Scene, chosen: Indices) -> Iterator[tuple[int, s
 
 def _beds(before: Scene, after: Scene, chosen: Indices) -> Iterator[tuple[int, str]]:
     """Friction, lateral resistance and suction: a coefficient, resistance or suction that is not given is 0."""
-    for name in BedValues._fields:
+    for name in ResistanceValues._fields:
         if name == "characteristic":  # checked before: those in force are the default, which the new family has as well
             continue
-        one, other = (np.asarray(scene.bed.column(name)[chosen], dtype=np.float64) for scene in (before, after))
+        one, other = (np.asarray(scene.resistance.column(name)[chosen], dtype=np.float64) for scene in (before, after))
         if name in ("friction", "lateral", "suction"):
             one, other = (np.where(np.isnan(values), 0.0, values) for values in (one, other))
         same = _same_bits(one, other).reshape(len(chosen), -1).all(axis=1)
@@ -158,7 +158,7 @@ def _beds(before: Scene, after: Scene, chosen: Indices) -> Iterator[tuple[int, s
 
 def _sets(scene: Scene) -> list[str]:
     """The sets that laws name, each once, in the order of the last block that names it."""
-    names = [grant.set_.name for grant in scene.laws.grants if grant.set_ is not scene.set_table.everything]
+    names = [grant.set_.name for grant in scene.laws.set_laws if grant.set_ is not scene.set_table.everything]
     last = {folded(name): name for name in names}
     order = {folded(name): position for position, name in enumerate(names)}
     return [last[key] for key in sorted(last, key=lambda key: order[key])]

@@ -172,7 +172,7 @@ def _told(scene: Scene) -> Iterator[None]:
 
 
 def _require_elements(scene: Scene) -> None:
-    definers = scene.set_table.context.definers
+    definers = scene.set_table.context.external_definers
     hint = f": *{definers[0]} may make them, and is not read; give them with --elements" if definers else ""
     if not len(scene.element_ids):
         raise _refusal(scene, f"the deck has no elements to evaluate{hint}")

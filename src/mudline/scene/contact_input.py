@@ -18,7 +18,7 @@ from mudline.contact.seabed.base import PlanesSeabed, SeabedError, SlopingSeabed
 from mudline.diagnostics import DeckError, Problem, Where
 from mudline.scene.numbering import Floats, Indices, Mask
 from mudline.scene.resolved import LawArrays, ResolvedDeck
-from mudline.scene.seabed import Floor, FloorKind
+from mudline.scene.seabed import SeabedKind, SeabedShape
 from mudline.scene.section_weight import submerged_weight
 
 if TYPE_CHECKING:
@@ -119,7 +119,7 @@ def _normal_laws(scene: ResolvedDeck, arrays: LawArrays) -> list[LawAssignment]:
 def _suction_laws(scene: ResolvedDeck) -> list[LawAssignment]:
     laws = []
     if _given(scene, "suction"):
-        stiffness, extent = scene.bed.column("suction"), scene.bed.column("extent")
+        stiffness, extent = scene.resistance.column("suction"), scene.resistance.column("extent")
         # a spring without an extent of its zone holds nothing
         rows = np.flatnonzero((stiffness > 0.0) & (extent > 0.0) & (scene.law != LawKind.RIGID))
         laws.append(LawAssignment("suction spring", rows, {"stiffness": stiffness[rows], "extent": extent[rows]}))
@@ -135,7 +135,7 @@ def _lateral_laws(scene: ResolvedDeck) -> list[LawAssignment]:
     laws = []
     if _given(scene, "lateral"):
         lateral = _lateral(scene)
-        laws.append(LawAssignment("lateral", lateral, {"stiffness": scene.bed.column("lateral")[lateral]}))
+        laws.append(LawAssignment("lateral", lateral, {"stiffness": scene.resistance.column("lateral")[lateral]}))
     friction = friction_of(scene)
     if friction is not None:
         laws.append(friction)
@@ -159,12 +159,12 @@ def _lateral(scene: ResolvedDeck) -> Indices:
     """Elements with a lateral spring."""
     if not _given(scene, "lateral"):
         return np.zeros(0, dtype=np.intp)
-    return np.flatnonzero((scene.bed.column("lateral") > 0.0) & (scene.law != LawKind.RIGID))
+    return np.flatnonzero((scene.resistance.column("lateral") > 0.0) & (scene.law != LawKind.RIGID))
 
 
 def _given(scene: ResolvedDeck, name: str) -> bool:
     """Whether some block of the seabed gives a value above 0."""
-    return any(np.greater(getattr(values, name), 0.0).any() for values in scene.bed.values)
+    return any(np.greater(getattr(values, name), 0.0).any() for values in scene.resistance.values)
 
 
 def _seabed(scene: ResolvedDeck) -> Seabed | None:
@@ -173,37 +173,37 @@ def _seabed(scene: ResolvedDeck) -> Seabed | None:
     Raises DeckError for what no check covers: files of a deck that came from no folder, points that only their
     triangulation refuses, and a package that is missing.
     """
-    floor = scene.floor
-    if floor.kind is FloorKind.FLAT:
+    seabed = scene.seabed
+    if seabed.kind is SeabedKind.FLAT:
         return None
-    if floor.missing:
-        raise _refused(scene, f"the seabed is not known: {floor.missing}", floor.where)
-    if floor.kind is FloorKind.SURFACE and find_spec("scipy") is None:
+    if seabed.missing:
+        raise _refused(scene, f"the seabed is not known: {seabed.missing}", seabed.where)
+    if seabed.kind is SeabedKind.SURFACE and find_spec("scipy") is None:
         message = "a 3D surface needs scipy, which is not installed: pip install 'mudline[study]'"
-        raise DeckError(scene.deck.diagnose([Problem(RUN001, message, where=floor.where)]))
+        raise DeckError(scene.deck.diagnose([Problem(RUN001, message, where=seabed.where)]))
     try:
-        return made_seabed(floor)
+        return made_seabed(seabed)
     except SeabedError as error:
-        raise _refused(scene, str(error), floor.where) from error
+        raise _refused(scene, str(error), seabed.where) from error
 
 
-def made_seabed(floor: Floor) -> Seabed:
+def made_seabed(seabed: SeabedShape) -> Seabed:
     """The evaluator's shape of a seabed that is not flat; raises SeabedError for numbers that make none."""
-    if floor.kind is FloorKind.SLOPING:
-        return SlopingSeabed(floor.slope, floor.direction)
-    if floor.kind is FloorKind.PROFILE:
+    if seabed.kind is SeabedKind.SLOPING:
+        return SlopingSeabed(seabed.slope, seabed.direction)
+    if seabed.kind is SeabedKind.PROFILE:
         from mudline.contact.seabed.profile import ProfileSeabed  # noqa: PLC0415 - only now is it needed
 
-        how = cast("Interpolation", floor.interpolation)
-        return ProfileSeabed(floor.points[:, 0], floor.points[:, 1], how, floor.direction)
-    if floor.kind is FloorKind.PLANES:
+        how = cast("Interpolation", seabed.interpolation)
+        return ProfileSeabed(seabed.points[:, 0], seabed.points[:, 1], how, seabed.direction)
+    if seabed.kind is SeabedKind.PLANES:
         columns = (
-            [getattr(plane, name) for plane in floor.planes] for name in ("point", "slope", "direction", "bounds")
+            [getattr(plane, name) for plane in seabed.planes] for name in ("point", "slope", "direction", "bounds")
         )
         return PlanesSeabed(*map(np.array, columns))
     from mudline.contact.seabed.scattered import ScatteredSeabed  # noqa: PLC0415 - only now is it needed
 
-    return ScatteredSeabed(floor.points, cast("Literal['LINEAR', 'CUBIC']", floor.interpolation))
+    return ScatteredSeabed(seabed.points, cast("Literal['LINEAR', 'CUBIC']", seabed.interpolation))
 
 
 def _left_out(scene: ResolvedDeck, laws: Sequence[str]) -> dict[str, str]:
@@ -229,7 +229,7 @@ def _suction_left_out(scene: ResolvedDeck) -> str:
     suction = _where_given(scene, "suction")
     if not suction.any():
         return ""
-    extent = scene.bed.column("extent") > 0.0
+    extent = scene.resistance.column("extent") > 0.0
     count = int((suction & ~extent & (scene.law != LawKind.RIGID)).sum())
     return f"SUCTION= without an extent of its zone holds nothing: {_counted(count)}" if count else ""
 
@@ -240,7 +240,7 @@ def _friction_left_out(scene: ResolvedDeck, laws: Sequence[str]) -> list[str]:
     extension = scene.extensions.get("SEABED FRICTION")
     asked = coefficients if extension is None else coefficients | (extension.of_element >= 0)
     if count := int((asked & (scene.law == LawKind.RIGID)).sum()):
-        reasons.append(f"none on a rigid bed, whose reaction is that of a constraint: {_counted(count)}")
+        reasons.append(f"none on a rigid seabed, whose reaction is that of a constraint: {_counted(count)}")
     if "lateral" in laws and asked.any():
         reasons.append("LATERAL= replaces the transverse coefficient")
     if _where_given(scene, "constant").any():
@@ -253,8 +253,8 @@ def _friction_left_out(scene: ResolvedDeck, laws: Sequence[str]) -> list[str]:
 
 
 def _where_given(scene: ResolvedDeck, name: str) -> Mask:
-    """Where elements have a value of the bed above 0."""
-    found: Mask = scene.bed.column(name) > 0.0
+    """Where elements have a value of the seabed above 0."""
+    found: Mask = scene.resistance.column(name) > 0.0
     return found
 
 

@@ -57,9 +57,9 @@ def node_friction(scene: ResolvedDeck, lateral: Indices) -> LawAssignment:
 def _of_properties(scene: ResolvedDeck) -> _Springs:
     """Springs by mobilisation length; the default at a node is the least of its elements' lengths, up to a largest."""
     ends, count = scene.element_nodes, len(scene.node_ids)
-    block = at_nodes(scene.bed.of_element, ends, count)
+    block = at_nodes(scene.resistance.of_element, ends, count)
     given = {
-        name: np.array([*(getattr(entry, name) for entry in scene.bed.values), (np.nan, np.nan)])[block]
+        name: np.array([*(getattr(entry, name) for entry in scene.resistance.values), (np.nan, np.nan)])[block]
         for name in ("friction", "mobilisation", "characteristic")
     }
     largest = np.fmin(given["characteristic"], np.inf)

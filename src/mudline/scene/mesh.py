@@ -11,14 +11,14 @@ from mudline.codes.references import REF005, REF006, REF007, REF010
 from mudline.diagnostics import Blocks, Problem, Severity, Where
 from mudline.keywords.table import Table
 from mudline.keywords.text import shown
-from mudline.scene.context import MOST_TOLD, Context
+from mudline.scene.context import MOST_REPORTED, Context
 from mudline.scene.external_elements import ExternalElements
 from mudline.scene.numbering import (
     LARGEST,
     MOST_GENERATED,
     Batch,
+    Definitions,
     Floats,
-    Gathered,
     Ids,
     Indices,
     Mask,
@@ -54,7 +54,7 @@ def read_nodes(context: Context, external: ExternalElements | None = None) -> Nu
 
     Nodes that only `external` elements name have no coordinates.
     """
-    gathered = Gathered()
+    gathered = Definitions()
     waiting: list[_NodeLine] = []
     for where, block in context.deck.blocks("NODE"):
         for index, entry in enumerate(cast("Nodes", block).entries):
@@ -68,16 +68,16 @@ def read_nodes(context: Context, external: ExternalElements | None = None) -> Nu
     for line in waiting:
         _late(context, gathered, line)
     if external is not None:
-        known = gathered.settle(3)
+        known = gathered.resolve(3)
         extra = np.unique(external.nodes)
         extra = extra[known.indices(extra) < 0]
         gathered.add(Batch(extra, np.full((len(extra), 3), np.nan), Where()))
-    nodes = gathered.settle(3)
-    tell_repeats(context, nodes, nodes.repeats, "node")
+    nodes = gathered.resolve(3)
+    report_repeats(context, nodes, nodes.repeats, "node")
     return nodes
 
 
-def _add_nodes(context: Context, gathered: Gathered, entry: NodeRows, where: Where) -> None:
+def _add_nodes(context: Context, gathered: Definitions, entry: NodeRows, where: Where) -> None:
     table = entry.nodes
     numbers, known = whole_numbers(table.column(0))
     values = np.column_stack([table.column(1), table.column(2), table.column(3, default=0.0)])
@@ -89,7 +89,7 @@ def _add_nodes(context: Context, gathered: Gathered, entry: NodeRows, where: Whe
     gathered.add(Batch(numbers[rows], values[rows], where, "nodes", rows))
 
 
-def _node_line(context: Context, gathered: Gathered, given: NodeRange, where: Where) -> _NodeLine | None:
+def _node_line(context: Context, gathered: Definitions, given: NodeRange, where: Where) -> _NodeLine | None:
     place = where._replace(path=(*where.path, "generate"))
     numbers = context.generator(given, place)
     if numbers is None:
@@ -103,14 +103,14 @@ def _node_line(context: Context, gathered: Gathered, given: NodeRange, where: Wh
             f"GEN={start}, {end}, {step} would make {count} nodes: a deck must not generate more than {MOST_GENERATED}"
         )
     if fault:
-        context.tell(REF010, fault, place, Severity.ERROR)
+        context.report(REF010, fault, place, Severity.ERROR)
         context.doubtful.setdefault("NODE", []).append((min(start, end), max(start, end)))
         return None
     ids = np.arange(start + step, end, step, dtype=np.int64)
     return _NodeLine(Batch(ids, np.full((count, 3), np.nan), place), (start, end))
 
 
-def _between(gathered: Gathered, line: _NodeLine) -> bool:
+def _between(gathered: Definitions, line: _NodeLine) -> bool:
     """Place the nodes of a line, if its ends are defined by now."""
     first, last = (gathered.find(number) for number in line.ends)
     if first is None or last is None:
@@ -119,7 +119,7 @@ def _between(gathered: Gathered, line: _NodeLine) -> bool:
     return True
 
 
-def _late(context: Context, gathered: Gathered, line: _NodeLine) -> None:
+def _late(context: Context, gathered: Definitions, line: _NodeLine) -> None:
     """A line whose ends were not defined before it: they may stand behind it, or nowhere."""
     where = line.batch.where
     if _between(gathered, line):
@@ -128,12 +128,12 @@ def _late(context: Context, gathered: Gathered, line: _NodeLine) -> None:
             f"GEN= places nodes between two that exist, and node {first} or {last} is defined only after this line: "
             "that definition is taken (inferred); put it first"
         )
-        context.tell(REF006, message, where, Severity.WARNING)
+        context.report(REF006, message, where, Severity.WARNING)
         return
     for position, number in enumerate(line.ends):
         if gathered.find(number) is None:
             message = f"GEN= places nodes between two that exist: node {number} is not defined; define it in *NODE"
-            context.tell_missing(REF006, message, where._replace(path=(*where.path, position)), "NODE", number)
+            context.report_missing(REF006, message, where._replace(path=(*where.path, position)), "NODE", number)
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,7 +149,7 @@ class ElementTable:
 
 def read_elements(context: Context, nodes: Numbered, external: ExternalElements | None = None) -> ElementTable:
     """The elements of the model, then those of a file, which replace them."""
-    gathered = Gathered()
+    gathered = Definitions()
     for where, block in context.deck.blocks("ELEMENT"):
         for index, entry in enumerate(cast("Elements", block).entries):
             place = where._replace(path=("entries", index))
@@ -160,8 +160,8 @@ def read_elements(context: Context, nodes: Numbered, external: ExternalElements 
     own = sum(len(batch.ids) for batch in gathered.batches)
     if external is not None:
         gathered.add(Batch(external.ids, external.nodes.astype(np.float64), Where()))
-    elements = gathered.settle(2)
-    tell_repeats(context, elements, elements.repeats[elements.repeats < own], "element")
+    elements = gathered.resolve(2)
+    report_repeats(context, elements, elements.repeats[elements.repeats < own], "element")
     indices = _join(context, elements, nodes)
     length = _lengths(indices, nodes.values)
     if external is not None:
@@ -170,7 +170,7 @@ def read_elements(context: Context, nodes: Numbered, external: ExternalElements 
     return ElementTable(elements, indices, length)
 
 
-def _add_elements(context: Context, gathered: Gathered, entry: ElementRows, where: Where) -> None:
+def _add_elements(context: Context, gathered: Definitions, entry: ElementRows, where: Where) -> None:
     table = entry.elements
     numbers, known = whole_numbers(table.column(0))
     ends = np.column_stack([table.column(1), table.column(2)])
@@ -186,18 +186,18 @@ def _add_elements(context: Context, gathered: Gathered, entry: ElementRows, wher
 def _check_labels(context: Context, table: Table, where: Where) -> None:
     """Labelled nodes come from blocks that are not read; without such a block a label names nothing."""
     labels = [(row, column, word) for (row, column), word in table.words.items() if word and 0 < column < 3]
-    if context.definers:
+    if context.external_definers:
         return
-    for row, column, word in labels[: MOST_TOLD + 1]:
+    for row, column, word in labels[: MOST_REPORTED + 1]:
         place = where._replace(path=(*where.path, "elements", row, column))
-        if context.doubted(place):
+        if context.is_guessed_label(place):
             context.cannot_place(place)
         else:
             message = f"node {shown(word)} is a label, and nothing in this deck makes labelled nodes: give a number"
             context.note(replace(context.missing(REF006, message, place, "NODE"), blocks=Blocks.ALWAYS))
 
 
-def _add_pattern(context: Context, gathered: Gathered, given: ElementPattern, where: Where) -> None:
+def _add_pattern(context: Context, gathered: Definitions, given: ElementPattern, where: Where) -> None:
     place = where._replace(path=(*where.path, "generate"))
     numbers = context.generator(given, place)
     if numbers is None:
@@ -205,7 +205,7 @@ def _add_pattern(context: Context, gathered: Gathered, given: ElementPattern, wh
         return
     master, count, step = numbers
     if fault := _pattern_fault(gathered, master, count, step):
-        context.tell(REF010, fault, place, Severity.ERROR)
+        context.report(REF010, fault, place, Severity.ERROR)
         context.doubtful.setdefault("ELEMENT", []).append((master, LARGEST))
         return
     ends = gathered.find(master)
@@ -213,13 +213,13 @@ def _add_pattern(context: Context, gathered: Gathered, given: ElementPattern, wh
         message = (
             f"GEN= repeats an element that exists: element {master} is not defined before this line; define it there"
         )
-        context.tell_missing(REF005, message, place._replace(path=(*place.path, 0)), "ELEMENT", master)
+        context.report_missing(REF005, message, place._replace(path=(*place.path, 0)), "ELEMENT", master)
         ends = np.full(2, np.nan)
     steps = np.arange(1, count, dtype=np.int64) * step
     gathered.add(Batch(master + steps, ends + steps[:, np.newaxis], place))
 
 
-def _pattern_fault(gathered: Gathered, master: int, count: int, step: int) -> str:
+def _pattern_fault(gathered: Definitions, master: int, count: int, step: int) -> str:
     if count < 1 or step < 1:
         return f"GEN={master}, {count}, {step}: the number of elements and the increment must be at least 1"
     if count - 1 > MOST_GENERATED - gathered.generated:
@@ -247,7 +247,7 @@ def _join(context: Context, elements: Numbered, nodes: Numbered) -> Indices:
     batches = elements.batches_of(elements.rows[lost[:, 0]])
     generators = np.array([not batch.table for batch in elements.batches], dtype=bool)[batches]
     _, firsts = np.unique(np.where(generators, batches, -1 - np.arange(len(lost))), return_index=True)
-    for index, end in lost[np.sort(firsts)[: MOST_TOLD + 1]].tolist():
+    for index, end in lost[np.sort(firsts)[: MOST_REPORTED + 1]].tolist():
         where = elements.where(index)
         number = int(elements.values[index, end])
         message = f"element {elements.ids[index]} ends at node {number}, which is not defined: define it"
@@ -289,7 +289,7 @@ def distances(points: Floats, others: Floats) -> Floats:
     return found
 
 
-def tell_repeats(context: Context, numbered: Numbered, repeats: Indices, thing: str) -> None:
+def report_repeats(context: Context, numbered: Numbered, repeats: Indices, thing: str) -> None:
     """Tell of definitions (rows) whose number an earlier one has: each row of a table, a generator once."""
     if not repeats.size:
         return
@@ -297,7 +297,7 @@ def tell_repeats(context: Context, numbered: Numbered, repeats: Indices, thing: 
     ends = [*begins.tolist()[1:], len(repeats)]
     for batch, begin, end in zip(batches.tolist(), begins.tolist(), ends, strict=True):
         if numbered.batches[batch].table:
-            for row in repeats[begin : min(end, begin + MOST_TOLD + 1)].tolist():
+            for row in repeats[begin : min(end, begin + MOST_REPORTED + 1)].tolist():
                 _report_repeat(context, numbered, row, thing, 1)
         else:
             _report_repeat(context, numbered, int(repeats[begin]), thing, end - begin)
@@ -313,4 +313,4 @@ def _report_repeat(context: Context, numbered: Numbered, row: int, thing: str, c
         context.note(Problem(REF007, message, where=where, blocks=Blocks.NEVER))
     else:
         message += " (inferred: the $MODEL sections of a file make one model)"
-        context.tell(REF007, message, where, Severity.WARNING)
+        context.report(REF007, message, where, Severity.WARNING)

@@ -14,12 +14,12 @@ from mudline.scene.context import Context
 from mudline.scene.extensions import read_extensions
 from mudline.scene.external_elements import ExternalElements
 from mudline.scene.force_curves import read_curves
-from mudline.scene.laws import read_bed, read_laws
+from mudline.scene.laws import read_laws, read_resistance
 from mudline.scene.mesh import read_elements, read_nodes
 from mudline.scene.references import check_boundaries, check_lines, check_references, check_soil
 from mudline.scene.resolved import ResolvedDeck
 from mudline.scene.restart import continued
-from mudline.scene.seabed import read_floor
+from mudline.scene.seabed import read_seabed
 from mudline.scene.sections import read_sections
 from mudline.scene.sets import read_sets
 from mudline.short_repr import counted, cut, outline
@@ -31,14 +31,14 @@ if TYPE_CHECKING:
 
 _INTERNAL = frozenset(
     [
-        "bed",
+        "resistance",
         "blocking",
         "context",
         "errors",
         "extensions",
         "findings",
-        "floor",
-        "grant",
+        "seabed",
+        "set_law",
         "law_arrays",
         "law_name",
         "laws",
@@ -142,7 +142,7 @@ def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:
     ready, problems = evaluated(whole)
     context = Context(ready, whole, [*found, *problems])
     if external is not None:
-        context.definers = []
+        context.external_definers = []
     nodes = read_nodes(context, external)
     elements = read_elements(context, nodes, external)
     count = len(elements.numbered)
@@ -150,12 +150,12 @@ def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:
     sections = read_sections(context, sets, elements.numbered, external)
     named, by_set = read_curves(context)
     laws = read_laws(context, sets, named, by_set, count)
-    bed = read_bed(context, laws)
+    resistance = read_resistance(context, laws)
     extensions = read_extensions(context, sets, count)
-    floor = read_floor(context)
+    seabed = read_seabed(context)
     check_lines(context)
     check_references(context, sets, laws, with_soil=external is None)
     if external is None:  # a file of elements does not tell of every node and set
         check_soil(context, nodes)
         check_boundaries(context, nodes)
-    return Scene(ready, nodes, elements, sets, sections, laws, bed, extensions, floor, context.problems)
+    return Scene(ready, nodes, elements, sets, sections, laws, resistance, extensions, seabed, context.problems)

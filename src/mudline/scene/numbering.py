@@ -100,7 +100,7 @@ class Batch:
 
 
 @dataclass(slots=True)
-class Gathered:
+class Definitions:
     """Definitions in the order of the file, numbered through as rows."""
 
     batches: list[Batch] = field(default_factory=list)
@@ -148,7 +148,7 @@ class Gathered:
         self._ids = ids[self._rows]
         self._recent = {}
 
-    def settle(self, width: int) -> Numbered:
+    def resolve(self, width: int) -> Numbered:
         """The definitions that hold, in the order in which their numbers first appear, and those given twice.
 
         `width` is the number of values of a definition.

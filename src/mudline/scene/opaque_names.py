@@ -21,29 +21,29 @@ _MANY = 1000
 _WORD = re.compile(r"[^-+.,0-9 \t]")
 
 
-def definers(deck: Deck) -> list[str]:
+def external_definers(deck: Deck) -> list[str]:
     """Keywords of the model that make nodes, elements or sets which the deck does not show; those not read first."""
     present = catalogue.in_order(deck.keywords())
     found = [keyword for keyword in present if _makes(keyword)]
-    return sorted(found, key=is_laid)
+    return sorted(found, key=is_read_definer)
 
 
-def is_laid(keyword: str) -> bool:
+def is_read_definer(keyword: str) -> bool:
     """Whether a keyword is read, and the lines that it is about make things which the deck does not show."""
     declared = catalogue.declared(keyword)
     return declared is not None and bool(declared.facts.makes)
 
 
-def may_define(definer: str, keyword: str) -> str:
+def definition_by(definer: str, keyword: str) -> str:
     """How a definer may define a thing that is a matter of `keyword`, in words; "" when it cannot."""
     if keyword not in _makes(definer):
         return ""
-    if is_laid(definer):
+    if is_read_definer(definer):
         return f"the lines of *{definer}, which this deck does not show, may define it"
     return f"*{definer}, which is not read, may define it"
 
 
-def may_label(definer: str) -> bool:
+def makes_labels(definer: str) -> bool:
     """Whether a definer gives labels to nodes."""
     kept = catalogue.kept_of("MODEL", definer)
     return kept is not None and kept.labels
@@ -56,12 +56,12 @@ def _makes(keyword: str) -> tuple[str, ...]:
     return kept.makes if kept else ()
 
 
-def harvested_sets(deck: Deck) -> dict[str, str]:
+def opaque_set_names(deck: Deck) -> dict[str, str]:
     """Names of the element sets that lines make, as first written, by their folded form."""
     return _first_written(name for block in _model(deck) for name in _sets(block))
 
 
-def harvested_labels(deck: Deck) -> dict[str, str]:
+def opaque_labels(deck: Deck) -> dict[str, str]:
     """Texts among the lines of kept blocks that may be labels of nodes, as first written, by their folded form."""
     return _first_written(text for block in _model(deck) for text in _texts(block))
 

@@ -22,10 +22,10 @@ from mudline.keywords.kept import Names
 from mudline.keywords.model import Block, names_given
 from mudline.keywords.text import shown
 from mudline.keywords.values import Label
-from mudline.scene.context import MOST_TOLD, Context
+from mudline.scene.context import MOST_REPORTED, Context
 from mudline.scene.laws import LawTable
 from mudline.scene.numbering import Numbered
-from mudline.scene.opaque_names import bare, may_label
+from mudline.scene.opaque_names import bare, makes_labels
 from mudline.scene.sets import Sets
 
 if TYPE_CHECKING:
@@ -76,19 +76,19 @@ class NamedNodes:
             self.numbers.append(node)
             self.places.append(where)
 
-    def tell(self) -> None:
+    def report(self) -> None:
         """Tell of the numbers that nothing defines."""
         missing = np.flatnonzero(self.nodes.indices(np.array(self.numbers, dtype=np.int64)) < 0)
-        for index in missing[: MOST_TOLD + 1].tolist() if self.judged else ():
+        for index in missing[: MOST_REPORTED + 1].tolist() if self.judged else ():
             number = self.numbers[index]
             message = f"node {number} is not defined: define it in *NODE, or correct the number"
-            self.context.tell_missing(REF006, message, self.places[index], "NODE", number)
+            self.context.report_missing(REF006, message, self.places[index], "NODE", number)
 
     def _label(self, label: Label, where: Where) -> None:
         check_label(self.context, REF006, label, where)
-        if self.judged and not self.context.definers and not self.context.doubted(where):
+        if self.judged and not self.context.external_definers and not self.context.is_guessed_label(where):
             message = f"node {shown(label)} is a label, and nothing in this deck makes labelled nodes: give a number"
-            self.context.tell_missing(REF006, message, where, "NODE")
+            self.context.report_missing(REF006, message, where, "NODE")
 
 
 def check_soil(context: Context, nodes: Numbered) -> None:
@@ -98,7 +98,7 @@ def check_soil(context: Context, nodes: Numbered) -> None:
         for i, springs in enumerate(cast("LateralSoil", block).sets):
             for j, curve in enumerate(springs.curves):
                 named.add(getattr(curve, "node", None), where._replace(path=("sets", i, "curves", j, "node")))
-    named.tell()
+    named.report()
 
 
 _MOST_FREEDOMS = 6
@@ -111,7 +111,7 @@ def check_boundaries(context: Context, nodes: Numbered) -> None:
         types = cast("Boundary", block).types
         if not types and not context.deck.origin.lost(where.section, where.block):
             message = "*BOUNDARY holds nothing: give TYPE= and nodes below it, or remove it"
-            context.tell(SYN001, message, where, Severity.WARNING)
+            context.report(SYN001, message, where, Severity.WARNING)
         for i, held in enumerate(types):
             for j, entry in enumerate(held.entries):
                 place = where._replace(path=("types", i, "entries", j))
@@ -119,7 +119,7 @@ def check_boundaries(context: Context, nodes: Numbered) -> None:
                     checker.range(cast("FixedRange", entry), place)
                 else:
                     checker.node(entry, place)
-    checker.named.tell()
+    checker.named.report()
 
 
 class _BoundaryChecker:
@@ -132,7 +132,7 @@ class _BoundaryChecker:
         """A node with its degree of freedom."""
         self.named.add(entry.node, where._replace(path=(*where.path, "node")))
         if _is_no_freedom(entry.dof):
-            self._tell_freedom(entry.dof, where._replace(path=(*where.path, "dof")))
+            self._report_freedom(entry.dof, where._replace(path=(*where.path, "dof")))
 
     def range(self, entry: FixedRange, where: Where) -> None:
         """The nodes of a GEN=, and their degree of freedom."""
@@ -144,29 +144,29 @@ class _BoundaryChecker:
         freedom = (values.third, values.fourth)[at - 2]
         if freedom is None:
             message = "this GEN= has no degree of freedom: write start, end [, increment], dof [, displacement]"
-            self.context.tell(SYN003, message, place)
+            self.context.report(SYN003, message, place)
         elif _is_no_freedom(freedom):
-            self._tell_freedom(freedom, place._replace(path=(*place.path, at)))
+            self._report_freedom(freedom, place._replace(path=(*place.path, at)))
         start, end = values.start, values.end
         if isinstance(start, int) and isinstance(end, int) and isinstance(step, int):
             self._nodes(start, end, step, place)
 
-    def _tell_freedom(self, given: object, where: Where) -> None:
+    def _report_freedom(self, given: object, where: Where) -> None:
         message = f"{given} is no degree of freedom: expected 1 (vertical), 2 or 3 (horizontal), or 4 to 6 (rotations)"
-        self.context.tell(SYN005, message, where)
+        self.context.report(SYN005, message, where)
 
     def _nodes(self, start: int, end: int, step: int, where: Where) -> None:
         """The nodes of a range, without building it: it may be as long as a slip of the pen makes it."""
         written = f"GEN= holds the nodes from {start} to {end} in steps of {step}"
         if end < start or step < 1:
             why = "the increment must be at least 1" if step < 1 else "the end must not come before the start"
-            self.context.tell(REF010, f"{written}: there are none, {why}", where, Severity.ERROR)
+            self.context.report(REF010, f"{written}: there are none, {why}", where, Severity.ERROR)
             return
         found = len(self.nodes.between(start, end, step)) if len(self.nodes) else 0
         wanted = (end - start) // step + 1
-        if found < wanted and self.named.judged and not self.context.supplier("NODE"):
+        if found < wanted and self.named.judged and not self.context.possible_definition("NODE"):
             message = f"{written}: {wanted - found} of these {wanted} are not defined; correct it, or define them"
-            self.context.tell(REF006, message, where, Severity.WARNING if found else None)
+            self.context.report(REF006, message, where, Severity.WARNING if found else None)
 
 
 def _freedom_and_step(values: FixedValues) -> tuple[int, object]:
@@ -200,14 +200,14 @@ def check_lines(context: Context) -> None:
     for where, block in context.deck.blocks("LINE PATH SECTIONS"):
         for index, path in enumerate(cast("LinePathSections", block).paths):
             place = where._replace(path=("paths", index))
-            if path.line and _PATHS in context.definers:
+            if path.line and _PATHS in context.external_definers:
                 inner = place._replace(path=(*place.path, "line"))
                 _check_name(context, ("LINE=", "line", _PATHS), path.line, inner, context.labels)
             for number, section in enumerate(path.sections):
                 if section.repeat:
                     inner = place._replace(path=(*place.path, "sections", number, "repeat"))
                     _check_name(context, ("REPEAT=", "group", _GROUPS), section.repeat, inner, groups)
-    for code, label, where in chain(_of_elements(context), _of_sets(context)) if context.definers else ():
+    for code, label, where in chain(_of_elements(context), _of_sets(context)) if context.external_definers else ():
         check_label(context, code, label, where)
 
 
@@ -217,13 +217,13 @@ def check_label(context: Context, code: Code, label: str, where: Where) -> None:
     Nothing is said of other labels: lines are not read, and may make labels in ways that are not known.
     """
     name = bare(label)
-    if not context.definers or folded(name) in context.labels:
+    if not context.external_definers or folded(name) in context.labels:
         return
     near = context.near(name, context.labels)
-    if near and _is_slip(folded(name), near) and not context.doubted(where):
-        makers = " or ".join(f"*{keyword}" for keyword in context.definers if may_label(keyword))
+    if near and _is_slip(folded(name), near) and not context.is_guessed_label(where):
+        makers = " or ".join(f"*{keyword}" for keyword in context.external_definers if makes_labels(keyword))
         message = f"label {shown(label)} does not stand in {makers} (did you mean {{{context.labels[near]}}}?)"
-        context.tell(code, f"{message}: correct it", where, Severity.WARNING)
+        context.report(code, f"{message}: correct it", where, Severity.WARNING)
 
 
 def _is_slip(name: str, near: str) -> bool:
@@ -239,8 +239,8 @@ def _check_name(context: Context, what: tuple[str, str, str], name: str, where: 
     near = context.near(name, known)
     hint = f" (did you mean {known[near]}?)" if near else ""
     message = f"{key} names no {thing}: {shown(name)} is not defined{hint}; define it in *{keyword}"
-    supplier = context.supplier(keyword)
-    context.tell(REF001, f"{message}; {supplier}" if supplier else message, where, Severity.WARNING)
+    supplier = context.possible_definition(keyword)
+    context.report(REF001, f"{message}; {supplier}" if supplier else message, where, Severity.WARNING)
 
 
 def _groups(context: Context) -> dict[str, str]:

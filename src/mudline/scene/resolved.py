@@ -18,10 +18,10 @@ from mudline.keywords.text import shown, suggestion
 from mudline.scene.context import Context
 from mudline.scene.extensions import Extension, with_nodal_stiffness
 from mudline.scene.force_curves import SceneCurve
-from mudline.scene.laws import Bed, Grant, LawTable
+from mudline.scene.laws import LawTable, SeabedResistance, SetLaw
 from mudline.scene.mesh import ElementTable
 from mudline.scene.numbering import Floats, Ids, Indices, Mask, Numbered
-from mudline.scene.seabed import Floor
+from mudline.scene.seabed import SeabedShape
 from mudline.scene.sections import SectionTable
 from mudline.scene.sets import Sets, set_key
 from mudline.short_repr import counted, cut, listed, short_repr
@@ -124,9 +124,9 @@ class ResolvedDeck:
         set_table: sets as indices.
         section_table: cross-sections of the elements.
         laws: what gives each element its normal law.
-        bed: friction, lateral stiffness and suction of each element.
+        resistance: friction, lateral stiffness and suction of each element.
         extensions: what the extension keywords say of each element, by keyword.
-        floor: shape of the seabed.
+        seabed: shape of the seabed.
         noticed: what went wrong while the deck was resolved.
     """
 
@@ -136,9 +136,9 @@ class ResolvedDeck:
     set_table: Sets
     section_table: SectionTable
     laws: LawTable
-    bed: Bed
+    resistance: SeabedResistance
     extensions: dict[str, Extension]
-    floor: Floor
+    seabed: SeabedShape
     noticed: list[Problem]
 
     @property
@@ -200,10 +200,10 @@ class ResolvedDeck:
                 held[folded(entry.name)] = entry
         return ByName("curve", ((entry.name, entry.curve) for entry in held.values() if entry.curve is not None))
 
-    def grant(self, element: int) -> Grant | None:
+    def set_law(self, element: int) -> SetLaw | None:
         """What gives the element of an index its law."""
         index = int(self.laws.of_element[element])
-        return self.laws.grants[index] if index >= 0 else None
+        return self.laws.set_laws[index] if index >= 0 else None
 
     @cached_property
     def nodal(self) -> Mask:
@@ -211,31 +211,31 @@ class ResolvedDeck:
         contact = self.extensions.get("SEABED CONTACT")
         if contact is None:
             return np.zeros(len(self.element_ids), dtype=np.bool_)
-        found: Mask = with_nodal_stiffness(contact) & (self._granted != LawKind.RIGID)
+        found: Mask = with_nodal_stiffness(contact) & (self._given_kind != LawKind.RIGID)
         return found
 
     @cached_property
-    def _granted(self) -> NDArray[np.int8]:
+    def _given_kind(self) -> NDArray[np.int8]:
         """`LawKind` of what each element is granted, whatever replaces it."""
-        kinds = np.array([*(grant.kind for grant in self.laws.grants), LawKind.NONE], dtype=np.int8)
+        kinds = np.array([*(set_law.kind for set_law in self.laws.set_laws), LawKind.NONE], dtype=np.int8)
         return kinds[self.laws.of_element]
 
     @cached_property
     def law(self) -> NDArray[np.int8]:
         """`LawKind` of each element (m,)."""
-        return np.where(self.nodal, np.int8(LawKind.NODAL), self._granted)
+        return np.where(self.nodal, np.int8(LawKind.NODAL), self._given_kind)
 
     @cached_property
     def law_names(self) -> list[str]:
         """`curve:NAME`, `linear`, `nodal`, `rigid` or `none` for each element."""
-        names = [*(self.law_name(grant) for grant in self.laws.grants), "nodal", "none"]
+        names = [*(self.law_name(set_law) for set_law in self.laws.set_laws), "nodal", "none"]
         index = np.where(self.nodal, len(names) - 2, self.laws.of_element)
         return [names[position] for position in index.tolist()]
 
     @cached_property
     def law_sets(self) -> list[str | None]:
         """Name of the set through which each element got its law; None without a law."""
-        names = [None if grant.kind is LawKind.NONE else grant.set_.name for grant in self.laws.grants]
+        names = [None if set_law.kind is LawKind.NONE else set_law.set_.name for set_law in self.laws.set_laws]
         found = [[*names, None][index] for index in self.laws.of_element.tolist()]
         for element in np.flatnonzero(self.nodal).tolist():
             contact = self.extensions["SEABED CONTACT"]
@@ -243,21 +243,21 @@ class ResolvedDeck:
             found[element] = None if holder is None else holder.name
         return found
 
-    def law_name(self, grant: Grant) -> str:
-        """Name of the law that a grant gives."""
-        if grant.kind is LawKind.CURVE and grant.curve >= 0:
-            return f"curve:{self.laws.curves[grant.curve].name}"
-        return grant.kind.name.lower()
+    def law_name(self, set_law: SetLaw) -> str:
+        """Name of the law that a set_law gives."""
+        if set_law.kind is LawKind.CURVE and set_law.curve >= 0:
+            return f"curve:{self.laws.curves[set_law.curve].name}"
+        return set_law.kind.name.lower()
 
     def law_arrays(self) -> LawArrays:
         """The law of every element as arrays, whatever else is known of it."""
-        linear = np.array([*(grant.stiffness for grant in self.laws.grants), np.nan])[self.laws.of_element]
+        linear = np.array([*(set_law.stiffness for set_law in self.laws.set_laws), np.nan])[self.laws.of_element]
         usable = [index for index, entry in enumerate(self.laws.curves) if entry.curve is not None]
         number = {index: position for position, index in enumerate(usable)}
-        curve_of_grant = np.array([*(number.get(grant.curve, -1) for grant in self.laws.grants), -1], dtype=np.intp)
+        curve_of_law = np.array([*(number.get(set_law.curve, -1) for set_law in self.laws.set_laws), -1], dtype=np.intp)
         return LawArrays(
             self.law,
-            np.where(self.nodal, -1, curve_of_grant[self.laws.of_element]),
+            np.where(self.nodal, -1, curve_of_law[self.laws.of_element]),
             tuple(entry.curve for entry in self.laws.curves if entry.curve is not None),
             np.where(self.nodal, np.nan, linear),
         )

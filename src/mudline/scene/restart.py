@@ -16,7 +16,7 @@ from mudline.deck.model import Deck
 from mudline.deck.parameters import Parameters
 from mudline.diagnostics import DeckError, Problem, Where
 from mudline.keywords.text import shown
-from mudline.scene.continued import Base, continuation, lent
+from mudline.scene.continued import Base, as_base_problem, continuation
 from mudline.scene.deck_values import file_name, find_file
 
 if TYPE_CHECKING:
@@ -59,7 +59,7 @@ def continued(deck: Deck) -> tuple[Deck, list[Problem]]:
     if not chain.bases:
         return deck, problems
     for base in chain.bases:
-        problems += (lent(problem, base.deck) for problem in base.errors)
+        problems += (as_base_problem(problem, base.deck) for problem in base.errors)
     return continuation(deck, chain.bases, incomplete=bool(chain.fault)), problems
 
 
@@ -111,7 +111,7 @@ def _follow(deck: Deck) -> _Chain:
 
 def _missing(deck: Deck, name: str) -> str:
     folder = deck.folder.as_posix() if deck.folder else ""
-    names = tried(deck, name)
+    names = candidate_names(deck, name)
     return f"the deck {shown(names[0])} is not there (looked in {folder} for {', '.join(names)}): {_MEND}"
 
 
@@ -195,7 +195,7 @@ _MOST_LISTED = 20_000
 """Files of a folder that are looked through for a name in another case."""
 
 
-def tried(deck: Deck, written: str) -> list[str]:
+def candidate_names(deck: Deck, written: str) -> list[str]:
     """The names that a LAST= may stand for: as written, then with the deck's own suffix, then with the others."""
     name = file_name(written)
     own = PurePath(deck.file).suffix
@@ -204,7 +204,7 @@ def tried(deck: Deck, written: str) -> list[str]:
 
 def find_deck(deck: Deck, written: str) -> Path | None:
     """The file that a LAST= of a deck names; of names that differ in case only, the first in sorted order."""
-    names = tried(deck, written)
+    names = candidate_names(deck, written)
     exact = (find_file(deck.folder, name) for name in names)
     return next((path for path in exact if path is not None), None) or _in_other_case(deck.folder, names)
 

@@ -29,8 +29,8 @@ if TYPE_CHECKING:
 _NO_POINTS = np.zeros((0, 2))
 
 
-class FloorKind(Enum):
-    """How the bed is given."""
+class SeabedKind(Enum):
+    """How the seabed is given."""
 
     FLAT = "flat"
     SLOPING = "sloping"
@@ -40,7 +40,7 @@ class FloorKind(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class FloorPlane:
+class SeabedPlane:
     """A plane: a point (elevation, Y, Z), slope and direction in degrees, bounds (Y and Z, infinite where open)."""
 
     name: str
@@ -51,20 +51,20 @@ class FloorPlane:
 
 
 @dataclass(frozen=True, slots=True)
-class Floor:
-    """The bed, angles in degrees, lengths in the deck's units.
+class SeabedShape:
+    """The seabed, angles in degrees, lengths in the deck's units.
 
     `points` (k, 2) are Y and elevation of a profile, (k, 3) elevation, Y and Z of a surface, in the order of the deck.
     `missing` says why they are not known, "" when they are. `unreadable` has the places of all files of points that
     could not be read, those of other profiles too, with what is wrong.
     """
 
-    kind: FloorKind = FloorKind.FLAT
+    kind: SeabedKind = SeabedKind.FLAT
     slope: float = 0.0
     direction: float = 0.0
     interpolation: str = "LINEAR"
     points: Floats = field(default_factory=lambda: _NO_POINTS)
-    planes: tuple[FloorPlane, ...] = ()
+    planes: tuple[SeabedPlane, ...] = ()
     file: str = ""
     missing: str = ""
     where: Where = field(default_factory=Where)
@@ -72,7 +72,7 @@ class Floor:
 
     __repr__ = short_repr
 
-    def same(self, other: Floor) -> bool:
+    def same(self, other: SeabedShape) -> bool:
         """Whether both are the same bed, number by number; files of points that are not known must be the same file."""
         return (
             (self.kind, self.slope, self.direction, self.interpolation, self.planes, self.missing)
@@ -82,9 +82,9 @@ class Floor:
         )
 
 
-def read_floor(context: Context) -> Floor:
-    """The bed of a deck: the last `*SEABED PLANES`, else the last `*SEABED PROFILE`, else that of the surface."""
-    found = Floor()
+def read_seabed(context: Context) -> SeabedShape:
+    """The seabed of a deck: the last `*SEABED PLANES`, else the last `*SEABED PROFILE`, else that of the surface."""
+    found = SeabedShape()
     unreadable: list[tuple[Where, str]] = []
     for where, surface in surfaces(context.deck):
         found = _surface(surface, where, found)
@@ -97,30 +97,30 @@ def read_floor(context: Context) -> Floor:
     ]
     if planes:
         where = next(where for where, _ in context.deck.blocks("SEABED PLANES"))
-        found = Floor(FloorKind.PLANES, planes=tuple(planes), where=where)
+        found = SeabedShape(SeabedKind.PLANES, planes=tuple(planes), where=where)
     return replace(found, unreadable=tuple(unreadable)) if unreadable else found
 
 
-def _surface(surface: Surface, where: Where, before: Floor) -> Floor:
+def _surface(surface: Surface, where: Where, before: SeabedShape) -> SeabedShape:
     if surface.profile is not None:
         points = np.column_stack([surface.profile.column(0), surface.profile.column(1)])
-        return Floor(FloorKind.PROFILE, points=points, where=where._replace(path=("profile",)))
+        return SeabedShape(SeabedKind.PROFILE, points=points, where=where._replace(path=("profile",)))
     if surface.slope is not None:
-        return Floor(FloorKind.SLOPING, number(surface, "slope"), where=where._replace(path=("slope",)))
+        return SeabedShape(SeabedKind.SLOPING, number(surface, "slope"), where=where._replace(path=("slope",)))
     return before
 
 
-def _profile(context: Context, block: SeabedProfile, where: Where, unreadable: list[tuple[Where, str]]) -> Floor:
+def _profile(context: Context, block: SeabedProfile, where: Where, unreadable: list[tuple[Where, str]]) -> SeabedShape:
     direction = number(block, "direction", 0.0)
     if block.type_ == "SLOPING":
-        return Floor(FloorKind.SLOPING, number(block, "slope"), direction, where=where)
-    kind, columns = (FloorKind.SURFACE, 3) if block.type_ == "3D" else (FloorKind.PROFILE, 2)
+        return SeabedShape(SeabedKind.SLOPING, number(block, "slope"), direction, where=where)
+    kind, columns = (SeabedKind.SURFACE, 3) if block.type_ == "3D" else (SeabedKind.PROFILE, 2)
     name = file_name(block.file or "")
     place = where._replace(path=("file",))
     points, missing, fault = _read_points(context, name, columns, place)
     if fault:
         unreadable.append((place, f"the profile {shown(name)} cannot be read: {fault}"))
-    return Floor(
+    return SeabedShape(
         kind,
         direction=direction,
         interpolation=block.interpolation or "LINEAR",
@@ -145,10 +145,10 @@ def _read_points(context: Context, name: str, columns: int, where: Where) -> tup
     return _NO_POINTS, fault, fault
 
 
-def _plane(plane: Plane) -> FloorPlane:
+def _plane(plane: Plane) -> SeabedPlane:
     point = tuple(number(plane.point, axis) for axis in ("x", "y", "z"))
     bounds = plane.bounds
-    return FloorPlane(
+    return SeabedPlane(
         plane.name,
         cast("tuple[float, float, float]", point),
         number(plane, "slope"),

@@ -81,7 +81,7 @@ def _section(context: Context, entry: GeometricSet, where: Where) -> Section:
     source, value = entry.diameter
     diameter = float(value) if isinstance(value, int | float) else math.nan
     option = next((name for name in ("flexible", "rigid", "mooring", "truss") if getattr(entry, name) is not None), "")
-    unread = context.disturbed(where) or context.disturbed(where._replace(path=(*where.path, option)))
+    unread = context.has_read_errors(where) or context.has_read_errors(where._replace(path=(*where.path, option)))
     bad = diameter < 0 or math.isnan(diameter) or (source == "Do" and diameter == 0)
     name = str(entry.set_name or "")
     return Section(name, diameter if diameter > 0 else math.nan, source, where, unread or bad)

@@ -14,7 +14,7 @@ from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
 from mudline.scene.checks.sections import format_of
-from mudline.scene.context import MOST_TOLD
+from mudline.scene.context import MOST_REPORTED
 
 if TYPE_CHECKING:
     from mudline.keywords.library.geometric_sets import GeometricSet, GeometricSets
@@ -59,7 +59,7 @@ def number_and_curve(context: LintContext) -> Iterator[Problem]:
 
     Finds: 5:2
     """
-    yield from islice(_given_twice(context.deck), MOST_TOLD)
+    yield from islice(_given_twice(context.deck), MOST_REPORTED)
 
 
 def _given_twice(deck: Deck) -> Iterator[Problem]:

@@ -18,7 +18,7 @@ from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
 from mudline.linting.rules.curves.columns import swapped
 from mudline.scene.checks.sections import format_of
-from mudline.scene.context import MOST_TOLD
+from mudline.scene.context import MOST_REPORTED
 from mudline.scene.deck_values import surfaces
 from mudline.scene.model import Scene
 
@@ -100,11 +100,11 @@ def suspicious_magnitude(context: LintContext) -> Iterator[Problem]:
     """
     if context.scene.units == "metric":
         for kind in (_soft, _weak, _wide, _fluid):
-            yield from islice(kind(context.scene), MOST_TOLD)
+            yield from islice(kind(context.scene), MOST_REPORTED)
 
 
 def _soft(scene: Scene) -> Iterator[Problem]:
-    for grant in scene.laws.grants:
+    for grant in scene.laws.set_laws:
         if grant.kind is LawKind.LINEAR and not grant.unknown and 0.0 < grant.stiffness < SOFTEST:
             message = f"a seabed stiffness of {grant.stiffness!r} N/m per metre: write it in newtons (kN?)"
             yield Problem(UNT002, message, where=grant.where)
@@ -159,7 +159,7 @@ def large_friction(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:11
     """
-    yield from islice(_large(context.scene.deck), MOST_TOLD)
+    yield from islice(_large(context.scene.deck), MOST_REPORTED)
 
 
 def _large(deck: Deck) -> Iterator[Problem]:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from mudline.diagnostics import Code, Problem
 from mudline.resources import modules_of
 from mudline.scene import checks
-from mudline.scene.context import MORE, MOST_TOLD
+from mudline.scene.context import MORE, MOST_REPORTED
 
 if TYPE_CHECKING:
     from mudline.scene.resolved import ResolvedDeck
@@ -59,5 +59,5 @@ def checked(scene: ResolvedDeck) -> list[Problem]:
 
 def _first(check: Check, scene: ResolvedDeck) -> Iterator[Problem]:
     """What a check finds, without the rest where it is very much."""
-    for count, problem in enumerate(islice(check.find(scene), MOST_TOLD + 1)):
-        yield problem if count < MOST_TOLD else replace(problem, message=MORE)
+    for count, problem in enumerate(islice(check.find(scene), MOST_REPORTED + 1)):
+        yield problem if count < MOST_REPORTED else replace(problem, message=MORE)

@@ -44,10 +44,10 @@ def extension_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
     Finds: 6:1
     """
     reading, types = scene.context, scene.laws.types
-    unclear = "SEABED PROPERTIES" in scene.deck.keywords() or reading.astray("SEABED PROPERTIES")
+    unclear = "SEABED PROPERTIES" in scene.deck.keywords() or reading.misplaced("SEABED PROPERTIES")
     if "ELASTIC" in types or (unclear and "RIGID" not in types):
         return
-    supplier = "" if "RIGID" in types else reading.supplier("ELASTIC SURFACE")
+    supplier = "" if "RIGID" in types else reading.possible_definition("ELASTIC SURFACE")
     what = "the seabed is rigid" if "RIGID" in types else "the model has none"
     for where, block in scene.deck.blocks_that(lambda declared: declared.facts.extension):
         message = f"*{block.keyword} needs an elastic seabed, and {what}: write *SEABED PROPERTIES with TYPE=ELASTIC"
@@ -125,7 +125,7 @@ def suction_incomplete(scene: ResolvedDeck) -> Iterator[Problem]:
     for index, (entry, where) in enumerate(zip(extension.entries, extension.places, strict=True)):
         lacks = {key for key in ("cohesion", "force", "depth", "regularisation") if getattr(entry, key, None) is None}
         title = where._replace(path=(*where.path, "set"))
-        whole = not scene.context.disturbed(where)
+        whole = not scene.context.has_read_errors(where)
         by_cohesion = "cohesion" not in lacks and bool(lacks & {"force", "depth"})
         if "cohesion" in lacks and lacks & {"force", "depth"} and whole:
             missing = " and ".join(f"{key.upper()}=" for key in ("force", "depth") if key in lacks)
@@ -180,7 +180,7 @@ def suction_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
     extension = scene.extensions.get("SEABED SUCTION")
     if extension is None:
         return
-    springs = (scene.bed.column("suction") > 0.0) & (scene.law != LawKind.RIGID)
+    springs = (scene.resistance.column("suction") > 0.0) & (scene.law != LawKind.RIGID)
     listed, extrapolated = (_on_curves(scene, pulls) for pulls in (_lists_pull, _may_pull))
     for index, where in enumerate(extension.places):
         place = where._replace(path=(*where.path, "set"))
@@ -210,8 +210,8 @@ def _counted(scene: ResolvedDeck, elements: Mask) -> str:
 def _on_curves(scene: ResolvedDeck, pulls: Callable[[SceneCurve], bool]) -> Mask:
     """Elements that follow a curve of some kind."""
     flags = [entry.curve is not None and pulls(entry) for entry in scene.laws.curves]
-    of_grant = [grant.curve >= 0 and flags[grant.curve] for grant in scene.laws.grants]
-    found: Mask = np.array([*of_grant, False])[scene.laws.of_element] & (scene.law == LawKind.CURVE)
+    of_law = [set_law.curve >= 0 and flags[set_law.curve] for set_law in scene.laws.set_laws]
+    found: Mask = np.array([*of_law, False])[scene.laws.of_element] & (scene.law == LawKind.CURVE)
     return found
 
 

@@ -121,7 +121,7 @@ def missing_type(scene: ResolvedDeck) -> Iterator[Problem]:
     """
     reading, told = scene.context, False
     for where, properties, type_ in typed_blocks(reading):
-        if type_ is None and not told and not reading.disturbed(where):
+        if type_ is None and not told and not reading.has_read_errors(where):
             told = True
             message = "the type is missing: write TYPE=RIGID or TYPE=ELASTIC as the first line"
             yield Problem(SBD003, message, where=where)
@@ -162,7 +162,7 @@ def missing_embedment(scene: ResolvedDeck) -> Iterator[Problem]:
     for where, block in scene.deck.blocks("ELASTIC SURFACE"):
         properties = cast("ElasticSurface", block).properties
         lacking = getattr(properties, "stiffness", None) is None
-        if lacking and not embedment and not reading.disturbed(where._replace(path=("properties",))):
+        if lacking and not embedment and not reading.has_read_errors(where._replace(path=("properties",))):
             message = "no stiffness here and no *EMBEDMENT in the model: nothing carries the elements; give a stiffness"
             yield reading.missing(SBD004, message, where, "EMBEDMENT")
 
@@ -193,7 +193,7 @@ def embedment_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
     Finds: 5:2
     """
     reading, types = scene.context, scene.laws.types
-    unread = "SEABED PROPERTIES" in scene.deck.keywords() or reading.astray("SEABED PROPERTIES")
+    unread = "SEABED PROPERTIES" in scene.deck.keywords() or reading.misplaced("SEABED PROPERTIES")
     if "RIGID" not in types and ("ELASTIC" in types or unread):
         return  # of a type that could not be read enough has been said
     first: dict[tuple[int, int], SceneCurve] = {}
@@ -254,7 +254,7 @@ def missing_diameter(scene: ResolvedDeck) -> Iterator[Problem]:
         number = scene.element_ids[missing[first]]
         what = f"element {number} has" if count == 1 else f"{count} elements (first: {number}) have"
         message = f"{what} a curve and no external diameter: give Do (or Dd) in *GEOMETRIC SETS"
-        yield lacks_diameter(scene, SBD009, message, scene.laws.grants[index].where)
+        yield lacks_diameter(scene, SBD009, message, scene.laws.set_laws[index].where)
 
 
 def lacks_diameter(scene: ResolvedDeck, code: Code, message: str, where: Where) -> Problem:
@@ -307,5 +307,7 @@ def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
 
 def _followed(scene: ResolvedDeck) -> set[Where]:
     """Where the names of missing curves stand that elements follow."""
-    lost = (i for i, grant in enumerate(scene.laws.grants) if grant.kind is LawKind.CURVE and grant.curve == NOTHING)
-    return {scene.laws.grants[index].where for index in lost if (scene.laws.of_element == index).any()}
+    lost = (
+        i for i, set_law in enumerate(scene.laws.set_laws) if set_law.kind is LawKind.CURVE and set_law.curve == NOTHING
+    )
+    return {scene.laws.set_laws[index].where for index in lost if (scene.laws.of_element == index).any()}

@@ -13,7 +13,7 @@ from mudline.diagnostics import Blocks, Code, Problem, Severity
 from mudline.keywords.text import shown
 from mudline.scene.checks.declaring import check
 from mudline.scene.deck_values import number, surfaces
-from mudline.scene.seabed import FloorKind
+from mudline.scene.seabed import SeabedKind
 
 if TYPE_CHECKING:
     from mudline.keywords.library.seabed_planes import PlaneBounds, SeabedPlanes
@@ -34,9 +34,9 @@ _VERTICAL = 90.0
 def profile_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
     """A rigid seabed has a profile that only an elastic one takes.
 
-    A rigid bed is flat, sloping or a polyline in one plane: nodes are moved back to it along its normal. A surface in
-    three dimensions needs TYPE=ELASTIC. Cubic interpolation and DIRECTION= are described for elastic beds only, which
-    is a warning (inferred).
+    A rigid seabed is flat, sloping or a polyline in one plane: nodes are moved back to it along its normal. A surface
+    in three dimensions needs TYPE=ELASTIC. Cubic interpolation and DIRECTION= are described for elastic seabeds only,
+    which is a warning (inferred).
 
     Example:
          $MODEL
@@ -70,10 +70,10 @@ def profile_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
 
 @check(SBD012)
 def steep_slope(scene: ResolvedDeck) -> Iterator[Problem]:
-    """The slope of the bed is steep.
+    """The slope of the seabed is steep.
 
-    A slope is an angle in degrees: one of 90 or more is no bed at all, and one above 45 is steeper than soil stands. A
-    gradient in percent, typed as degrees, is a common cause. Correct it.
+    A slope is an angle in degrees: one of 90 or more is no seabed at all, and one above 45 is steeper than soil stands.
+    A gradient in percent, typed as degrees, is a common cause. Correct it.
 
     Example:
          $MODEL
@@ -118,21 +118,21 @@ def unreadable_profile(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 4:7
     """
-    floor = scene.floor
-    for where, message in floor.unreadable:
-        used = bool(floor.missing) and (where.section, where.block) == (floor.where.section, floor.where.block)
+    seabed = scene.seabed
+    for where, message in seabed.unreadable:
+        used = bool(seabed.missing) and (where.section, where.block) == (seabed.where.section, seabed.where.block)
         yield Problem(SBD023, message, where=where, blocks=Blocks.ALWAYS if used else Blocks.NEVER)
-    known = floor.kind is FloorKind.PROFILE and not floor.missing and not np.isnan(floor.points).any()
+    known = seabed.kind is SeabedKind.PROFILE and not seabed.missing and not np.isnan(seabed.points).any()
     if known and (fault := _fault(scene)):
-        where = floor.where._replace(path=("file",)) if floor.file else floor.where
+        where = seabed.where._replace(path=("file",)) if seabed.file else seabed.where
         yield Problem(SBD023, f"{fault}: correct the points", None, Severity.ERROR, where)
 
 
 @check(EXT002)
 def floor_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
-    """The bed is given twice: by planes and by a profile or a slope.
+    """The seabed is given twice: by planes and by a profile or a slope.
 
-    *SEABED PLANES describes the whole sea floor, and so does *SEABED PROFILE or the slope of a legacy surface. Which of
+    *SEABED PLANES describes the whole seabed, and so does *SEABED PROFILE or the slope of a legacy surface. Which of
     them the pipe lies on would be a guess. Keep one of them.
 
     Example:
@@ -165,7 +165,7 @@ def floor_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
 
 @check(EXT007)
 def bad_plane(scene: ResolvedDeck) -> Iterator[Problem]:
-    """A plane of the sea floor is incomplete, vertical or empty.
+    """A plane of the seabed is incomplete, vertical or empty.
 
     A plane is a point and a slope, in degrees between -90 and 90; its bounds must hold some ground, the smaller value
     first. Give what is missing. Two planes of one name are a warning: names are for readers, and case does not count in
@@ -188,8 +188,8 @@ def bad_plane(scene: ResolvedDeck) -> Iterator[Problem]:
     """
     faults = list(_faulty_planes(scene))
     yield from faults
-    if scene.floor.kind is FloorKind.PLANES and not faults and _known_planes(scene) and (fault := _fault(scene)):
-        yield Problem(EXT007, f"{fault}: correct it", where=scene.floor.where)
+    if scene.seabed.kind is SeabedKind.PLANES and not faults and _known_planes(scene) and (fault := _fault(scene)):
+        yield Problem(EXT007, f"{fault}: correct it", where=scene.seabed.where)
     yield from _repeated(scene)
 
 
@@ -198,7 +198,7 @@ def _faulty_planes(scene: ResolvedDeck) -> Iterator[Problem]:
         for index, plane in enumerate(cast("SeabedPlanes", block).planes):
             place = where._replace(path=("planes", index))
             lacking = [key for key in ("POINT", "SLOPE") if getattr(plane, key.lower()) is None]
-            if lacking and not scene.context.disturbed(place):
+            if lacking and not scene.context.has_read_errors(place):
                 names = " and ".join(f"{key}=" for key in lacking)
                 yield Problem(EXT007, f"this plane lacks {names}: give it", where=place)
             slope = number(plane, "slope")
@@ -212,7 +212,7 @@ def _faulty_planes(scene: ResolvedDeck) -> Iterator[Problem]:
 
 def _known_planes(scene: ResolvedDeck) -> bool:
     """Whether all numbers of planes could be read; of others enough has been said."""
-    numbers = (value for plane in scene.floor.planes for value in (*plane.point, plane.slope, plane.direction))
+    numbers = (value for plane in scene.seabed.planes for value in (*plane.point, plane.slope, plane.direction))
     return not any(map(math.isnan, numbers))
 
 
@@ -241,7 +241,7 @@ def _fault(scene: ResolvedDeck) -> str:
     from mudline.scene.contact_input import made_seabed  # noqa: PLC0415 - as above
 
     try:
-        made_seabed(scene.floor)
+        made_seabed(scene.seabed)
     except SeabedError as error:
         return str(error)
     return ""

@@ -10,7 +10,7 @@ import numpy as np
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.catalogue import ZERO_LENGTH
 from mudline.scene.checks.declaring import check
-from mudline.scene.context import MOST_TOLD
+from mudline.scene.context import MOST_REPORTED
 
 if TYPE_CHECKING:
     from mudline.keywords.library.geometric_sets import GeometricSet, GeometricSets
@@ -87,7 +87,7 @@ def zero_length_element(scene: ResolvedDeck) -> Iterator[Problem]:
     joints = scene.deck.keywords().intersection(ZERO_LENGTH)
     hint = f", or keep it if *{min(joints)} makes it one without length" if joints else ""
     told: set[Where] = set()
-    for index in same[: MOST_TOLD + 1].tolist():
+    for index in same[: MOST_REPORTED + 1].tolist():
         where = scene.table.numbered.where(index)
         if where in told:
             continue  # others of the same GEN=

@@ -88,7 +88,7 @@ def _of_block(scene: ResolvedDeck, entry: TrenchSet, where: Where) -> Iterator[P
     if entry.model == "WALL" and entry.peak is not None:
         message = "PEAK= has no effect under MODEL=WALL: remove it, or write MODEL=PEAK"
         yield Problem(EXT003, message, None, Severity.WARNING, where._replace(path=(*where.path, "peak")))
-    if entry.model != "WALL" and not scene.context.disturbed(where):
+    if entry.model != "WALL" and not scene.context.has_read_errors(where):
         for path, message in _resistance_faults(entry):
             yield Problem(EXT003, message, where=where._replace(path=(*where.path, *path)))
     depth, bottom, upper = (number(entry.geometry, name) for name in _SIZES)
@@ -132,10 +132,10 @@ def _without_spring(scene: ResolvedDeck) -> tuple[Mask, Mask]:
 def _unread(scene: ResolvedDeck) -> bool:
     """Whether friction could not be read, or belongs to no set, which has been told as an error."""
     friction = scene.extensions.get("SEABED FRICTION")
-    if friction is not None and None in friction.sets and not scene.context.supplier("ELEMENT SETS"):
+    if friction is not None and None in friction.sets and not scene.context.possible_definition("ELEMENT SETS"):
         return True
-    places = [*scene.bed.places, *(friction.places if friction else ())]
-    return any(scene.context.disturbed(place) for place in places)
+    places = [*scene.resistance.places, *(friction.places if friction else ())]
+    return any(scene.context.has_read_errors(place) for place in places)
 
 
 def _uncertain(scene: ResolvedDeck) -> bool:

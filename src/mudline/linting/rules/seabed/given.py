@@ -73,4 +73,6 @@ def absent(context: LintContext, entry: Given, name: str) -> bool:
     place = entry.place(name)
     line = place._replace(path=place.path[:-1])
     resolving = context.scene.context
-    return value == 0.0 or (value is None and not resolving.disturbed(line) and not resolving.disturbed(entry.where))
+    return value == 0.0 or (
+        value is None and not resolving.has_read_errors(line) and not resolving.has_read_errors(entry.where)
+    )

@@ -14,8 +14,8 @@ from mudline.keywords.model import Record
 from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
-from mudline.scene.context import MOST_TOLD
-from mudline.scene.laws import Grant
+from mudline.scene.context import MOST_REPORTED
+from mudline.scene.laws import SetLaw
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Indices
 from mudline.scene.sets import NamedSet
@@ -58,13 +58,13 @@ def overlapping_sets(context: LintContext) -> Iterator[Problem]:
     """
     scene = context.scene
     own = len(scene.deck.own_sections)
-    grants = [grant for grant in scene.laws.grants if grant.where.section < own]
+    grants = [grant for grant in scene.laws.set_laws if grant.where.section < own]
     new = [grant for grant in grants if grant.family == "new"]
     if len(new) > 1:
-        yield from islice(_properties(scene, new), MOST_TOLD)
+        yield from islice(_properties(scene, new), MOST_REPORTED)
     embedment = [grant for grant in grants if grant.family == "legacy" and grant.curve >= 0]
     if len(embedment) > 1:
-        yield from islice(_embedment(scene, embedment), MOST_TOLD)
+        yield from islice(_embedment(scene, embedment), MOST_REPORTED)
 
 
 class _Overlap(NamedTuple):
@@ -93,7 +93,7 @@ def _overlaps(sets: Sequence[NamedSet], count: int) -> Iterator[_Overlap]:
         holder[later.elements] = index
 
 
-def _properties(scene: Scene, grants: list[Grant]) -> Iterator[Problem]:
+def _properties(scene: Scene, grants: list[SetLaw]) -> Iterator[Problem]:
     for earlier, later, elements in _overlaps([grant.set_ for grant in grants], len(scene.element_ids)):
         one, other = grants[earlier].set_, grants[later].set_
         where = grants[later].where
@@ -135,19 +135,19 @@ def _counted(scene: Scene, elements: Indices) -> str:
     return f"element {first}" if elements.size == 1 else f"{elements.size} elements (first: {first})"
 
 
-def _alike(scene: Scene, one: Grant, other: Grant) -> bool:
+def _alike(scene: Scene, one: SetLaw, other: SetLaw) -> bool:
     """Whether two sets of *SEABED PROPERTIES give the same."""
     first, second = (_entry(scene, grant) for grant in (one, other))
     given = [name for name in type(first).model_fields if name != "set_name"]
     return all(getattr(first, name) == getattr(second, name) for name in given)
 
 
-def _entry(scene: Scene, grant: Grant) -> Record:
+def _entry(scene: Scene, grant: SetLaw) -> Record:
     block = scene.deck.sections[grant.where.section].blocks[grant.where.block]
     return cast("Record", getattr(block, "sets")[grant.where.path[1]])  # noqa: B009 - blocks have no common type
 
 
-def _embedment(scene: Scene, grants: list[Grant]) -> Iterator[Problem]:
+def _embedment(scene: Scene, grants: list[SetLaw]) -> Iterator[Problem]:
     """Overlaps that matter: of curves with other points, on elements that no newer keyword holds."""
     curves = scene.laws.curves
     for earlier, later, elements in _overlaps([grant.set_ for grant in grants], len(scene.element_ids)):

@@ -101,7 +101,7 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
 
 def _stiffness(scene: Scene) -> Floats:
     """The largest stiffness of the contact of each element, per unit length; NaN without one."""
-    grants = scene.laws.grants
+    grants = scene.laws.set_laws
     linear = np.array([*(grant.stiffness for grant in grants), np.nan])[scene.laws.of_element]
     steepest = np.full(len(linear), np.nan)
     for number, entry in enumerate(scene.laws.curves):

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from mudline.deck.loading import load_path
 from mudline.scene.model import Scene, resolve
-from mudline.scene.seabed import Floor, FloorKind, ProfileError, parse_profile, read_profile
+from mudline.scene.seabed import ProfileError, SeabedKind, SeabedShape, parse_profile, read_profile
 from tests.scene.decks import PIPE, scene_of
 
 PROFILE = "*SEABED PROFILE\n TYPE=2D\n INTERPOLATION=CUBIC SPLINE, DIRECTION=30\n FILE={}\n"
@@ -29,29 +29,29 @@ def told(scene: Scene) -> list[tuple[str, int, int]]:
 
 
 def test_flat_without_anything() -> None:
-    assert scene_of(PIPE).floor.kind is FloorKind.FLAT
+    assert scene_of(PIPE).seabed.kind is SeabedKind.FLAT
 
 
 def test_slope() -> None:
-    floor = scene_of(PIPE + "*SEABED PROFILE\n TYPE=SLOPING\n DIRECTION=90\n SLOPE=-2.5\n").floor
-    assert (floor.kind, floor.slope, floor.direction) == (FloorKind.SLOPING, -2.5, 90.0)
+    seabed = scene_of(PIPE + "*SEABED PROFILE\n TYPE=SLOPING\n DIRECTION=90\n SLOPE=-2.5\n").seabed
+    assert (seabed.kind, seabed.slope, seabed.direction) == (SeabedKind.SLOPING, -2.5, 90.0)
 
 
 @pytest.mark.parametrize("surface", ["*ELASTIC SURFACE\n 1e4\n", "*RIGID SURFACE\n 0.3\n"])
 def test_slope_and_profile_of_a_surface(surface: str) -> None:
-    floor = scene_of(PIPE + surface + " 3.5\n").floor
-    assert (floor.kind, floor.slope) == (FloorKind.SLOPING, 3.5)
-    floor = scene_of(PIPE + surface + " 100, 30\n 0, 0\n").floor
-    assert (floor.kind, floor.points.tolist()) == (FloorKind.PROFILE, [[100.0, 30.0], [0.0, 0.0]])
+    seabed = scene_of(PIPE + surface + " 3.5\n").seabed
+    assert (seabed.kind, seabed.slope) == (SeabedKind.SLOPING, 3.5)
+    seabed = scene_of(PIPE + surface + " 100, 30\n 0, 0\n").seabed
+    assert (seabed.kind, seabed.points.tolist()) == (SeabedKind.PROFILE, [[100.0, 30.0], [0.0, 0.0]])
 
 
 def test_a_profile_comes_before_a_surface_and_planes_before_both() -> None:
     surface, profile = "*ELASTIC SURFACE\n 1e4\n 3.5\n", "*SEABED PROFILE\n TYPE=SLOPING\n SLOPE=1\n"
     planes = "*SEABED PLANES\n PLANE=a\n POINT=1, 2, 3\n SLOPE=4, DIRECTION=5\n BOUNDS=, 7, 8\n PLANE=b\n"
-    assert scene_of(PIPE + profile + surface).floor.slope == 1.0
-    floor = scene_of(PIPE + planes + profile + surface).floor
-    assert floor.kind is FloorKind.PLANES
-    first, second = floor.planes
+    assert scene_of(PIPE + profile + surface).seabed.slope == 1.0
+    seabed = scene_of(PIPE + planes + profile + surface).seabed
+    assert seabed.kind is SeabedKind.PLANES
+    first, second = seabed.planes
     assert (first.point, first.slope, first.direction) == ((1.0, 2.0, 3.0), 4.0, 5.0)
     assert first.bounds == (-math.inf, 7.0, 8.0, math.inf)
     assert math.isnan(second.slope)
@@ -60,17 +60,17 @@ def test_a_profile_comes_before_a_surface_and_planes_before_both() -> None:
 def test_a_text_file_of_points(tmp_path: Path) -> None:
     (tmp_path / "bed.txt").write_text("C Y, elevation\n100.0, 30.0\n\n 0.0 0.0\n-5,1E1,\n", encoding="utf-8")
     scene = scene_in(tmp_path, PIPE + PROFILE.format('".\\bed.txt"'))
-    floor = scene.floor
-    assert floor.points.tolist() == [[100.0, 30.0], [0.0, 0.0], [-5.0, 10.0]]
-    assert (floor.interpolation, floor.direction, floor.missing) == ("CUBIC SPLINE", 30.0, "")
+    seabed = scene.seabed
+    assert seabed.points.tolist() == [[100.0, 30.0], [0.0, 0.0], [-5.0, 10.0]]
+    assert (seabed.interpolation, seabed.direction, seabed.missing) == ("CUBIC SPLINE", 30.0, "")
     assert "SBD023" not in [code for code, _, _ in told(scene)]
 
 
 def test_three_columns_make_a_surface(tmp_path: Path) -> None:
     (tmp_path / "bed.txt").write_text("1, 2, 3\n4, 5, 6\n7, 8, 10\n", encoding="utf-8")
-    floor = scene_in(tmp_path, PIPE + "*SEABED PROFILE\n TYPE=3D\n FILE=bed.txt\n").floor
-    assert floor.kind is FloorKind.SURFACE
-    assert floor.points.tolist() == [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 10.0]]
+    seabed = scene_in(tmp_path, PIPE + "*SEABED PROFILE\n TYPE=3D\n FILE=bed.txt\n").seabed
+    assert seabed.kind is SeabedKind.SURFACE
+    assert seabed.points.tolist() == [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 10.0]]
 
 
 @pytest.mark.parametrize(
@@ -90,8 +90,8 @@ def test_a_file_with_a_fault_is_told_at_file(tmp_path: Path, content: bytes, wor
     scene = scene_in(tmp_path, PIPE + PROFILE.format("bed.txt"))
     line = PIPE.count("\n") + 4
     assert ("SBD023", line, 7) in told(scene)
-    assert words in scene.floor.missing
-    assert scene.floor.points.size == 0
+    assert words in scene.seabed.missing
+    assert scene.seabed.points.size == 0
 
 
 def test_a_compiled_profile_is_kept_and_told_whether_it_is_there_or_not(tmp_path: Path) -> None:
@@ -101,21 +101,21 @@ def test_a_compiled_profile_is_kept_and_told_whether_it_is_there_or_not(tmp_path
             (tmp_path / "Bed.FCSBD").write_bytes(b"\x00\x01")
         scene = scene_in(tmp_path, text)
         assert ("SBD023", PIPE.count("\n") + 4, 7) in told(scene)
-        assert "binary" in scene.floor.missing
-        assert scene.floor.file == "Bed.FCSBD"
+        assert "binary" in scene.seabed.missing
+        assert scene.seabed.file == "Bed.FCSBD"
 
 
 def test_a_deck_without_a_path_reads_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     (tmp_path / "bed.txt").write_text("0, 0\n1, 1\n", encoding="utf-8")
-    assert scene_of(PIPE + PROFILE.format("bed.txt")).floor.missing == "'bed.txt' is not there"
+    assert scene_of(PIPE + PROFILE.format("bed.txt")).seabed.missing == "'bed.txt' is not there"
 
 
 @pytest.mark.parametrize("name", ["nothing.txt", "folder", "a\0b", "n" * 5000, "=[x]", '""'])
 def test_a_file_that_is_not_there_is_no_fault_of_the_profile(tmp_path: Path, name: str) -> None:
     (tmp_path / "folder").mkdir()
     scene = scene_in(tmp_path, PIPE + PROFILE.format(name))
-    assert scene.floor.missing.endswith("is not there")
+    assert scene.seabed.missing.endswith("is not there")
 
 
 def test_a_file_that_may_not_be_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -129,7 +129,7 @@ def test_a_file_that_may_not_be_read(tmp_path: Path, monkeypatch: pytest.MonkeyP
     deck = load_path(path)
     monkeypatch.setattr(Path, "read_bytes", refuse)
     scene = resolve(deck)
-    assert scene.floor.missing == "Permission denied"
+    assert scene.seabed.missing == "Permission denied"
     assert ("SBD023", PIPE.count("\n") + 4, 7) in told(scene)
 
 
@@ -148,7 +148,7 @@ def test_points_survive_to_the_last_bit(points: list[tuple[float, float]]) -> No
 
 
 def test_the_same_bed() -> None:
-    one = Floor(FloorKind.PROFILE, file="a", missing="not there")
+    one = SeabedShape(SeabedKind.PROFILE, file="a", missing="not there")
     assert one.same(one)
-    assert not one.same(Floor(FloorKind.PROFILE, file="b", missing="not there"))
-    assert not Floor().same(one)
+    assert not one.same(SeabedShape(SeabedKind.PROFILE, file="b", missing="not there"))
+    assert not SeabedShape().same(one)

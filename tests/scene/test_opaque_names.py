@@ -15,7 +15,7 @@ from mudline.deck.parameters import folded
 from mudline.diagnostics import Span
 from mudline.keywords.kept import LINE_SETS, Names
 from mudline.scene.model import resolve
-from mudline.scene.opaque_names import bare, definers, harvested_labels, harvested_sets, may_define
+from mudline.scene.opaque_names import bare, definition_by, external_definers, opaque_labels, opaque_set_names
 from mudline.syntax.fields import read_line
 from tests.growth import FOURFOLD, TWOFOLD, call_growth, growth
 from tests.reading.spellings import names, pads, setting, texts
@@ -29,11 +29,11 @@ def deck_of(text: str) -> Deck:
 
 
 def sets_of(text: str) -> list[str]:
-    return list(harvested_sets(deck_of(text)).values())
+    return list(opaque_set_names(deck_of(text)).values())
 
 
 def labels_of(text: str) -> list[str]:
-    return list(harvested_labels(deck_of(text)).values())
+    return list(opaque_labels(deck_of(text)).values())
 
 
 # ----------------------------------------------------------------------------------------------------------------- sets
@@ -71,7 +71,7 @@ def test_sets(text: str, found: str) -> None:
 def test_names_of_a_keyword_with_a_model_that_a_document_gives_as_lines() -> None:
     block = {"keyword": "LINE PATH SECTIONS", "lines": [" LINE=a", " SECTION=b, 0, 1", " ADDITIONAL=c, d"]}
     document = {"format": "mudline-deck/1", "sections": [{"name": "MODEL", "blocks": [block]}]}
-    assert list(harvested_sets(load_bytes(json.dumps(document).encode(), "deck.json"))) == ["a", "b", "c", "d"]
+    assert list(opaque_set_names(load_bytes(json.dumps(document).encode(), "deck.json"))) == ["a", "b", "c", "d"]
 
 
 _KEYWORDS = st.sampled_from(["LINES", "LINE PATHS", "CABLE", "LINE PATH SECTIONS", "LINE SECTION GROUPS"])
@@ -89,7 +89,7 @@ def test_any_name_is_found(keyword: str, line: str, section: str, more: list[str
         data.draw(setting("ADDITIONAL", listed + data.draw(st.sampled_from(["", ",", " , ,"])))),
     ]
     block = "".join(f"{text}\n" for text in (f"*{keyword}", *lines))
-    found = harvested_sets(deck_of(block))
+    found = opaque_set_names(deck_of(block))
     for name in (line, section, *more):
         assert folded(bare(name)) in found
         seabed = f"*SEABED PROPERTIES\n TYPE=ELASTIC\n SET={data.draw(_CASES)(name)}\n STIFFNESS=1.0\n"
@@ -117,7 +117,7 @@ _pieces = st.lists(
 def test_lines_are_cut_as_the_reader_of_fields_does(line: str) -> None:
     line = " " + line.replace("$", "").replace("*", "")
     wanted = {folded(bare(name)) for name in _slowly(line)} - {""}
-    assert set(harvested_sets(deck_of(f"*LINES\n{line}\n"))) == wanted
+    assert set(opaque_set_names(deck_of(f"*LINES\n{line}\n"))) == wanted
 
 
 def test_a_line_of_very_many_names() -> None:
@@ -131,9 +131,9 @@ def test_a_hundred_thousand_lines() -> None:
     def lines(count: int) -> Deck:
         return deck_of("*LINES\n LINE=SCR\n" + "".join(section.format(index) for index in range(count)))
 
-    assert call_growth(harvested_sets, lines(1_000), lines(2_000)) < TWOFOLD
-    assert growth(harvested_sets, lines(2_500), lines(10_000)) < FOURFOLD
-    assert len(harvested_sets(lines(100_000))) == 200_002
+    assert call_growth(opaque_set_names, lines(1_000), lines(2_000)) < TWOFOLD
+    assert growth(opaque_set_names, lines(2_500), lines(10_000)) < FOURFOLD
+    assert len(opaque_set_names(lines(100_000))) == 200_002
 
 
 @pytest.mark.parametrize("unit", ["a=", "a ", '"', "{", '{"', "= ", "LINE=", "[=", "=[", "a,"])
@@ -142,7 +142,7 @@ def test_no_line_takes_long(unit: str) -> None:
         return deck_of(f"*LINES\n LINE={unit * count}\n LINE=SCR\n")
 
     def harvested(deck: Deck) -> list[dict[str, str]]:
-        return [harvested_sets(deck), harvested_labels(deck)]
+        return [opaque_set_names(deck), opaque_labels(deck)]
 
     assert call_growth(harvested, line(2_500), line(5_000)) < TWOFOLD
     assert growth(harvested, line(5_000), line(20_000)) < FOURFOLD
@@ -189,7 +189,7 @@ def test_a_set_in_quotes_that_the_deck_defines_itself() -> None:
     ],
 )
 def test_definers(text: str, found: list[str]) -> None:
-    assert definers(deck_of(text)) == found
+    assert external_definers(deck_of(text)) == found
 
 
 @pytest.mark.parametrize(
@@ -206,7 +206,7 @@ def test_definers(text: str, found: list[str]) -> None:
 )
 def test_what_may_define_what(definer: str, made: set[str]) -> None:
     kinds = ("NODE", "ELEMENT", "ELEMENT SETS", "SEABED STIFFNESS")
-    assert {keyword for keyword in kinds if may_define(definer, keyword)} == made
+    assert {keyword for keyword in kinds if definition_by(definer, keyword)} == made
 
 
 def test_the_block_that_may_define_it_is_named() -> None:

@@ -16,7 +16,7 @@ def same(found: object, expected: object) -> bool:
 
 
 def test_the_legacy_surface_gives_to_every_element() -> None:
-    bed = scene_of(PIPE + "*ELASTIC SURFACE\n 1e4, 0.3, 0.5, 20, 30, 0.1, 3, 4, 5, 0.6, 0.7\n").bed
+    resistance = scene_of(PIPE + "*ELASTIC SURFACE\n 1e4, 0.3, 0.5, 20, 30, 0.1, 3, 4, 5, 0.6, 0.7\n").resistance
     for name, value in {
         "friction": (0.3, 0.5),
         "mobilisation": (0.6, 0.7),
@@ -26,36 +26,36 @@ def test_the_legacy_surface_gives_to_every_element() -> None:
         "suction": 30,
         "extent": 0.1,
     }.items():
-        assert same(bed.column(name), [value] * 10)
+        assert same(resistance.column(name), [value] * 10)
 
 
 def test_the_rigid_surface_has_another_order_of_fields() -> None:
-    bed = scene_of(PIPE + "*RIGID SURFACE\n 0.3, 0.5, 3, 4, 5, 0.6, 0.7\n").bed
-    assert same(bed.column("characteristic"), [(3, 4)] * 10)
-    assert same(bed.column("mobilisation"), [(0.6, 0.7)] * 10)
-    assert same(bed.column("lateral"), [NOTHING] * 10)
+    resistance = scene_of(PIPE + "*RIGID SURFACE\n 0.3, 0.5, 3, 4, 5, 0.6, 0.7\n").resistance
+    assert same(resistance.column("characteristic"), [(3, 4)] * 10)
+    assert same(resistance.column("mobilisation"), [(0.6, 0.7)] * 10)
+    assert same(resistance.column("lateral"), [NOTHING] * 10)
 
 
 def test_a_later_block_wins_and_is_taken_whole() -> None:
     blocks = " TYPE=ELASTIC\n SET=A\n STIFFNESS=1\n FRICTION=0.1, 0.2\n SUCTION=9, 0.5\n SET=B\n LATERAL=7\n"
-    bed = scene_of(PIPE + SETS + "*SEABED PROPERTIES\n" + blocks).bed
-    assert same(bed.column("friction")[:, 0], [0.1, 0.1, *[NOTHING] * 8])
-    assert same(bed.column("lateral"), [NOTHING, NOTHING, 7, 7, 7, 7, *[NOTHING] * 4])
-    assert same(bed.column("extent"), [0.5, 0.5, *[NOTHING] * 8])
+    resistance = scene_of(PIPE + SETS + "*SEABED PROPERTIES\n" + blocks).resistance
+    assert same(resistance.column("friction")[:, 0], [0.1, 0.1, *[NOTHING] * 8])
+    assert same(resistance.column("lateral"), [NOTHING, NOTHING, 7, 7, 7, 7, *[NOTHING] * 4])
+    assert same(resistance.column("extent"), [0.5, 0.5, *[NOTHING] * 8])
 
 
 def test_the_new_family_comes_before_the_surface() -> None:
     deck = PIPE + SETS + "*ELASTIC SURFACE\n 1e4, 0.3\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=A\n FRICTION=0.8\n"
-    assert same(scene_of(deck).bed.column("friction")[:, 0], [0.8] * 4 + [0.3] * 6)
+    assert same(scene_of(deck).resistance.column("friction")[:, 0], [0.8] * 4 + [0.3] * 6)
 
 
 def test_without_a_seabed_there_is_nothing() -> None:
-    assert same(scene_of(PIPE).bed.column("suction"), [NOTHING] * 10)
+    assert same(scene_of(PIPE).resistance.column("suction"), [NOTHING] * 10)
 
 
 def test_a_value_that_could_not_be_read_is_none() -> None:
     scene = scene_of(PIPE + "*ELASTIC SURFACE\n 1e4, x, =[nothing]\n")
-    assert same(scene.bed.column("friction"), [(NOTHING, NOTHING)] * 10)
+    assert same(scene.resistance.column("friction"), [(NOTHING, NOTHING)] * 10)
 
 
 @pytest.mark.parametrize(
