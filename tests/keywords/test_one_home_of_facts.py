@@ -39,7 +39,6 @@ EXCEPTIONS = {
     "results/summary.py": "says which of two blocks a curve came from",
     "scene/checks/fields.py": "leaves the geometry of a trench to EXT003, which has words of its own for it",
     "scene/context.py": "a lost line of lines defines a set, as it names one",
-    "scene/references.py": "asks for the block of the groups that another one names",
     "variations/undefined.py": "asks whether the blocks that it reads may stand elsewhere",
 }
 """Modules that name keywords in another way, and why."""

@@ -82,7 +82,7 @@ def test_a_fault_is_told_once(line: str, finding: Finding) -> None:
 def test_words() -> None:
     assert messages(PIPE + HELD + " 99, 8\n GEN=8, 12, 1, 2, 0.0\n 1, 2, FIXATION=RELATIVE\n GEN=2, 3\n") == [
         "node 99 is not defined: define it in *NODE, or correct the number",
-        "8 is no degree of freedom: expected 1 (vertical), 2 or 3 (horizontal), or 4 to 6 (rotations)",
+        "8 is not a degree of freedom: expected 1 (vertical), 2 or 3 (horizontal), or 4 to 6 (rotations)",
         "GEN= holds the nodes from 8 to 12 in steps of 1: 1 of these 5 are not defined; correct it, or define them",
         "this GEN= has no degree of freedom: write start, end [, increment], dof [, displacement]",
     ]

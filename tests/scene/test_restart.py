@@ -253,8 +253,8 @@ def test_a_very_long_chain_ends(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("content", "reason"),
     [
-        (b"", "has no section: it is no deck"),
-        (b"\x00\x01\x02" * 50, "has no section: it is no deck"),
+        (b"", "has no section: it is not a deck"),
+        (b"\x00\x01\x02" * 50, "has no section: it is not a deck"),
         (b"x" * 5000, "has more than 0 million bytes"),
     ],
 )
@@ -350,12 +350,13 @@ def test_a_deck_before_is_read_once_until_it_changes(folder: Path) -> None:
 
 
 def test_few_decks_are_kept(tmp_path: Path) -> None:
-    with patch.object(restart, "_CACHE", restart._BaseCache()) as kept, patch.object(restart, "_MOST_KEPT", 3):
+    kept: dict[str, object] = {}
+    with patch.object(restart, "_CACHE", kept), patch.object(restart, "_MOST_KEPT", 3):
         for number in range(6):
             (tmp_path / f"static{number}.keyxm").write_text(STATIC)
             scene(tmp_path, RESTART.format(f"static{number}"))
-        assert [Path(key).stem for key in kept.decks] == ["static3", "static4", "static5"]
+        assert [Path(key).stem for key in kept] == ["static3", "static4", "static5"]
         with patch.object(restart, "_LARGEST_KEPT", 10):
             (tmp_path / "static6.keyxm").write_text(STATIC)
             scene(tmp_path, RESTART.format("static6"))
-        assert [Path(key).stem for key in kept.decks] == ["static6"]
+        assert [Path(key).stem for key in kept] == ["static6"]

@@ -76,12 +76,12 @@ def test_three_columns_make_a_surface(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("content", "words"),
     [
-        (b"0, 0\n1, x\n", "line 2: 'x' is no number"),
+        (b"0, 0\n1, x\n", "line 2: 'x' is not a number"),
         (b"0, 0\n\n1\n", "line 3: expected 2 numbers (`Y, elevation`), found 1"),
         (b"0, 0\n1, 2, 3\n", "line 2: expected 2 numbers"),
         (b"C nothing\n0, 0\n", "the file has 1 point: a profile needs at least two"),
         (b"", "the file has 0 points"),
-        (b"0, 0\n1, 1E999\n", "line 2: '1E999' is no number"),
+        (b"0, 0\n1, 1E999\n", "line 2: '1E999' is not a number"),
         (bytes(range(32)) * 50, "looks like binary data"),
     ],
 )

@@ -74,10 +74,8 @@ def _refusals(scene: ResolvedDeck) -> Iterator[Problem]:
 def _refusal(scene: ResolvedDeck, found: Mask, one: str, many: str) -> Iterator[Problem]:
     at = np.flatnonzero(found)
     if at.size:
-        number = scene.element_ids[at[0]]
-        what = f"element {number} {one}" if at.size == 1 else f"{at.size} elements (first: {number}) {many}"
-        where = scene.table.numbered.where(int(at[0]))
-        yield Problem(RUN001, f"{what}; this cannot be evaluated", where=where)
+        message = f"{scene.describe(at, one, many)}; this cannot be evaluated"
+        yield Problem(RUN001, message, where=scene.table.numbered.where(int(at[0])))
 
 
 def _tables(scene: ResolvedDeck) -> list[Floats]:

@@ -34,7 +34,7 @@ from mudline.spelling import Effort, nearest
 from mudline.syntax.tree import canonical_name, mark_of
 
 MOST_REPORTED = 1000
-"""Findings of one code told one by one; the rest is left out."""
+"""Findings of one code that are reported; the rest is left out."""
 
 MORE = f"and more of the same: the first {MOST_REPORTED} are listed"
 """The message of the finding behind them."""
@@ -85,8 +85,8 @@ class Context:
 
     def missing(self, code: Code, message: str, where: Where, keyword: str, number: int | None = None) -> Problem:
         """A name or number that nothing defines: an error, or a warning where something unread could define it."""
-        if supplier := self.possible_definition(keyword, number):
-            return Problem(code, f"{message}; {supplier}", None, Severity.WARNING, where)
+        if source := self.possible_definition(keyword, number):
+            return Problem(code, f"{message}; {source}", None, Severity.WARNING, where)
         return Problem(code, message, where=where)
 
     def possible_definition(self, keyword: str, number: int | None = None) -> str:
@@ -158,7 +158,7 @@ class Context:
     def lacks_value(self, where: Where, key: str) -> bool:
         """Whether the setting `key` of a record was written without a value that could be read."""
         origin = self.deck.origin
-        return origin.damaged(where) and origin.written(where._replace(path=(*where.path, key)))
+        return origin.damaged(where) and origin.written(where.inside(key))
 
     def generator(self, given: ListRow, where: Where) -> tuple[int, int, int] | None:
         """The three values of a GEN=, the last one 1 unless given; None when one of them is not known."""
@@ -187,7 +187,7 @@ class Context:
         return cast("object", found)
 
     def is_guessed_label(self, where: Where) -> bool:
-        """Whether the label at this place was guessed from a word without braces, which has been told."""
+        """Whether the label at this place was guessed from a word without braces, which is reported."""
         return self._line_and_column(where) in self._guessed_labels
 
     def cannot_place(self, where: Where) -> None:

@@ -71,7 +71,7 @@ def _read(context: Context, sets: Sets, keyword: str, count: int) -> Extension:
         for listed, named in set_slots(type(cast("Block", block))):
             for index, entry in enumerate(getattr(block, listed.name)):
                 entries.append(entry)
-                places.append(where._replace(path=(listed.json, index)))
+                places.append(where.inside(listed.json, index))
                 holders.append(_holder(context, sets, getattr(entry, named.name)))
     return Extension(entries, places, holders, later_wins(holders, count))
 

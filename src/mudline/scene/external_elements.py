@@ -24,7 +24,7 @@ class ExternalElements:
 
 
 def read_external(path: Path) -> ExternalElements:
-    """`element,node1,node2,diameter[,length][,sets]`, sets parted by semicolons; a diameter or length may be empty.
+    """`element,node1,node2,diameter[,length][,sets]`, sets separated by semicolons; a diameter or length may be empty.
 
     Raises OSError, or DeckError for a file with faults.
     """

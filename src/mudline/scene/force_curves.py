@@ -46,7 +46,7 @@ class SceneCurve:
 
     def point(self, index: int) -> Where:
         """Where a point of `points` stands."""
-        return self.where._replace(path=(*self.where.path, "points", int(self.rows[index])))
+        return self.where.inside("points", int(self.rows[index]))
 
     @property
     def usable(self) -> bool:
@@ -56,13 +56,13 @@ class SceneCurve:
     @property
     def title(self) -> Where:
         """Where its name stands: the value of CURVE= or SET=."""
-        return self.where._replace(path=(*self.where.path, "set" if self.embedment else "name"))
+        return self.where.inside("set" if self.embedment else "name")
 
 
 def read_curves(context: Context) -> tuple[list[SceneCurve], list[SceneCurve]]:
     """The curves of `*SEABED STIFFNESS` and those of `*EMBEDMENT`, in the order of the file."""
     named = [
-        _curve(context, entry.name, entry.points, where._replace(path=("curves", index)), embedment=False)
+        _curve(context, entry.name, entry.points, where.inside("curves", index), embedment=False)
         for where, block in context.deck.blocks("SEABED STIFFNESS")
         for index, entry in enumerate(cast("SeabedStiffness", block).curves)
     ]
@@ -70,7 +70,7 @@ def read_curves(context: Context) -> tuple[list[SceneCurve], list[SceneCurve]]:
         _curve(context, set_name(context, entry.set_name, place), entry.points, place, embedment=True)
         for where, block in context.deck.blocks("EMBEDMENT")
         for index, entry in enumerate(cast("Embedment", block).curves)
-        for place in (where._replace(path=("curves", index)),)
+        for place in (where.inside("curves", index),)
     ]
     return named, by_set
 

@@ -2,28 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
 from mudline.contact.input import LawAssignment, LawKind
 from mudline.scene.deck_values import LARGEST_MOBILISATION
-from mudline.scene.numbering import Floats, Indices, Mask, at_nodes, marked, touched
+from mudline.scene.numbering import Floats, Indices, at_nodes, marked, touched
 
 if TYPE_CHECKING:
     from mudline.keywords.library.seabed_trench import TrenchSet
     from mudline.scene.extensions import Extension
     from mudline.scene.resolved import ResolvedDeck
 
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Springs:
-    """Coefficients, constant springs and mobilisation lengths (n, 2); NaN where there is none."""
-
-    coefficients: Floats
-    stiffness: Floats
-    mobilisation: Floats
+_LINE = (("start_y", "y0"), ("start_z", "z0"), ("end_y", "y1"), ("end_z", "z1"))
 
 
 def node_friction(scene: ResolvedDeck, lateral: Indices) -> LawAssignment:
@@ -34,28 +26,32 @@ def node_friction(scene: ResolvedDeck, lateral: Indices) -> LawAssignment:
     """
     ends, count = scene.element_nodes, len(scene.node_ids)
     springs = _of_properties(scene)
-    active = (springs.coefficients > 0.0).any(axis=1)
+    active = (springs[0] > 0.0).any(axis=1)
     ellipse, angle = np.zeros(count, dtype=np.bool_), np.full(count, np.nan)
     extension = scene.extensions.get("SEABED FRICTION")
     if extension is not None:
         block = at_nodes(extension.of_element, ends, count)
         here = block >= 0
-        springs = _replaced(springs, _of_keyword(extension, block), here)
+        springs = np.where(here[:, None], _of_keyword(extension, block), springs)
         active = active | here
         ellipse = marked((getattr(entry, "criterion", None) == "ELLIPSE" for entry in extension.entries), block)
         angle = extension.values(block, "directions")
-    springs.coefficients[np.unique(ends[lateral]), 1] = 0.0
+    coefficients, stiffness, mobilisation = springs
+    coefficients[np.unique(ends[lateral]), 1] = 0.0
     rows = np.flatnonzero(active & ~touched(scene.law == LawKind.RIGID, ends, count))
     parameters = {"elliptic": ellipse[rows], "angle": angle[rows]}
     for side, name in enumerate(("axial", "lateral")):
-        parameters[f"{name}_coefficient"] = np.nan_to_num(springs.coefficients[rows, side])
-        parameters[f"{name}_stiffness"] = springs.stiffness[rows, side]
-        parameters[f"{name}_mobilisation"] = springs.mobilisation[rows, side]
+        parameters[f"{name}_coefficient"] = np.nan_to_num(coefficients[rows, side])
+        parameters[f"{name}_stiffness"] = stiffness[rows, side]
+        parameters[f"{name}_mobilisation"] = mobilisation[rows, side]
     return LawAssignment("friction", rows, parameters)
 
 
-def _of_properties(scene: ResolvedDeck) -> _Springs:
-    """Springs by mobilisation length; the default at a node is the least of its elements' lengths, up to a largest."""
+def _of_properties(scene: ResolvedDeck) -> Floats:
+    """Coefficients, constant springs and mobilisation lengths (3, n, 2) by `FRICTION=`; NaN where there is none.
+
+    The default length at a node is the least of its elements' lengths, up to a largest.
+    """
     ends, count = scene.element_nodes, len(scene.node_ids)
     block = at_nodes(scene.resistance.of_element, ends, count)
     given = {
@@ -66,7 +62,7 @@ def _of_properties(scene: ResolvedDeck) -> _Springs:
     largest = np.where(np.isinf(largest), LARGEST_MOBILISATION.get(scene.units, np.inf), largest)
     default = np.fmin(_shortest(scene)[:, None], largest)
     length = np.where(given["mobilisation"] > 0.0, given["mobilisation"], default)
-    return _Springs(given["friction"], np.full((count, 2), np.nan), np.where(np.isfinite(length), length, np.nan))
+    return np.stack([given["friction"], np.full((count, 2), np.nan), np.where(np.isfinite(length), length, np.nan)])
 
 
 def _shortest(scene: ResolvedDeck) -> Floats:
@@ -78,25 +74,14 @@ def _shortest(scene: ResolvedDeck) -> Floats:
     return shortest
 
 
-def _of_keyword(extension: Extension, block: Indices) -> _Springs:
+def _of_keyword(extension: Extension, block: Indices) -> Floats:
+    """As `_of_properties`, by `*SEABED FRICTION`: springs are given, and have no mobilisation length."""
     coefficients, stiffness = (
         np.column_stack([extension.values(block, part, name) for name in ("first", "second")])
         for part in ("coefficients", "stiffness")
     )
     stiffness[:, 1] = np.where(np.isnan(stiffness[:, 1]), stiffness[:, 0], stiffness[:, 1])
-    return _Springs(coefficients, stiffness, np.full(stiffness.shape, np.nan))
-
-
-def _replaced(springs: _Springs, other: _Springs, where: Mask) -> _Springs:
-    at = where[:, None]
-    return _Springs(
-        np.where(at, other.coefficients, springs.coefficients),
-        np.where(at, other.stiffness, springs.stiffness),
-        np.where(at, other.mobilisation, springs.mobilisation),
-    )
-
-
-_LINE = (("start_y", "y0"), ("start_z", "z0"), ("end_y", "y1"), ("end_z", "z1"))
+    return np.stack([coefficients, stiffness, np.full(stiffness.shape, np.nan)])
 
 
 def trenches(scene: ResolvedDeck) -> list[LawAssignment]:

@@ -32,7 +32,7 @@ class SetLaw:
     """What one place of the deck gives to a set of elements; a set that is not known is open and holds none.
 
     `family` is "legacy" or "new"; `curve` an index in the table's curves. `unknown` marks a law that could not be read
-    or found: enough has been said of it.
+    or found, which is reported.
     """
 
     kind: LawKind
@@ -104,9 +104,9 @@ def _elastic_surface(context: Context, sets: Sets, laws: LawTable) -> Iterator[S
     """The linear stiffness that holds where no curve of `*EMBEDMENT` does, in whatever order they stand."""
     for where, block in context.deck.blocks("ELASTIC SURFACE"):
         laws.types.setdefault("ELASTIC", []).append(where)
-        place = where._replace(path=("properties",))
+        place = where.inside("properties")
         stiffness = getattr(cast("ElasticSurface", block).properties, "stiffness", None)
-        field_ = place._replace(path=("properties", "stiffness"))
+        field_ = place.inside("stiffness")
         if stiffness is not None:
             value = float(cast("float", stiffness))
             yield SetLaw(LawKind.LINEAR, sets.everything, field_, "legacy", value, unknown=not value >= 0)
@@ -144,10 +144,10 @@ def _properties(context: Context, sets: Sets, laws: LawTable, named: list[SceneC
     curves = {folded(curve.name): index for index, curve in enumerate(named) if curve.named}
     for where, properties, type_ in typed_blocks(context):
         if properties.type_ is not None and type_ is not None:
-            laws.types.setdefault(properties.type_, []).append(where._replace(path=("type",)))
+            laws.types.setdefault(properties.type_, []).append(where.inside("type"))
         reading = _Reading(context, laws, curves, type_)
         for index, entry in enumerate(properties.sets):
-            place = where._replace(path=("sets", index))
+            place = where.inside("sets", index)
             name = set_name(context, entry.set_name, place)
             found = None if name is None else sets.find(name)
             yield reading.set_law(entry, place, found or _unknown(name))
@@ -163,8 +163,8 @@ class _Reading:
     type_: str | None
 
     def set_law(self, entry: SeabedSet, where: Where, found: NamedSet) -> SetLaw:
-        """The law of a set. On a rigid seabed a stiffness counts for nothing."""
-        place = where._replace(path=(*where.path, "stiffness"))
+        """The law of a set. On a rigid seabed a stiffness has no effect."""
+        place = where.inside("stiffness")
         stiffness = entry.stiffness
         unread = self.context.has_read_errors(where)
         if isinstance(stiffness, str):
@@ -271,7 +271,7 @@ def _of_surfaces(context: Context) -> Iterator[tuple[Where, ResistanceValues]]:
     for where, surface in surfaces(context.deck):
         properties = surface.properties
         yield (
-            where._replace(path=("properties",)),
+            where.inside("properties"),
             ResistanceValues(
                 friction=_two(properties, ""),
                 mobilisation=_two(properties, "_mobilisation"),

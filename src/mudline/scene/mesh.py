@@ -58,7 +58,7 @@ def read_nodes(context: Context, external: ExternalElements | None = None) -> Nu
     waiting: list[_NodeLine] = []
     for where, block in context.deck.blocks("NODE"):
         for index, entry in enumerate(cast("Nodes", block).entries):
-            place = where._replace(path=("entries", index))
+            place = where.inside("entries", index)
             if hasattr(entry, "nodes"):
                 _add_nodes(context, gathered, cast("NodeRows", entry), place)
             elif line := _node_line(context, gathered, entry.generate, place):
@@ -79,18 +79,24 @@ def read_nodes(context: Context, external: ExternalElements | None = None) -> Nu
 
 def _add_nodes(context: Context, gathered: Definitions, entry: NodeRows, where: Where) -> None:
     table = entry.nodes
-    numbers, known = whole_numbers(table.column(0))
     values = np.column_stack([table.column(1), table.column(2), table.column(3, default=0.0)])
+    if not _add_rows(gathered, table.column(0), values, where, "nodes"):
+        context.unread.add("NODE")
+
+
+def _add_rows(gathered: Definitions, numbers: Floats, values: Floats, where: Where, table: str) -> bool:
+    """Add the rows of a table that have a number; whether all of them do."""
+    ids, known = whole_numbers(numbers)
     if known.all():
-        gathered.add(Batch(numbers, values, where, "nodes"))
-        return
-    context.unread.add("NODE")
+        gathered.add(Batch(ids, values, where, table))
+        return True
     rows = np.flatnonzero(known)
-    gathered.add(Batch(numbers[rows], values[rows], where, "nodes", rows))
+    gathered.add(Batch(ids[rows], values[rows], where, table, rows))
+    return False
 
 
 def _node_line(context: Context, gathered: Definitions, given: NodeRange, where: Where) -> _NodeLine | None:
-    place = where._replace(path=(*where.path, "generate"))
+    place = where.inside("generate")
     numbers = context.generator(given, place)
     if numbers is None:
         context.unread.add("NODE")
@@ -133,7 +139,7 @@ def _late(context: Context, gathered: Definitions, line: _NodeLine) -> None:
     for position, number in enumerate(line.ends):
         if gathered.find(number) is None:
             message = f"GEN= places nodes between two that exist: node {number} is not defined; define it in *NODE"
-            context.report_missing(REF006, message, where._replace(path=(*where.path, position)), "NODE", number)
+            context.report_missing(REF006, message, where.inside(position), "NODE", number)
 
 
 @dataclass(frozen=True, slots=True)
@@ -152,7 +158,7 @@ def read_elements(context: Context, nodes: Numbered, external: ExternalElements 
     gathered = Definitions()
     for where, block in context.deck.blocks("ELEMENT"):
         for index, entry in enumerate(cast("Elements", block).entries):
-            place = where._replace(path=("entries", index))
+            place = where.inside("entries", index)
             if hasattr(entry, "elements"):
                 _add_elements(context, gathered, cast("ElementRows", entry), place)
             else:
@@ -172,15 +178,10 @@ def read_elements(context: Context, nodes: Numbered, external: ExternalElements 
 
 def _add_elements(context: Context, gathered: Definitions, entry: ElementRows, where: Where) -> None:
     table = entry.elements
-    numbers, known = whole_numbers(table.column(0))
-    ends = np.column_stack([table.column(1), table.column(2)])
     _check_labels(context, table, where)
-    if known.all():
-        gathered.add(Batch(numbers, ends, where, "elements"))
-        return
-    context.unread.add("ELEMENT")
-    rows = np.flatnonzero(known)
-    gathered.add(Batch(numbers[rows], ends[rows], where, "elements", rows))
+    ends = np.column_stack([table.column(1), table.column(2)])
+    if not _add_rows(gathered, table.column(0), ends, where, "elements"):
+        context.unread.add("ELEMENT")
 
 
 def _check_labels(context: Context, table: Table, where: Where) -> None:
@@ -189,7 +190,7 @@ def _check_labels(context: Context, table: Table, where: Where) -> None:
     if context.external_definers:
         return
     for row, column, word in labels[: MOST_REPORTED + 1]:
-        place = where._replace(path=(*where.path, "elements", row, column))
+        place = where.inside("elements", row, column)
         if context.is_guessed_label(place):
             context.cannot_place(place)
         else:
@@ -198,7 +199,7 @@ def _check_labels(context: Context, table: Table, where: Where) -> None:
 
 
 def _add_pattern(context: Context, gathered: Definitions, given: ElementPattern, where: Where) -> None:
-    place = where._replace(path=(*where.path, "generate"))
+    place = where.inside("generate")
     numbers = context.generator(given, place)
     if numbers is None:
         context.unread.add("ELEMENT")
@@ -213,7 +214,7 @@ def _add_pattern(context: Context, gathered: Definitions, given: ElementPattern,
         message = (
             f"GEN= repeats an element that exists: element {master} is not defined before this line; define it there"
         )
-        context.report_missing(REF005, message, place._replace(path=(*place.path, 0)), "ELEMENT", master)
+        context.report_missing(REF005, message, place.inside(0), "ELEMENT", master)
         ends = np.full(2, np.nan)
     steps = np.arange(1, count, dtype=np.int64) * step
     gathered.add(Batch(master + steps, ends + steps[:, np.newaxis], place))
@@ -232,7 +233,7 @@ def _pattern_fault(gathered: Definitions, master: int, count: int, step: int) ->
 
 
 def _join(context: Context, elements: Numbered, nodes: Numbered) -> Indices:
-    """Node indices; each end that names an undefined node is told, a generator's once."""
+    """Node indices; each end that names an undefined node is reported, a generator's once."""
     indices = np.empty(elements.values.shape, dtype=np.intp)
     found: list[Indices] = []
     for block in blocks_of(len(elements)):
@@ -252,7 +253,7 @@ def _join(context: Context, elements: Numbered, nodes: Numbered) -> Indices:
         number = int(elements.values[index, end])
         message = f"element {elements.ids[index]} ends at node {number}, which is not defined: define it"
         generated = not elements.batches[elements.batches_of(int(elements.rows[index]))].table
-        place = where if generated else where._replace(path=(*where.path, end + 1))
+        place = where if generated else where.inside(end + 1)
         problem = context.missing(REF006, message, place, "NODE", number)
         context.note(replace(problem, blocks=Blocks.ALWAYS))
     return indices
@@ -290,7 +291,7 @@ def distances(points: Floats, others: Floats) -> Floats:
 
 
 def report_repeats(context: Context, numbered: Numbered, repeats: Indices, thing: str) -> None:
-    """Tell of definitions (rows) whose number an earlier one has: each row of a table, a generator once."""
+    """Report definitions (rows) whose number an earlier one has: each row of a table, a generator once."""
     if not repeats.size:
         return
     batches, begins = np.unique(numbered.batches_of(repeats), return_index=True)

@@ -155,7 +155,7 @@ def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:
     seabed = read_seabed(context)
     check_lines(context)
     check_references(context, sets, laws, with_soil=external is None)
-    if external is None:  # a file of elements does not tell of every node and set
+    if external is None:  # a file of elements does not define every node and set
         check_soil(context, nodes)
         check_boundaries(context, nodes)
     return Scene(ready, nodes, elements, sets, sections, laws, resistance, extensions, seabed, context.problems)

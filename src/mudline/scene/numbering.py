@@ -96,7 +96,7 @@ class Batch:
         if not self.table:
             return self.where
         row = index if self.rows is None else int(self.rows[index])
-        return self.where._replace(path=(*self.where.path, self.table, row))
+        return self.where.inside(self.table, row)
 
 
 @dataclass(slots=True)

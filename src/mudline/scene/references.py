@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator
 from itertools import chain
 from typing import TYPE_CHECKING, cast
 
@@ -29,12 +28,16 @@ from mudline.scene.opaque_names import bare, makes_labels
 from mudline.scene.sets import Sets
 
 if TYPE_CHECKING:
-    from mudline.keywords.library.boundary import Boundary, FixedNode, FixedRange, FixedValues
+    from mudline.keywords.library.boundary import Boundary, FixedRange, FixedValues
     from mudline.keywords.library.element import ElementRows, Elements
     from mudline.keywords.library.element_sets import ElementSets
     from mudline.keywords.library.line_path_sections import LinePathSections
     from mudline.keywords.library.line_section_groups import LineSectionGroups
     from mudline.keywords.library.p_y import LateralSoil
+
+_MOST_FREEDOMS = 6
+_MARKS = re.compile(r"[0-9]+|\b\w{1,2}\b")
+"""Numbers and words of one or two letters: they distinguish things of a kind."""
 
 
 def check_references(context: Context, sets: Sets, laws: LawTable, *, with_soil: bool) -> None:
@@ -54,119 +57,92 @@ def given_names(deck: Deck, what: Names) -> Iterator[tuple[type[Block], Where, s
                     yield type(block), Where(i, j, path), name
 
 
-@dataclass(slots=True)
-class NamedNodes:
-    """Collects what names a node, number or label, and tells which of them the deck lacks."""
-
-    context: Context
-    nodes: Numbered
-    numbers: list[int] = field(default_factory=list)
-    places: list[Where] = field(default_factory=list)
-
-    @property
-    def judged(self) -> bool:
-        """Whether the deck shows nodes at all: one without any has its model somewhere else."""
-        return len(self.nodes) > 0 or "NODE" in self.context.deck.keywords()
-
-    def add(self, node: object, where: Where) -> None:
-        """Take note of a node; what is neither a number nor a label could not be read, and is no matter here."""
-        if isinstance(node, Label):
-            self._label(node, where)
-        elif isinstance(node, int):
-            self.numbers.append(node)
-            self.places.append(where)
-
-    def report(self) -> None:
-        """Tell of the numbers that nothing defines."""
-        missing = np.flatnonzero(self.nodes.indices(np.array(self.numbers, dtype=np.int64)) < 0)
-        for index in missing[: MOST_REPORTED + 1].tolist() if self.judged else ():
-            number = self.numbers[index]
-            message = f"node {number} is not defined: define it in *NODE, or correct the number"
-            self.context.report_missing(REF006, message, self.places[index], "NODE", number)
-
-    def _label(self, label: Label, where: Where) -> None:
-        check_label(self.context, REF006, label, where)
-        if self.judged and not self.context.external_definers and not self.context.is_guessed_label(where):
-            message = f"node {shown(label)} is a label, and nothing in this deck makes labelled nodes: give a number"
-            self.context.report_missing(REF006, message, where, "NODE")
-
-
 def check_soil(context: Context, nodes: Numbered) -> None:
     """Every NODE= of soil springs against the nodes of the deck."""
-    named = NamedNodes(context, nodes)
-    for where, block in context.deck.blocks_that(lambda declared: declared.facts.soil_springs):
-        for i, springs in enumerate(cast("LateralSoil", block).sets):
-            for j, curve in enumerate(springs.curves):
-                named.add(getattr(curve, "node", None), where._replace(path=("sets", i, "curves", j, "node")))
-    named.report()
+    named = (
+        (getattr(curve, "node", None), where.inside("sets", i, "curves", j, "node"))
+        for where, block in context.deck.blocks_that(lambda declared: declared.facts.soil_springs)
+        for i, springs in enumerate(cast("LateralSoil", block).sets)
+        for j, curve in enumerate(springs.curves)
+    )
+    _check_nodes(context, nodes, named)
 
 
-_MOST_FREEDOMS = 6
+def _check_nodes(context: Context, nodes: Numbered, named: Iterable[tuple[object, Where]]) -> None:
+    """Report the nodes, numbers or labels, that the deck lacks; anything else could not be read and is skipped."""
+    numbers: list[int] = []
+    places: list[Where] = []
+    shown_nodes = _shows_nodes(context, nodes)
+    for node, where in named:
+        if isinstance(node, Label):
+            check_label(context, REF006, node, where)
+            if shown_nodes and not context.external_definers and not context.is_guessed_label(where):
+                message = f"node {shown(node)} is a label, and nothing in this deck makes labelled nodes: give a number"
+                context.report_missing(REF006, message, where, "NODE")
+        elif isinstance(node, int):
+            numbers.append(node)
+            places.append(where)
+    missing = np.flatnonzero(nodes.indices(np.array(numbers, dtype=np.int64)) < 0)
+    for index in missing[: MOST_REPORTED + 1].tolist() if shown_nodes else ():
+        message = f"node {numbers[index]} is not defined: define it in *NODE, or correct the number"
+        context.report_missing(REF006, message, places[index], "NODE", numbers[index])
+
+
+def _shows_nodes(context: Context, nodes: Numbered) -> bool:
+    """Whether the deck shows nodes at all: one without any has its model somewhere else."""
+    return len(nodes) > 0 or "NODE" in context.deck.keywords()
 
 
 def check_boundaries(context: Context, nodes: Numbered) -> None:
     """Every line of `*BOUNDARY` against the nodes of the deck and the six degrees of freedom."""
-    checker = _BoundaryChecker(context, nodes)
+    named: list[tuple[object, Where]] = []
     for where, block in context.deck.blocks("BOUNDARY", "LOAD CASE"):
         types = cast("Boundary", block).types
         if not types and not context.deck.origin.lost(where.section, where.block):
-            message = "*BOUNDARY holds nothing: give TYPE= and nodes below it, or remove it"
+            message = "*BOUNDARY is empty: give TYPE= and nodes below it, or remove it"
             context.report(SYN001, message, where, Severity.WARNING)
         for i, held in enumerate(types):
             for j, entry in enumerate(held.entries):
-                place = where._replace(path=("types", i, "entries", j))
+                place = where.inside("types", i, "entries", j)
                 if hasattr(entry, "generate"):
-                    checker.range(cast("FixedRange", entry), place)
+                    _check_range(context, nodes, cast("FixedRange", entry), place.inside("generate"))
                 else:
-                    checker.node(entry, place)
-    checker.named.report()
+                    named.append((entry.node, place.inside("node")))
+                    _check_freedom(context, entry.dof, place.inside("dof"))
+    _check_nodes(context, nodes, named)
 
 
-class _BoundaryChecker:
-    def __init__(self, context: Context, nodes: Numbered) -> None:
-        self.context = context
-        self.nodes = nodes
-        self.named = NamedNodes(context, nodes)
+def _check_range(context: Context, nodes: Numbered, entry: FixedRange, where: Where) -> None:
+    """The nodes of a GEN=, without building them, and their degree of freedom."""
+    values = cast("FixedValues | None", entry.generate)
+    if values is None or context.deck.origin.damaged(where) or context.without_value(values, where):
+        return
+    at, step = _freedom_and_step(values)
+    freedom = (values.third, values.fourth)[at - 2]
+    if freedom is None:
+        message = "this GEN= has no degree of freedom: write start, end [, increment], dof [, displacement]"
+        context.report(SYN003, message, where)
+    else:
+        _check_freedom(context, freedom, where.inside(at))
+    start, end = values.start, values.end
+    if not (isinstance(start, int) and isinstance(end, int) and isinstance(step, int)):
+        return
+    written = f"GEN= holds the nodes from {start} to {end} in steps of {step}"
+    if end < start or step < 1:
+        why = "the increment must be at least 1" if step < 1 else "the end must not come before the start"
+        context.report(REF010, f"{written}: there are none, {why}", where, Severity.ERROR)
+        return
+    found = len(nodes.between(start, end, step)) if len(nodes) else 0
+    wanted = (end - start) // step + 1
+    if found < wanted and _shows_nodes(context, nodes) and not context.possible_definition("NODE"):
+        message = f"{written}: {wanted - found} of these {wanted} are not defined; correct it, or define them"
+        context.report(REF006, message, where, Severity.WARNING if found else None)
 
-    def node(self, entry: FixedNode, where: Where) -> None:
-        """A node with its degree of freedom."""
-        self.named.add(entry.node, where._replace(path=(*where.path, "node")))
-        if _is_no_freedom(entry.dof):
-            self._report_freedom(entry.dof, where._replace(path=(*where.path, "dof")))
 
-    def range(self, entry: FixedRange, where: Where) -> None:
-        """The nodes of a GEN=, and their degree of freedom."""
-        place = where._replace(path=(*where.path, "generate"))
-        values = cast("FixedValues | None", entry.generate)
-        if values is None or self.context.deck.origin.damaged(place) or self.context.without_value(values, place):
-            return
-        at, step = _freedom_and_step(values)
-        freedom = (values.third, values.fourth)[at - 2]
-        if freedom is None:
-            message = "this GEN= has no degree of freedom: write start, end [, increment], dof [, displacement]"
-            self.context.report(SYN003, message, place)
-        elif _is_no_freedom(freedom):
-            self._report_freedom(freedom, place._replace(path=(*place.path, at)))
-        start, end = values.start, values.end
-        if isinstance(start, int) and isinstance(end, int) and isinstance(step, int):
-            self._nodes(start, end, step, place)
-
-    def _report_freedom(self, given: object, where: Where) -> None:
-        message = f"{given} is no degree of freedom: expected 1 (vertical), 2 or 3 (horizontal), or 4 to 6 (rotations)"
-        self.context.report(SYN005, message, where)
-
-    def _nodes(self, start: int, end: int, step: int, where: Where) -> None:
-        """The nodes of a range, without building it: it may be as long as a slip of the pen makes it."""
-        written = f"GEN= holds the nodes from {start} to {end} in steps of {step}"
-        if end < start or step < 1:
-            why = "the increment must be at least 1" if step < 1 else "the end must not come before the start"
-            self.context.report(REF010, f"{written}: there are none, {why}", where, Severity.ERROR)
-            return
-        found = len(self.nodes.between(start, end, step)) if len(self.nodes) else 0
-        wanted = (end - start) // step + 1
-        if found < wanted and self.named.judged and not self.context.possible_definition("NODE"):
-            message = f"{written}: {wanted - found} of these {wanted} are not defined; correct it, or define them"
-            self.context.report(REF006, message, where, Severity.WARNING if found else None)
+def _check_freedom(context: Context, given: object, where: Where) -> None:
+    if _is_no_freedom(given):
+        expected = "expected 1 (vertical), 2 or 3 (horizontal), or 4 to 6 (rotations)"
+        context.report(SYN005, f"{given} is not a degree of freedom: {expected}", where)
 
 
 def _freedom_and_step(values: FixedValues) -> tuple[int, object]:
@@ -183,38 +159,33 @@ def _freedom_and_step(values: FixedValues) -> tuple[int, object]:
 
 
 def _is_no_freedom(freedom: object) -> bool:
-    """Whether a value is no degree of freedom; one that could not be read may be one. Equations give 6.0 for 6."""
+    """Whether a value is not a degree of freedom; one that could not be read may be one. Equations give 6.0 for 6."""
     known = isinstance(freedom, int | float) and not math.isnan(freedom)
     return known and freedom not in range(1, _MOST_FREEDOMS + 1)
 
 
-_PATHS = "LINE PATHS"
-_GROUPS = "LINE SECTION GROUPS"
-_MARKS = re.compile(r"[0-9]+|\b\w{1,2}\b")
-"""Numbers and words of one or two letters: things of a kind are told apart by them."""
-
-
 def check_lines(context: Context) -> None:
     """The lines and groups that `*LINE PATH SECTIONS` names, and the labels of elements and sets: warnings at most."""
-    groups = _groups(context)
+    blocks = (cast("LineSectionGroups", block) for _, block in context.deck.blocks("LINE SECTION GROUPS"))
+    groups = {folded(bare(group.name)): group.name for block in blocks for group in block.groups if group.name}
     for where, block in context.deck.blocks("LINE PATH SECTIONS"):
         for index, path in enumerate(cast("LinePathSections", block).paths):
-            place = where._replace(path=("paths", index))
-            if path.line and _PATHS in context.external_definers:
-                inner = place._replace(path=(*place.path, "line"))
-                _check_name(context, ("LINE=", "line", _PATHS), path.line, inner, context.labels)
+            place = where.inside("paths", index)
+            if path.line and "LINE PATHS" in context.external_definers:
+                what = ("LINE=", "line", "*LINE PATHS")
+                _check_name(context, what, path.line, place.inside("line"), context.labels)
             for number, section in enumerate(path.sections):
                 if section.repeat:
-                    inner = place._replace(path=(*place.path, "sections", number, "repeat"))
-                    _check_name(context, ("REPEAT=", "group", _GROUPS), section.repeat, inner, groups)
+                    what = ("REPEAT=", "group", "*LINE SECTION GROUPS")
+                    _check_name(context, what, section.repeat, place.inside("sections", number, "repeat"), groups)
     for code, label, where in chain(_of_elements(context), _of_sets(context)) if context.external_definers else ():
         check_label(context, code, label, where)
 
 
 def check_label(context: Context, code: Code, label: str, where: Where) -> None:
-    """A label that no line names, but is spelt nearly as one that a line does, is told under a code, as a warning.
+    """Report a label that no line names but that is spelt nearly as one that a line does, as a warning.
 
-    Nothing is said of other labels: lines are not read, and may make labels in ways that are not known.
+    Other labels are not reported: lines are not read, and may make labels in ways that are not known.
     """
     name = bare(label)
     if not context.external_definers or folded(name) in context.labels:
@@ -222,7 +193,7 @@ def check_label(context: Context, code: Code, label: str, where: Where) -> None:
     near = context.near(name, context.labels)
     if near and _is_slip(folded(name), near) and not context.is_guessed_label(where):
         makers = " or ".join(f"*{keyword}" for keyword in context.external_definers if makes_labels(keyword))
-        message = f"label {shown(label)} does not stand in {makers} (did you mean {{{context.labels[near]}}}?)"
+        message = f"label {shown(label)} is not in {makers} (did you mean {{{context.labels[near]}}}?)"
         context.report(code, f"{message}: correct it", where, Severity.WARNING)
 
 
@@ -238,15 +209,9 @@ def _check_name(context: Context, what: tuple[str, str, str], name: str, where: 
         return
     near = context.near(name, known)
     hint = f" (did you mean {known[near]}?)" if near else ""
-    message = f"{key} names no {thing}: {shown(name)} is not defined{hint}; define it in *{keyword}"
-    supplier = context.possible_definition(keyword)
-    context.report(REF001, f"{message}; {supplier}" if supplier else message, where, Severity.WARNING)
-
-
-def _groups(context: Context) -> dict[str, str]:
-    """Names of the groups of sections by their folded form."""
-    blocks = (cast("LineSectionGroups", block) for _, block in context.deck.blocks(_GROUPS))
-    return {folded(bare(group.name)): group.name for block in blocks for group in block.groups if group.name}
+    message = f"{key} names no {thing}: {shown(name)} is not defined{hint}; define it in {keyword}"
+    source = context.possible_definition(keyword[1:])
+    context.report(REF001, f"{message}; {source}" if source else message, where, Severity.WARNING)
 
 
 def _of_elements(context: Context) -> Iterator[tuple[Code, str, Where]]:
@@ -256,7 +221,7 @@ def _of_elements(context: Context) -> Iterator[tuple[Code, str, Where]]:
             if hasattr(entry, "elements"):
                 for (row, column), word in cast("ElementRows", entry).elements.words.items():
                     if isinstance(word, Label):
-                        yield REF006, word, where._replace(path=("entries", index, "elements", row, column))
+                        yield REF006, word, where.inside("entries", index, "elements", row, column)
 
 
 def _of_sets(context: Context) -> Iterator[tuple[Code, str, Where]]:

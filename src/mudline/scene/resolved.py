@@ -243,6 +243,11 @@ class ResolvedDeck:
             found[element] = None if holder is None else holder.name
         return found
 
+    def describe(self, elements: Mask | Indices, one: str = "has", many: str = "have") -> str:
+        """Elements of a message, given as mask or indices: `element 3 has`, or `4 elements (first: 3) have`."""
+        ids = self.element_ids[elements]
+        return f"element {ids[0]} {one}" if ids.size == 1 else f"{ids.size} elements (first: {ids[0]}) {many}"
+
     def law_name(self, set_law: SetLaw) -> str:
         """Name of the law that a set_law gives."""
         if set_law.kind is LawKind.CURVE and set_law.curve >= 0:

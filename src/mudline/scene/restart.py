@@ -17,7 +17,7 @@ from mudline.deck.parameters import Parameters
 from mudline.diagnostics import DeckError, Problem, Where
 from mudline.keywords.text import shown
 from mudline.scene.continued import Base, as_base_problem, continuation
-from mudline.scene.deck_values import file_name, find_file
+from mudline.scene.deck_values import LARGEST_FILE, file_name, find_file
 
 if TYPE_CHECKING:
     from mudline.keywords.library.restart import Restart
@@ -26,18 +26,29 @@ if TYPE_CHECKING:
 MOST_FOLLOWED = 20
 """Decks in a chain; a longer one is not followed to its beginning."""
 
-_MEND = "correct the name, or put the deck there"
+_SUFFIXES = (".keyxm", ".keyxi", ".keyx", ".das")
+_MOST_LISTED = 20_000
+"""Files of a folder that are looked through for a name in another case."""
+
+_MOST_KEPT = 32
+_LARGEST_KEPT = 100_000_000
+"""Bytes of all the files that are kept."""
+
+_Version = tuple[int, int]
+"""When a file was changed last, and how long it is."""
+
+_ADVICE = "correct the name, or put the deck there"
 
 
 class _Chain(NamedTuple):
     """The decks before a deck, the nearest first; `fault` says why the first of all was not reached, and "" if it was.
 
-    `told` says that the deck itself has to be told of the fault: it is about its own LAST=, or leads back to it.
+    `is_own` says that the fault is that of the deck itself: it is about its own LAST=, or leads back to it.
     """
 
     bases: list[Base]
     fault: str = ""
-    told: bool = False
+    is_own: bool = False
 
 
 def continued(deck: Deck) -> tuple[Deck, list[Problem]]:
@@ -54,7 +65,7 @@ def continued(deck: Deck) -> tuple[Deck, list[Problem]]:
             problems.append(Problem(REF015, _missing(deck, name), where=where))
     where, _ = names[-1]
     chain = _follow(deck)
-    if chain.told:
+    if chain.is_own:
         problems.append(Problem(REF015, chain.fault, where=where))
     if not chain.bases:
         return deck, problems
@@ -76,7 +87,7 @@ def _names(deck: Deck) -> Iterator[tuple[Where, str]]:
     for where, block in blocks:
         if block.last:
             name = parameters.filled(block.last) if parameters else block.last
-            yield where._replace(path=("last",)), name
+            yield where.inside("last"), name
 
 
 def _follow(deck: Deck) -> _Chain:
@@ -91,17 +102,17 @@ def _follow(deck: Deck) -> _Chain:
             return _Chain(bases, f"the *RESTART of {trail[-1]} could not be read")
         path = find_deck(current, name)
         if path is None:
-            return _Chain(bases, _missing(current, name), told=not bases)
+            return _Chain(bases, _missing(current, name), is_own=not bases)
         if _identity(path) in seen:
             back = " -> ".join([*trail, path.name])
             message = f"LAST= leads back to a deck that is open already ({back}): choose the deck of the run before"
-            return _Chain(bases, message, told=path.name == trail[0])
+            return _Chain(bases, message, is_own=path.name == trail[0])
         if len(bases) == MOST_FOLLOWED:
             return _Chain(bases, f"more than {MOST_FOLLOWED} decks continue each other")
         try:
             base = read_base(path)
         except BaseError as reason:
-            return _Chain(bases, f"the deck that LAST= continues is not read: {reason}; {_MEND}", told=not bases)
+            return _Chain(bases, f"the deck that LAST= continues is not read: {reason}; {_ADVICE}", is_own=not bases)
         seen.add(_identity(path))
         trail.append(path.name)
         bases.append(base)
@@ -112,7 +123,7 @@ def _follow(deck: Deck) -> _Chain:
 def _missing(deck: Deck, name: str) -> str:
     folder = deck.folder.as_posix() if deck.folder else ""
     names = candidate_names(deck, name)
-    return f"the deck {shown(names[0])} is not there (looked in {folder} for {', '.join(names)}): {_MEND}"
+    return f"the deck {shown(names[0])} is not there (looked in {folder} for {', '.join(names)}): {_ADVICE}"
 
 
 def _identity(path: Path) -> Path:
@@ -123,59 +134,37 @@ def _identity(path: Path) -> Path:
         return path
 
 
-LARGEST_FILE = 200_000_000
-_MOST_KEPT = 32
-_LARGEST_KEPT = 100_000_000
-"""Bytes of all the files that are kept."""
-
-_Version = tuple[int, int]
-"""When a file was changed last, and how long it is."""
-
-
 class BaseError(ValueError):
     """A file that cannot be continued; the text says why."""
 
 
-class _BaseCache:
-    """The decks that were read last."""
-
-    def __init__(self) -> None:
-        self.decks: dict[str, tuple[_Version, Base]] = {}
-
-    def find(self, key: str, version: _Version) -> Base | None:
-        """The deck of a file, if it has not changed since it was read."""
-        found = self.decks.get(key)
-        return found[1] if found and found[0] == version else None
-
-    def add(self, key: str, version: _Version, base: Base) -> None:
-        """Keep a deck, and let those go that were read long before."""
-        self.decks.pop(key, None)
-        self.decks[key] = (version, base)
-        while len(self.decks) > 1 and (len(self.decks) > _MOST_KEPT or self._bytes() > _LARGEST_KEPT):
-            del self.decks[next(iter(self.decks))]
-
-    def _bytes(self) -> int:
-        return sum(version[1] for version, _ in self.decks.values())
-
-
-_CACHE = _BaseCache()
+_CACHE: dict[str, tuple[_Version, Base]] = {}
+"""The decks that were read last, by file."""
 
 
 def read_base(path: Path) -> Base:
-    """The deck of a file in any form, its model evaluated. Raises BaseError."""
+    """The deck of a file in any form, its model evaluated; kept until the file changes. Raises BaseError."""
     try:
         stat = path.stat()
         version = (stat.st_mtime_ns, stat.st_size)
         key = str(path.absolute())
         if stat.st_size > LARGEST_FILE:
             raise BaseError(f"{path.as_posix()} has more than {LARGEST_FILE // 10**6} million bytes")
-        found = _CACHE.find(key, version)
-        if found is None:
-            found = _read_base(path)
-            _CACHE.add(key, version, found)
+        found = _CACHE.get(key)
+        if found and found[0] == version:
+            return found[1]
+        base = _read_base(path)
     except OSError as error:
         raise BaseError(f"{path.as_posix()}: {error.strerror or error}") from error
-    return found
+    _CACHE.pop(key, None)
+    _CACHE[key] = (version, base)
+    while len(_CACHE) > 1 and (len(_CACHE) > _MOST_KEPT or _kept_bytes() > _LARGEST_KEPT):
+        del _CACHE[next(iter(_CACHE))]
+    return base
+
+
+def _kept_bytes() -> int:
+    return sum(size for (_, size), _ in _CACHE.values())
 
 
 def _read_base(path: Path) -> Base:
@@ -184,15 +173,10 @@ def _read_base(path: Path) -> Base:
     except DeckError as error:
         raise BaseError(f"{error.diagnostics[0]}") from error
     if not deck.sections:
-        raise BaseError(f"{path.as_posix()} has no section: it is no deck")
+        raise BaseError(f"{path.as_posix()} has no section: it is not a deck")
     ready, problems = evaluated(deck)
     model = {number: section for number, section in enumerate(ready.sections) if section.name == "MODEL"}
     return Base(deck, model, (*deck.problems, *problems))
-
-
-_SUFFIXES = (".keyxm", ".keyxi", ".keyx", ".das")
-_MOST_LISTED = 20_000
-"""Files of a folder that are looked through for a name in another case."""
 
 
 def candidate_names(deck: Deck, written: str) -> list[str]:

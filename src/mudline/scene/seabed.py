@@ -14,7 +14,7 @@ import numpy as np
 from mudline.diagnostics import Where
 from mudline.keywords.text import shown
 from mudline.scene.context import Context
-from mudline.scene.deck_values import file_name, find_file, number, surfaces
+from mudline.scene.deck_values import LARGEST_FILE, file_name, find_file, number, surfaces
 from mudline.scene.numbering import Floats
 from mudline.short_repr import short_repr
 from mudline.syntax.rows import read_number
@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 
 
 _NO_POINTS = np.zeros((0, 2))
+COMPILED = ".fcsbd"
+_PARTS = re.compile(r"[\s,]+")
 
 
 class SeabedKind(Enum):
@@ -104,9 +106,9 @@ def read_seabed(context: Context) -> SeabedShape:
 def _surface(surface: Surface, where: Where, before: SeabedShape) -> SeabedShape:
     if surface.profile is not None:
         points = np.column_stack([surface.profile.column(0), surface.profile.column(1)])
-        return SeabedShape(SeabedKind.PROFILE, points=points, where=where._replace(path=("profile",)))
+        return SeabedShape(SeabedKind.PROFILE, points=points, where=where.inside("profile"))
     if surface.slope is not None:
-        return SeabedShape(SeabedKind.SLOPING, number(surface, "slope"), where=where._replace(path=("slope",)))
+        return SeabedShape(SeabedKind.SLOPING, number(surface, "slope"), where=where.inside("slope"))
     return before
 
 
@@ -116,7 +118,7 @@ def _profile(context: Context, block: SeabedProfile, where: Where, unreadable: l
         return SeabedShape(SeabedKind.SLOPING, number(block, "slope"), direction, where=where)
     kind, columns = (SeabedKind.SURFACE, 3) if block.type_ == "3D" else (SeabedKind.PROFILE, 2)
     name = file_name(block.file or "")
-    place = where._replace(path=("file",))
+    place = where.inside("file")
     points, missing, fault = _read_points(context, name, columns, place)
     if fault:
         unreadable.append((place, f"the profile {shown(name)} cannot be read: {fault}"))
@@ -146,25 +148,11 @@ def _read_points(context: Context, name: str, columns: int, where: Where) -> tup
 
 
 def _plane(plane: Plane) -> SeabedPlane:
-    point = tuple(number(plane.point, axis) for axis in ("x", "y", "z"))
-    bounds = plane.bounds
-    return SeabedPlane(
-        plane.name,
-        cast("tuple[float, float, float]", point),
-        number(plane, "slope"),
-        number(plane, "direction", 0.0),
-        (
-            number(bounds, "y_min", -math.inf),
-            number(bounds, "y_max", math.inf),
-            number(bounds, "z_min", -math.inf),
-            number(bounds, "z_max", math.inf),
-        ),
-    )
-
-
-COMPILED = ".fcsbd"
-LARGEST_FILE = 200_000_000
-_PARTS = re.compile(r"[\s,]+")
+    x, y, z = (number(plane.point, axis) for axis in "xyz")
+    sides = (("y_min", -math.inf), ("y_max", math.inf), ("z_min", -math.inf), ("z_max", math.inf))
+    y_min, y_max, z_min, z_max = (number(plane.bounds, side, unbounded) for side, unbounded in sides)
+    slope, direction = number(plane, "slope"), number(plane, "direction", 0.0)
+    return SeabedPlane(plane.name, (x, y, z), slope, direction, (y_min, y_max, z_min, z_max))
 
 
 class ProfileError(ValueError):
@@ -175,7 +163,7 @@ def read_profile(path: Path, columns: int) -> Floats:
     """The points (k, columns) in the order of the file; lines with C in column 1 are comments, blank ones count not.
 
     `columns` is 2 for Y and elevation of a profile, 3 for X, Y and Z of a surface. Raises OSError, or ProfileError for
-    a compiled file and for the first line that is no point.
+    a compiled file and for the first line that is not a point.
     """
     if path.suffix.lower() == COMPILED:
         raise ProfileError(
@@ -191,28 +179,22 @@ def parse_profile(data: bytes, name: str, columns: int) -> Floats:
     source = Source.from_bytes(data, name)
     if not source.readable:
         raise ProfileError(source.problems[0].message)
+    wanted = "Y, elevation" if columns == 2 else "X, Y, Z"
     rows: list[list[float]] = []
     for at, line in enumerate(source.unified.split("\n"), 1):
         if line.strip() and not line.startswith("C"):
-            rows.append(_point(line, columns, at))
+            words = _PARTS.split(line.strip(" \t\r\n,"))
+            if len(words) != columns:
+                raise ProfileError(f"line {at}: expected {columns} numbers (`{wanted}`), found {len(words)}")
+            rows.append([_number(word, at) for word in words])
     if len(rows) < 2:
         count = f"{len(rows)} point" + "s" * (len(rows) != 1)
-        raise ProfileError(f"the file has {count}: a profile needs at least two lines `{_wanted(columns)}`")
+        raise ProfileError(f"the file has {count}: a profile needs at least two lines `{wanted}`")
     return np.array(rows, dtype=np.float64)
 
 
-def _point(line: str, columns: int, number: int) -> list[float]:
-    words = _PARTS.split(line.strip(" \t\r\n,"))
-    if len(words) != columns:
-        raise ProfileError(f"line {number}: expected {columns} numbers (`{_wanted(columns)}`), found {len(words)}")
-    values: list[float] = []
-    for word in words:
-        value = read_number(word)
-        if value is None:
-            raise ProfileError(f"line {number}: {shown(word)} is no number")
-        values.append(value)
-    return values
-
-
-def _wanted(columns: int) -> str:
-    return "Y, elevation" if columns == 2 else "X, Y, Z"
+def _number(word: str, line: int) -> float:
+    value = read_number(word)
+    if value is None:
+        raise ProfileError(f"line {line}: {shown(word)} is not a number")
+    return value

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 class Section:
     """An entry of `*GEOMETRIC SETS`. `diameter` is NaN where there is none, or none that can be used.
 
-    `source` is "Do" or "Dd"; `faulty` says that the diameter could not be read or is out of range, which has been told.
+    `source` is "Do" or "Dd"; `faulty` says that the diameter could not be read or is out of range, which is reported.
     """
 
     name: str
@@ -59,7 +59,7 @@ def read_sections(
     holders: list[NamedSet | None] = []
     for where, block in context.deck.blocks("GEOMETRIC SETS"):
         for index, entry in enumerate(cast("GeometricSets", block).sets):
-            place = where._replace(path=("sets", index))
+            place = where.inside("sets", index)
             name = cast("str | None", entry.set_name)
             holders.append(None if name is None else sets.find(name))
             sections.append(_section(context, entry, place))
@@ -81,7 +81,7 @@ def _section(context: Context, entry: GeometricSet, where: Where) -> Section:
     source, value = entry.diameter
     diameter = float(value) if isinstance(value, int | float) else math.nan
     option = next((name for name in ("flexible", "rigid", "mooring", "truss") if getattr(entry, name) is not None), "")
-    unread = context.has_read_errors(where) or context.has_read_errors(where._replace(path=(*where.path, option)))
+    unread = context.has_read_errors(where) or context.has_read_errors(where.inside(option))
     bad = diameter < 0 or math.isnan(diameter) or (source == "Do" and diameter == 0)
     name = str(entry.set_name or "")
     return Section(name, diameter if diameter > 0 else math.nan, source, where, unread or bad)

@@ -18,8 +18,13 @@ if TYPE_CHECKING:
     from mudline.scene.force_curves import SceneCurve
     from mudline.scene.resolved import ResolvedDeck
 
-
 EXT001 = Code("EXT001", "extension-needs-elastic", Severity.ERROR)
+EXT004 = Code("EXT004", "bad-cutoff", Severity.ERROR)
+EXT005 = Code("EXT005", "suction-incomplete", Severity.ERROR)
+EXT006 = Code("EXT006", "suction-conflict", Severity.ERROR)
+EXT009 = Code("EXT009", "unloading-conflict", Severity.ERROR)
+
+_LOWEST, _HIGHEST = 0.01, 0.99
 
 
 @check(EXT001)
@@ -57,13 +62,6 @@ def extension_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
             yield Problem(EXT001, message, where=where)
 
 
-EXT004 = Code("EXT004", "bad-cutoff", Severity.ERROR)
-EXT005 = Code("EXT005", "suction-incomplete", Severity.ERROR)
-EXT006 = Code("EXT006", "suction-conflict", Severity.ERROR)
-
-_LOWEST, _HIGHEST = 0.01, 0.99
-
-
 @check(EXT004)
 def bad_cutoff(scene: ResolvedDeck) -> Iterator[Problem]:
     """The corners of the suction trapezoid are out of order or out of range.
@@ -92,7 +90,7 @@ def bad_cutoff(scene: ResolvedDeck) -> Iterator[Problem]:
         known = [corner for corner in corners if np.isfinite(corner)]
         if any(not _LOWEST <= corner <= _HIGHEST for corner in known) or known != sorted(known):
             message = f"corners {', '.join(map(repr, known))}: they must be 0.01 <= first <= second <= 0.99"
-            yield Problem(EXT004, message, where=where._replace(path=(*where.path, "cutoff")))
+            yield Problem(EXT004, message, where=where.inside("cutoff"))
 
 
 @check(EXT005)
@@ -123,25 +121,25 @@ def suction_incomplete(scene: ResolvedDeck) -> Iterator[Problem]:
     user = scene.units == "user"
     bare = (scene.law != LawKind.RIGID) & np.isnan(scene.diameter) & ~scene.section_table.faulty
     for index, (entry, where) in enumerate(zip(extension.entries, extension.places, strict=True)):
+        if scene.context.has_read_errors(where):
+            continue
         lacks = {key for key in ("cohesion", "force", "depth", "regularisation") if getattr(entry, key, None) is None}
-        title = where._replace(path=(*where.path, "set"))
-        whole = not scene.context.has_read_errors(where)
-        by_cohesion = "cohesion" not in lacks and bool(lacks & {"force", "depth"})
-        if "cohesion" in lacks and lacks & {"force", "depth"} and whole:
-            missing = " and ".join(f"{key.upper()}=" for key in ("force", "depth") if key in lacks)
-            yield Problem(EXT005, f"the suction law is incomplete: give COHESION=, or {missing}", where=title)
-        if user and by_cohesion and whole:
-            message = "COHESION= needs metric or imperial units, and the deck has user units: give FORCE= and DEPTH="
-            yield Problem(EXT005, message, where=where._replace(path=(*where.path, "cohesion")))
-        if user and "regularisation" in lacks and whole:
-            message = "REGULARISATION= is missing: with user units it has no default; give it"
-            yield Problem(EXT005, message, where=title)
-        unsized = np.flatnonzero(bare & (extension.of_element == index))
-        if by_cohesion and whole and not user and unsized.size:
-            held = scene.element_ids[unsized]
-            what = f"element {held[0]} has" if held.size == 1 else f"{held.size} elements (first: {held[0]}) have"
-            message = f"COHESION= needs the external diameter, and {what} none: give Do (or Dd) in *GEOMETRIC SETS"
-            yield lacks_diameter(scene, EXT005, message, where._replace(path=(*where.path, "cohesion")))
+        title, cohesion = where.inside("set"), where.inside("cohesion")
+        unsized = bare & (extension.of_element == index)
+        if missing := " and ".join(f"{key.upper()}=" for key in ("force", "depth") if key in lacks):
+            if "cohesion" in lacks:
+                yield Problem(EXT005, f"the suction law is incomplete: give COHESION=, or {missing}", where=title)
+            elif user:
+                message = (
+                    "COHESION= needs metric or imperial units, and the deck has user units: give FORCE= and DEPTH="
+                )
+                yield Problem(EXT005, message, where=cohesion)
+            elif unsized.any():
+                what = scene.describe(unsized)
+                message = f"COHESION= needs the external diameter, and {what} none: give Do (or Dd) in *GEOMETRIC SETS"
+                yield lacks_diameter(scene, EXT005, message, cohesion)
+        if user and "regularisation" in lacks:
+            yield Problem(EXT005, "REGULARISATION= is missing: with user units it has no default; give it", where=title)
 
 
 @check(EXT006)
@@ -183,28 +181,23 @@ def suction_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
     springs = (scene.resistance.column("suction") > 0.0) & (scene.law != LawKind.RIGID)
     listed, extrapolated = (_on_curves(scene, pulls) for pulls in (_lists_pull, _may_pull))
     for index, where in enumerate(extension.places):
-        place = where._replace(path=(*where.path, "set"))
+        place = where.inside("set")
         held = extension.of_element == index
         if np.any(both := held & springs):
-            message = f"{_counted(scene, both)} SUCTION= of the seabed too: remove one of the two"
+            message = f"{scene.describe(both)} SUCTION= of the seabed too: remove one of the two"
             yield Problem(EXT006, message, where=place)
         if np.any(both := held & listed):
             message = (
-                f"{_counted(scene, both)} a curve that pulls too: remove one of the two, unless the curve is evaluated "
+                f"{scene.describe(both)} a curve that pulls too: remove one of the two, unless the curve is evaluated "
                 "with --tension cut"
             )
             yield Problem(EXT006, message, where=place, blocks=Blocks.WITH_TENSION)
         if np.any(both := held & extrapolated & ~listed):
             message = (
-                f"{_counted(scene, both)} a curve that pulls too where it is extrapolated: `evaluate` refuses a "
+                f"{scene.describe(both)} a curve that pulls too where it is extrapolated: `evaluate` refuses a "
                 "position there; correct the curve, or evaluate it with --tension cut"
             )
             yield Problem(EXT006, message, None, Severity.WARNING, place)
-
-
-def _counted(scene: ResolvedDeck, elements: Mask) -> str:
-    found = scene.element_ids[elements]
-    return f"element {found[0]} has" if found.size == 1 else f"{found.size} elements (first: {found[0]}) have"
 
 
 def _on_curves(scene: ResolvedDeck, pulls: Callable[[SceneCurve], bool]) -> Mask:
@@ -226,9 +219,6 @@ def _may_pull(entry: SceneCurve) -> bool:
         return False
     force, slope = entry.curve.evaluate(np.array([0.0, max(0.0, float(entry.curve.ratios[-1]))]))
     return bool(force[0] < 0.0 or force[1] < 0.0 or slope[1] < 0.0)
-
-
-EXT009 = Code("EXT009", "unloading-conflict", Severity.ERROR)
 
 
 @check(EXT009)
@@ -261,20 +251,15 @@ def unloading_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
         stiffness, named = number(entry, "stiffness"), extension.of_element == index
         if stiffness <= 0.0:
             message = f"unloading stiffness {stiffness!r}: it must be above 0"
-            yield Problem(EXT009, message, where=where._replace(path=(*where.path, "stiffness")))
-        place = where._replace(path=(*where.path, "set"))
-        both = np.flatnonzero(named & smooth)
-        if both.size:
+            yield Problem(EXT009, message, where=where.inside("stiffness"))
+        place = where.inside("set")
+        if np.any(both := named & smooth):
+            advice = "write SMOOTHING=NONE in *SEABED CONTACT, or remove the unloading"
+            yield Problem(EXT009, f"{scene.describe(both)} smoothing too: {advice}", where=place)
+        if np.any(both := named & nodal):
             message = (
-                f"{both.size} elements (first: {scene.element_ids[both[0]]}) have smoothing too: "
-                "write SMOOTHING=NONE in *SEABED CONTACT, or remove the unloading"
-            )
-            yield Problem(EXT009, message, where=place)
-        at_nodes = np.flatnonzero(named & nodal)
-        if at_nodes.size:
-            message = (
-                f"{at_nodes.size} elements (first: {scene.element_ids[at_nodes[0]]}) have NODAL STIFFNESS=, which does "
-                "not unload along a line of its own: remove one of the two"
+                f"{scene.describe(both)} NODAL STIFFNESS=, which does not unload along a line of its own: "
+                "remove one of the two"
             )
             yield Problem(EXT009, message, where=place)
 

@@ -140,7 +140,7 @@ def missing_file(scene: ResolvedDeck) -> Iterator[Problem]:
             message = (
                 f"the file {shown(name)} is not there (looked in {folder}): correct the name, or put the file there"
             )
-            profile = bool(scene.seabed.missing) and where == scene.seabed.where._replace(path=("file",))
+            profile = bool(scene.seabed.missing) and where == scene.seabed.where.inside("file")
             yield Problem(REF015, message, where=where, blocks=Blocks.ALWAYS if profile else Blocks.NEVER)
 
 

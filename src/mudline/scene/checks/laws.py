@@ -38,7 +38,7 @@ def rigid_with_curve(scene: ResolvedDeck) -> Iterator[Problem]:
     """A rigid seabed has a force-embedment curve, or a value that only an elastic one has.
 
     Nothing sinks into a rigid seabed, so a curve cannot hold there: it is an error, as one of the two is not what was
-    meant. STIFFNESS= with a number, LATERAL= and SUCTION= count for nothing and are a warning. Choose TYPE=ELASTIC, or
+    meant. STIFFNESS= with a number, LATERAL= and SUCTION= have no effect and are a warning. Choose TYPE=ELASTIC, or
     remove the line.
 
     Example:
@@ -57,10 +57,10 @@ def rigid_with_curve(scene: ResolvedDeck) -> Iterator[Problem]:
     """
     for where, properties, type_ in typed_blocks(scene.context):
         for index, entry in enumerate(properties.sets if type_ == "RIGID" else ()):
-            place = where._replace(path=("sets", index))
+            place = where.inside("sets", index)
             suction = entry.suction and entry.suction.stiffness
             for name, value in (("stiffness", entry.stiffness), ("lateral", entry.lateral), ("suction", suction)):
-                inner = place._replace(path=(*place.path, name))
+                inner = place.inside(name)
                 if isinstance(value, str):
                     message = f"curve {shown(value)} on a rigid seabed: a force-embedment curve needs TYPE=ELASTIC"
                     yield Problem(SBD001, message, where=inner)
@@ -119,17 +119,17 @@ def missing_type(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 2:1
     """
-    reading, told = scene.context, False
+    reading, reported = scene.context, False
     for where, properties, type_ in typed_blocks(reading):
-        if type_ is None and not told and not reading.has_read_errors(where):
-            told = True
+        if type_ is None and not reported and not reading.has_read_errors(where):
+            reported = True
             message = "the type is missing: write TYPE=RIGID or TYPE=ELASTIC as the first line"
             yield Problem(SBD003, message, where=where)
         for index, entry in enumerate(properties.sets[:1]):
-            yield from _without_set(scene, entry.set_name, where._replace(path=("sets", index)), "lines")
+            yield from _without_set(scene, entry.set_name, where.inside("sets", index), "lines")
     for where, block in scene.deck.blocks("EMBEDMENT"):
         for index, curve in enumerate(cast("Embedment", block).curves[:1]):
-            yield from _without_set(scene, curve.set_name, where._replace(path=("curves", index)), "points")
+            yield from _without_set(scene, curve.set_name, where.inside("curves", index), "points")
 
 
 def _without_set(scene: ResolvedDeck, name: str | None, where: Where, what: str) -> Iterator[Problem]:
@@ -162,7 +162,7 @@ def missing_embedment(scene: ResolvedDeck) -> Iterator[Problem]:
     for where, block in scene.deck.blocks("ELASTIC SURFACE"):
         properties = cast("ElasticSurface", block).properties
         lacking = getattr(properties, "stiffness", None) is None
-        if lacking and not embedment and not reading.has_read_errors(where._replace(path=("properties",))):
+        if lacking and not embedment and not reading.has_read_errors(where.inside("properties")):
             message = "no stiffness here and no *EMBEDMENT in the model: nothing carries the elements; give a stiffness"
             yield reading.missing(SBD004, message, where, "EMBEDMENT")
 
@@ -195,7 +195,7 @@ def embedment_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
     reading, types = scene.context, scene.laws.types
     unread = "SEABED PROPERTIES" in scene.deck.keywords() or reading.misplaced("SEABED PROPERTIES")
     if "RIGID" not in types and ("ELASTIC" in types or unread):
-        return  # of a type that could not be read enough has been said
+        return  # a type that could not be read is reported elsewhere
     first: dict[tuple[int, int], SceneCurve] = {}
     for curve in scene.laws.curves:
         if curve.embedment:
@@ -249,11 +249,11 @@ def missing_diameter(scene: ResolvedDeck) -> Iterator[Problem]:
     missing = np.flatnonzero((scene.law == LawKind.CURVE) & np.isnan(sections.diameter) & ~sections.faulty)
     if not missing.size:
         return
-    found = np.unique(scene.laws.of_element[missing], return_index=True, return_counts=True)
-    for index, first, count in zip(*(part.tolist() for part in found), strict=True):
-        number = scene.element_ids[missing[first]]
-        what = f"element {number} has" if count == 1 else f"{count} elements (first: {number}) have"
-        message = f"{what} a curve and no external diameter: give Do (or Dd) in *GEOMETRIC SETS"
+    missing = missing[np.argsort(scene.laws.of_element[missing], kind="stable")]
+    begins = np.flatnonzero(np.diff(scene.laws.of_element[missing])) + 1
+    for elements in np.split(missing, begins):
+        index = int(scene.laws.of_element[elements[0]])
+        message = f"{scene.describe(elements)} a curve and no external diameter: give Do (or Dd) in *GEOMETRIC SETS"
         yield lacks_diameter(scene, SBD009, message, scene.laws.set_laws[index].where)
 
 
@@ -272,8 +272,8 @@ REF002 = Code("REF002", "undefined-curve", Severity.ERROR)
 def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
     """A STIFFNESS= names a curve that the deck does not define.
 
-    The elements of the set have no seabed then. A STIFFNESS= that is no number is taken for the name of a curve, so a
-    slip in a number is reported here too. Define the curve in *SEABED STIFFNESS, or correct the name.
+    The elements of the set have no seabed then. A STIFFNESS= that is not a number is taken for the name of a curve, so
+    a slip in a number is reported here too. Define the curve in *SEABED STIFFNESS, or correct the name.
 
     Example:
          $MODEL

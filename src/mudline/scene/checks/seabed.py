@@ -59,13 +59,13 @@ def profile_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
     for where, profile in scene.deck.blocks("SEABED PROFILE"):
         if getattr(profile, "type_", None) == "3D":
             message = "a profile in three dimensions needs an elastic seabed: the seabed is rigid"
-            yield Problem(SBD011, message, where=where._replace(path=("type",)))
+            yield Problem(SBD011, message, where=where.inside("type"))
         if (getattr(profile, "interpolation", None) or "LINEAR") != "LINEAR":
             message = "cubic interpolation needs an elastic seabed (inferred), and the seabed is rigid"
-            yield Problem(SBD011, message, None, Severity.WARNING, where._replace(path=("interpolation",)))
+            yield Problem(SBD011, message, None, Severity.WARNING, where.inside("interpolation"))
         if abs(number(profile, "direction")) > 0.0:
             message = "DIRECTION= needs an elastic seabed (inferred), and the seabed is rigid"
-            yield Problem(SBD011, message, None, Severity.WARNING, where._replace(path=("direction",)))
+            yield Problem(SBD011, message, None, Severity.WARNING, where.inside("direction"))
 
 
 @check(SBD012)
@@ -90,7 +90,7 @@ def steep_slope(scene: ResolvedDeck) -> Iterator[Problem]:
     """
     deck = scene.deck
     for where, block in (*surfaces(deck), *deck.blocks("SEABED PROFILE")):
-        slope, place = number(block, "slope"), where._replace(path=("slope",))
+        slope, place = number(block, "slope"), where.inside("slope")
         if abs(slope) >= _VERTICAL:
             message = f"slope {slope!r}: it must be between -90 and 90 degrees"
             yield Problem(SBD012, message, where=place)
@@ -105,7 +105,7 @@ def unreadable_profile(scene: ResolvedDeck) -> Iterator[Problem]:
 
     A compiled profile (.fcsbd) is binary, and its format is not public: the deck keeps it, and mudline knows nothing of
     the seabed that it describes. A linear profile may be a text file instead, with a line `Y, elevation` for each
-    point; in such a file the finding names the first line that is no point. Points that make no seabed, such as one
+    point; in such a file the finding names the first line that is not a point. Points that make no seabed, such as one
     alone or two elevations at one Y, are an error.
 
     Example:
@@ -124,7 +124,7 @@ def unreadable_profile(scene: ResolvedDeck) -> Iterator[Problem]:
         yield Problem(SBD023, message, where=where, blocks=Blocks.ALWAYS if used else Blocks.NEVER)
     known = seabed.kind is SeabedKind.PROFILE and not seabed.missing and not np.isnan(seabed.points).any()
     if known and (fault := _fault(scene)):
-        where = seabed.where._replace(path=("file",)) if seabed.file else seabed.where
+        where = seabed.where.inside("file") if seabed.file else seabed.where
         yield Problem(SBD023, f"{fault}: correct the points", None, Severity.ERROR, where)
 
 
@@ -196,7 +196,7 @@ def bad_plane(scene: ResolvedDeck) -> Iterator[Problem]:
 def _faulty_planes(scene: ResolvedDeck) -> Iterator[Problem]:
     for where, block in scene.deck.blocks("SEABED PLANES"):
         for index, plane in enumerate(cast("SeabedPlanes", block).planes):
-            place = where._replace(path=("planes", index))
+            place = where.inside("planes", index)
             lacking = [key for key in ("POINT", "SLOPE") if getattr(plane, key.lower()) is None]
             if lacking and not scene.context.has_read_errors(place):
                 names = " and ".join(f"{key}=" for key in lacking)
@@ -204,14 +204,14 @@ def _faulty_planes(scene: ResolvedDeck) -> Iterator[Problem]:
             slope = number(plane, "slope")
             if abs(slope) >= _VERTICAL:
                 message = f"slope {slope!r}: it must be between -90 and 90 degrees"
-                yield Problem(EXT007, message, where=place._replace(path=(*place.path, "slope")))
+                yield Problem(EXT007, message, where=place.inside("slope"))
             if _is_empty(plane.bounds):
                 message = "the bounds hold no ground: the smaller value must come first, and the two must differ"
-                yield Problem(EXT007, message, where=place._replace(path=(*place.path, "bounds")))
+                yield Problem(EXT007, message, where=place.inside("bounds"))
 
 
 def _known_planes(scene: ResolvedDeck) -> bool:
-    """Whether all numbers of planes could be read; of others enough has been said."""
+    """Whether all numbers of planes could be read; others are reported already."""
     numbers = (value for plane in scene.seabed.planes for value in (*plane.point, plane.slope, plane.direction))
     return not any(map(math.isnan, numbers))
 
@@ -230,7 +230,7 @@ def _repeated(scene: ResolvedDeck) -> Iterator[Problem]:
             name = folded(cast("str | None", plane.name) or "")
             if name and name in known:
                 message = f"there is a plane {shown(plane.name)} already: choose another name, or remove one of the two"
-                place = where._replace(path=("planes", index, "name"))
+                place = where.inside("planes", index, "name")
                 yield Problem(EXT007, message, None, Severity.WARNING, place)
             known.add(name)
 

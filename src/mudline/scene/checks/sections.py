@@ -52,7 +52,7 @@ def inner_exceeds_outer(scene: ResolvedDeck) -> Iterator[Problem]:
                 message = (
                     f"internal diameter {inner!r} is not smaller than the external diameter {outer!r}: correct one"
                 )
-                yield Problem(GEO001, message, where=where._replace(path=("sets", index, format_of(entry), "Di")))
+                yield Problem(GEO001, message, where=where.inside("sets", index, format_of(entry), "Di"))
 
 
 @check(GEO004)
@@ -86,12 +86,12 @@ def zero_length_element(scene: ResolvedDeck) -> Iterator[Problem]:
         return
     joints = scene.deck.keywords().intersection(ZERO_LENGTH)
     hint = f", or keep it if *{min(joints)} makes it one without length" if joints else ""
-    told: set[Where] = set()
+    reported: set[Where] = set()
     for index in same[: MOST_REPORTED + 1].tolist():
         where = scene.table.numbered.where(index)
-        if where in told:
+        if where in reported:
             continue  # others of the same GEN=
-        told.add(where)
+        reported.add(where)
         one, other = scene.node_ids[scene.element_nodes[index]].tolist()
         nodes = f"both its ends are node {one}" if one == other else f"nodes {one} and {other} lie at one place"
         message = f"element {scene.element_ids[index]} has no length, {nodes}: correct it{hint}"

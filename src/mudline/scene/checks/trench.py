@@ -59,17 +59,12 @@ def bad_trench(scene: ResolvedDeck) -> Iterator[Problem]:
     bare, locked = _without_spring(scene)
     for index, (entry, where) in enumerate(zip(_entries(scene), extension.places, strict=True)):
         yield from _of_block(scene, entry, where)
-        found = np.flatnonzero((extension.of_element == index) & bare)
-        if found.size:
-            message = (
-                f"{found.size} elements (first: {scene.element_ids[found[0]]}) have a trench and no lateral friction "
-                "spring: give *SEABED FRICTION for them"
-            )
-            yield _of_friction(scene, message, where._replace(path=(*where.path, "set")))
-        held = np.flatnonzero((extension.of_element == index) & locked)
-        if held.size:
-            message = f"{_LOCKED}: {held.size} elements (first: {scene.element_ids[held[0]]})"
-            yield _of_friction(scene, message, where._replace(path=(*where.path, "geometry")))
+        held = extension.of_element == index
+        if np.any(found := held & bare):
+            message = f"{scene.describe(found)} a trench and no lateral friction spring: give *SEABED FRICTION for them"
+            yield _of_friction(scene, message, where.inside("set"))
+        if np.any(found := held & locked):
+            yield _of_friction(scene, f"{_LOCKED}: {scene.describe(found, '', '').rstrip()}", where.inside("geometry"))
 
 
 def _of_friction(scene: ResolvedDeck, message: str, where: Where) -> Problem:
@@ -87,18 +82,18 @@ def _of_block(scene: ResolvedDeck, entry: TrenchSet, where: Where) -> Iterator[P
     """What a block says by itself: its resistance, its section, its centreline."""
     if entry.model == "WALL" and entry.peak is not None:
         message = "PEAK= has no effect under MODEL=WALL: remove it, or write MODEL=PEAK"
-        yield Problem(EXT003, message, None, Severity.WARNING, where._replace(path=(*where.path, "peak")))
+        yield Problem(EXT003, message, None, Severity.WARNING, where.inside("peak"))
     if entry.model != "WALL" and not scene.context.has_read_errors(where):
         for path, message in _resistance_faults(entry):
-            yield Problem(EXT003, message, where=where._replace(path=(*where.path, *path)))
+            yield Problem(EXT003, message, where=where.inside(*path))
     depth, bottom, upper = (number(entry.geometry, name) for name in _SIZES)
     if depth <= 0.0 or bottom <= 0.0 or upper <= 0.0 or upper <= bottom:
         message = "invalid trench geometry: depth and bottom width must be above 0, the upper width larger"
-        yield Problem(EXT003, message, where=where._replace(path=(*where.path, "geometry")))
+        yield Problem(EXT003, message, where=where.inside("geometry"))
     line = entry.centreline
     if all(number(line, f"{axis}0") == number(line, f"{axis}1") for axis in "yz"):
         message = "the two points of the centreline are one: give another one"
-        yield Problem(EXT003, message, where=where._replace(path=(*where.path, "centreline")))
+        yield Problem(EXT003, message, where=where.inside("centreline"))
 
 
 def _resistance_faults(entry: TrenchSet) -> Iterator[tuple[tuple[str | int, ...], str]]:
@@ -130,7 +125,7 @@ def _without_spring(scene: ResolvedDeck) -> tuple[Mask, Mask]:
 
 
 def _unread(scene: ResolvedDeck) -> bool:
-    """Whether friction could not be read, or belongs to no set, which has been told as an error."""
+    """Whether friction could not be read, or belongs to no set, which is reported as an error."""
     friction = scene.extensions.get("SEABED FRICTION")
     if friction is not None and None in friction.sets and not scene.context.possible_definition("ELEMENT SETS"):
         return True
