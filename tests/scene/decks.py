@@ -44,12 +44,12 @@ def diagnostics(scene: Scene) -> list[Diagnostic]:
     return scene.deck.diagnose(scene.problems)
 
 
-def told(text: str) -> list[Finding]:
+def reported(text: str) -> list[Finding]:
     """What resolving a deck tells, without what reading it tells."""
     return [(d.severity.value[0].upper(), d.code, d.line, d.column) for d in diagnostics(scene_of(text))]
 
 
-def all_told(text: str) -> list[Finding]:
+def all_reported(text: str) -> list[Finding]:
     """What reading and resolving a deck tell."""
     scene = scene_of(text)
     found = scene.deck.diagnose([*scene.deck.problems, *scene.problems])

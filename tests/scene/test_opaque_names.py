@@ -19,7 +19,7 @@ from mudline.scene.opaque_names import bare, definition_by, external_definers, o
 from mudline.syntax.fields import read_line
 from tests.growth import FOURFOLD, TWOFOLD, call_growth, growth
 from tests.reading.spellings import names, pads, setting, texts
-from tests.scene.decks import PIPE, messages, told
+from tests.scene.decks import PIPE, messages, reported
 
 LINES = "*LINES\n LINE=SCR\n"
 
@@ -93,7 +93,7 @@ def test_any_name_is_found(keyword: str, line: str, section: str, more: list[str
     for name in (line, section, *more):
         assert folded(bare(name)) in found
         seabed = f"*SEABED PROPERTIES\n TYPE=ELASTIC\n SET={data.draw(_CASES)(name)}\n STIFFNESS=1.0\n"
-        assert told(f"$MODEL\n{block}{seabed}") == []
+        assert reported(f"$MODEL\n{block}{seabed}") == []
 
 
 def _slowly(line: str) -> Iterator[str]:
@@ -156,7 +156,7 @@ def test_no_line_takes_long(unit: str) -> None:
 @pytest.mark.parametrize("name", ["scr", '"SCR"', "{scr}", "Riser"])
 def test_a_subset_of_a_line(name: str) -> None:
     lines = PIPE + "*LINES\n LINE=SCR, ADDITIONAL=Riser\n"
-    assert told(f"{lines}*ELEMENT SETS\n SET=a\n SUBSET={name}\n") == []
+    assert reported(f"{lines}*ELEMENT SETS\n SET=a\n SUBSET={name}\n") == []
 
 
 def test_names_of_lines_are_suggested() -> None:
@@ -219,7 +219,7 @@ def test_the_block_that_may_define_it_is_named() -> None:
     assert messages(PIPE + sections + seabed)[0].endswith(ending)
     ending = "a line of *LINE PATH SECTIONS that could not be used may define it"
     assert messages(PIPE + LINES + sections + " SECTIN=b, 1\n" + seabed)[0].endswith(ending)
-    assert told(PIPE + "*NODE,CURVILINEAR\n 1\n" + seabed) == [("E", "REF001", 13, 6)]
+    assert reported(PIPE + "*NODE,CURVILINEAR\n 1\n" + seabed) == [("E", "REF001", 13, 6)]
 
 
 # --------------------------------------------------------------------------------------------------------------- labels

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tests.scene.decks import PIPE, STEEL, scene_of, told
+from tests.scene.decks import PIPE, STEEL, reported, scene_of
 
 SETS = "*ELEMENT SETS\n SET=A\n GEN=1, 4\n SET=B\n GEN=3, 6\n"
 NOTHING = float("nan")
@@ -76,4 +76,4 @@ def test_extension_blocks_by_element(block: str) -> None:
     assert block.startswith(f"*{keyword}\n")
     assert found.of_element.tolist() == [0, 0, 1, 1, 1, 1, -1, -1, -1, -1]
     assert [getattr(entry, "set_name", "") for entry in found.entries] == ["A", "b"]
-    assert told(head + block.format("C")) == [("E", "REF001", text.count("\n") - block.count("\n") * 2 + 2, 6)]
+    assert reported(head + block.format("C")) == [("E", "REF001", text.count("\n") - block.count("\n") * 2 + 2, 6)]

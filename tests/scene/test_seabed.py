@@ -23,7 +23,7 @@ def scene_in(folder: Path, text: str) -> Scene:
     return resolve(load_path(path))
 
 
-def told(scene: Scene) -> list[tuple[str, int, int]]:
+def reported(scene: Scene) -> list[tuple[str, int, int]]:
     found = scene.deck.diagnose([*scene.deck.problems, *scene.problems])
     return [(one.code, one.line, one.column) for one in found]
 
@@ -63,7 +63,7 @@ def test_a_text_file_of_points(tmp_path: Path) -> None:
     seabed = scene.seabed
     assert seabed.points.tolist() == [[100.0, 30.0], [0.0, 0.0], [-5.0, 10.0]]
     assert (seabed.interpolation, seabed.direction, seabed.missing) == ("CUBIC SPLINE", 30.0, "")
-    assert "SBD023" not in [code for code, _, _ in told(scene)]
+    assert "SBD023" not in [code for code, _, _ in reported(scene)]
 
 
 def test_three_columns_make_a_surface(tmp_path: Path) -> None:
@@ -89,7 +89,7 @@ def test_a_file_with_a_fault_is_told_at_file(tmp_path: Path, content: bytes, wor
     (tmp_path / "bed.txt").write_bytes(content)
     scene = scene_in(tmp_path, PIPE + PROFILE.format("bed.txt"))
     line = PIPE.count("\n") + 4
-    assert ("SBD023", line, 7) in told(scene)
+    assert ("SBD023", line, 7) in reported(scene)
     assert words in scene.seabed.missing
     assert scene.seabed.points.size == 0
 
@@ -100,7 +100,7 @@ def test_a_compiled_profile_is_kept_and_told_whether_it_is_there_or_not(tmp_path
         if there:
             (tmp_path / "Bed.FCSBD").write_bytes(b"\x00\x01")
         scene = scene_in(tmp_path, text)
-        assert ("SBD023", PIPE.count("\n") + 4, 7) in told(scene)
+        assert ("SBD023", PIPE.count("\n") + 4, 7) in reported(scene)
         assert "binary" in scene.seabed.missing
         assert scene.seabed.file == "Bed.FCSBD"
 
@@ -130,7 +130,7 @@ def test_a_file_that_may_not_be_read(tmp_path: Path, monkeypatch: pytest.MonkeyP
     monkeypatch.setattr(Path, "read_bytes", refuse)
     scene = resolve(deck)
     assert scene.seabed.missing == "Permission denied"
-    assert ("SBD023", PIPE.count("\n") + 4, 7) in told(scene)
+    assert ("SBD023", PIPE.count("\n") + 4, 7) in reported(scene)
 
 
 def test_a_file_of_enormous_size_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

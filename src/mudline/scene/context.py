@@ -132,7 +132,9 @@ class Context:
         """The lines from a place to the next item of its list, or to the next block."""
         *outer, last = where.path or ("",)
         following = Where(where.section, where.block + 1)
-        if isinstance(last, int) and last + 1 < len(self._items(where._replace(path=tuple(outer)))):
+        if isinstance(last, int) and last + 1 < len(
+            cast("list[object]", self.as_written(where._replace(path=tuple(outer))))
+        ):
             following = where._replace(path=(*outer, last + 1))
         elif following.block == len(self.deck.sections[where.section].blocks):
             following = Where(where.section + 1)
@@ -140,13 +142,12 @@ class Context:
         return range(self._line(where), end)
 
     def _line(self, where: Where) -> int:
-        return self.deck.origin.place(Problem(SYN001, "", where=where)).line
+        return self._position(Problem(SYN001, "", where=where))[0]
 
     @cached_property
     def _unread_lines(self) -> list[int]:
         """Lines that could not be used at all."""
-        problems = [problem for problem in self.deck.problems if problem.code in (SYN001, SYN004)]
-        return sorted(self.deck.origin.place(problem).line for problem in problems)
+        return sorted(self._position(problem)[0] for problem in self.deck.problems if problem.code in (SYN001, SYN004))
 
     def has_unread_line_after(self, where: Where, keyword: str) -> bool:
         """Whether a line of a keyword that stands behind a place could not be used."""
@@ -176,9 +177,6 @@ class Context:
             before is not None and (now is None or (isinstance(now, float) and isnan(now))) for now, before in fields
         )
 
-    def _items(self, where: Where) -> list[object]:
-        return cast("list[object]", self.as_written(where))
-
     def as_written(self, where: Where) -> object:
         """A part of the deck before its equations were evaluated."""
         found: Any = self.written.sections[where.section].blocks[where.block]
@@ -188,27 +186,26 @@ class Context:
 
     def is_guessed_label(self, where: Where) -> bool:
         """Whether the label at this place was guessed from a word without braces, which is reported."""
-        return self._line_and_column(where) in self._guessed_labels
+        return self._position(Problem(SYN016, "", where=where)) in self._guessed_labels
 
     def cannot_place(self, where: Where) -> None:
         """Note that an element ends at the label at this place, and that no node with that label is known."""
-        self._placeless.add(self._line_and_column(where))
+        self._placeless.add(self._position(Problem(SYN016, "", where=where)))
 
     def of_deck(self) -> list[Problem]:
         """What reading the deck noticed; guessed labels that elements end at keep it from being evaluated."""
         if not self._placeless:
             return self.deck.problems
         return [
-            replace(problem, blocks=Blocks.ALWAYS) if self._is_placeless(problem) else problem
+            replace(problem, blocks=Blocks.ALWAYS)
+            if problem.code is SYN016 and self._position(problem) in self._placeless
+            else problem
             for problem in self.deck.problems
         ]
 
-    def _is_placeless(self, problem: Problem) -> bool:
+    def _position(self, problem: Problem) -> tuple[int, int]:
+        """Line and column of a problem."""
         place = self.deck.origin.place(problem)
-        return problem.code is SYN016 and (place.line, place.column) in self._placeless
-
-    def _line_and_column(self, where: Where) -> tuple[int, int]:
-        place = self.deck.origin.place(Problem(SYN016, "", where=where))
         return place.line, place.column
 
     @cached_property
@@ -225,8 +222,7 @@ class Context:
 
     @cached_property
     def _guessed_labels(self) -> set[tuple[int, int]]:
-        problems = [problem for problem in self.deck.problems if problem.code is SYN016]
-        return {(place.line, place.column) for place in map(self.deck.origin.place, problems)}
+        return {self._position(problem) for problem in self.deck.problems if problem.code is SYN016}
 
     @cached_property
     def _misplaced(self) -> dict[str, str]:

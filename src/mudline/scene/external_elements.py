@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mudline.scene.csv_file import CsvTable, data_error, read_csv, whole_numbers
+from mudline.scene.csv_file import CsvTable, data_error, read_csv
 from mudline.scene.numbering import Floats, Ids
 
 
@@ -32,9 +32,7 @@ def read_external(path: Path) -> ExternalElements:
     table = read_csv(path, needed, (*needed, "length", "sets"))
     if not table.lines:
         raise data_error(table.file, "no row below the header", 2)
-    ids, first, second = (
-        whole_numbers(table.file, name, table.numbers(name), table.lines) for name in ("element", "node1", "node2")
-    )
+    ids, first, second = map(table.whole, ("element", "node1", "node2"))
     _unique(ids, table)
     diameter = _positive("diameter", table)
     length = _positive("length", table) if "length" in table.columns else np.full(len(ids), np.nan)

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple, cast
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +23,24 @@ from mudline.short_repr import short_repr
 _AXES = ("x", "y", "z")
 _VELOCITIES = ("vx", "vy", "vz")
 _MOST_NAMED = 10
+
+Reals = NDArray[np.floating]
+
+_ARRAYS = frozenset({"positions", "node", "time", "velocities"})
+_UNREADABLE = (
+    # damaged bytes meet the checks of numpy, of zipfile and of the parser of the header
+    ValueError,
+    EOFError,
+    KeyError,
+    MemoryError,
+    NotImplementedError,
+    OverflowError,
+    RuntimeError,
+    SyntaxError,
+    tokenize.TokenError,
+    zipfile.BadZipFile,
+    zlib.error,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,28 +72,12 @@ def read_positions(path: Path, nodes: Numbered) -> Positions:
     Raises OSError, or DeckError for a file with faults: nodes that the deck lacks, numbers that are none, steps with
     different nodes.
     """
-    suffix = path.suffix.lower()
+    file, suffix = path.as_posix(), path.suffix.lower()
     if suffix == ".npy":
-        return _from_series(path, load_npy(path, len(nodes)), nodes)
+        return _from_arrays(file, {"positions": _load_npy(path)}, nodes)
     if suffix == ".npz":
-        return _from_series(path, load_npz(path, len(nodes)), nodes)
+        return _from_arrays(file, _load_npz(path), nodes)
     return _from_csv(path, nodes)
-
-
-def _from_series(path: Path, series: Series, nodes: Numbered) -> Positions:
-    """Rows in the order of the deck's nodes, or in that of the file's own list of nodes."""
-    if series.nodes is None:
-        everywhere = np.ones(len(nodes), dtype=bool)
-        return Positions(series.values, everywhere, series.time, series.velocities, series.timed)
-    where = nodes.indices(series.nodes)
-    if (where < 0).any():
-        raise _unknown(path.as_posix(), series.nodes[where < 0])
-    present = np.zeros(len(nodes), dtype=bool)
-    present[where] = True
-    if int(present.sum()) != len(where):
-        raise data_error(path.as_posix(), "a node stands twice in the array node")
-    moving = None if series.velocities is None else _spread(series.velocities, where, len(nodes))
-    return Positions(_spread(series.values, where, len(nodes)), present, series.time, moving, series.timed)
 
 
 def _spread(values: NDArray[np.floating], where: Indices, count: int) -> NDArray[np.floating]:
@@ -143,50 +145,18 @@ def _unknown(file: str, ids: Ids, line: int = 1) -> DeckError:
     return data_error(file, f"{noun} {named}{more} {verb} not defined in the deck", line)
 
 
-Reals = NDArray[np.floating]
-
-_ARRAYS = frozenset({"positions", "node", "time", "velocities"})
-_UNREADABLE = (
-    # damaged bytes meet the checks of numpy, of zipfile and of the parser of the header
-    ValueError,
-    EOFError,
-    KeyError,
-    MemoryError,
-    NotImplementedError,
-    OverflowError,
-    RuntimeError,
-    SyntaxError,
-    tokenize.TokenError,
-    zipfile.BadZipFile,
-    zlib.error,
-)
-
-
-class Series(NamedTuple):
-    """Positions (steps, nodes, 3); `time` (steps,) is None for a single state, `nodes` for all nodes of the deck.
-
-    `timed` says whether the file has times; where it has none, `time` counts the steps of a series.
-    """
-
-    values: Reals
-    time: Floats | None
-    velocities: Reals | None = None
-    nodes: Ids | None = None
-    timed: bool = False
-
-
-def load_npy(path: Path, count: int) -> Series:
-    """An array (steps, count, 3) or (count, 3), memory-mapped. Raises OSError, or DeckError for anything else."""
+def _load_npy(path: Path) -> Reals:
+    """An array, memory-mapped. Raises OSError, or DeckError for anything else."""
     file = path.as_posix()
     try:
         with _from_old_python():
             values = np.lib.format.open_memmap(path, mode="r")
     except _UNREADABLE as error:
-        raise data_error(file, f"no NPY array: {error}") from error
-    return _series(file, {"positions": _real(file, "positions", values)}, count)
+        raise data_error(file, f"not an NPY array: {error}") from error
+    return _real(file, "positions", values)
 
 
-def load_npz(path: Path, count: int) -> Series:
+def _load_npz(path: Path) -> dict[str, Reals]:
     """An archive with `positions` and, if wanted, `node`, `time` and `velocities`. Raises OSError, DeckError."""
     file = path.as_posix()
     with path.open("rb") as stream:
@@ -194,12 +164,11 @@ def load_npz(path: Path, count: int) -> Series:
             with _from_old_python(), zipfile.ZipFile(stream) as archive:
                 names = [name.removesuffix(".npy") for name in archive.namelist()]
                 _check_names(file, names)
-                arrays = {name: _real(file, name, _member(archive, name)) for name in names}
+                return {name: _real(file, name, _member(archive, name)) for name in names}
         except DeckError:
             raise
         except (*_UNREADABLE, OSError) as error:
-            raise data_error(file, f"no NPZ archive: {error}") from error
-    return _series(file, arrays, count)
+            raise data_error(file, f"not an NPZ archive: {error}") from error
 
 
 @contextmanager
@@ -222,26 +191,38 @@ def _member(archive: zipfile.ZipFile, name: str) -> NDArray[np.generic]:
         return cast("NDArray[np.generic]", np.lib.format.read_array(stream, allow_pickle=False))
 
 
-def _series(file: str, arrays: dict[str, Reals], count: int) -> Series:
-    nodes = whole_numbers(file, "node", finite(file, "node", arrays["node"])) if "node" in arrays else None
+def _from_arrays(file: str, arrays: dict[str, Reals], nodes: Numbered) -> Positions:
+    """Arrays (steps, nodes, 3) or (nodes, 3) in the order of the deck's nodes, or in that of the array `node`."""
+    ids = whole_numbers(file, "node", finite(file, "node", arrays["node"])) if "node" in arrays else None
     given = arrays["positions"]
-    expected = count if nodes is None else len(nodes)
+    expected = len(nodes) if ids is None else len(ids)
     values = given[np.newaxis] if given.ndim == 2 else given
     if values.ndim != 3 or values.shape[1:] != (expected, 3):
         raise _wrong_shape(file, "positions", given, f"(steps, {expected}, 3) or ({expected}, 3)")
     if not len(values):
         raise data_error(file, "positions holds no time step")
     velocities = arrays.get("velocities")
-    if velocities is not None and velocities.shape != given.shape:
-        raise _wrong_shape(file, "velocities", velocities, str(given.shape))
+    if velocities is not None:
+        if velocities.shape != given.shape:
+            raise _wrong_shape(file, "velocities", velocities, str(given.shape))
+        velocities = velocities.reshape(values.shape)
     if "time" in arrays:
         time: Floats | None = finite(file, "time", arrays["time"])
     else:
         time = None if given.ndim == 2 else np.arange(len(values), dtype=np.float64)
     if time is not None and len(time) != len(values):
         raise _wrong_shape(file, "time", arrays["time"], f"({len(values)},)")
-    moving = None if velocities is None else velocities.reshape(values.shape)
-    return Series(values, time, moving, nodes, "time" in arrays)
+    present = np.full(len(nodes), ids is None)
+    if ids is not None:
+        where = nodes.indices(ids)
+        if (where < 0).any():
+            raise _unknown(file, ids[where < 0])
+        present[where] = True
+        if int(present.sum()) != len(where):
+            raise data_error(file, "a node is listed twice in the array node")
+        values = _spread(values, where, len(nodes))
+        velocities = None if velocities is None else _spread(velocities, where, len(nodes))
+    return Positions(values, present, time, velocities, "time" in arrays)
 
 
 def _wrong_shape(file: str, name: str, found: Reals, expected: str) -> DeckError:

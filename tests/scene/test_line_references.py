@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from mudline.deck.loading import load_bytes
 from mudline.scene.model import resolve
 from tests.reading.spellings import names, texts
-from tests.scene.decks import all_told, messages, scene_of, told
+from tests.scene.decks import all_reported, messages, reported, scene_of
 
 LINES = "*LINES\n LINE=SCR\n"
 LOCATIONS = "*LINE LOCATIONS\n LINE=SCR\n Seabed End, 0.0\n {Hang-off}, 1200.0\n"
@@ -33,7 +33,7 @@ def test_labels_that_lines_make() -> None:
         + nodes("{Seabed End}", "{HANG-OFF}", "{Elsewhere}")
         + " GEN=3, 2\n"
     )
-    assert told(text) == []
+    assert reported(text) == []
 
 
 def test_labels_that_are_nearly_so() -> None:
@@ -44,7 +44,7 @@ def test_labels_that_are_nearly_so() -> None:
         f"label '{{Seabed Ende}}' {stands} (did you mean {{Seabed End}}?): correct it",
         f"label '{{Hangoff}}' {stands} (did you mean {{Hang-off}}?): correct it",
     }
-    assert [entry for entry in told(text) if entry[3] > 2] == [
+    assert [entry for entry in reported(text) if entry[3] > 2] == [
         ("W", "REF006", 9, 5),
         ("W", "REF006", 9, 20),
         ("W", "REF005", 12, 5),
@@ -54,21 +54,21 @@ def test_labels_that_are_nearly_so() -> None:
 @pytest.mark.parametrize("other", ["{End 2}", "{End B}", "{End 11}", "{Oil Jumper FPSO}", "{Turret}"])
 def test_a_label_that_differs_on_purpose_is_another_label(other: str) -> None:
     text = "$MODEL\n*LINES\n LINE=a\n {End 1}\n {End A}\n {Gas Jumper FPSO}\n*ELEMENT\n"
-    assert told(text + nodes("{End 1}", other)) == []
+    assert reported(text + nodes("{End 1}", other)) == []
 
 
 def test_a_word_without_braces_is_told_once() -> None:
     text = "$MODEL\n" + LINES + LOCATIONS + "*ELEMENT\n 1, Seabed Ende, {Seabed End}\n"
-    assert [code for _, code, _, _ in all_told(text)] == ["SYN016"]
+    assert [code for _, code, _, _ in all_reported(text)] == ["SYN016"]
 
 
 def test_a_label_beside_a_number_that_could_not_be_read() -> None:
     text = "$MODEL\n" + LINES + LOCATIONS + "*ELEMENT\n 1, {Seabed Ende}, {Seabed End}, 1.x\n"
-    assert told(text) == [("W", "REF006", 9, 5)]
+    assert reported(text) == [("W", "REF006", 9, 5)]
 
 
 def test_labels_where_nothing_makes_any() -> None:
-    assert told("$MODEL\n*ELEMENT\n" + nodes("{End}"))[0][:2] == ("E", "REF006")
+    assert reported("$MODEL\n*ELEMENT\n" + nodes("{End}"))[0][:2] == ("E", "REF006")
 
 
 # ----------------------------------------------------------------------------------------------- lines and their groups
@@ -80,11 +80,11 @@ ROUTE = "*LINE PATHS\n LINE=Flowline\n 0, 0, 0\n"
 
 def test_names_that_lines_use_of_each_other() -> None:
     for text in (SECTIONS + GROUPS + ROUTE, ROUTE + SECTIONS.upper() + GROUPS, SECTIONS + GROUPS):
-        assert told("$MODEL\n" + text) == []
+        assert reported("$MODEL\n" + text) == []
 
 
 def test_a_group_that_is_not_defined() -> None:
-    assert told("$MODEL\n" + SECTIONS) == [("W", "REF001", 4, 28)]
+    assert reported("$MODEL\n" + SECTIONS) == [("W", "REF001", 4, 28)]
     text = "$MODEL\n" + SECTIONS + GROUPS.replace("Joint", "Joints")
     wanted = "REPEAT= names no group: 'Joint' is not defined (did you mean Joints?); define it in *LINE SECTION GROUPS"
     assert messages(text) == [wanted]
@@ -94,7 +94,7 @@ def test_a_group_that_is_not_defined() -> None:
 
 def test_a_line_that_is_not_defined() -> None:
     text = "$MODEL\n" + ROUTE.replace("Flowline", "Flow Line") + SECTIONS + GROUPS
-    assert told(text) == [("W", "REF001", 6, 7)]
+    assert reported(text) == [("W", "REF001", 6, 7)]
     assert messages(text) == [
         "LINE= names no line: 'Flowline' is not defined (did you mean Flow Line?); define it in *LINE PATHS"
     ]
@@ -111,7 +111,7 @@ def test_groups_that_a_document_gives_as_lines() -> None:
 
 def test_sections_that_could_not_be_read() -> None:
     sections = "*LINE PATH SECTIONS\n LINE=\n SECTION=, 1\n LINE=a\n SECTION=b, 1, REPEAT=\n"
-    assert told(f"$MODEL\n{sections}*LINE SECTION GROUPS\n NAME=\n") == []
+    assert reported(f"$MODEL\n{sections}*LINE SECTION GROUPS\n NAME=\n") == []
 
 
 # ------------------------------------------------------------------------------------------------------------ any lines

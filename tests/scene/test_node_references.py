@@ -1,4 +1,4 @@
-"""Nodes and degrees of freedom of `*BOUNDARY`: what leads nowhere is told, what something else may define is not."""
+"""Nodes of `*BOUNDARY` and of soil springs, degrees of freedom: what leads nowhere is reported, and nothing else."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from mudline.deck.loading import load_bytes
 from mudline.scene.external_elements import read_external
 from mudline.scene.model import resolve
 from tests.growth import call_growth
-from tests.scene.decks import PIPE, Finding, all_told, messages, told
+from tests.scene.decks import PIPE, Finding, all_reported, messages, reported
 
 GIVEN = "$PREPROCESSOR\n*PARAMETERS\n dof, 6\n last, 11\n far, 13\n odd, 6.5\n"
 HELD = "$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n"
@@ -21,7 +21,7 @@ ELSEWHERE = "$MODEL\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=500
 
 def held(*lines: str) -> list[Finding]:
     """What is told of lines behind TYPE=CONSTANT, in a deck with the nodes 1 to 11."""
-    found = all_told(PIPE + HELD + "".join(f" {line}\n" for line in lines) + GIVEN)
+    found = all_reported(PIPE + HELD + "".join(f" {line}\n" for line in lines) + GIVEN)
     return [(letter, code, line - LINE, column) for letter, code, line, column in found]
 
 
@@ -105,27 +105,30 @@ def test_what_could_not_be_read_is_told_by_the_reader_only() -> None:
 @pytest.mark.parametrize("keyword", ["*LINES\n LINE=a\n", "*CABLE\n 1\n"])
 def test_lines_and_cables_make_nodes_of_their_own(keyword: str) -> None:
     rest = HELD + " 99, 1\n {Hang-off}, 1\n GEN=90, 99, 1\n"
-    assert told(PIPE + keyword + rest) == [("W", "REF006", LINE + 2, 2)]
+    assert reported(PIPE + keyword + rest) == [("W", "REF006", LINE + 2, 2)]
     assert "may define it" in messages(PIPE + keyword + rest)[0]
 
 
 def test_a_label_that_is_nearly_one_of_a_line() -> None:
     locations = "*LINES\n LINE=a\n*LINE LOCATIONS\n LINE=a\n {Seabed End}, 0.0\n"
-    assert told(PIPE + locations + HELD + " {Seabed Ende}, 1\n") == [("W", "REF006", LINE + 5, 2)]
+    assert reported(PIPE + locations + HELD + " {Seabed Ende}, 1\n") == [("W", "REF006", LINE + 5, 2)]
 
 
 def test_the_deck_that_is_continued_may_have_the_node() -> None:
-    assert told(PIPE + HELD + " 99, 1\n*RESTART\n LAST=static\n") == [("W", "REF006", LINE, 2)]
+    assert reported(PIPE + HELD + " 99, 1\n*RESTART\n LAST=static\n") == [("W", "REF006", LINE, 2)]
 
 
 def test_a_deck_without_nodes_is_not_judged() -> None:
-    assert told(ELSEWHERE + HELD + " 1, 1\n {Top}, 1\n GEN=2, 9, 2\n") == []
-    assert told("$MODEL\n*NODE\n" + HELD + " 1, 1\n GEN=2, 9, 2\n") == [("E", "REF006", 6, 2), ("E", "REF006", 7, 2)]
+    assert reported(ELSEWHERE + HELD + " 1, 1\n {Top}, 1\n GEN=2, 9, 2\n") == []
+    assert reported("$MODEL\n*NODE\n" + HELD + " 1, 1\n GEN=2, 9, 2\n") == [
+        ("E", "REF006", 6, 2),
+        ("E", "REF006", 7, 2),
+    ]
 
 
 def test_a_node_that_could_not_be_read_is_a_warning() -> None:
     text = "$MODEL\n*NODE\n 1, 0.0, 0.0\n 2x, 0.0, 5.0\n" + HELD + " 2, 1\n"
-    assert told(text) == [("W", "REF006", 8, 2)]
+    assert reported(text) == [("W", "REF006", 8, 2)]
 
 
 def test_a_file_of_elements_does_not_tell_of_every_node(tmp_path: Path) -> None:
@@ -137,9 +140,9 @@ def test_a_file_of_elements_does_not_tell_of_every_node(tmp_path: Path) -> None:
 
 
 def test_an_empty_block() -> None:
-    assert all_told(PIPE + "$LOAD CASE\n*BOUNDARY\n$MODES\n") == [("W", "SYN001", 10, 1)]
-    assert all_told(PIPE + "$LOAD CASE\n*BOUNDARY\n AMPLITUDE=2\n$MODES\n") == [("E", "SYN004", 11, 2)]
-    assert told(PIPE + HELD) == []
+    assert all_reported(PIPE + "$LOAD CASE\n*BOUNDARY\n$MODES\n") == [("W", "SYN001", 10, 1)]
+    assert all_reported(PIPE + "$LOAD CASE\n*BOUNDARY\n AMPLITUDE=2\n$MODES\n") == [("E", "SYN004", 11, 2)]
+    assert reported(PIPE + HELD) == []
 
 
 def test_documents_are_told_too() -> None:
@@ -150,3 +153,42 @@ def test_documents_are_told_too() -> None:
     document = {"format": "mudline-deck/1", "sections": sections}
     scene = resolve(load_bytes(json.dumps(document).encode(), "deck.json"))
     assert sorted(problem.code.code for problem in scene.problems) == ["REF006", "REF006", "SYN003", "SYN005"]
+
+
+SOIL_CURVE = " DEPTH=0.0\n 0.0, 0.0\n 4000.0, 0.01\n"
+SOIL_POINTS = " 0.0, 0.0\n 4000.0, 0.01\n"
+SOIL_SETS = "*ELEMENT SETS\n SET=Pile\n 1, 2\n"
+SOIL_LINE = (PIPE + SOIL_SETS).count("\n") + 2
+
+
+@pytest.mark.parametrize("keyword", ["P-Y", "T-Z"])
+def test_names_that_lead_nowhere(keyword: str) -> None:
+    text = (
+        PIPE
+        + SOIL_SETS
+        + f"*{keyword}\n SET=PILE\n{SOIL_CURVE} SET=Pale\n{SOIL_CURVE} NODE=99\n{SOIL_POINTS} NODE=11\n{SOIL_POINTS}"
+    )
+    assert all_reported(text) == [("E", "REF001", SOIL_LINE + 4, 6), ("E", "REF006", SOIL_LINE + 8, 7)]
+    assert messages(text) == [
+        "set 'Pale' is not defined (did you mean Pile?): define it in *ELEMENT SETS",
+        "node 99 is not defined: define it in *NODE, or correct the number",
+    ]
+
+
+def test_lines_make_sets_and_nodes_of_their_own() -> None:
+    rest = f"*P-Y\n SET=Riser\n NODE={{End}}\n{SOIL_POINTS} NODE=99\n{SOIL_POINTS}"
+    assert reported(PIPE + "*LINES\n LINE=Riser\n" + rest) == [("W", "REF006", SOIL_LINE + 3, 7)]
+    assert reported(PIPE + rest) == [
+        ("E", "REF001", SOIL_LINE - 3, 6),
+        ("E", "REF006", SOIL_LINE - 2, 7),
+        ("E", "REF006", SOIL_LINE + 1, 7),
+    ]
+
+
+def test_what_is_not_given_is_not_told() -> None:
+    assert reported(f"$MODEL\n*P-Y\n SET=ALL\n{SOIL_CURVE}*T-Z\n SET=ALL\n FILE=a.tz\n NODE=1\n{SOIL_POINTS}") == []
+    assert [code for _, code, *_ in all_reported(PIPE + f"*T-Z\n SET=\n NODE=x,y\n{SOIL_POINTS}")] == [
+        "SYN003",
+        "SYN003",
+        "SYN016",
+    ]

@@ -46,8 +46,8 @@ def everywhere(given: ContactInput, law: str, parameter: str) -> FloatArray:
 def refusal(seabed: str) -> str:
     with pytest.raises(DeckError) as caught:
         scene_of(deck(METRIC, seabed)).contact()
-    (told,) = caught.value.diagnostics
-    return f"{told.line - deck(METRIC, '').count(chr(10))}: {told.code} {told.message}"
+    (reported,) = caught.value.diagnostics
+    return f"{reported.line - deck(METRIC, '').count(chr(10))}: {reported.code} {reported.message}"
 
 
 # normal laws
@@ -188,7 +188,7 @@ def test_suction_that_cannot_be_evaluated(seabed: str, message: str) -> None:
 
 
 def test_user_units_have_no_defaults_of_suction() -> None:
-    def told(lines: str) -> str:
+    def reported(lines: str) -> str:
         text = deck(METRIC, LINEAR + "*SEABED SUCTION\n SET=ALL\n" + lines)
         scene = resolve(load_bytes(text.encode(), "deck.keyx", units="user"))
         try:
@@ -197,12 +197,12 @@ def test_user_units_have_no_defaults_of_suction() -> None:
             return error.diagnostics[0].message
         return ""
 
-    assert told(" COHESION=5\n REGULARISATION=0.001\n").startswith("COHESION= needs metric or imperial units")
-    assert told(" FORCE=5, 0.2\n DEPTH=1, 0.3\n").startswith(
+    assert reported(" COHESION=5\n REGULARISATION=0.001\n").startswith("COHESION= needs metric or imperial units")
+    assert reported(" FORCE=5, 0.2\n DEPTH=1, 0.3\n").startswith(
         "REGULARISATION= is missing: with user units it has no def"
     )
-    assert told(" COHESION=5\n FORCE=5, 0.2\n DEPTH=1, 0.3\n REGULARISATION=0.001\n") == ""
-    assert told(" FORCE=5, 0.2\n DEPTH=1, 0.3\n REGULARISATION=0.001\n") == ""
+    assert reported(" COHESION=5\n FORCE=5, 0.2\n DEPTH=1, 0.3\n REGULARISATION=0.001\n") == ""
+    assert reported(" FORCE=5, 0.2\n DEPTH=1, 0.3\n REGULARISATION=0.001\n") == ""
 
 
 def test_suction_springs() -> None:

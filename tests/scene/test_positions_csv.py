@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from mudline.diagnostics import DeckError
 from mudline.scene.positions import read_positions
-from tests.scene_files.nodes import NODES, assert_same, numbered, refusal
+from tests.scene.file_nodes import NODES, assert_same, numbered, refusal
 
 NAN = float("nan")
 ONE = "node,x,y,z\n30,7,8,9\n10,1,2,3\n20,4,5,6\n"

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from mudline.diagnostics import DeckError
 from mudline.scene.positions import read_positions
-from tests.scene_files.nodes import NODES, assert_same, refusal
+from tests.scene.file_nodes import NODES, assert_same, refusal
 
 STATE = np.arange(9, dtype=np.float64).reshape(3, 3)
 SERIES = np.arange(36, dtype=np.float64).reshape(4, 3, 3)
@@ -80,7 +80,7 @@ def test_array_that_does_not_fit(tmp_path: Path, array: NDArray[Any], message: s
 
 def test_objects_are_refused(tmp_path: Path) -> None:
     found = refusal(one(tmp_path, np.array([[{}, 1], [2, 3]], dtype=object)))
-    assert found.message.startswith("no NPY array: ")
+    assert found.message.startswith("not an NPY array: ")
 
 
 @pytest.mark.parametrize(
@@ -88,20 +88,20 @@ def test_objects_are_refused(tmp_path: Path) -> None:
 )
 def test_file_that_is_no_array(tmp_path: Path, data: bytes) -> None:
     (tmp_path / "p.npy").write_bytes(data)
-    assert refusal(tmp_path / "p.npy").message.startswith("no NPY array: ")
+    assert refusal(tmp_path / "p.npy").message.startswith("not an NPY array: ")
 
 
 def test_array_that_is_cut_short(tmp_path: Path) -> None:
     path = one(tmp_path, SERIES)
     path.write_bytes(path.read_bytes()[:-8])
-    assert refusal(path).message.startswith("no NPY array: ")
+    assert refusal(path).message.startswith("not an NPY array: ")
 
 
 @pytest.mark.parametrize("header", ["{'descr': '<f8', 'fortran_order': False, 'shape': (3, 3), ", "(", "08", ",8"])
 def test_array_with_a_damaged_header(tmp_path: Path, header: str) -> None:
     data = b"\x93NUMPY\x01\x00" + len(header).to_bytes(2, "little") + header.encode() + STATE.tobytes()
     (tmp_path / "p.npy").write_bytes(data)
-    assert refusal(tmp_path / "p.npy").message.startswith("no NPY array: ")
+    assert refusal(tmp_path / "p.npy").message.startswith("not an NPY array: ")
 
 
 def test_array_that_python_2_wrote(tmp_path: Path) -> None:
@@ -115,7 +115,7 @@ def test_array_that_claims_too_much(tmp_path: Path) -> None:
     path = one(tmp_path, STATE)
     data = path.read_bytes().replace(b"(3, 3), }" + b" " * 20, b"(3, 3, 99999999999999), }    ")
     path.write_bytes(data)
-    assert refusal(path).message.startswith("no NPY array: ")
+    assert refusal(path).message.startswith("not an NPY array: ")
 
 
 # ----------------------------------------------------------------------------------------------------------------- NPZ
@@ -173,7 +173,7 @@ ARCHIVES = {
         {"positions": SERIES, "node": np.array([10, 20, 31])},
         "node 31 is not defined in the deck",
     ),
-    "node twice": ({"positions": SERIES, "node": np.array([10, 20, 10])}, "a node stands twice in the array node"),
+    "node twice": ({"positions": SERIES, "node": np.array([10, 20, 10])}, "a node is listed twice in the array node"),
     "no node number": (
         {"positions": SERIES, "node": np.array([10, 20, 30.5])},
         "node: 30.5 is not a whole number up to 2^53",
@@ -197,19 +197,19 @@ def test_archive_that_does_not_fit(tmp_path: Path, arrays: dict[str, NDArray[Any
 
 def test_objects_in_an_archive_are_refused(tmp_path: Path) -> None:
     found = refusal(saved(tmp_path, positions=np.array([{}], dtype=object)))
-    assert found.message.startswith("no NPZ archive: Object arrays cannot be loaded")
+    assert found.message.startswith("not an NPZ archive: Object arrays cannot be loaded")
 
 
 @pytest.mark.parametrize("data", [b"", b"PK\x03\x04", b"node,x,y,z\n", b"\x93NUMPY\x01\x00"])
 def test_file_that_is_no_archive(tmp_path: Path, data: bytes) -> None:
     (tmp_path / "p.npz").write_bytes(data)
-    assert refusal(tmp_path / "p.npz").message.startswith("no NPZ archive: ")
+    assert refusal(tmp_path / "p.npz").message.startswith("not an NPZ archive: ")
 
 
 def test_member_that_is_no_array(tmp_path: Path) -> None:
     with zipfile.ZipFile(tmp_path / "p.npz", "w") as archive:
         archive.writestr("positions.npy", b"no array")
-    assert refusal(tmp_path / "p.npz").message.startswith("no NPZ archive: ")
+    assert refusal(tmp_path / "p.npz").message.startswith("not an NPZ archive: ")
 
 
 def test_missing_file(tmp_path: Path) -> None:
