@@ -12,7 +12,6 @@ from mudline.diagnostics import Blocks, Problem, Severity, Where
 from mudline.keywords.table import Table
 from mudline.keywords.text import shown
 from mudline.scene.context import MOST_REPORTED, Context
-from mudline.scene.external_elements import ExternalElements
 from mudline.scene.numbering import (
     LARGEST,
     MOST_GENERATED,
@@ -31,6 +30,7 @@ from mudline.short_repr import short_repr
 if TYPE_CHECKING:
     from mudline.keywords.library.element import ElementPattern, ElementRows, Elements
     from mudline.keywords.library.node import NodeRange, NodeRows, Nodes
+    from mudline.scene.external_elements import ExternalElements
 
 
 @dataclass(frozen=True, slots=True)

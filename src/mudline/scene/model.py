@@ -12,7 +12,6 @@ from mudline.diagnostics import Blocks, DeckError, Problem, Severity
 from mudline.scene.checks.declaring import checked
 from mudline.scene.context import Context
 from mudline.scene.extensions import read_extensions
-from mudline.scene.external_elements import ExternalElements
 from mudline.scene.force_curves import read_curves
 from mudline.scene.laws import read_laws, read_resistance
 from mudline.scene.mesh import read_elements, read_nodes
@@ -28,6 +27,7 @@ if TYPE_CHECKING:
     from mudline.contact.input import ContactInput
     from mudline.contact.model import ContactModel
     from mudline.contact.plan import Backend
+    from mudline.scene.external_elements import ExternalElements
 
 _INTERNAL = frozenset(
     [

@@ -10,13 +10,13 @@ import numpy as np
 
 from mudline.diagnostics import Where
 from mudline.scene.context import Context
-from mudline.scene.external_elements import ExternalElements
 from mudline.scene.numbering import Floats, Indices, Mask, Numbered, looked_up
 from mudline.scene.sets import NamedSet, Sets, later_wins
 from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:
     from mudline.keywords.library.geometric_sets import GeometricSet, GeometricSets
+    from mudline.scene.external_elements import ExternalElements
 
 
 @dataclass(frozen=True, slots=True)

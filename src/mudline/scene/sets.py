@@ -15,13 +15,13 @@ from mudline.diagnostics import Severity, Where
 from mudline.keywords.remarks import advice_on
 from mudline.keywords.text import shown
 from mudline.scene.context import Context
-from mudline.scene.external_elements import ExternalElements
 from mudline.scene.numbering import Ids, Indices, Numbered, constant, identity
 from mudline.scene.opaque_names import bare
 from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:
     from mudline.keywords.library.element_sets import ElementRange, ElementSet, ElementSets, SetList
+    from mudline.scene.external_elements import ExternalElements
 
 ALL = "all"
 _NOTHING = np.zeros(0, dtype=np.intp)
