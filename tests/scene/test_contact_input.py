@@ -15,7 +15,6 @@ from mudline.contact.tables import Tables
 from mudline.deck.loading import load_bytes, load_path
 from mudline.diagnostics import DeckError
 from mudline.scene.model import resolve
-from mudline.scene.section_weight import submerged_weight
 from tests.scene.contact_decks import METRIC, deck
 from tests.scene.decks import scene_of
 
@@ -90,13 +89,13 @@ def test_a_nodal_law_leaves_rigid_elements_alone() -> None:
 
 
 def test_submerged_weight() -> None:
-    np.testing.assert_allclose(submerged_weight(scene_of(deck(METRIC, ""))), WEIGHT, rtol=1e-14)
+    np.testing.assert_allclose(scene_of(deck(METRIC, "")).submerged_weight, WEIGHT, rtol=1e-14)
     dry = deck(METRIC, "").replace("*OCEAN", "*TIME").replace(" 500.0, 1025.0, 9.81\n", " 0, 1\n")
-    assert np.isnan(submerged_weight(scene_of(dry))).all()
+    assert np.isnan(scene_of(dry).submerged_weight).all()
     assumed = deck(METRIC, "").replace("500.0, 1025.0, 9.81", "500.0")
-    np.testing.assert_allclose(submerged_weight(scene_of(assumed)), WEIGHT, rtol=1e-14)
+    np.testing.assert_allclose(scene_of(assumed).submerged_weight, WEIGHT, rtol=1e-14)
     later = deck(METRIC, "*OCEAN\n 500.0, 1025.0, 3.7\n")
-    np.testing.assert_allclose(submerged_weight(scene_of(later)), WEIGHT * 3.7 / 9.81, rtol=1e-14)
+    np.testing.assert_allclose(scene_of(later).submerged_weight, WEIGHT * 3.7 / 9.81, rtol=1e-14)
 
 
 def test_widths_of_linear_laws() -> None:

@@ -38,7 +38,7 @@ def test_a_deck_of_curves_on_a_flat_bed_imports_no_other_feature() -> None:
     laws = {name.rpartition(".")[2] for name in found if name.startswith("mudline.contact.laws.")}
     assert laws == {"base", "curve"}
     assert "mudline.scene.contact_input" in found
-    assert found.isdisjoint({"mudline.scene.normal_laws", "mudline.scene.friction_laws"})
+    assert "mudline.scene.assignments" not in found
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,7 @@ import pytest
 
 from mudline.deck.loading import load_bytes
 from mudline.scene.model import Scene, resolve
-from mudline.scene.section_weight import mass_per_length, submerged_weight, surroundings
+from mudline.scene.sections import surroundings
 from mudline.study import precision
 from mudline.study.errors import StudyError
 from mudline.study.options import StudyOptions
@@ -130,7 +130,7 @@ def test_extreme_curves_end_in_reasons(point: str) -> None:
 def test_imperial_deck() -> None:
     deck = SAMPLES / "imperial-riser.keyxi"
     found = resolve(load_bytes(deck.read_bytes(), deck.name)).require()
-    around = surroundings(found)
+    around = surroundings(found.deck)
     assert 32.0 < around.gravity < 32.4
     assert 1.9 < around.density < 2.1
     report = running.run(found, StudyOptions())
@@ -140,9 +140,9 @@ def test_imperial_deck() -> None:
 def test_mass_and_weight_of_the_sample() -> None:
     found = sample_scene()
     area = np.pi / 4 * (0.3**2 - 0.25**2)
-    assert mass_per_length(found) == pytest.approx(np.full(10, 7850 * area))
+    assert found.mass_per_length == pytest.approx(np.full(10, 7850 * area))
     weight = (7850 * area - 1025 * np.pi / 4 * 0.3**2) * 9.81
-    assert submerged_weight(found) == pytest.approx(np.full(10, weight))
+    assert found.submerged_weight == pytest.approx(np.full(10, weight))
 
 
 def test_smoothing_reproduces_published_iterations() -> None:

@@ -19,7 +19,6 @@ from mudline.diagnostics import DeckError, Problem, Where
 from mudline.scene.numbering import Floats, Indices, Mask
 from mudline.scene.resolved import LawArrays, ResolvedDeck
 from mudline.scene.seabed import SeabedKind, SeabedShape
-from mudline.scene.section_weight import submerged_weight
 
 if TYPE_CHECKING:
     from mudline.contact.seabed.base import Seabed
@@ -53,7 +52,7 @@ def _contact_input(scene: ResolvedDeck, tension: Literal["keep", "cut"]) -> Cont
         tables=tuple(_tables(scene)),
         tension=tension,
         seabed=_seabed(scene),
-        weight=submerged_weight(scene),
+        weight=scene.submerged_weight,
         left_out=_left_out(scene, [law.law for law in laws]),
     )
 
@@ -82,7 +81,7 @@ def _tables(scene: ResolvedDeck) -> list[Floats]:
     """The tables that trenches point to."""
     if "SEABED TRENCH" not in scene.extensions:
         return []
-    from mudline.scene.friction_laws import resistance_tables  # noqa: PLC0415 - only now is it needed
+    from mudline.scene.assignments import resistance_tables  # noqa: PLC0415 - only now is it needed
 
     return resistance_tables(scene)
 
@@ -96,7 +95,7 @@ def _normal_laws(scene: ResolvedDeck, arrays: LawArrays) -> list[LawAssignment]:
     ]
     smoothed = np.zeros(len(scene.element_ids), dtype=np.bool_)
     if "SEABED CONTACT" in scene.extensions:
-        from mudline.scene.normal_laws import element_smoothing  # noqa: PLC0415 - only now is it needed
+        from mudline.scene.assignments import element_smoothing  # noqa: PLC0415 - only now is it needed
 
         smoothing = element_smoothing(scene)
         smoothed[smoothing.rows] = True
@@ -104,11 +103,11 @@ def _normal_laws(scene: ResolvedDeck, arrays: LawArrays) -> list[LawAssignment]:
     plain = linear[~smoothed[linear]]
     laws.append(LawAssignment("linear", plain, {"stiffness": arrays.linear_stiffness[plain]}))
     if (scene.law == LawKind.NODAL).any():
-        from mudline.scene.normal_laws import nodal_springs  # noqa: PLC0415 - only now is it needed
+        from mudline.scene.assignments import nodal_springs  # noqa: PLC0415 - only now is it needed
 
         laws.append(nodal_springs(scene))
     if "SEABED UNLOADING" in scene.extensions:
-        from mudline.scene.normal_laws import unloading_lines  # noqa: PLC0415 - only now is it needed
+        from mudline.scene.assignments import unloading_lines  # noqa: PLC0415 - only now is it needed
 
         laws.append(unloading_lines(scene))
     return laws
@@ -122,7 +121,7 @@ def _suction_laws(scene: ResolvedDeck) -> list[LawAssignment]:
         rows = np.flatnonzero((stiffness > 0.0) & (extent > 0.0) & (scene.law != LawKind.RIGID))
         laws.append(LawAssignment("suction spring", rows, {"stiffness": stiffness[rows], "extent": extent[rows]}))
     if "SEABED SUCTION" in scene.extensions:
-        from mudline.scene.normal_laws import element_suction  # noqa: PLC0415 - only now is it needed
+        from mudline.scene.assignments import element_suction  # noqa: PLC0415 - only now is it needed
 
         laws.append(element_suction(scene))
     return laws
@@ -138,7 +137,7 @@ def _lateral_laws(scene: ResolvedDeck) -> list[LawAssignment]:
     if friction is not None:
         laws.append(friction)
     if "SEABED TRENCH" in scene.extensions:
-        from mudline.scene.friction_laws import trenches  # noqa: PLC0415 - only now is it needed
+        from mudline.scene.assignments import trenches  # noqa: PLC0415 - only now is it needed
 
         laws += trenches(scene)
     return laws
@@ -148,7 +147,7 @@ def friction_of(scene: ResolvedDeck) -> LawAssignment | None:
     """The friction of the nodes; None where nothing gives any."""
     if "SEABED FRICTION" not in scene.extensions and not _given(scene, "friction"):
         return None
-    from mudline.scene.friction_laws import node_friction  # noqa: PLC0415 - only now is it needed
+    from mudline.scene.assignments import node_friction  # noqa: PLC0415 - only now is it needed
 
     return node_friction(scene, _lateral(scene))
 
@@ -217,7 +216,7 @@ def _left_out(scene: ResolvedDeck, laws: Sequence[str]) -> dict[str, str]:
 def _smoothing_left_out(scene: ResolvedDeck) -> str:
     if "SEABED CONTACT" not in scene.extensions:
         return ""
-    from mudline.scene.normal_laws import weightless  # noqa: PLC0415 - only now is it needed
+    from mudline.scene.assignments import weightless  # noqa: PLC0415 - only now is it needed
 
     count = weightless(scene)
     return f"none for {_counted(count)} of SMOOTHING=AUTO: no submerged weight above 0 is known" if count else ""

@@ -42,6 +42,7 @@ _INTERNAL = frozenset(
         "law_arrays",
         "law_name",
         "laws",
+        "mass_per_length",
         "nodal",
         "nodes",
         "noticed",
@@ -50,6 +51,7 @@ _INTERNAL = frozenset(
         "require_evaluable",
         "section_table",
         "set_table",
+        "submerged_weight",
         "table",
     ]
 )

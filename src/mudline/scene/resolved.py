@@ -22,7 +22,7 @@ from mudline.scene.laws import LawTable, SeabedResistance, SetLaw
 from mudline.scene.mesh import ElementTable
 from mudline.scene.numbering import Floats, Ids, Indices, Mask, Numbered
 from mudline.scene.seabed import SeabedShape
-from mudline.scene.sections import SectionTable
+from mudline.scene.sections import SectionTable, mass_per_length, submerged_weight, surroundings
 from mudline.scene.sets import Sets, set_key
 from mudline.short_repr import counted, cut, listed, short_repr
 
@@ -180,6 +180,16 @@ class ResolvedDeck:
     def diameter(self) -> Floats:
         """External diameters (m,): Do, else Dd of a FLEXIBLE section; NaN where there is none."""
         return self.section_table.diameter
+
+    @cached_property
+    def mass_per_length(self) -> Floats:
+        """Mass per length (m,), in the deck's units; NaN where it is not known, or not above 0."""
+        return mass_per_length(self.section_table)
+
+    @cached_property
+    def submerged_weight(self) -> Floats:
+        """Weight less buoyancy per length (m,), in the deck's units; NaN where it is not known or overflows."""
+        return submerged_weight(self.section_table, surroundings(self.deck))
 
     @cached_property
     def sets(self) -> ByName[Ids]:

@@ -13,8 +13,8 @@ from mudline.deck.model import Deck
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
-from mudline.scene.checks.sections import format_of
 from mudline.scene.context import MOST_REPORTED
+from mudline.scene.sections import format_of
 
 if TYPE_CHECKING:
     from mudline.keywords.library.geometric_sets import GeometricSet, GeometricSets

@@ -17,10 +17,10 @@ from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
 from mudline.linting.rules.curves.columns import swapped
-from mudline.scene.checks.sections import format_of
 from mudline.scene.context import MOST_REPORTED
 from mudline.scene.deck_values import surfaces
 from mudline.scene.model import Scene
+from mudline.scene.sections import format_of
 
 if TYPE_CHECKING:
     from mudline.keywords.library.geometric_sets import GeometricSets

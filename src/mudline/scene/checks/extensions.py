@@ -268,7 +268,7 @@ def _smoothed(scene: ResolvedDeck) -> Mask:
     """Elements (m,) with a linear law that is smoothed."""
     found: Mask = np.zeros(len(scene.element_ids), dtype=np.bool_)
     if "SEABED CONTACT" in scene.extensions:
-        from mudline.scene.normal_laws import element_smoothing  # noqa: PLC0415 - only now is it needed
+        from mudline.scene.assignments import element_smoothing  # noqa: PLC0415 - only now is it needed
 
         found[element_smoothing(scene).rows] = True
     return found

@@ -11,21 +11,14 @@ from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.catalogue import ZERO_LENGTH
 from mudline.scene.checks.declaring import check
 from mudline.scene.context import MOST_REPORTED
+from mudline.scene.sections import format_of
 
 if TYPE_CHECKING:
-    from mudline.keywords.library.geometric_sets import GeometricSet, GeometricSets
+    from mudline.keywords.library.geometric_sets import GeometricSets
     from mudline.scene.resolved import ResolvedDeck
 
 GEO001 = Code("GEO001", "inner-exceeds-outer", Severity.ERROR)
 GEO004 = Code("GEO004", "zero-length-element", Severity.ERROR)
-
-_FORMATS = ("flexible", "rigid", "mooring", "truss")
-"""Keywords whose elements may have no length."""
-
-
-def format_of(entry: GeometricSet) -> str:
-    """The format of the property line, "" without one."""
-    return next((name for name in _FORMATS if getattr(entry, name) is not None), "")
 
 
 @check(GEO001)

@@ -13,7 +13,7 @@ from mudline.contact.laws.suction import from_cohesion
 from mudline.scene.deck_values import DEFAULT_GRAVITY
 from mudline.scene.model import Scene
 from mudline.scene.resolved import LawArrays
-from mudline.scene.section_weight import mass_per_length, submerged_weight, surroundings
+from mudline.scene.sections import surroundings
 from mudline.study.precision.drag import Drag
 from mudline.study.precision.laws import CurveLaw, Law, LinearLaw
 from mudline.study.precision.pull import SuctionNumbers
@@ -54,7 +54,7 @@ def seabed_of(scene: Scene) -> Seabed:
     """The stiffest curve and the stiffest linear law of a scene; raises DeckError where it cannot be evaluated."""
     inputs, arrays = scene.contact_input(), scene.law_arrays()
     notes: list[str] = []
-    mass, weight = mass_per_length(scene), submerged_weight(scene)
+    mass, weight = scene.mass_per_length, scene.submerged_weight
     beds = []
     for kind in (LawKind.CURVE, LawKind.LINEAR):
         elements = _distinct(arrays, scene.diameter, kind)
@@ -83,7 +83,7 @@ def _bed(scene: Scene, arrays: LawArrays, given: tuple[float, float], element: i
         mass = _MASS
         notes.append(f"The mass of the pipe is not known: {_MASS:g} per unit length is taken.")
     if not weight > 0.0:
-        known = surroundings(scene).gravity
+        known = surroundings(scene.deck).gravity
         gravity = DEFAULT_GRAVITY.get(scene.units, DEFAULT_GRAVITY["metric"]) if math.isnan(known) else known
         weight = 0.5 * mass * gravity
         notes.append("The pipe has no known weight in water that presses on the bed: half of its own weight is taken.")

@@ -10,9 +10,8 @@ from mudline.contact.arrays import FloatArray, IndexArray
 from mudline.contact.input import LawKind
 from mudline.contact.stiffest import omega, steepest_slope
 from mudline.curves import ForceCurve
+from mudline.scene.assignments import given_stiffness
 from mudline.scene.model import Scene
-from mudline.scene.normal_laws import given_stiffness
-from mudline.scene.section_weight import mass_per_length
 from mudline.study.report import Omission
 
 
@@ -57,7 +56,7 @@ def find_contacts(scene: Scene) -> tuple[list[Contact], list[Omission]]:
     ways = np.full(len(scene.law), -1) if back is None else back.of_element
     kinds = np.column_stack([part[springs] for part in (scene.laws.of_element, scene.section_table.of_element, ways)])
     returns = np.full(len(scene.law), np.nan) if back is None else given_stiffness(back)
-    masses = mass_per_length(scene)
+    masses = scene.mass_per_length
     found, left_out = _nodal(scene, masses)
     for first, count in _groups(kinds):
         element = int(springs[first])

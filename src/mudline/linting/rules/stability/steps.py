@@ -20,10 +20,9 @@ from mudline.contact.stiffest import (
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
+from mudline.scene.assignments import given_stiffness, nodal_stiffness
 from mudline.scene.model import Scene
-from mudline.scene.normal_laws import given_stiffness, nodal_stiffness
 from mudline.scene.numbering import Floats
-from mudline.scene.section_weight import mass_per_length
 
 if TYPE_CHECKING:
     from mudline.keywords.library.time import TimeSpan
@@ -81,7 +80,7 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
     blocks = list(scene.deck.blocks("TIME", "LOAD CASE"))
     if not blocks or not len(scene.element_ids):
         return
-    frequencies = omega(_stiffness(scene), mass_per_length(scene))
+    frequencies = omega(_stiffness(scene), scene.mass_per_length)
     if np.isnan(frequencies).all():
         return
     stiffest = int(np.nanargmax(frequencies))

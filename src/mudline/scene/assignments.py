@@ -1,4 +1,4 @@
-"""Normal laws of the extension keywords: smoothing, nodal stiffness, unloading and suction."""
+"""The laws that few decks ask for: smoothing, nodal stiffness, unloading, suction, friction, trenches."""
 
 from __future__ import annotations
 
@@ -8,16 +8,17 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from mudline.contact.input import LawAssignment, LawKind
-from mudline.scene.deck_values import FORCE_UNIT, LENGTH_UNIT, number
+from mudline.scene.deck_values import FORCE_UNIT, LARGEST_MOBILISATION, LENGTH_UNIT, number
 from mudline.scene.extensions import Extension
-from mudline.scene.numbering import Floats, Indices, Mask, at_nodes, marked, picked, summed
+from mudline.scene.numbering import Floats, Indices, Mask, at_nodes, marked, picked, summed, touched
 from mudline.scene.resolved import ResolvedDeck
-from mudline.scene.section_weight import submerged_weight
 
 if TYPE_CHECKING:
     from mudline.contact.laws.suction import SuctionLaw
     from mudline.keywords.library.seabed_suction import SuctionSet
+    from mudline.keywords.library.seabed_trench import TrenchSet
 
+_LINE = (("start_y", "y0"), ("start_z", "z0"), ("end_y", "y1"), ("end_z", "z1"))
 _CORNERS = (0.2, 0.8)
 _SLOWEST = 1e-3
 """Default of REGULARISATION=, m/s."""
@@ -29,7 +30,7 @@ def element_smoothing(scene: ResolvedDeck) -> LawAssignment:
     block = np.where(scene.law == LawKind.LINEAR, extension.of_element, -1)
     stiffness = scene.law_arrays().linear_stiffness
     with np.errstate(all="ignore"):
-        penetration = submerged_weight(scene) / stiffness
+        penetration = scene.submerged_weight / stiffness
     width = _half_width(extension, block, penetration, scene.diameter)
     rows = np.flatnonzero(width > 0.0)
     sides = _one_sided(extension, block)
@@ -66,7 +67,7 @@ def weightless(scene: ResolvedDeck) -> int:
     """How many elements leave the width to a weight that is not known or not above 0, and so are not smoothed."""
     extension = scene.extensions["SEABED CONTACT"]
     auto = _is_auto(extension, extension.of_element) & np.isin(scene.law, (LawKind.LINEAR, LawKind.NODAL))
-    return int((auto & ~(submerged_weight(scene) > 0.0)).sum())
+    return int((auto & ~(scene.submerged_weight > 0.0)).sum())
 
 
 def nodal_springs(scene: ResolvedDeck) -> LawAssignment:
@@ -101,7 +102,7 @@ def _static_at_nodes(scene: ResolvedDeck, stiffness: Floats) -> tuple[Floats, Fl
     ends, count = scene.element_nodes, len(scene.node_ids)
     known = ~np.isnan(scene.diameter)
     with np.errstate(all="ignore"):
-        carried = summed(0.5 * submerged_weight(scene) * scene.length, ends, count)
+        carried = summed(0.5 * scene.submerged_weight * scene.length, ends, count)
         sizes = summed(np.where(known, scene.diameter, 0.0), ends, count)
         return carried / stiffness, sizes / summed(known.astype(np.float64), ends, count)
 
@@ -155,3 +156,110 @@ def _cyclic(entry: object) -> tuple[float, float]:
     """Factor and floor of CYCLIC=; the floor is NaN where there is none."""
     given = cast("SuctionSet", entry).cyclic
     return number(given, "factor", number(entry, "cyclic", 1.0)), number(given, "floor")
+
+
+def node_friction(scene: ResolvedDeck, lateral: Indices) -> LawAssignment:
+    """The friction of the nodes that have any.
+
+    Nodes of elements with a lateral spring (`lateral` (k,)) have no transverse coefficient; nodes of a rigid seabed
+    have no friction, as their normal reaction is that of a constraint.
+    """
+    ends, count = scene.element_nodes, len(scene.node_ids)
+    springs = _of_properties(scene)
+    active = (springs[0] > 0.0).any(axis=1)
+    ellipse, angle = np.zeros(count, dtype=np.bool_), np.full(count, np.nan)
+    extension = scene.extensions.get("SEABED FRICTION")
+    if extension is not None:
+        block = at_nodes(extension.of_element, ends, count)
+        here = block >= 0
+        springs = np.where(here[:, None], _of_keyword(extension, block), springs)
+        active = active | here
+        ellipse = marked((getattr(entry, "criterion", None) == "ELLIPSE" for entry in extension.entries), block)
+        angle = extension.values(block, "directions")
+    coefficients, stiffness, mobilisation = springs
+    coefficients[np.unique(ends[lateral]), 1] = 0.0
+    rows = np.flatnonzero(active & ~touched(scene.law == LawKind.RIGID, ends, count))
+    parameters = {"elliptic": ellipse[rows], "angle": angle[rows]}
+    for side, name in enumerate(("axial", "lateral")):
+        parameters[f"{name}_coefficient"] = np.nan_to_num(coefficients[rows, side])
+        parameters[f"{name}_stiffness"] = stiffness[rows, side]
+        parameters[f"{name}_mobilisation"] = mobilisation[rows, side]
+    return LawAssignment("friction", rows, parameters)
+
+
+def _of_properties(scene: ResolvedDeck) -> Floats:
+    """Coefficients, constant springs and mobilisation lengths (3, n, 2) by `FRICTION=`; NaN where there is none.
+
+    The default length at a node is the least of its elements' lengths, up to a largest.
+    """
+    ends, count = scene.element_nodes, len(scene.node_ids)
+    block = at_nodes(scene.resistance.of_element, ends, count)
+    given = {
+        name: np.array([*(getattr(entry, name) for entry in scene.resistance.values), (np.nan, np.nan)])[block]
+        for name in ("friction", "mobilisation", "characteristic")
+    }
+    largest = np.fmin(given["characteristic"], np.inf)
+    largest = np.where(np.isinf(largest), LARGEST_MOBILISATION.get(scene.units, np.inf), largest)
+    default = np.fmin(_shortest(scene)[:, None], largest)
+    length = np.where(given["mobilisation"] > 0.0, given["mobilisation"], default)
+    return np.stack([given["friction"], np.full((count, 2), np.nan), np.where(np.isfinite(length), length, np.nan)])
+
+
+def _shortest(scene: ResolvedDeck) -> Floats:
+    """The least length of each node's elements; infinite where none is above 0."""
+    shortest = np.full(len(scene.node_ids), np.inf)
+    usable = np.isfinite(scene.length) & (scene.length > 0.0)
+    for end in scene.element_nodes[usable].T:
+        np.minimum.at(shortest, end, scene.length[usable])
+    return shortest
+
+
+def _of_keyword(extension: Extension, block: Indices) -> Floats:
+    """As `_of_properties`, by `*SEABED FRICTION`: springs are given, and have no mobilisation length."""
+    coefficients, stiffness = (
+        np.column_stack([extension.values(block, part, name) for name in ("first", "second")])
+        for part in ("coefficients", "stiffness")
+    )
+    stiffness[:, 1] = np.where(np.isnan(stiffness[:, 1]), stiffness[:, 0], stiffness[:, 1])
+    return np.stack([coefficients, stiffness, np.full(stiffness.shape, np.nan)])
+
+
+def trenches(scene: ResolvedDeck) -> list[LawAssignment]:
+    """The elements in trenches with a peak resistance, a tabulated one, or sloped walls."""
+    extension = scene.extensions["SEABED TRENCH"]
+    entries = _trench_sets(scene)
+    if not (extension.of_element >= 0).any():
+        return []
+    walls = np.array([entry.model == "WALL" for entry in entries])
+    tabulated = np.array([_has_table(entry) for entry in entries])
+    table = np.cumsum(tabulated) - 1.0
+    found = []
+    for law, blocks, name in (
+        ("trench peak", ~walls & ~tabulated, "peak"),
+        ("trench table", tabulated, "table"),
+        ("trench wall", walls, "depth"),
+    ):
+        rows = np.flatnonzero((extension.of_element >= 0) & blocks[extension.of_element])
+        block = extension.of_element[rows]
+        path = ("geometry", "depth") if name == "depth" else ("peak",)
+        parameters = {
+            "bottom": extension.values(block, "geometry", "bottom_width"),
+            "upper": extension.values(block, "geometry", "upper_width"),
+            name: table[block] if name == "table" else extension.values(block, *path),
+            **{ours: extension.values(block, "centreline", theirs) for ours, theirs in _LINE},
+        }
+        found.append(LawAssignment(law, rows, parameters))
+    return found
+
+
+def resistance_tables(scene: ResolvedDeck) -> list[Floats]:
+    """The tables (k, 2) of the blocks that have one, in their order."""
+    return [entry.table.values for entry in _trench_sets(scene) if _has_table(entry) and entry.table is not None]
+
+
+def _has_table(entry: TrenchSet) -> bool:
+    return entry.model != "WALL" and entry.peak == "TABLE"
+
+
+def _trench_sets(scene: ResolvedDeck) -> list[TrenchSet]:
+    return cast("list[TrenchSet]", scene.extensions["SEABED TRENCH"].entries)
