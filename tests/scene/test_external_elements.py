@@ -78,7 +78,7 @@ def test_fault_names_its_line(file: Path, text: str, line: int, message: str) ->
 
 
 def test_field_that_is_too_long_for_csv(file: Path) -> None:
-    with pytest.raises(DeckError, match="no CSV: field larger than field limit"):
+    with pytest.raises(DeckError, match="not a CSV file: field larger than field limit"):
         read(file, f'{HEADER}\n1,1,2,0.5,,"{"x" * 200_000}"\n')
 
 

@@ -176,7 +176,7 @@ def test_what_is_not_evaluated_is_said_by_stage() -> None:
         " FRICTION=0.3, 0.4, 0.1, 0.1, 5, 2\n LATERAL=5\n SUCTION=5\n"
     )
     assert found == {
-        "suction": "SUCTION= without an extent of its zone holds nothing: 10 elements",
+        "suction": "SUCTION= without an extent of its zone has no effect: 10 elements",
         "friction": (
             "11 nodes with a mobilisation length, Kt = mu N / length (inferred); "
             "LATERAL= replaces the transverse coefficient; "

@@ -19,6 +19,7 @@ from mudline.diagnostics import DeckError, Problem, Where
 from mudline.scene.numbering import Floats, Indices, Mask
 from mudline.scene.resolved import LawArrays, ResolvedDeck
 from mudline.scene.seabed import SeabedKind, SeabedShape
+from mudline.short_repr import counted
 
 if TYPE_CHECKING:
     from mudline.contact.seabed.base import Seabed
@@ -117,7 +118,7 @@ def _suction_laws(scene: ResolvedDeck) -> list[LawAssignment]:
     laws = []
     if _given(scene, "suction"):
         stiffness, extent = scene.resistance.column("suction"), scene.resistance.column("extent")
-        # a spring without an extent of its zone holds nothing
+        # a spring without an extent of its zone has no effect
         rows = np.flatnonzero((stiffness > 0.0) & (extent > 0.0) & (scene.law != LawKind.RIGID))
         laws.append(LawAssignment("suction spring", rows, {"stiffness": stiffness[rows], "extent": extent[rows]}))
     if "SEABED SUCTION" in scene.extensions:
@@ -205,55 +206,38 @@ def made_seabed(seabed: SeabedShape) -> Seabed:
 
 def _left_out(scene: ResolvedDeck, laws: Sequence[str]) -> dict[str, str]:
     """By stage of the plan, what is asked for and not evaluated, or not as it is written; nothing for other stages."""
-    reasons = {
-        "smoothing": _smoothing_left_out(scene),
-        "suction": _suction_left_out(scene),
-        "friction": "; ".join(_friction_left_out(scene, laws)),
-    }
-    return {stage: why for stage, why in reasons.items() if why}
+    reasons: dict[str, list[str]] = {}
+    for stage, why in _reasons(scene, laws):
+        reasons.setdefault(stage, []).append(why)
+    return {stage: "; ".join(each) for stage, each in reasons.items()}
 
 
-def _smoothing_left_out(scene: ResolvedDeck) -> str:
-    if "SEABED CONTACT" not in scene.extensions:
-        return ""
-    from mudline.scene.assignments import weightless  # noqa: PLC0415 - only now is it needed
+def _reasons(scene: ResolvedDeck, laws: Sequence[str]) -> Iterator[tuple[str, str]]:
+    """Stage and reason of each thing that is left out."""
 
-    count = weightless(scene)
-    return f"none for {_counted(count)} of SMOOTHING=AUTO: no submerged weight above 0 is known" if count else ""
+    def where_given(name: str) -> Mask:
+        found: Mask = scene.resistance.column(name) > 0.0
+        return found
 
+    rigid = scene.law == LawKind.RIGID
+    if "SEABED CONTACT" in scene.extensions:
+        from mudline.scene.assignments import weightless  # noqa: PLC0415 - only now is it needed
 
-def _suction_left_out(scene: ResolvedDeck) -> str:
-    suction = _where_given(scene, "suction")
-    if not suction.any():
-        return ""
-    extent = scene.resistance.column("extent") > 0.0
-    count = int((suction & ~extent & (scene.law != LawKind.RIGID)).sum())
-    return f"SUCTION= without an extent of its zone holds nothing: {_counted(count)}" if count else ""
-
-
-def _friction_left_out(scene: ResolvedDeck, laws: Sequence[str]) -> list[str]:
-    reasons = []
-    coefficients = _where_given(scene, "friction").any(axis=1)
-    extension = scene.extensions.get("SEABED FRICTION")
-    asked = coefficients if extension is None else coefficients | (extension.of_element >= 0)
-    if count := int((asked & (scene.law == LawKind.RIGID)).sum()):
-        reasons.append(f"none on a rigid seabed, whose reaction is that of a constraint: {_counted(count)}")
+        if count := weightless(scene):
+            elements = counted(count, "element")
+            yield "smoothing", f"none for {elements} of SMOOTHING=AUTO: no submerged weight above 0 is known"
+    if count := int((where_given("suction") & ~where_given("extent") & ~rigid).sum()):
+        yield "suction", f"SUCTION= without an extent of its zone has no effect: {counted(count, 'element')}"
+    asked = where_given("friction").any(axis=1)
+    if extension := scene.extensions.get("SEABED FRICTION"):
+        asked |= extension.of_element >= 0
+    if count := int((asked & rigid).sum()):
+        elements = counted(count, "element")
+        yield "friction", f"none on a rigid seabed, whose reaction is that of a constraint: {elements}"
     if "lateral" in laws and asked.any():
-        reasons.append("LATERAL= replaces the transverse coefficient")
-    if _where_given(scene, "constant").any():
-        reasons.append(
-            "the constant friction force coefficient is not evaluated: the manual does not say what it means"
-        )
-    if _where_given(scene, "friction_stiffness").any():
-        reasons.append("friction stiffnesses of FRICTION= are for modal and frequency runs (inferred)")
-    return reasons
-
-
-def _where_given(scene: ResolvedDeck, name: str) -> Mask:
-    """Where elements have a value of the seabed above 0."""
-    found: Mask = scene.resistance.column(name) > 0.0
-    return found
-
-
-def _counted(count: int) -> str:
-    return f"{count} element{'' if count == 1 else 's'}"
+        yield "friction", "LATERAL= replaces the transverse coefficient"
+    if where_given("constant").any():
+        why = "the constant friction force coefficient is not evaluated: the manual does not say what it means"
+        yield "friction", why
+    if where_given("friction_stiffness").any():
+        yield "friction", "friction stiffnesses of FRICTION= are for modal and frequency runs (inferred)"

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 
 NOTHING = -1
+_UNKNOWN = float("nan")
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,14 +118,8 @@ def _elastic_surface(context: Context, sets: Sets, laws: LawTable) -> Iterator[S
 def _embedment(sets: Sets, laws: LawTable, first: int) -> Iterator[SetLaw]:
     for index, curve in enumerate(laws.curves[first:], first):
         found = sets.find(curve.name) if curve.named else None
-        yield SetLaw(
-            LawKind.CURVE,
-            found or _unknown(curve.name),
-            curve.where,
-            "legacy",
-            curve=index,
-            unknown=not curve.usable,
-        )
+        holder = found or _unknown(curve.name)
+        yield SetLaw(LawKind.CURVE, holder, curve.where, "legacy", curve=index, unknown=not curve.usable)
 
 
 def _unknown(name: str | None) -> NamedSet:
@@ -145,41 +140,23 @@ def _properties(context: Context, sets: Sets, laws: LawTable, named: list[SceneC
     for where, properties, type_ in typed_blocks(context):
         if properties.type_ is not None and type_ is not None:
             laws.types.setdefault(properties.type_, []).append(where.inside("type"))
-        reading = _Reading(context, laws, curves, type_)
         for index, entry in enumerate(properties.sets):
             place = where.inside("sets", index)
             name = set_name(context, entry.set_name, place)
-            found = None if name is None else sets.find(name)
-            yield reading.set_law(entry, place, found or _unknown(name))
-
-
-@dataclass(frozen=True, slots=True)
-class _Reading:
-    """What is needed to understand a STIFFNESS=."""
-
-    context: Context
-    laws: LawTable
-    curves: dict[str, int]
-    type_: str | None
-
-    def set_law(self, entry: SeabedSet, where: Where, found: NamedSet) -> SetLaw:
-        """The law of a set. On a rigid seabed a stiffness has no effect."""
-        place = where.inside("stiffness")
-        stiffness = entry.stiffness
-        unread = self.context.has_read_errors(where)
-        if isinstance(stiffness, str):
-            index = self.curves.get(folded(stiffness), NOTHING)
-            unknown = unread or index == NOTHING or not self.laws.curves[index].usable
-            return SetLaw(LawKind.CURVE, found, place, "new", curve=index, unknown=unknown)
-        if self.type_ == "RIGID":
-            return SetLaw(LawKind.RIGID, found, where, "new")
-        if stiffness is None:
-            return SetLaw(LawKind.NONE, found, where, "new", unknown=unread or self.type_ is None)
-        value = float(stiffness)
-        return SetLaw(LawKind.LINEAR, found, place, "new", value, unknown=unread or not value >= 0)
-
-
-_UNKNOWN = float("nan")
+            holder = (None if name is None else sets.find(name)) or _unknown(name)
+            unread = context.has_read_errors(place)
+            stiffness, written = entry.stiffness, place.inside("stiffness")
+            if isinstance(stiffness, str):
+                curve = curves.get(folded(stiffness), NOTHING)
+                unknown = unread or curve == NOTHING or not named[curve].usable
+                yield SetLaw(LawKind.CURVE, holder, written, "new", curve=curve, unknown=unknown)
+            elif type_ == "RIGID":  # on a rigid seabed a stiffness has no effect
+                yield SetLaw(LawKind.RIGID, holder, place, "new")
+            elif stiffness is None:
+                yield SetLaw(LawKind.NONE, holder, place, "new", unknown=unread or type_ is None)
+            else:
+                value = float(stiffness)
+                yield SetLaw(LawKind.LINEAR, holder, written, "new", value, unknown=unread or not value >= 0)
 
 
 class ResistanceValues(NamedTuple):

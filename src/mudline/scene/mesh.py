@@ -239,16 +239,16 @@ def _join(context: Context, elements: Numbered, nodes: Numbered) -> Indices:
     for block in blocks_of(len(elements)):
         given, numbers = _node_numbers(elements.values[block])
         indices[block] = np.where(given, nodes.indices(numbers), -1)
-        lost = np.argwhere(given & (indices[block] < 0))
-        lost[:, 0] += block.start
-        found.append(lost)
-    lost = np.concatenate(found) if found else np.zeros((0, 2), dtype=np.intp)
-    if not len(lost):
+        missing = np.argwhere(given & (indices[block] < 0))
+        missing[:, 0] += block.start
+        found.append(missing)
+    missing = np.concatenate(found) if found else np.zeros((0, 2), dtype=np.intp)
+    if not len(missing):
         return indices
-    batches = elements.batches_of(elements.rows[lost[:, 0]])
+    batches = elements.batches_of(elements.rows[missing[:, 0]])
     generators = np.array([not batch.table for batch in elements.batches], dtype=bool)[batches]
-    _, firsts = np.unique(np.where(generators, batches, -1 - np.arange(len(lost))), return_index=True)
-    for index, end in lost[np.sort(firsts)[: MOST_REPORTED + 1]].tolist():
+    _, firsts = np.unique(np.where(generators, batches, -1 - np.arange(len(missing))), return_index=True)
+    for index, end in missing[np.sort(firsts)[: MOST_REPORTED + 1]].tolist():
         where = elements.where(index)
         number = int(elements.values[index, end])
         message = f"element {elements.ids[index]} ends at node {number}, which is not defined: define it"

@@ -119,8 +119,8 @@ def _complete(table: NumericTable, ids: Ids, step: Indices, times: Floats) -> No
         raise table.fault(row, f"node {ids[row]} is given twice{_at(times, int(step[row]))}")
     if len(cells) < len(times) * len(given):
         gaps = np.flatnonzero(ordered != np.arange(len(ordered)))
-        lost, lacking = divmod(int(gaps[0]) if gaps.size else len(ordered), len(given))
-        raise data_error(table.file, f"node {given[lacking]} is missing{_at(times, lost)}")
+        at_step, lacking = divmod(int(gaps[0]) if gaps.size else len(ordered), len(given))
+        raise data_error(table.file, f"node {given[lacking]} is missing{_at(times, at_step)}")
 
 
 def _at(times: Floats, step: int) -> str:
