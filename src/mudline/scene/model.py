@@ -31,14 +31,12 @@ if TYPE_CHECKING:
 
 _INTERNAL = frozenset(
     [
-        "resistance",
         "blocking",
         "context",
+        "describe",
         "errors",
         "extensions",
         "findings",
-        "seabed",
-        "set_law",
         "law_arrays",
         "law_name",
         "laws",
@@ -49,7 +47,10 @@ _INTERNAL = frozenset(
         "problems",
         "require",
         "require_evaluable",
+        "resistance",
+        "seabed",
         "section_table",
+        "set_law",
         "set_table",
         "submerged_weight",
         "table",
