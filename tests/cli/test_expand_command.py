@@ -108,8 +108,8 @@ def test_files_that_are_there_stay_unless_forced(place: Place, folder: Path) -> 
     outcome = run("expand", name, "-o", "out")
     assert outcome.code == 2
     assert outcome.err.splitlines() == [
-        "mudline: out/Far/at 50.keyxm: is there already: --force overwrites it",
-        "mudline: out/manifest.json: is there already: --force overwrites it",
+        "mudline: out/Far/at 50.keyxm: exists already: --force overwrites it",
+        "mudline: out/manifest.json: exists already: --force overwrites it",
         "mudline: nothing is written",
     ]
     assert files(folder / "out") == ["Far/at 50.keyxm", "manifest.json"]
@@ -156,7 +156,8 @@ def test_a_file_where_a_folder_is_wanted(place: Place) -> None:
     name = place(STUDY)
     place("mine", "out")
     outcome = run("expand", name, "-o", "out", "--force")
-    assert (outcome.code, outcome.err.splitlines()[0]) == (2, "mudline: out: is a file: the decks need a folder")
+    message = "mudline: out: is a file: expected a folder for the decks"
+    assert (outcome.code, outcome.err.splitlines()[0]) == (2, message)
     place("mine", "there/Near")
     outcome = run("expand", name, "-o", "there", "--force")
     assert outcome.code == 2
@@ -171,7 +172,7 @@ def test_a_folder_where_a_file_is_wanted(place: Place, folder: Path) -> None:
     (folder / "out/Far/at 100.keyxm").mkdir(parents=True)
     outcome = run("expand", name, "-o", "out", "--force")
     assert outcome.code == 2
-    assert "out/Far/at 100.keyxm: is there already, and no file that could be overwritten" in outcome.err
+    assert "out/Far/at 100.keyxm: exists already and is not a regular file: it is not overwritten" in outcome.err
     assert files(folder) == ["deck.keyxm"]
 
 
@@ -196,7 +197,7 @@ def test_where_to_write_must_be_said(place: Place) -> None:
 def test_a_path_that_cannot_be_looked_at(place: Place) -> None:
     outcome = run("expand", place(STUDY), "-o", "a\0b")
     assert outcome.code == 2
-    assert "cannot be looked at" in outcome.err
+    assert "cannot be inspected" in outcome.err
 
 
 def test_a_folder_that_cannot_be_made(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -22,5 +22,5 @@ def test_links_are_not_followed_out_of_the_folder(place: Place, folder: Path) ->
     (folder / "out/Near/at 50.keyxm").symlink_to(folder / "outside/file")
     outcome = run("expand", name, "-o", "out", "--force")
     assert outcome.code == 2
-    assert "is there already, and no file that could be overwritten" in outcome.err
+    assert "exists already and is not a regular file: it is not overwritten" in outcome.err
     assert files(folder) == ["deck.keyxm"]

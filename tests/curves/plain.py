@@ -8,7 +8,7 @@ import numpy as np
 from hypothesis import strategies as st
 
 from mudline.curves import ForceCurve
-from mudline.curves.arrays import FloatArray
+from mudline.curves.points import FloatArray
 
 LARGEST = 1e300
 

@@ -12,13 +12,10 @@ import pytest
 from hypothesis import given, reject
 from hypothesis import strategies as st
 
-from mudline.curves import CurveError, ForceCurve, QueryError, backends, compiled
-from mudline.curves.arrays import FloatArray
-from mudline.curves.backends import Backend, law_for
-from mudline.curves.blocks import BLOCK
-from mudline.curves.buckets import BucketTable
-from mudline.curves.law import NumpyLaw
-from mudline.curves.work import Work
+from mudline.curves import CurveError, ForceCurve, QueryError, compiled, law
+from mudline.curves.law import Backend, NumpyLaw, law_for
+from mudline.curves.points import FloatArray
+from mudline.curves.search import BLOCK, BucketTable, Workspace
 from tests.curves.plain import POINTS, near, plain_values, steps
 
 BACKENDS: tuple[Backend, ...] = ("numpy", "fast")
@@ -56,7 +53,7 @@ def test_both_backends_follow_the_law_to_the_last_bit(curve: ForceCurve, more: l
 
 
 @given(curves(), st.floats(allow_nan=True, allow_infinity=True), st.integers(0, 1999))
-def test_both_backends_mend_and_refuse_the_same(curve: ForceCurve, odd: float, where: int) -> None:
+def test_both_backends_recompute_and_refuse_the_same(curve: ForceCurve, odd: float, where: int) -> None:
     query = np.full(2000, curve.ratios[1])
     query[where] = odd
     answers: list[object] = []
@@ -162,14 +159,14 @@ def test_a_place_without_a_cache_compiles_anyway(monkeypatch: pytest.MonkeyPatch
 
 def test_the_backend_that_a_query_gets(monkeypatch: pytest.MonkeyPatch) -> None:
     knots = ForceCurve([(0.0, 0.0), (1.0, 1.0), (2.0, 5.0)])._knots
-    work = Work()
+    work = Workspace()
     assert isinstance(law_for(knots, 10**7, work, "numpy"), NumpyLaw)
     assert isinstance(law_for(knots, 1, work, "fast"), compiled.CountingLaw)
     # Once loaded, from some thousands on; not yet loaded, from some millions on.
     assert isinstance(law_for(knots, 100, work), NumpyLaw)
     assert isinstance(law_for(knots, 10_000, work), compiled.CountingLaw)
     monkeypatch.delitem(sys.modules, "mudline.curves.compiled")
-    backends._loads.cache_clear()
+    law._loads.cache_clear()
     assert isinstance(law_for(knots, 10_000, work), NumpyLaw)
     assert not isinstance(law_for(knots, 10**7, work), NumpyLaw)
 
@@ -178,13 +175,13 @@ def test_without_the_extra(monkeypatch: pytest.MonkeyPatch) -> None:
     curve = ForceCurve([(0.0, 0.0), (1.0, 1.0)])
     monkeypatch.delitem(sys.modules, "mudline.curves.compiled")
     monkeypatch.setitem(sys.modules, "numba", None)
-    backends._loads.cache_clear()
+    law._loads.cache_clear()
     try:
-        assert isinstance(law_for(curve._knots, 10**7, Work()), NumpyLaw)
+        assert isinstance(law_for(curve._knots, 10**7, Workspace()), NumpyLaw)
         with pytest.raises(ImportError):
             curve.evaluate(0.5, backend="fast")
     finally:
-        backends._loads.cache_clear()
+        law._loads.cache_clear()
 
 
 def test_a_backend_of_another_name() -> None:

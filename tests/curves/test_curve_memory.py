@@ -1,4 +1,4 @@
-"""Work arrays have a fixed size, however long the query."""
+"""Workspace arrays have a fixed size, however long the query."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from mudline.curves import ForceCurve
-from mudline.curves.arrays import FloatArray
-from mudline.curves.backends import Backend
+from mudline.curves.law import Backend
+from mudline.curves.points import FloatArray
 from tests.curves.plain import steps
 
 CURVES = {

@@ -9,11 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mudline.curves.arrays import FloatArray
-from mudline.curves.buckets import bucket_table
-from mudline.curves.knots import Knots
-from mudline.curves.search import Bisection, Bucketing, Counting, Search, search_for
-from mudline.curves.work import Work
+from mudline.curves.points import FloatArray
+from mudline.curves.search import Bisection, Bucketing, Counting, Knots, Search, Workspace, bucket_table, search_for
 from tests.curves.plain import POINTS, near, steps
 
 ANY_FINITE = st.floats(allow_nan=False, allow_infinity=False)
@@ -27,9 +24,9 @@ def knots_at(points: FloatArray) -> Knots:
 def test_the_right_segment(points: FloatArray, more: list[float]) -> None:
     query = near(points, more)
     expected = np.searchsorted(points[1:], query, side="right")
-    searches: list[Search] = [Bisection(points[1:]), Bucketing(bucket_table(points), Work())]
+    searches: list[Search] = [Bisection(points[1:]), Bucketing(bucket_table(points), Workspace())]
     if len(points) < 200:
-        searches.append(Counting(points[1:], Work()))
+        searches.append(Counting(points[1:], Workspace()))
     with np.errstate(all="ignore"):
         for search in searches:
             assert np.array_equal(search.passed(query), expected)
@@ -77,20 +74,20 @@ def test_a_table_of_very_many_points_has_wider_numbers() -> None:
     query = near(points, [-1e300, 1e300])[::-20]
     table = bucket_table(points)
     assert table.below.dtype == np.uint32
-    found = Bucketing(table, Work()).passed(query)
+    found = Bucketing(table, Workspace()).passed(query)
     assert np.array_equal(found, np.searchsorted(points[1:], query, side="right"))
 
 
 def test_after_a_block_in_crowded_buckets_only_the_binary_search_is_used() -> None:
     points = np.array([0.0, 1.0, *steps(2.0, 50), 5.0])
-    search = Bucketing(bucket_table(points), Work())
+    search = Bucketing(bucket_table(points), Workspace())
     for ratio in (0.5, 2.0, math.nextafter(2.0, 3.0), 0.5):
         query = np.full(1000, ratio)
         assert np.array_equal(search.passed(query), np.searchsorted(points[1:], query, side="right"))
 
 
 def test_which_search_is_used() -> None:
-    few, many, work = knots_at(np.arange(16.0)), knots_at(np.arange(5000.0)), Work()
+    few, many, work = knots_at(np.arange(16.0)), knots_at(np.arange(5000.0)), Workspace()
     assert isinstance(search_for(few, 1, work), Bisection)
     assert isinstance(search_for(few, 10**7, work), Counting)
     assert isinstance(search_for(many, 2000, work), Bisection)

@@ -1,4 +1,4 @@
-"""Work arrays are lent to one query at a time."""
+"""Work arrays serve one query at a time."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from mudline.curves import ForceCurve
-from mudline.curves.work import lent
+from mudline.curves.search import workspace
 
 
 def test_nobody_gets_arrays_that_are_in_use() -> None:
-    with lent() as one, lent() as other:
+    with workspace() as one, workspace() as other:
         assert one is not other
         assert not np.shares_memory(one.real, other.real)
-    with lent() as again:
+    with workspace() as again:
         assert again is one
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import Deck
-from mudline.formatting.meaning import same_meaning
+from mudline.formatting.document import same_meaning
 
 DECK = """\
 C title

@@ -6,10 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mudline.formatting.columns import Columns, WordRows
-from mudline.formatting.places import RowKind
-from mudline.formatting.plain import PlainRows
-from mudline.formatting.rows import word_rows
+from mudline.formatting.rows import Columns, PlainRows, RowKind, WordRows, word_rows
 from mudline.keywords.library.element import ElementRow
 from mudline.keywords.library.node import NodeRow
 from mudline.keywords.model import Row, layout

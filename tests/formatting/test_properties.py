@@ -13,8 +13,7 @@ from hypothesis import strategies as st
 from mudline.deck.loading import dump, load_bytes
 from mudline.deck.model import Opaque
 from mudline.diagnostics import DeckError, Severity
-from mudline.formatting.document import formatted
-from mudline.formatting.meaning import same_meaning
+from mudline.formatting.document import formatted, same_meaning
 from mudline.keywords import catalogue
 from mudline.syntax.source import Source
 from tests.growth import FOURFOLD, TWOFOLD, call_growth, calls, growth

@@ -18,28 +18,21 @@ ROOT = Path(mudline.__file__).parent
 
 ASKING = frozenset(
     {
-        "blocks",
-        "possible_definition",
-        "misplaced",
-        "missing",
-        "report_missing",
-        "has_unread_line_after",
-        "get",
-        "add",
-        "setdefault",
+        *("blocks", "possible_definition", "misplaced", "missing", "report_missing", "has_unread_line_after"),
+        *("get", "add", "setdefault"),
     }
 )
 CONSTANTS = frozenset({"KEYWORD", "_KEYWORD"})
 
 EXCEPTIONS = {
     "comparison/numbered.py": "asks for the labels in the blocks of nodes and of elements",
-    "migration/continuing.py": "the blocks whose laws a migrated surface would meet",
+    "migration/migrating.py": "the blocks whose laws a migrated surface would meet",
     "migration/refusals.py": "the blocks that a bed, or a deck that continues another, has instead",
     "migration/rewriting.py": "writes these blocks",
     "results/summary.py": "says which of two blocks a curve came from",
     "scene/checks/fields.py": "leaves the geometry of a trench to EXT003, which has words of its own for it",
     "scene/context.py": "a lost line of lines defines a set, as it names one",
-    "variations/undefined.py": "asks whether the blocks that it reads may stand elsewhere",
+    "variations/names.py": "asks whether the blocks that it reads may stand elsewhere",
 }
 """Modules that name keywords in another way, and why."""
 

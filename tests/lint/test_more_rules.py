@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from mudline.deck.json_form import to_json
+from mudline.deck.forms.json import to_json
 from mudline.deck.loading import load_bytes
 from mudline.linting.engine import lint_bytes
 from mudline.linting.selection import select
@@ -221,22 +221,27 @@ def test_gravity(suffix: str, gravity: str, fires: bool) -> None:
     assert in_units(text, suffix, "UNT001") == ([(3, 17)] if fires else [])
 
 
-def test_magnitudes_of_metric_decks_only() -> None:
-    text = PIPE.replace("0.25, 0.22", "250, 220") + "*SEABED STIFFNESS\n" + curve("a", (0, 0), (1, 9.9))
+def test_magnitudes_by_unit_system() -> None:
+    text = PIPE + "*SEABED STIFFNESS\n" + curve("a", (0, 0), (1, 9.9))
     text += PROPERTIES + " STIFFNESS=99.0\n"
-    assert in_units(text, "keyxm", "UNT002") == [(12, 19), (14, 2), (20, 12)]
+    assert in_units(text, "keyxm", "UNT002") == [(14, 2), (20, 12)]
     assert in_units(text, "keyxi", "UNT002") == in_units(text, "keyx", "UNT002") == []
+    kips = text.replace("1, 9.9", "1, 0.69").replace("=99.0", "=1.99")
+    assert in_units(kips, "keyxi", "UNT002") == [(14, 2), (20, 12)]
+    assert in_units(kips, "keyx", "UNT002") == []
+    at_limits = text.replace("1, 9.9", "1, 0.7").replace("=99.0", "=2.0")
+    assert in_units(at_limits, "keyxi", "UNT002") == []
+
+
+def test_the_least_force_falls_with_the_diameter_of_a_cable() -> None:
+    text = PIPE.replace("0.25, 0.22", "0.017, 0.0") + ON_CLAY.replace("4000.0", "{}")
+    assert found(text.format(1.71), "UNT002") == []
+    assert len(found(text.format(1.69), "UNT002")) == 1
 
 
 def test_magnitudes_at_their_limits() -> None:
-    text = (
-        PIPE.replace("0.25,", "10.0,")
-        + "*SEABED STIFFNESS\n"
-        + curve("a", (0, 0), (1, 10))
-        + curve("b", (0, 0), (1, 0))
-    )
+    text = PIPE + "*SEABED STIFFNESS\n" + curve("a", (0, 0), (1, 10)) + curve("b", (0, 0), (1, 0))
     assert found(text + PROPERTIES + " STIFFNESS=100\n SET=ALL\n STIFFNESS=0\n", "UNT002") == []
-    assert found(FLEXIBLE.replace("0.4", "400"), "UNT002") == [("UNT002", 12, 22)]
     assert found("$MODEL\n*ELASTIC SURFACE\n 50\n", "UNT002") == [("UNT002", 3, 2)]
 
 

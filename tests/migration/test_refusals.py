@@ -6,7 +6,7 @@ import pytest
 
 from mudline.diagnostics import DeckError
 from mudline.migration.migrating import migrate
-from mudline.migration.names import curve_names
+from mudline.migration.rewriting import curve_names
 from tests.migration.decks import PIPE, deck_of
 
 LINES = PIPE.count("\n")
@@ -23,7 +23,7 @@ SURFACE = "*ELASTIC SURFACE\n 1e4, 0.3, 0.5"
         (f"{SURFACE}\n 2.5\n 0, 0\n 1, 1\n", 3, 2, "a slope and a profile"),
         (f"{SURFACE}\n 0, 0\n =[1+1], 1\n", 4, 2, "an equation in a profile"),
         (f"{SURFACE}\n 2.5\n*SEABED PROFILE\n TYPE=SLOPING\n SLOPE=1\n", 4, 1, "*SEABED PROFILE and the slope"),
-        (f"{SURFACE}\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=West\n STIFFNESS=1\n", 3, 1, "stands beside legacy"),
+        (f"{SURFACE}\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=West\n STIFFNESS=1\n", 3, 1, "is used beside legacy"),
         (f"{SURFACE}\n$LOAD CASE\n*RESTART\n LAST=base\n", 4, 1, "*RESTART continues another deck"),
         (f"{SURFACE}\n*EMBEDMENT\nCURVE=x\n SET=West\n 0, 0\n 1, 1\n", 1, 1, "would be lost or read as data"),
     ],

@@ -62,7 +62,7 @@ def test_a_lost_block_counts() -> None:
     assert {difference.what for difference in differences} >= {"element 3", "element 9"}
 
 
-def test_elements_that_the_deck_does_not_show_are_stood_in_for() -> None:
+def test_elements_that_the_deck_does_not_show_are_represented() -> None:
     """With *LINES no element is known; the sets are, and so is which of two blocks wins."""
     lines = "$MODEL\n*LINES\n LINE=Riser\n SECTION=A, 10\n SECTION=B, 10\n"
     curves = "*EMBEDMENT\n SET=A\n 0, 0\n 1, 5\n SET=B\n 0, 0\n 1, 7\n"
@@ -78,7 +78,7 @@ def test_a_changed_profile_counts() -> None:
     assert verify(found).differences == ()
     ((name, data),) = found.files.items()
     changed = replace(found, files={name: data.replace(b"30.0", b"30.000000000000004")})
-    assert [difference.what for difference in verify(changed).differences] == ["the bed"]
+    assert [difference.what for difference in verify(changed).differences] == ["the seabed"]
 
 
 @pytest.mark.parametrize(
@@ -100,5 +100,5 @@ def test_many_sets_are_compared_one_after_the_other() -> None:
     text = PIPE + "*ELEMENT SETS\n" + sets + "*ELASTIC SURFACE\n 1e4\n*EMBEDMENT\n" + curves
     verdict = verify(migrate(deck_of(text)))
     assert verdict.differences == ()
-    assert verdict.stand_ins == 2 * (1 + 60 + 59)
+    assert verdict.representatives == 2 * (1 + 60 + 59)
     assert verdict.kinds == 3

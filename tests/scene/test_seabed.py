@@ -94,13 +94,15 @@ def test_a_file_with_a_fault_is_told_at_file(tmp_path: Path, content: bytes, wor
     assert scene.seabed.points.size == 0
 
 
-def test_a_compiled_profile_is_kept_and_told_whether_it_is_there_or_not(tmp_path: Path) -> None:
+def test_a_compiled_profile_is_kept_and_reported_unless_the_file_is_missing(tmp_path: Path) -> None:
     text = PIPE + PROFILE.format("Bed.FCSBD")
     for there in (False, True):
         if there:
             (tmp_path / "Bed.FCSBD").write_bytes(b"\x00\x01")
         scene = scene_in(tmp_path, text)
-        assert ("SBD023", PIPE.count("\n") + 4, 7) in reported(scene)
+        place = PIPE.count("\n") + 4, 7
+        assert {code for code, *at in reported(scene) if tuple(at) == place} == {"SBD023" if there else "REF015"}
+        assert len(scene.blocking()) == 1
         assert "binary" in scene.seabed.missing
         assert scene.seabed.file == "Bed.FCSBD"
 

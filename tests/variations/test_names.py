@@ -9,7 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mudline.variations.names import Taken, filled, path_fault, placeholders, unquoted
+from mudline.variations.files import Taken, path_fault
+from mudline.variations.names import filled, placeholders, unquoted
 from tests.variations.decks import only, planned, refused, text
 
 BAD = [

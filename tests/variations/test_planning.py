@@ -106,12 +106,12 @@ def test_the_last_definition_of_a_parameter_is_the_one_that_varies() -> None:
     assert b" period, 09\n" in found.content(found.decks[1])
 
 
-def test_excel_variations_are_told() -> None:
+def test_excel_variations_are_reported() -> None:
     content = text(WAVES, " DESCRIPTION=d, FILENAME=%Period%\n").replace(
         "*VARIATION", "*EXCEL VARIATIONS\n EXCEL=a\n*VARIATION"
     )
     found = plan(deck(content))
-    assert found.notes == ["*EXCEL VARIATIONS is not expanded: it stands in every new deck as it is"]
+    assert found.notes == ["*EXCEL VARIATIONS is not expanded: it is passed through unchanged"]
     assert b"*EXCEL VARIATIONS\n EXCEL=a\n" in found.content(found.decks[0])
 
 
@@ -144,8 +144,13 @@ START = 11
             "EXP001",
             "'Depth' varies twice in 'v'",
         ),
-        (" NAME=v\n PARA=Depth, VALUE=1,,2\n", (START + 1, 22), "EXP001", "value 2 of PARA=Depth, '', is no value"),
-        (' NAME=v\n PARA=Depth, VALUE=1" 2 "\n', (START + 1, 20), "EXP001", "is no value"),
+        (
+            " NAME=v\n PARA=Depth, VALUE=1,,2\n",
+            (START + 1, 22),
+            "EXP001",
+            "value 2 of PARA=Depth, '', cannot be a",
+        ),
+        (' NAME=v\n PARA=Depth, VALUE=1" 2 "\n', (START + 1, 20), "EXP001", "cannot be a value"),
         (" NAME=v\n PARA=Depth, VALUE==[Ofset]\n", (START + 1, 20), "REF013", "parameter Ofset is not defined"),
         (" NAME=v\n PARA=Depth, GEN=1, 3, 0\n", (START + 1, 14), "EXP001", "GEN= gives no value"),
         (
@@ -202,7 +207,7 @@ def test_combinations_that_cannot_be(combinations: str, column: int, code: str, 
     assert message in found[0].message
 
 
-def test_clashes_are_told_some_times_only() -> None:
+def test_clashes_are_reported_twenty_times_at_most() -> None:
     found = refused(text(" NAME=v\n PARA=Depth, GEN=1, 1000\n", " DESCRIPTION=d, FILENAME=a\n"))
     assert len(found) == 20
 
@@ -222,7 +227,7 @@ def test_a_file_where_another_deck_needs_a_folder() -> None:
 
 def test_the_list_of_decks_has_its_name_for_itself() -> None:
     found = only(refused(text("", " DESCRIPTION=d, FILENAME=Manifest.json\n")))
-    assert "is that of the list of all decks" in found[3]
+    assert "is that of the manifest" in found[3]
 
 
 def test_a_value_that_a_name_needs_and_that_is_none() -> None:
@@ -238,7 +243,7 @@ def test_a_value_that_a_name_needs_and_that_is_none() -> None:
 def test_the_number_of_decks_is_bounded_before_any_is_made() -> None:
     variations = "".join(f" NAME={name}\n PARA={name}, GEN=1, 2000\n" for name in ("Depth", "Offset", "Period"))
     found = only(refused(text(variations, " DESCRIPTION=d\n")))
-    assert "8000000000 decks would be written: no more than 100000 are" in found[3]
+    assert "8000000000 decks would be written: expected no more than 100000" in found[3]
 
 
 @pytest.mark.parametrize("more", ["", "*EXCEL VARIATIONS\n EXCEL=a\n"])

@@ -15,9 +15,9 @@ from mudline.diagnostics import DeckError
 from mudline.keywords.values import Equation
 from mudline.linting.engine import lint_bytes
 from mudline.linting.selection import select
-from mudline.variations.names import path_fault
-from mudline.variations.planning import ExpansionPlan, plan
-from mudline.variations.targets import parameter_field
+from mudline.variations.files import path_fault
+from mudline.variations.planning import plan
+from mudline.variations.rewriting import ExpansionPlan, parameter_field
 from tests.samples import SAMPLES
 from tests.variations.decks import MODEL, PARAMETERS, deck, only, refused, text
 
@@ -264,11 +264,11 @@ def test_a_block_may_take_the_place_of_another() -> None:
     ("action", "message"),
     [
         ("REMOVE, KEYWORD=OFSET, SECTION=LOAD CASE", "$LOAD CASE has no *OFSET (did you mean OFFSET?)"),
-        ("REMOVE, KEYWORD=OFSET", "say where *OFSET belongs with SECTION="),
-        ("REMOVE, KEYWORD=FRICTION", "say where *FRICTION belongs with SECTION= ($LOAD CASE or $MODES)"),
+        ("REMOVE, KEYWORD=OFSET", "missing SECTION= for *OFSET"),
+        ("REMOVE, KEYWORD=FRICTION", "missing SECTION= for *FRICTION: $LOAD CASE or $MODES"),
         ("REMOVE, KEYWORD=OCEAN, SECTION=MODELL", "the deck has no section $MODELL (did you mean MODEL?)"),
-        ("REMOVE, KEYWORD=PARAMETERS", "*PARAMETERS says what the decks are"),
-        ("ADD, KEYWORD=OFFSET, FILE=none.txt", "there is no file 'none.txt' beside the deck"),
+        ("REMOVE, KEYWORD=PARAMETERS", "*PARAMETERS describes the decks"),
+        ("ADD, KEYWORD=OFFSET, FILE=none.txt", "file 'none.txt' is not found beside the deck"),
         ("ADD, KEYWORD=OFFSET, FILE=other.txt", "other.txt holds *OCEAN, expected *OFFSET only"),
         ("ADD, KEYWORD=OFFSET, FILE=section.txt", "section.txt opens the section $MODEL"),
         ("ADD, KEYWORD=OFFSET, FILE=utf16.txt", "utf16.txt: the file is UTF-16"),
@@ -293,13 +293,13 @@ def test_a_file_that_the_encoding_of_the_deck_lacks(tmp_path: Path) -> None:
 
 def test_a_file_too_large_or_closed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "a.txt").write_text(" 1\n")
-    monkeypatch.setattr("mudline.variations.actions._LARGEST", 2)
+    monkeypatch.setattr("mudline.variations.cases._LARGEST", 2)
     assert "is larger than" in only(refused(acting("ADD, KEYWORD=OFFSET, FILE=a.txt"), folder=tmp_path))[3]
 
     def fail(_: Path) -> bytes:
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr("mudline.variations.actions._LARGEST", 20)
+    monkeypatch.setattr("mudline.variations.cases._LARGEST", 20)
     monkeypatch.setattr(Path, "read_bytes", fail)
     found = only(refused(acting("ADD, KEYWORD=OFFSET, FILE=a.txt"), folder=tmp_path))
     assert "a.txt cannot be read: permission denied" in found[3]
@@ -332,7 +332,7 @@ def test_the_suffix_of_a_name_tells_the_form() -> None:
     assert ends == {"09.json": b"{", "201.json": b"{", "09.keyx": b"$", "201.keyx": b"$"}
 
 
-def test_a_fault_of_a_json_deck_is_told_where_it_stands_there() -> None:
+def test_a_fault_of_a_json_deck_is_reported_at_its_place_there() -> None:
     content = dump(deck(text(WAVES, " DESCRIPTION=d, FILENAME=%Period%\n VARIATIONS=Wave\n")), "json")
     line = content[: content.index('["Wave"]')].count("\n") + 1
     found = only(refused(content, "study.json"))

@@ -1,4 +1,4 @@
-"""Names that variations and combinations use: told when they lead nowhere, in any deck, and only then."""
+"""Names that variations and combinations use: reported when undefined, in any deck, and only then."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ CALLS = ' VARIATIONS="near  shore", All\n'
 WHOLE = PARAMETERS + VARIATION + COMBINATIONS + CALLS
 
 
-def told(text: str, name: str = "deck.keyxm") -> list[str]:
+def reported(text: str, name: str = "deck.keyxm") -> list[str]:
     found = lint_bytes(text.encode(), name, select(CODES))
     return [f"{one.line}:{one.column} {one.severity.value} {one.code} {one.message}" for one in found]
 
 
-def test_nothing_is_told_of_what_can_be_expanded() -> None:
-    assert told(WHOLE) == []
-    assert told((SAMPLES / "variations.keyxm").read_text()) == []
+def test_nothing_is_reported_where_can_be_expanded() -> None:
+    assert reported(WHOLE) == []
+    assert reported((SAMPLES / "variations.keyxm").read_text()) == []
     assert len(plan(load_bytes(WHOLE.replace(" soil_stiff ", "soil_stiff").encode(), "deck.keyxm")).decks) == 2
 
 
@@ -41,10 +41,10 @@ def test_nothing_is_told_of_what_can_be_expanded() -> None:
     ],
 )
 def test_a_name_that_leads_nowhere(old: str, new: str, message: str) -> None:
-    (found,) = told(WHOLE.replace(old, new))
+    (found,) = reported(WHOLE.replace(old, new))
     assert found.startswith(message)
     document = dump(load_bytes(WHOLE.replace(old, new).encode(), "deck.keyxm"), "json")
-    assert [line.split(" ", 1)[1] for line in told(document, "deck.json")] == [found.split(" ", 1)[1]]
+    assert [line.split(" ", 1)[1] for line in reported(document, "deck.json")] == [found.split(" ", 1)[1]]
 
 
 @pytest.mark.parametrize(
@@ -59,7 +59,7 @@ def test_a_name_that_leads_nowhere(old: str, new: str, message: str) -> None:
     ],
 )
 def test_keywords_and_sections_of_actions(action: str, messages: list[str]) -> None:
-    found = told(PARAMETERS + VARIATION + f" {action}\n" + COMBINATIONS + CALLS)
+    found = reported(PARAMETERS + VARIATION + f" {action}\n" + COMBINATIONS + CALLS)
     assert [one.startswith(words) for one, words in zip(found, messages, strict=True)] == [True] * len(messages)
 
 
@@ -73,19 +73,19 @@ def test_keywords_and_sections_of_actions(action: str, messages: list[str]) -> N
     ],
 )
 def test_a_parameter_that_could_not_be_read_may_be_the_one(old: str, new: str) -> None:
-    assert [one for one in told(WHOLE.replace(old, new)) if "REF013" in one] == []
+    assert [one for one in reported(WHOLE.replace(old, new)) if "REF013" in one] == []
 
 
 @pytest.mark.parametrize("name", ["NAME=", "NMAE=Near Shore"])
 def test_a_variation_that_could_not_be_read_may_be_the_one(name: str) -> None:
-    found = told(WHOLE.replace("NAME=Near Shore", name, 1))
+    found = reported(WHOLE.replace("NAME=Near Shore", name, 1))
     assert [one for one in found if "REF001" in one] == []
 
 
 def test_a_sheet_may_hold_the_variations() -> None:
     rest = WHOLE.replace("All", "Sheet")
-    assert [one.split()[2] for one in told(rest)] == ["REF001"]
-    assert told(rest + "*EXCEL VARIATIONS\n FILE=a.xls\n") == []
+    assert [one.split()[2] for one in reported(rest)] == ["REF001"]
+    assert reported(rest + "*EXCEL VARIATIONS\n FILE=a.xls\n") == []
 
 
 def test_broken_lines_are_no_hindrance() -> None:
@@ -93,8 +93,8 @@ def test_broken_lines_are_no_hindrance() -> None:
         "*VARIATION\n NAME=a\n PARA=, VALUE=1\n ACTION=ADD, KEYWORD=\n ACTION=AD\n"
         "*COMBINATIONS\n DESCRIPTION=a\n VARIATIONS=\n"
     )
-    assert told(WHOLE + lines) == []
+    assert reported(WHOLE + lines) == []
 
 
 def test_a_deck_without_variations_has_no_names() -> None:
-    assert told("$MODEL\n*OCEAN\n 100.0\n") == []
+    assert reported("$MODEL\n*OCEAN\n 100.0\n") == []

@@ -15,9 +15,9 @@ from mudline.cli.options import View
 from mudline.cli.streams import emit
 from mudline.cli.terminal import reason, tell
 from mudline.cli.writing import write_bytes, write_text
-from mudline.variations.manifest import MANIFEST, manifest_text
-from mudline.variations.output import conflicts, lacking
-from mudline.variations.planning import ExpansionPlan, plan
+from mudline.variations.files import MANIFEST, conflicts, lacking, manifest_text
+from mudline.variations.planning import plan
+from mudline.variations.rewriting import ExpansionPlan
 
 _MOST_TOLD = 5
 _NOT_COPIED = "{}: the deck names it and it is not copied: put it beside the new decks"

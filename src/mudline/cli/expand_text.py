@@ -8,7 +8,7 @@ from rich.text import Text
 
 from mudline.cli.console import console
 from mudline.cli.tables import print_table
-from mudline.variations.model import PlannedDeck
+from mudline.variations.rewriting import PlannedDeck
 
 _COLUMNS = ("file", "case", "values")
 

@@ -17,8 +17,7 @@ from mudline.cli.writing import write_bytes
 from mudline.deck.loading import dump, form_of, load_bytes
 from mudline.diagnostics import DeckError
 from mudline.linting.output.visible import visible
-from mudline.migration.continuing import Continuations
-from mudline.migration.migrating import Migration, legacy_blocks, migrate
+from mudline.migration.migrating import Continuations, Migration, legacy_blocks, migrate
 from mudline.migration.verification import Verdict, verify
 from mudline.syntax.source import Source
 
@@ -113,8 +112,8 @@ class _Run:
         else:
             self._note(
                 f"verified: {_many(verdict.elements, 'element')} of {_many(verdict.kinds, 'kind')}, and "
-                f"{verdict.stand_ins} stand-ins for its sets, at {verdict.positions} positions: forces, stiffnesses, "
-                "friction, lateral resistance, suction and bed are bitwise equal"
+                f"{verdict.representatives} representative elements for its sets, at {verdict.positions} positions: "
+                "forces, stiffnesses, friction, lateral resistance, suction and seabed are bitwise equal"
             )
         return not verdict.differences
 

@@ -7,6 +7,6 @@ force, slope = curve.evaluate(0.2)
 from __future__ import annotations
 
 from mudline.curves.curve import ForceCurve
-from mudline.curves.errors import CurveError, QueryError
+from mudline.curves.points import CurveError, QueryError
 
 __all__ = ["CurveError", "ForceCurve", "QueryError"]

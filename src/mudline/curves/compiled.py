@@ -12,9 +12,8 @@ from typing import Final, TypeVar, cast
 import numba
 import numpy as np
 
-from mudline.curves.arrays import FloatArray
-from mudline.curves.buckets import BucketTable
-from mudline.curves.knots import Knots
+from mudline.curves.points import FloatArray
+from mudline.curves.search import BucketTable, Knots
 
 _COUNTED_POINTS: Final = 8
 """Up to this many points counting is as fast as a table."""

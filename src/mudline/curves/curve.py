@@ -3,7 +3,7 @@
 The embedment ratio r is penetration / external diameter (dimensionless), the force f is per unit length, in whatever
 units the deck uses. With the points sorted by ratio and s_i = (F_(i+1) - F_i) / (r_(i+1) - r_i):
 
-* r_i <= r < r_(i+1):  f = F_i + s_i (r - r_i), slope s_i (at a point the segment to its right holds);
+* r_i <= r < r_(i+1):  f = F_i + s_i (r - r_i), slope s_i (at a point that of the segment to its right);
 * r < r_0:             the same with i = 0;
 * r >= r_n, the last:  f = F_n + s_(n-1) (r - r_n).
 
@@ -17,14 +17,9 @@ from typing import NoReturn
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mudline.curves.arrays import FloatArray, IndexArray, read_only, real_numbers
-from mudline.curves.backends import Backend, law_for
-from mudline.curves.blocks import BLOCK, blocks
-from mudline.curves.knots import Knots
-from mudline.curves.law import NumpyLaw, mend, mended, refuse_infinite
-from mudline.curves.points import checked_points, difference_quotient
-from mudline.curves.search import search_for
-from mudline.curves.work import lent
+from mudline.curves.law import Backend, NumpyLaw, law_for, recompute_overflowed, refuse, refuse_infinite
+from mudline.curves.points import FloatArray, IndexArray, checked_points, difference_quotient, read_only, real_numbers
+from mudline.curves.search import BLOCK, Knots, blocks, search_for, workspace
 from mudline.short_repr import cut
 
 _SHOWN_POINTS = 8
@@ -54,7 +49,7 @@ class ForceCurve:
 
         Raises:
             CurveError: the points do not make a curve; its `code` and `index` say why and which.
-            ValueError: `points` are no pairs of real numbers.
+            ValueError: `points` are not pairs of real numbers.
         """
         ratios, forces, slopes = (read_only(array) for array in checked_points(points))
         fields = {
@@ -85,14 +80,14 @@ class ForceCurve:
         Raises:
             ImportError: `backend="fast"` without the extra.
             QueryError: a ratio is NaN or infinite, or the force there overflows.
-            ValueError: `ratios` are no real numbers, or `out` does not fit.
+            ValueError: `ratios` are not real numbers, or `out` does not fit.
         """
         query = real_numbers(ratios, "ratios")
         force, slope = (np.empty(query.shape), np.empty(query.shape)) if out is None else _checked_out(out, query.shape)
-        # Where results replace the ratios, these are still needed to tell what is wrong.
+        # Where results overwrite the ratios, these are still needed to report what is wrong.
         replaced = out is not None and any(np.may_share_memory(query, array) for array in out)
         done = 0
-        with lent() as work, np.errstate(all="ignore"), blocks(query, force, slope) as pieces:
+        with workspace() as work, np.errstate(all="ignore"), blocks(query, force, slope) as pieces:
             law = law_for(self._knots, query.size, work, backend)
             for block, block_force, block_slope in pieces:
                 ratio = block
@@ -100,7 +95,9 @@ class ForceCurve:
                     ratio = work.kept[: len(block)]
                     ratio[...] = block
                 if not law.fill(ratio, block_force, block_slope):
-                    mend(self._knots, ratio, block_force, done)
+                    bad = recompute_overflowed(self._knots, ratio, block_force)
+                    if bad.size:
+                        refuse(ratio, int(bad[0]), done)
                 done += len(ratio)
         return force, slope
 
@@ -110,15 +107,15 @@ class ForceCurve:
         Where a ratio is not finite or the force overflows, the force is not finite. All three arrays are float64 and
         each in one piece of memory.
         """
-        with lent() as work:
+        with workspace() as work:
             law = NumpyLaw(self._knots, search_for(self._knots, len(ratios), work), work)
             for start in range(0, len(ratios), BLOCK):
                 piece = slice(start, start + BLOCK)
                 if not law.fill(ratios[piece], force[piece], slope[piece]):
-                    mended(self._knots, ratios[piece], force[piece])
+                    recompute_overflowed(self._knots, ratios[piece], force[piece])
 
     def segment(self, ratios: ArrayLike) -> IndexArray:
-        """Return which segment holds at `ratios`, from 0: the first also below, the last also beyond the points.
+        """Return which segment applies at `ratios`, from 0: the first also below, the last also beyond the points.
 
         Raises:
             QueryError: a ratio is NaN or infinite.
@@ -126,7 +123,7 @@ class ForceCurve:
         query = real_numbers(ratios, "ratios")
         found = np.empty(query.shape, np.intp)
         done = 0
-        with lent() as work, np.errstate(all="ignore"), blocks(query, found) as pieces:
+        with workspace() as work, np.errstate(all="ignore"), blocks(query, found) as pieces:
             search = search_for(self._knots, query.size, work)
             for ratio, block_found in pieces:
                 refuse_infinite(ratio, done)
@@ -166,7 +163,7 @@ class ForceCurve:
         return tuple(sorted(found))
 
     def _inside(self, force: float) -> FloatArray:
-        """The ratios of this force between points, each reckoned from the point that is nearer in force."""
+        """The ratios of this force between points, each computed from the point that is nearer in force."""
         low, high = self.forces[:-1], self.forces[1:]
         segment = np.flatnonzero(((low < force) & (force < high)) | ((high < force) & (force < low)))
         middle = 0.5 * low[segment] + 0.5 * high[segment]

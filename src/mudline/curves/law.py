@@ -1,16 +1,27 @@
-"""Force and slope of a block of ratios, and the ratios that have none."""
+"""Force and slope of a block of ratios, by numpy alone or by compiled loops, and the ratios that have none.
+
+Loading numba takes about a second, so the compiled loops are loaded by the first query that is large enough to make
+more of them likely; once they are loaded, they also serve smaller ones.
+"""
 
 from __future__ import annotations
 
-from typing import NoReturn, Protocol
+import sys
+from functools import cache
+from importlib import import_module
+from typing import Literal, NoReturn, Protocol, cast
 
 import numpy as np
 
-from mudline.curves.arrays import FloatArray, IndexArray
-from mudline.curves.errors import QueryError
-from mudline.curves.knots import Knots
-from mudline.curves.search import Search
-from mudline.curves.work import Work
+from mudline.curves.points import FloatArray, IndexArray, QueryError
+from mudline.curves.search import Knots, Search, Workspace, search_for
+
+Backend = Literal["auto", "numpy", "fast"]
+
+_COMPILED = "mudline.curves.compiled"
+
+_WORTH_LOADING = 2**22
+_WORTH_CALLING = 2**12
 
 
 class Law(Protocol):
@@ -27,7 +38,7 @@ class Law(Protocol):
 class NumpyLaw:
     """Evaluates with numpy alone."""
 
-    def __init__(self, knots: Knots, search: Search, work: Work) -> None:
+    def __init__(self, knots: Knots, search: Search, work: Workspace) -> None:
         self._knots = knots
         self._search = search
         self._work = work
@@ -46,19 +57,35 @@ class NumpyLaw:
         return bool(np.isfinite(force, out=work.flag[:size]).all())
 
 
-def mend(knots: Knots, ratio: FloatArray, force: FloatArray, start: int) -> None:
-    """Evaluate again where `force` is not finite.
+def law_for(knots: Knots, total: int, work: Workspace, backend: Backend = "auto") -> Law:
+    """Return the way to evaluate a query of `total` ratios.
 
     Raises:
-        QueryError: it still is not; `start` is the index of the first ratio in the query.
+        ImportError: `backend` is "fast", but the extra `mudline[fast]` is not installed.
+        ValueError: `backend` is unknown.
     """
-    bad = mended(knots, ratio, force)
-    if bad.size:
-        _refuse(ratio, int(bad[0]), start)
+    if backend not in ("auto", "numpy", "fast"):
+        raise ValueError(f"backend must be auto, numpy or fast, not {backend!r}")
+    if backend == "fast" or (backend == "auto" and _pays(total)):
+        return cast("Law", import_module(_COMPILED).compiled_law(knots))
+    return NumpyLaw(knots, search_for(knots, total, work), work)
 
 
-def mended(knots: Knots, ratio: FloatArray, force: FloatArray) -> IndexArray:
-    """Evaluate again where `force` is not finite; return where it still is not.
+def _pays(total: int) -> bool:
+    return total >= _WORTH_CALLING and (_COMPILED in sys.modules or (total >= _WORTH_LOADING and _loads()))
+
+
+@cache
+def _loads() -> bool:
+    try:
+        import_module(_COMPILED)
+    except ImportError:
+        return False
+    return True
+
+
+def recompute_overflowed(knots: Knots, ratio: FloatArray, force: FloatArray) -> IndexArray:
+    """Compute again the forces that are not finite; return where they still are not.
 
     Only an intermediate value may have overflowed: added in two halves the force may well be finite.
     """
@@ -71,17 +98,18 @@ def mended(knots: Knots, ratio: FloatArray, force: FloatArray) -> IndexArray:
 
 
 def refuse_infinite(ratio: FloatArray, start: int) -> None:
-    """Refuse ratios that are not finite, for questions that need no force.
+    """Check that ratios are finite, for queries that compute no force.
 
     Raises:
         QueryError: a ratio is NaN or infinite; `start` is the index of the first ratio in the query.
     """
     finite = np.isfinite(ratio)
     if not finite.all():
-        _refuse(ratio, int(np.argmin(finite)), start)
+        refuse(ratio, int(np.argmin(finite)), start)
 
 
-def _refuse(ratio: FloatArray, index: int, start: int) -> NoReturn:
+def refuse(ratio: FloatArray, index: int, start: int) -> NoReturn:
+    """Raise the QueryError of a ratio; `start` is the index of the first ratio in the query."""
     value = float(ratio[index])
     why = "the force there overflows" if np.isfinite(value) else "it is not finite"
     raise QueryError(start + index, value, f"no force at ratio {value!r} (index {start + index}): {why}")

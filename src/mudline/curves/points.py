@@ -1,14 +1,70 @@
-"""From points in any order to sorted, checked points and the slopes between them."""
+"""Points of a curve: sorted and checked, with the slopes between them; the errors that curves raise."""
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mudline.curves.arrays import FloatArray, IndexArray, real_numbers
-from mudline.curves.errors import CurveError
+FloatArray = NDArray[np.float64]
+IndexArray = NDArray[np.intp]
+
+Number = TypeVar("Number", bound=np.generic)
+
+
+def read_only(array: NDArray[Number]) -> NDArray[Number]:
+    """Return the array itself, from now on read-only."""
+    array.setflags(write=False)
+    return array
+
+
+def real_numbers(values: ArrayLike, what: str) -> NDArray[np.generic]:
+    """Return `values` as an array of booleans, integers or floats.
+
+    Raises:
+        ValueError: they are something else; `what` is what the message calls them.
+    """
+    array: NDArray[np.generic] = np.asarray(values)
+    if array.dtype.kind not in "biuf":
+        raise ValueError(f"{what} must be real numbers, not {array.dtype}")
+    return array
+
+
+class CurveError(ValueError):
+    """Points that do not make a curve.
+
+    Attributes:
+        code: rule code of the fault: `SYN002` (a number that is not finite), `CRV001` (fewer than two distinct
+            points), `CRV003` (two forces at one ratio), `CRV011` (a width or a slope that a float64 cannot hold).
+        index: the offending point in the order given, from 0; of two points the later one; -1 for the whole curve.
+    """
+
+    def __init__(self, code: str, index: int, message: str) -> None:
+        super().__init__(message)
+        self.code = code
+        self.index = index
+
+    def __reduce__(self) -> tuple[type[CurveError], tuple[str, int, str]]:
+        return type(self), (self.code, self.index, str(self))
+
+
+class QueryError(ValueError):
+    """A ratio that has no force: it is not finite, or the force there overflows.
+
+    Attributes:
+        index: position of the ratio in the flattened query.
+        ratio: the ratio.
+    """
+
+    def __init__(self, index: int, ratio: float, message: str) -> None:
+        super().__init__(message)
+        self.index = index
+        self.ratio = ratio
+
+    def __reduce__(self) -> tuple[type[QueryError], tuple[int, float, str]]:
+        return type(self), (self.index, self.ratio, str(self))
+
 
 _SMALLEST_NORMAL = np.finfo(np.float64).tiny
 
@@ -29,7 +85,7 @@ def checked_points(points: ArrayLike) -> CurvePoints:
 
     Raises:
         CurveError: the points do not make a curve.
-        ValueError: they are no pairs of real numbers.
+        ValueError: they are not pairs of real numbers.
     """
     given = _pairs(points)
     order = np.argsort(given[:, 0], kind="stable")

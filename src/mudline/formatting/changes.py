@@ -1,4 +1,4 @@
-"""What formatting changes, as a unified diff; in time that grows with the length of the file alone."""
+"""What formatting changes, as a unified diff; in linear time."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def unified_diff(old: str, new: str, name: str) -> Iterator[str]:
 
 
 def _line_by_line(before: Sequence[str], after: Sequence[str]) -> Iterator[Change]:
-    """Formatting a keyword text keeps its lines in their order and leaves out some of the blank ones."""
+    """Formatting a keyword text keeps its lines in order and removes some of the blank ones."""
     at = 0
     for number, line in enumerate(before):
         if at < len(after) and bool(line.strip()) == bool(after[at].strip()):

@@ -3,20 +3,247 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from itertools import zip_longest
+from typing import NamedTuple, Self
+
+import numpy as np
+from numpy.typing import NDArray
 
 from mudline.diagnostics import Span
-from mudline.formatting.columns import Columns, WordRows, cut
-from mudline.formatting.places import RowKind
-from mudline.formatting.plain import PlainRows
+from mudline.keywords.model import Slot
+from mudline.keywords.values import Kind
 from mudline.syntax.rows import line_spans, row_fields
+
+LONGEST = 32
+"""Longer fields, such as equations, do not widen their column: the fields after them on their row are shifted right."""
+
+_INTEGER = re.compile(r"[-+0-9]*")
+_NUMERIC = frozenset("+-.0123456789")
+
+
+class RowKind(NamedTuple):
+    """Rows that fill the same field of a model: that field, and the fields on a row.
+
+    `many`: any number of values of the one field; `table`: rows that are read as arrays.
+    """
+
+    slot: Slot
+    columns: tuple[Slot, ...]
+    many: bool = False
+    table: bool = False
+
+    def is_text(self, column: int) -> bool:
+        """Whether a column holds names or text; others hold numbers, with an equation or a label here and there."""
+        slot = self.columns[0] if self.many else self.columns[min(column, len(self.columns) - 1)]
+        return bool(slot.choices) or slot.kind in (Kind.NAME, Kind.REAL_OR_NAME)
+
+
+class Shape(NamedTuple):
+    """The alignment of a column: its width, the position of its decimal points, and the width from there on.
+
+    Without numbers all but the width is 0: words are aligned left. Among numbers they are aligned right.
+    """
+
+    width: int
+    point: int
+    right: int
+
+    def padded(self, text: str) -> str:
+        """A field with its comma, one blank before it, and the padding of its column on both sides."""
+        before = self.point - self._inner(text)
+        if before <= 0:
+            return f" {text},{' ' * (self.width - len(text))}"
+        return f" {' ' * before}{text},{' ' * (self.width - before - len(text))}"
+
+    def _inner(self, text: str) -> int:
+        """How many characters of a field come before the decimal point of its column."""
+        if not text or text[0] in _NUMERIC:
+            return _integer(text)
+        return len(text) - self.right
+
+
+def _integer(number: str) -> int:
+    """Length of a number before its decimal point or its exponent."""
+    at = number.find(".")
+    if at < 0:
+        match = _INTEGER.match(number)
+        at = match.end() if match else 0
+    return at
+
+
+@dataclass(slots=True)
+class Column:
+    """Widths of a column: before the decimal point, from there on, and of words; with `text` all fields are words."""
+
+    text: bool = False
+    left: int = 0
+    right: int = 0
+    words: int = 0
+
+    def take(self, texts: Iterable[str]) -> None:
+        """Widen the column for fields."""
+        short = [text for text in texts if len(text) <= LONGEST]
+        numbers = [] if self.text else [text for text in short if text[:1] in _NUMERIC]
+        if len(numbers) < len(short):
+            words = short if self.text else (text for text in short if text[:1] not in _NUMERIC)
+            self.words = max(self.words, *map(len, words))
+        if numbers:
+            lefts = list(map(_integer, numbers))
+            rights = (len(text) - left for text, left in zip(numbers, lefts, strict=True))
+            self.take_numbers(max(lefts), max(rights))
+
+    def take_numbers(self, left: int, right: int) -> None:
+        """Widen the column for numbers of at most these lengths before their decimal point, and from there on."""
+        self.left = max(self.left, left)
+        self.right = max(self.right, right)
+
+    def shape(self) -> Shape:
+        """The alignment of all fields so far."""
+        width = max(self.left + self.right, self.words)
+        return Shape(width, width - self.right if self.left or self.right else 0, self.right)
+
+
+@dataclass(slots=True)
+class Columns:
+    """The columns of rows of one kind."""
+
+    kind: RowKind
+    columns: list[Column] = field(default_factory=list)
+
+    def upto(self, count: int) -> Sequence[Column]:
+        """At least `count` columns."""
+        for number in range(len(self.columns), count):
+            self.columns.append(Column(self.kind.is_text(number)))
+        return self.columns
+
+    def shapes(self) -> list[Shape]:
+        """The shape of each column."""
+        return [column.shape() for column in self.columns]
+
+
+@dataclass(slots=True)
+class WordRows:
+    """Rows as lists of fields."""
+
+    rows: list[list[str]]
+
+    def measure(self, columns: Columns) -> None:
+        """Widen the columns for the rows."""
+        texts = list(zip_longest(*self.rows, fillvalue=""))
+        for column, fields in zip(columns.upto(len(texts)), texts, strict=False):
+            column.take(fields)
+
+    def lines(self, shapes: Sequence[Shape]) -> str:
+        """The lines of the rows, each with a LF."""
+        return "".join(f"{line(row, shapes)}\n" for row in self.rows)
+
+
+def cut(fields: list[str]) -> list[str]:
+    """The fields of a row without empty ones at its end; at least one stays."""
+    length = len(fields)
+    while length > 1 and not fields[length - 1]:
+        length -= 1
+    return fields[:length]
+
+
+def line(row: Sequence[str], shapes: Iterable[Shape]) -> str:
+    """A row, indented by one blank; a row of one empty field is a comma, as an empty line would not be a row."""
+    *first, last = map(Shape.padded, shapes, row)
+    return ("".join(first) + last[: last.rindex(",")]).rstrip(" ") or " ,"
+
+
+_PLAIN = b"0123456789+-.eEdD, \t\r\n"
+_GAP = re.compile(rb"(?<=[^ \t\r\n])[ \t]+(?=[^ \t\r\n])")
+_BLANK, _LF, _COMMA, _POINT, _LETTERS = 32, 10, 44, 46, 65
+
+_Array = NDArray[np.intp]
+
+
+@dataclass(slots=True)
+class PlainRows:
+    """Rows of numbers: the characters of all fields laid end to end, and where each field ends in them.
+
+    `sizes` and `lefts` (fields,) are the characters of a field, and those before its decimal point or exponent;
+    `column` (fields,) counts from 0 in each row, `last` (fields,) says that a field ends its row.
+    """
+
+    characters: NDArray[np.uint8]
+    sizes: _Array
+    lefts: _Array
+    column: _Array
+    last: NDArray[np.bool_]
+
+    @classmethod
+    def read(cls, text: str, most: int) -> Self | None:
+        """The rows of some whole lines, cut to `most` fields; None for anything but plain numbers."""
+        data = text.encode("utf-8")
+        if data.translate(None, _PLAIN):
+            return None
+        if b"," not in data:
+            data = _GAP.sub(b",", data)
+        codes = np.frombuffer(data if data.endswith(b"\n") else data + b"\n", dtype=np.uint8)
+        inked = (codes > _BLANK) & (codes != _COMMA)
+        marks = np.flatnonzero((codes == _COMMA) | (codes == _LF))
+        ends = np.cumsum(inked)[marks]
+        sizes = np.diff(ends, prepend=0)
+        starts = ends - sizes
+        places = np.flatnonzero(inked)
+        full = sizes > 0
+        gaps = places[ends[full] - 1] - places[starts[full]] + 1 != sizes[full]
+        characters = codes[places]
+        if gaps.any() or (characters[starts[full]] >= _LETTERS).any():
+            return None
+        last = codes[marks] == _LF
+        opens = np.flatnonzero(np.concatenate(([True], last[:-1])))
+        column = np.arange(len(marks)) - np.repeat(opens, np.diff(opens, append=len(marks)))
+        if not np.add.reduceat(sizes, opens).all():
+            return None
+        points = np.flatnonzero((characters == _POINT) | (characters >= _LETTERS))
+        point = np.append(points, len(characters))[np.searchsorted(points, starts)]
+        rows = cls(characters, sizes, np.minimum(point, ends) - starts, column, last)
+        return rows._cut(opens, most)
+
+    def _cut(self, opens: _Array, most: int) -> Self | None:
+        """The rows, each of which begins at one of the fields `opens`, without the empty fields at their ends."""
+        filled = np.maximum.reduceat(np.where(self.sizes > 0, self.column, -1), opens)
+        if filled.max() >= most:
+            return None
+        end = np.repeat(filled, np.diff(opens, append=len(self.column)))
+        kept = self.column <= end
+        last = (self.column == end)[kept]
+        return type(self)(self.characters, self.sizes[kept], self.lefts[kept], self.column[kept], last)
+
+    def measure(self, columns: Columns) -> None:
+        """Widen the columns for the rows."""
+        short = self.sizes <= LONGEST
+        for number, column in enumerate(columns.upto(int(self.column.max()) + 1)):
+            here = short & (self.column == number)
+            lefts = self.lefts[here]
+            column.take_numbers(int(lefts.max(initial=0)), int((self.sizes[here] - lefts).max(initial=0)))
+
+    def lines(self, shapes: Sequence[Shape]) -> str:
+        """The lines of the rows, each with a LF."""
+        width = np.array([shape.width for shape in shapes])[self.column]
+        point = np.array([shape.point for shape in shapes])[self.column]
+        before = np.maximum(point - self.lefts, 0)
+        after = np.maximum(width - before - self.sizes, 0) + 1
+        after[self.last] = 0
+        before[self.column == 0] += 1
+        widths = before + self.sizes + 1 + after
+        begins = np.cumsum(widths) - widths + before
+        out = np.full(int(widths.sum()), _BLANK, dtype=np.uint8)
+        starts = np.cumsum(self.sizes) - self.sizes
+        out[np.arange(len(self.characters)) + np.repeat(begins - starts, self.sizes)] = self.characters
+        out[begins + self.sizes] = np.where(self.last, _LF, _COMMA)
+        return out.tobytes().decode("ascii")
+
 
 _PIECE = 256 * 1024
 _SHORT = 1000
 """Characters of a table from which on arrays are faster than lists."""
-_HELD_TOGETHER = re.compile(r'[\["{]')
+_GROUPED = re.compile(r'[\["{]')
 
 
 class Run(NamedTuple):
@@ -37,11 +264,11 @@ class Run(NamedTuple):
 
 
 def word_rows(text: str, most: int) -> WordRows:
-    """The rows of some whole lines, cut to `most` fields, whatever stands in them."""
+    """The rows of some whole lines, cut to `most` fields, with any content."""
     rows: list[list[str]] = []
     for line in line_spans(text, Span(0, len(text))):
         body = text[slice(*line)]
-        if "," not in body or _HELD_TOGETHER.search(body):
+        if "," not in body or _GROUPED.search(body):
             rows.append(cut([given.text for given in row_fields(text, line, most)]))
         else:
             rows.append(cut([piece.strip(" \t\r") for piece in body.split(",")[:most]]))

@@ -15,12 +15,7 @@ from mudline.linting.odd_curves import odd_curves
 from mudline.scene.context import MOST_REPORTED
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene, resolve
-from mudline.variations.undefined import (
-    misspelt_keywords,
-    misspelt_sections,
-    undefined_parameters,
-    undefined_variations,
-)
+from mudline.variations.names import misspelt_keywords, misspelt_sections, undefined_parameters, undefined_variations
 
 T = TypeVar("T")
 

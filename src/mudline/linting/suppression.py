@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from itertools import islice
 
 from mudline.deck.findings import MOST_TOLD
-from mudline.deck.keyword_form import to_keyword
+from mudline.deck.forms.keyword import to_keyword
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import Code, DeckError, Problem, Repair, Severity, Span, Where

@@ -1,33 +1,73 @@
-"""A deck in any form to one without legacy seabed keywords, checked against what it was."""
+"""A deck with legacy seabed keywords to one in the new family, in the same form and checked against the old one."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 
 import numpy as np
 
 from mudline.codes import MIG001
-from mudline.deck.keyword_form import to_keyword
-from mudline.deck.loading import dump, form_of
+from mudline.deck.forms.keyword import to_keyword
+from mudline.deck.loading import dump, form_of, load_path
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.reading import TextOrigin, read_source
-from mudline.diagnostics import DeckError, Problem, Severity, Where
+from mudline.diagnostics import DeckError, Problem
 from mudline.keywords.catalogue import is_superseded, supersedes
 from mudline.keywords.model import Record
 from mudline.migration.refusals import refusals, superseded_blocks
 from mudline.migration.rewriting import Rewriting, rewrite
 from mudline.scene.model import Scene, resolve
+from mudline.scene.restart import decks_before
 from mudline.syntax.edits import edited_bytes
 from mudline.syntax.source import Source
+
+_SUFFIXES = frozenset({".keyx", ".keyxm", ".keyxi", ".das"})
+_LARGEST = 50_000_000
+_NEWER = {"SEABED PROPERTIES", "SEABED STIFFNESS"}
+"""New keywords whose laws would be combined with those of a migrated deck."""
+
+
+class Continuations:
+    """The decks that continue a deck, among those to be migrated and those in its folder."""
+
+    def __init__(self, files: Iterable[Path]) -> None:
+        self._visited: set[Path] = set()
+        self._by_base: dict[Path, set[str]] = {}
+        for file in files:
+            self._visit(file)
+
+    def of(self, file: Path) -> list[str]:
+        """Names of the decks that continue a deck and have seabed keywords of their own."""
+        if file.parent not in self._visited:
+            self._visited.add(file.parent)
+            for other in sorted(file.parent.iterdir()):
+                if other.suffix.lower() in _SUFFIXES:
+                    self._visit(other)
+        return sorted(self._by_base.get(file.resolve(), ()))
+
+    def _visit(self, file: Path) -> None:
+        if file in self._visited:
+            return
+        self._visited.add(file)
+        try:
+            if file.stat().st_size > _LARGEST or b"RESTART" not in file.read_bytes().upper():
+                return
+            deck = load_path(file)
+        except (OSError, DeckError):
+            return  # an unreadable deck continues nothing; where it is to be migrated itself, that is an error
+        if deck.keywords() & _NEWER or any(map(is_superseded, deck.keywords())):
+            for base in decks_before(deck):
+                self._by_base.setdefault(base.resolve(), set()).add(file.as_posix())
 
 
 @dataclass(frozen=True, slots=True)
 class Migration:
-    """What became of a deck: the scenes before and after, the new deck and content, new files by name beside it.
+    """A migrated deck: the scenes before and after, the new deck and its content, the new files beside it by name.
 
-    `replaced` counts the legacy blocks by keyword; without any the content is what it was.
+    `replaced` counts the legacy blocks by keyword.
     """
 
     before: Scene
@@ -39,14 +79,14 @@ class Migration:
 
 
 def legacy_blocks(deck: Deck) -> Counter[str]:
-    """How many blocks of each legacy keyword the model has."""
+    """Count the blocks of each legacy keyword in the model."""
     return Counter(block.keyword for _, block in superseded_blocks(deck))
 
 
 def migrate(deck: Deck, continued_by: Sequence[str] = ()) -> Migration:
-    """The deck with its legacy seabed keywords in the new family, in the form that it has.
+    """Rewrite the legacy seabed keywords of a deck in the new family; the deck keeps its form.
 
-    `continued_by` names decks that go on from this one with seabed keywords of their own. Raises DeckError for a deck
+    `continued_by` names decks that continue this one with seabed keywords of their own. Raises DeckError for a deck
     with errors, and (MIG001) for what the new family cannot say.
     """
     before = resolve(deck).require()
@@ -67,7 +107,7 @@ def migrate(deck: Deck, continued_by: Sequence[str] = ()) -> Migration:
 
 
 def _as_text(deck: Deck) -> Deck:
-    """The deck as read from keyword text: a JSON or YAML deck is written as one first."""
+    """The deck as read from keyword text; a JSON or YAML deck is written as text first."""
     if isinstance(deck.origin, TextOrigin):
         return deck
     source = Source.from_bytes(to_keyword(deck).encode(), deck.file)
@@ -75,7 +115,7 @@ def _as_text(deck: Deck) -> Deck:
 
 
 def _checked(deck: Deck, before: Scene, changed: Deck, made: Rewriting) -> Scene:
-    """The scene of the new deck; raises DeckError when it lost anything or has faults that the old one had not."""
+    """The scene of the new deck; raises DeckError when it lost anything or has new faults."""
     after = resolve(changed)
     faults = [problem.message for problem in after.errors()]
     lost = Counter(_comments(deck)) - Counter(_comments(changed))
@@ -90,16 +130,13 @@ def _checked(deck: Deck, before: Scene, changed: Deck, made: Rewriting) -> Scene
         faults.append(f"it would have a new finding {code}")
     if faults:
         where, _ = superseded_blocks(deck)[0]
-        raise DeckError(deck.diagnose([_refused(fault, where) for fault in faults]))
+        problems = [Problem(MIG001, f"the deck is left unchanged: {fault}", where=where) for fault in faults]
+        raise DeckError(deck.diagnose(problems))
     return after
 
 
-def _refused(fault: str, where: Where) -> Problem:
-    return Problem(MIG001, f"the deck is kept as it is: {fault}", None, Severity.ERROR, where)
-
-
 def _others(deck: Deck) -> list[object]:
-    """Everything but the blocks that a migration touches, without the comments."""
+    """Everything but the blocks that a migration rewrites, without the comments."""
     return [
         (section.name, section.lines, block)
         for section in deck.sections
@@ -116,13 +153,13 @@ def _comments(deck: Deck) -> Iterator[str]:
         yield from (comment.text for comment in section.comments)
         for block in section.blocks:
             if not isinstance(block, Opaque):
-                yield from _of_record(block)
+                yield from _record_comments(block)
 
 
-def _of_record(record: Record) -> Iterator[str]:
+def _record_comments(record: Record) -> Iterator[str]:
     yield from (comment.text for comment in record.comments)
     for name in type(record).model_fields:
         value = getattr(record, name)
         for item in value if isinstance(value, list) else ():
             if isinstance(item, Record):
-                yield from _of_record(item)
+                yield from _record_comments(item)

@@ -1,4 +1,4 @@
-"""What of a legacy model the new family cannot say, or would say otherwise: it stops the migration."""
+"""What stops a migration: what a legacy model says and the new keywords cannot say, or would say differently."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from mudline.keywords.catalogue import in_order, is_superseded, supersedes
 from mudline.keywords.model import Block
 from mudline.keywords.surface import Surface
 from mudline.keywords.values import Equation
-from mudline.migration.surface import lengths_in_force
 from mudline.syntax.tree import canonical_name
 
+DIRECTIONS = ("longitudinal", "transverse")
 _DEFAULT_LENGTH = {"metric": 3.048, "imperial": 10.0}
 
 
@@ -30,95 +30,93 @@ def surfaces(deck: Deck) -> list[tuple[Where, Surface]]:
 
 
 def refusals(deck: Deck, continued_by: Sequence[str] = ()) -> Iterator[Problem]:
-    """The reasons why a deck is left as it is; `deck` has its equations as written.
+    """The reasons why a deck cannot be migrated; `deck` has its equations as written.
 
-    `continued_by` names decks that go on from this one with seabed keywords of their own.
+    `continued_by` names decks that continue this one with seabed keywords of their own.
     """
-    yield from _other_family(deck)
-    yield from _other_deck(deck)
+    yield from _mixed_families(deck)
+    yield from _restarts(deck)
     yield from _continued(deck, continued_by)
-    yield from _actions(deck)
+    yield from _varied_keywords(deck)
     found = surfaces(deck)
     for where, block in found[1:]:
-        yield _told(f"a second surface: remove all but one, then migrate *{block.keyword}", where)
+        yield _refusal(f"a second surface: remove all but one, then migrate *{block.keyword}", where)
     for where, block in found[:1]:
         yield from _lengths(block, where, deck.units)
-        yield from _bed(deck, block, where)
+        yield from _shapes(deck, block, where)
 
 
-def _told(message: str, where: Where) -> Problem:
+def _refusal(message: str, where: Where) -> Problem:
     return Problem(MIG001, message, where=where)
 
 
-def _other_family(deck: Deck) -> Iterator[Problem]:
-    """Which of two families holds for an element is a question that no rewriting answers."""
+def _mixed_families(deck: Deck) -> Iterator[Problem]:
+    """Which of the two families applies to an element cannot be decided by rewriting."""
     for where, _ in deck.blocks("SEABED PROPERTIES"):
-        message = (
-            "*SEABED PROPERTIES stands beside legacy keywords: which holds where must be decided by hand; remove one"
-        )
-        yield _told(message, where)
+        message = "*SEABED PROPERTIES is used beside legacy keywords: decide which applies and remove the other"
+        yield _refusal(message, where)
 
 
-def _other_deck(deck: Deck) -> Iterator[Problem]:
-    """A deck that goes on from another one, whose seabed is part of what it says."""
+def _restarts(deck: Deck) -> Iterator[Problem]:
+    """A deck that continues another one, whose seabed applies as well."""
     for section, found in enumerate(deck.sections):
         for block, restart in enumerate(found.blocks):
             if found.name == "LOAD CASE" and restart.keyword == "RESTART":
-                message = (
-                    "*RESTART continues another deck, whose seabed counts too: keep one model in one deck to migrate it"
-                )
-                yield _told(message, Where(section, block))
+                message = "*RESTART continues another deck, whose seabed applies as well: put the model in one deck"
+                yield _refusal(message, Where(section, block))
 
 
 def _continued(deck: Deck, continued_by: Sequence[str]) -> Iterator[Problem]:
-    """In a deck that goes on from this one, its keywords would meet other ones than before."""
+    """The keywords of a deck that continues this one would be combined with others than before."""
     where, _ = superseded_blocks(deck)[0]
     for name in continued_by:
-        message = f"{name} continues this deck and has seabed keywords of its own, which would meet others: keep both"
-        yield _told(message, where)
+        message = (
+            f"{name} continues this deck and has seabed keywords of its own, which would apply differently: "
+            "leave both decks unchanged"
+        )
+        yield _refusal(message, where)
 
 
-def _actions(deck: Deck) -> Iterator[Problem]:
-    """Actions of `*VARIATION` on what a migration takes away or makes."""
+def _varied_keywords(deck: Deck) -> Iterator[Problem]:
+    """Actions of `*VARIATION` on keywords that a migration removes or adds."""
     for where, block in deck.blocks("VARIATION", "PREPROCESSOR"):
         for i, variation in enumerate(block.variations):
             for j, item in enumerate(variation.blocks):
                 keyword = canonical_name("*" + ",".join(item.keyword))
                 if is_superseded(keyword) or supersedes(keyword):
-                    message = (
-                        f"a variation adds or removes *{keyword}, which means another thing then: remove the action"
-                    )
-                    yield _told(message, where._replace(path=("variations", i, "blocks", j)))
+                    message = f"a variation adds or removes *{keyword}, which migration changes: remove the action"
+                    yield _refusal(message, where._replace(path=("variations", i, "blocks", j)))
 
 
 def _lengths(block: Surface, where: Where, units: str) -> Iterator[Problem]:
     """Largest characteristic lengths that bound the mobilisation length and are not the default.
 
-    What an equation gives may be another number tomorrow: it counts as neither 0 nor the default.
+    One has no effect where the mobilisation length is given or the friction coefficient is 0. The value of an equation
+    may change: it is taken neither as 0 nor as the default.
     """
     values: Any = block.properties
-    written = {name: "given" for name in type(values).model_fields if getattr(values, name) is not None}
-    frictionless = {name: getattr(values, name) in (None, 0.0) for name in ("longitudinal", "transverse")}
-    for name in lengths_in_force(written, frictionless):
-        if getattr(values, name) != _DEFAULT_LENGTH.get(units):
-            direction = name.removesuffix("_length")
+    for direction in DIRECTIONS:
+        name = f"{direction}_length"
+        length = getattr(values, name)
+        if length is None or getattr(values, f"{direction}_mobilisation") is not None:
+            continue
+        if getattr(values, direction) not in (None, 0.0) and length != _DEFAULT_LENGTH.get(units):
             message = (
                 f"the largest {direction} characteristic length bounds the mobilisation length of each element, "
                 "and the new family has no field for it: give the mobilisation length instead"
             )
-            yield _told(message, where._replace(path=("properties", name)))
+            yield _refusal(message, where._replace(path=("properties", name)))
 
 
-def _bed(deck: Deck, block: Surface, where: Where) -> Iterator[Problem]:
-    """A slope or profile that has no single place in `*SEABED PROFILE`."""
+def _shapes(deck: Deck, block: Surface, where: Where) -> Iterator[Problem]:
+    """A slope or profile that `*SEABED PROFILE` cannot take over."""
     shaped = block.slope is not None or block.profile is not None
     if block.slope is not None and block.profile is not None:
-        yield _told("a slope and a profile: remove one of them", where._replace(path=("slope",)))
-    for keyword in ("SEABED PROFILE", "SEABED PLANES"):
+        yield _refusal("a slope and a profile: remove one of them", where._replace(path=("slope",)))
+    for keyword in ("SEABED PROFILE", "SEABED PLANES") if shaped else ():
         for other, _ in deck.blocks(keyword):
-            if shaped:
-                yield _told(f"*{keyword} and the slope or profile of *{block.keyword}: remove one of them", other)
+            yield _refusal(f"*{keyword} and the slope or profile of *{block.keyword}: remove one of them", other)
     for (row, column), word in (block.profile.words if block.profile is not None else {}).items():
         if isinstance(word, Equation):
-            message = "an equation in a profile, which goes to a file of its own: write the number"
-            yield _told(message, where._replace(path=("profile", row, column)))
+            message = "an equation in a profile, whose points go to a text file: write the number"
+            yield _refusal(message, where._replace(path=("profile", row, column)))

@@ -3,37 +3,38 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import count
 from pathlib import PurePath
-from typing import cast
+from typing import NamedTuple, cast
 
 from mudline.deck.model import Deck
+from mudline.deck.parameters import folded
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Span, Where
 from mudline.keywords.library.embedment import Embedment
 from mudline.keywords.model import layout
 from mudline.keywords.surface import Surface
-from mudline.migration.names import curve_names
-from mudline.migration.refusals import surfaces
-from mudline.migration.surface import SurfaceLines, lengths_given, surface_lines
+from mudline.keywords.text import reads_as_name
+from mudline.migration.refusals import DIRECTIONS, surfaces
 from mudline.syntax.edits import TextEdit
 from mudline.syntax.fields import trimmed
 from mudline.syntax.rows import line_spans
 from mudline.syntax.tree import Kind, RawBlock
 
 _UNSAFE = re.compile(r"[^\w.-]+")
+_FRICTION = ("longitudinal", "transverse", "longitudinal_mobilisation", "transverse_mobilisation", "constant")
 
 
-@dataclass(slots=True)
-class Rewriting:
-    """Edits of a text, and the files that it names from now on."""
+class Rewriting(NamedTuple):
+    """Edits of a text, and the content of the files that the new text names, by name."""
 
-    edits: list[TextEdit] = field(default_factory=list)
-    files: dict[str, str] = field(default_factory=dict)
+    edits: list[TextEdit]
+    files: dict[str, str]
 
 
 def rewrite(deck: Deck) -> Rewriting:
-    """The edits for a deck that was read from text and that nothing speaks against."""
+    """The edits for a deck that was read from text and that has no refusals."""
     return _Rewriter(deck).rewrite()
 
 
@@ -42,7 +43,8 @@ class _Rewriter:
         self.deck = deck
         self.origin = cast("TextOrigin", deck.origin)
         self.text = self.origin.source.unified
-        self.found = Rewriting()
+        self.edits: list[TextEdit] = []
+        self.files: dict[str, str] = {}
 
     def rewrite(self) -> Rewriting:
         curves = [
@@ -51,18 +53,21 @@ class _Rewriter:
             for index, curve in enumerate(cast("Embedment", block).curves)
         ]
         taken = [curve.name for _, block in self.deck.blocks("SEABED STIFFNESS") for curve in block.curves]
-        names = curve_names([set_name for _, _, set_name in curves], taken)
+        sets = [set_name for _, _, set_name in curves]
+        names = curve_names(sets, taken)
         for where, _ in self.deck.blocks("EMBEDMENT"):
             self._head(where, "SEABED STIFFNESS")
         for (where, index, _), name in zip(curves, names, strict=True):
             self._curve(where, index, name)
-        by_set = [(set_name, name) for (_, _, set_name), name in zip(curves, names, strict=True)]
         for where, block in surfaces(self.deck):
-            self._surface(where, block, by_set)
-        return self.found
+            self._surface(where, block, list(zip(sets, names, strict=True)))
+        return Rewriting(self.edits, self.files)
 
     def _edit(self, span: Span, text: str) -> None:
-        self.found.edits.append(TextEdit(span, text))
+        self.edits.append(TextEdit(span, text))
+
+    def _insert(self, offset: int, text: str) -> None:
+        self._edit(Span(offset, offset), text)
 
     def _raw(self, where: Where) -> RawBlock:
         return self.origin.tree.sections[where.section].blocks[where.block]
@@ -77,42 +82,46 @@ class _Rewriter:
         """The blanks before the first character of a line; one at least, as a key may begin with C."""
         return self.text[self._line_start(offset) : offset] or " "
 
-    def _curve(self, where: Where, index: int, name: str) -> None:
-        """SET= becomes CURVE=; points before any SET= get a CURVE= before them."""
-        places = self.origin.read[where.section, where.block].places
-        first = places.spans[("curves", index)]
-        line = f"CURVE={name}"
-        if places.has(("curves", index, "set")):
-            self._row(first, line)
-        else:
-            start = self._line_start(first.start)
-            self._edit(Span(start, start), f"{self._indent(first.start)}{line}\n")
-
-    def _rows(self, raw: RawBlock) -> list[Span]:
-        return [
-            trimmed(self.text, *line)
-            for leaf in raw.leaves
-            if leaf.kind in (Kind.RUN, Kind.TEXT)
-            for line in line_spans(self.text, leaf.span)
-        ]
-
     def _row(self, row: Span, lines: str) -> None:
         """Settings in the place of a row, indented as it is or by a blank."""
         self._edit(row, lines if self._line_start(row.start) < row.start else f" {lines}")
 
-    def _surface(self, where: Where, block: Surface, by_set: list[tuple[str, str]]) -> None:
+    def _curve(self, where: Where, index: int, name: str) -> None:
+        """Replace SET= by CURVE=, or insert CURVE= before points that have no SET=."""
+        places = self.origin.read[where.section, where.block].places
+        first = places.spans[("curves", index)]
+        if places.has(("curves", index, "set")):
+            self._row(first, f"CURVE={name}")
+        else:
+            self._insert(self._line_start(first.start), f"{self._indent(first.start)}CURVE={name}\n")
+
+    def _surface(self, where: Where, block: Surface, curves: Sequence[tuple[str, str]]) -> None:
+        """Replace a surface by a block for ALL with its linear law, then one for each curve, so that curves win.
+
+        Every block gives all values, as it inherits none. On a rigid seabed the block for ALL is needed in any case: it
+        says that the elements lie on that seabed.
+        """
         self._head(where, "SEABED PROPERTIES")
-        rows = self._rows(self._raw(where))
+        rows = [
+            trimmed(self.text, *line)
+            for leaf in self._raw(where).leaves
+            if leaf.kind in (Kind.RUN, Kind.TEXT)
+            for line in line_spans(self.text, leaf.span)
+        ]
         fields = self._fields(where, block)
-        type_ = block.keyword.split()[0]
-        lines = [f"TYPE={type_}", *_sets(surface_lines(fields), by_set, rigid=type_ == "RIGID")]
+        stiffness, others = fields.get("stiffness", ""), _other_lines(fields)
+        type_ = block.facts.seabed_type
+        lines = [f"TYPE={type_}"]
+        if type_ == "RIGID" or stiffness or others:
+            lines += ["SET=ALL", *([f"STIFFNESS={stiffness}"] if stiffness else []), *others]
+        for set_name, curve in curves:
+            lines += [f"SET={set_name}", f"STIFFNESS={curve}", *others]
         indent = self._indent(rows[0].start)
         self._row(rows[0], f"\n{indent}".join(lines))
-        start = self._line_start(rows[0].start)
-        if given := lengths_given(fields):
-            listed = ", ".join(given)
+        lengths = ((direction, fields.get(f"{direction}_length")) for direction in DIRECTIONS)
+        if listed := ", ".join(f"{direction} {length}" for direction, length in lengths if length):
             comment = f"C largest characteristic lengths ({listed}) left out: the default, or without effect\n"
-            self._edit(Span(start, start), comment)
+            self._insert(self._line_start(rows[0].start), comment)
         if len(rows) > 1:
             self._profile(block, rows, indent)
 
@@ -123,10 +132,9 @@ class _Rewriter:
         found = {name: spans.get(("properties", name), Span(0, 0)) for name in columns}
         return {name: self.text[slice(*span)].strip(" \t\r\n,") for name, span in found.items()}
 
-    def _profile(self, block: Surface, rows: list[Span], indent: str) -> None:
-        """The lines behind the first become a block of their own, comments between them included."""
-        after = self.text.index("\n", rows[0].end) + 1
-        self._edit(Span(after, after), "*SEABED PROFILE\n")
+    def _profile(self, block: Surface, rows: Sequence[Span], indent: str) -> None:
+        """Turn the lines behind the first into a `*SEABED PROFILE`, comments between them included."""
+        self._insert(self.text.index("\n", rows[0].end) + 1, "*SEABED PROFILE\n")
         if block.profile is None:
             value = self.text[slice(*rows[1])].strip(" \t,")
             self._row(rows[1], f"TYPE=SLOPING\n{indent}SLOPE={value}")
@@ -139,7 +147,7 @@ class _Rewriter:
         points = zip(block.profile.column(0).tolist(), block.profile.column(1).tolist(), strict=True)
         lines = [f"{y!r}, {elevation!r}\n".upper() for y, elevation in points]
         head = f"C Y, elevation: profile of *{block.keyword} of {self.deck.source}\n"
-        self.found.files[name] = head + "".join(lines)
+        self.files[name] = head + "".join(lines)
 
     def _file_name(self) -> str:
         """A name for the file of the profile that no other file beside the deck has."""
@@ -150,12 +158,37 @@ class _Rewriter:
         return name
 
 
-def _sets(surface: SurfaceLines, by_set: list[tuple[str, str]], *, rigid: bool) -> list[str]:
-    """A block for ALL with what is linear, then one for each curve, so that the curves win; each has all of it.
+def _other_lines(fields: Mapping[str, str]) -> list[str]:
+    """The lines of a surface besides its stiffness: fields by name, as they are written, "" for an empty one."""
+    lines: list[str] = []
+    friction = [fields.get(name, "") for name in _FRICTION]
+    if any(friction):
+        friction[:2] = [value or "0" for value in friction[:2]]
+        lines.append("FRICTION=" + ", ".join(friction).rstrip(", "))
+    if fields.get("lateral"):
+        lines.append(f"LATERAL={fields['lateral']}")
+    suction = [fields.get("suction_stiffness", ""), fields.get("suction_extent", "")]
+    if any(suction):
+        lines.append("SUCTION=" + ", ".join([suction[0] or "0", suction[1]]).rstrip(", "))
+    return lines
 
-    On a rigid bed the block alone says something: that its elements lie on that bed.
+
+def curve_names(sets: Iterable[str], taken: Iterable[str]) -> list[str]:
+    """A name for each curve of `*EMBEDMENT`: that of its set, with ` curve` and a number behind it where needed.
+
+    A name that another curve has, in any case of letters, would name both; one that reads as a number or an equation
+    would be taken for a stiffness.
     """
-    blocks = surface.block("ALL", surface.stiffness) if rigid or surface.stiffness or surface.others else []
-    for set_name, curve in by_set:
-        blocks += surface.block(set_name, curve)
-    return blocks
+    used = {folded(name) for name in taken}
+    names: list[str] = []
+    for name in sets:
+        chosen = next(one for one in _candidates(name) if folded(one) not in used and reads_as_name(one))
+        used.add(folded(chosen))
+        names.append(chosen)
+    return names
+
+
+def _candidates(name: str) -> Iterator[str]:
+    base = f"{name} curve" if reads_as_name(f"{name} curve") else "curve"
+    yield from (name, base)
+    yield from (f"{base} {number}" for number in count(2))

@@ -1,19 +1,20 @@
-"""The proof that a migrated deck means what it meant: every law over a sweep of positions, bit by bit."""
+"""The proof that a migrated deck means what it meant: every law over a sweep of penetrations, bit by bit."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import combinations, pairwise
 from typing import NamedTuple
 
 import numpy as np
 
 from mudline.contact.input import ContactInput, LawAssignment, LawKind
 from mudline.contact.model import ContactModel
+from mudline.curves import ForceCurve
 from mudline.deck.parameters import folded
 from mudline.migration.migrating import Migration
-from mudline.migration.stand_ins import StandIns
-from mudline.migration.sweep import depths_of
+from mudline.scene.external_elements import ExternalElements
 from mudline.scene.laws import ResistanceValues
 from mudline.scene.model import Scene, resolve
 from mudline.scene.numbering import Floats, Indices
@@ -21,7 +22,7 @@ from mudline.scene.seabed import SeabedShape, parse_profile
 
 
 class Difference(NamedTuple):
-    """An element, or a set of stand-ins for elements, for which the two decks say different things."""
+    """What the two decks define differently: an element, or the seabed, and how it differs."""
 
     what: str
     text: str
@@ -29,12 +30,16 @@ class Difference(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """What was compared: elements, those of them that stand for a kind each, positions; and what differs."""
+    """What was compared and what differs.
+
+    `elements` of the deck are of `kinds`; one of each kind and `representatives` for its sets were evaluated, at
+    `positions` in all.
+    """
 
     elements: int
     kinds: int
     positions: int
-    stand_ins: int
+    representatives: int
     differences: tuple[Difference, ...]
 
 
@@ -43,54 +48,96 @@ def verify(migration: Migration) -> Verdict:
 
     Elements that differ in nothing but their number and place have the same law in both decks; one of each kind is
     evaluated over a sweep that covers every segment of its curve and both ends, and its forces and stiffnesses must be
-    bitwise equal; so must its friction, mobilisation, lateral resistance and suction, and the shape of the bed. Then
-    the same for stand-ins: one for every set that a seabed block names and for pairs of them, which shows for elements
-    that the deck does not show, those of `*LINES`, that the same block wins.
+    bitwise equal; so must its friction, mobilisation, lateral resistance and suction, and the shape of the seabed. Then
+    the same for representative elements: in every set that a seabed block names and in pairs of them, which shows that
+    the same block wins for elements that the deck does not show, those of `*LINES`.
     """
     before, after = migration.before, migration.after
-    differences = [*_floors(before, after, migration.files)]
+    differences = [*_seabed_shapes(before.seabed, after.seabed, migration.files)]
     kinds, positions, found = _compare(before, after, {})
     differences += found
-    stand_ins = StandIns(_sets(before))
-    external = stand_ins.elements()
-    _, more, found = _compare(resolve(before.deck, external), resolve(after.deck, external), stand_ins.names())
+    probes = ProbeElements(_sets(before))
+    external = probes.elements()
+    _, more, found = _compare(resolve(before.deck, external), resolve(after.deck, external), probes.names())
     return Verdict(len(before.element_ids), kinds, positions + more, len(external.ids), (*differences, *found))
 
 
-def _floors(before: Scene, after: Scene, files: dict[str, bytes]) -> Iterator[Difference]:
-    floor = after.seabed
-    if floor.file in files:
-        floor = replace(floor, points=parse_profile(files[floor.file], floor.file, 2), missing="", file="")
-    if not before.seabed.same(floor):
-        yield Difference("the bed", f"{_shape(before.seabed)} before, {_shape(floor)} after")
+def _sets(scene: Scene) -> list[str]:
+    """The sets that laws name, each once, in the order of the last block that names it."""
+    last: dict[str, str] = {}
+    for grant in scene.laws.set_laws:
+        if grant.set_ is not scene.set_table.everything:
+            last.pop(folded(grant.set_.name), None)
+            last[folded(grant.set_.name)] = grant.set_.name
+    return list(last.values())
 
 
-def _shape(floor: SeabedShape) -> str:
-    return f"{floor.kind.value} (slope {floor.slope!r}, {len(floor.points)} points)"
+def _seabed_shapes(before: SeabedShape, after: SeabedShape, files: Mapping[str, bytes]) -> Iterator[Difference]:
+    """The seabed, where it differs; the file of a profile has not been written yet and is among `files`."""
+    if after.file in files:
+        after = replace(after, points=parse_profile(files[after.file], after.file, 2), missing="", file="")
+    if not before.same(after):
+        one, other = (f"{it.kind.value} (slope {it.slope!r}, {len(it.points)} points)" for it in (before, after))
+        yield Difference("the seabed", f"{one} before, {other} after")
+
+
+# ------------------------------------------------------------------------------------------------------------ elements
 
 
 def _compare(before: Scene, after: Scene, names: Mapping[int, str]) -> tuple[int, int, list[Difference]]:
-    """Number of kinds and of positions, and the differences; `names` has what an element is called, by its number."""
-    chosen = _kinds(before, after)
+    """Number of kinds and of positions, and the differences; `names` describes elements by their number."""
+    chosen = _one_of_each_kind(before, after)
     if not len(chosen):
         return 0, 0, []
-    old, new = _part(before, chosen), _part(after, chosen)
-    depths = depths_of([old, new])
-    called = [names.get(number, f"element {number}") for number in before.element_ids[chosen].tolist()]
-    differences = [
-        Difference(called[index], text)
-        for index, text in [*_laws(before, after, chosen), *_beds(before, after, chosen)]
+    inputs = _contact_input(before, chosen), _contact_input(after, chosen)
+    depths = _depths(inputs)
+    labels = [names.get(number, f"element {number}") for number in before.element_ids[chosen].tolist()]
+    found = [*_laws(before, after, chosen), *_values(before, after, chosen), *_forces(inputs, depths)]
+    return len(chosen), depths.size, [Difference(labels[index], text) for index, text in found]
+
+
+def _one_of_each_kind(before: Scene, after: Scene) -> Indices:
+    """One element of each kind: the same source of law and of friction, and the same diameter, before and after."""
+    columns = [
+        column
+        for scene in (before, after)
+        for column in (scene.laws.of_element, scene.resistance.of_element, scene.diameter.view(np.int64))
     ]
+    _, first = np.unique(np.column_stack(columns), axis=0, return_index=True)
+    return np.sort(first)
+
+
+def _laws(before: Scene, after: Scene, chosen: Indices) -> Iterator[tuple[int, str]]:
+    """The kind of law: a rigid seabed and no law at all both give no force here."""
+    for index in np.flatnonzero(before.law[chosen] != after.law[chosen]).tolist():
+        element = int(chosen[index])
+        yield index, f"law: {before.law_names[element]} before, {after.law_names[element]} after"
+
+
+def _values(before: Scene, after: Scene, chosen: Indices) -> Iterator[tuple[int, str]]:
+    """Friction, lateral resistance and suction: a coefficient, resistance or suction that is not given is 0."""
+    for name in ResistanceValues._fields:
+        if name == "characteristic":  # checked before: those in force are the default, which the new family has as well
+            continue
+        one, other = (np.asarray(scene.resistance.column(name)[chosen], dtype=np.float64) for scene in (before, after))
+        if name in ("friction", "lateral", "suction"):
+            one, other = (np.where(np.isnan(values), 0.0, values) for values in (one, other))
+        same = _same_bits(one, other).reshape(len(chosen), -1).all(axis=1)
+        for index in np.flatnonzero(~same).tolist():
+            yield index, f"{name.replace('_', ' ')}: {one[index]} before, {other[index]} after"
+
+
+def _forces(inputs: Sequence[ContactInput], depths: Floats) -> Iterator[tuple[int, str]]:
+    """The first depth at which an element differs in a result."""
     positions = np.repeat(-depths, 2, axis=1)[:, :, np.newaxis] * np.array([1.0, 0.0, 0.0])
-    one, other = ContactModel(old).evaluate(positions), ContactModel(new).evaluate(positions)
+    results = [ContactModel(given).evaluate(positions) for given in inputs]
     for name in ("force", "stiffness", "slope", "ratio"):
-        here, there = getattr(one, name), getattr(other, name)
-        for element in np.flatnonzero(~_same_bits(here, there).all(axis=0)).tolist():
-            step = int(np.flatnonzero(~_same_bits(here[:, element], there[:, element]))[0])
-            depth = float(depths[step, element])
-            values = f"{float(here[step, element])!r} before, {float(there[step, element])!r} after"
-            differences.append(Difference(called[element], f"{name} at depth {depth!r}: {values}"))
-    return len(chosen), depths.size, differences
+        one, other = (getattr(result, name) for result in results)
+        different = ~_same_bits(one, other)
+        for element in np.flatnonzero(different.any(axis=0)).tolist():
+            step = int(np.argmax(different[:, element]))
+            values = f"{float(one[step, element])!r} before, {float(other[step, element])!r} after"
+            yield element, f"{name} at depth {float(depths[step, element])!r}: {values}"
 
 
 def _same_bits(one: Floats, other: Floats) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
@@ -98,21 +145,7 @@ def _same_bits(one: Floats, other: Floats) -> np.ndarray[tuple[int, ...], np.dty
     return same
 
 
-def _kinds(before: Scene, after: Scene) -> Indices:
-    """One element of each kind: what gives it its law before and after, its bed before and after, its diameter."""
-    columns = [
-        before.laws.of_element,
-        after.laws.of_element,
-        before.resistance.of_element,
-        after.resistance.of_element,
-        before.diameter.view(np.int64),
-        after.diameter.view(np.int64),
-    ]
-    _, first = np.unique(np.column_stack(columns), axis=0, return_index=True)
-    return np.sort(first)
-
-
-def _part(scene: Scene, chosen: Indices) -> ContactInput:
+def _contact_input(scene: Scene, chosen: Indices) -> ContactInput:
     """The chosen elements (k), each with two nodes of its own, whether the deck has nodes for them or not.
 
     An element without a diameter gets one: its law is the same for every diameter.
@@ -136,29 +169,82 @@ def _part(scene: Scene, chosen: Indices) -> ContactInput:
     )
 
 
-def _laws(before: Scene, after: Scene, chosen: Indices) -> Iterator[tuple[int, str]]:
-    """The kind of law, as a rigid bed and none at all give no force of their own."""
-    for index in np.flatnonzero(before.law[chosen] != after.law[chosen]).tolist():
-        element = int(chosen[index])
-        yield index, f"law: {before.law_names[element]} before, {after.law_names[element]} after"
+# -------------------------------------------------------------------------------------------------------------- depths
+
+_FRACTIONS = (0.25, 0.5, 0.75)
+_PLAIN = np.array([-1.0, -1e-9, 0.0, 5e-324, 1e-9, 1e-3, 0.1, 1.0, 37.5, 1e6])
 
 
-def _beds(before: Scene, after: Scene, chosen: Indices) -> Iterator[tuple[int, str]]:
-    """Friction, lateral resistance and suction: a coefficient, resistance or suction that is not given is 0."""
-    for name in ResistanceValues._fields:
-        if name == "characteristic":  # checked before: those in force are the default, which the new family has as well
-            continue
-        one, other = (np.asarray(scene.resistance.column(name)[chosen], dtype=np.float64) for scene in (before, after))
-        if name in ("friction", "lateral", "suction"):
-            one, other = (np.where(np.isnan(values), 0.0, values) for values in (one, other))
-        same = _same_bits(one, other).reshape(len(chosen), -1).all(axis=1)
-        for index in np.flatnonzero(~same).tolist():
-            yield index, f"{name.replace('_', ' ')}: {one[index]} before, {other[index]} after"
+def _depths(inputs: Sequence[ContactInput]) -> Floats:
+    """Depths (steps, elements) for inputs with the same elements, in their unit of length.
+
+    For an element with a curve: every point of its curves and the floats beside it, three places within each segment,
+    and places far beyond both ends; for every element the seabed itself, just above and below it, and some depths.
+    """
+    curves: dict[tuple[int, ...], Floats] = {}
+    columns: list[Floats] = []
+    of_element = np.column_stack([given.curve_index for given in inputs]).tolist()
+    for diameter, indices in zip(inputs[0].diameter.tolist(), map(tuple, of_element), strict=True):
+        if indices not in curves:
+            found = [_ratios(given.curves[index]) for given, index in zip(inputs, indices, strict=True) if index >= 0]
+            curves[indices] = np.unique(np.concatenate(found)) if found else np.zeros(0)
+        columns.append(np.concatenate([_PLAIN, curves[indices] * diameter]))
+    steps = max((len(column) for column in columns), default=0)
+    return np.column_stack(
+        [np.pad(column, (0, steps - len(column)), mode="edge") for column in columns] or [_PLAIN[:0]]
+    )
 
 
-def _sets(scene: Scene) -> list[str]:
-    """The sets that laws name, each once, in the order of the last block that names it."""
-    names = [grant.set_.name for grant in scene.laws.set_laws if grant.set_ is not scene.set_table.everything]
-    last = {folded(name): name for name in names}
-    order = {folded(name): position for position, name in enumerate(names)}
-    return [last[key] for key in sorted(last, key=lambda key: order[key])]
+def _ratios(curve: ForceCurve) -> Floats:
+    """Ratios at, beside and between the points of a curve, and beyond its ends."""
+    points = curve.ratios
+    inside = [points[:-1] + fraction * np.diff(points) for fraction in _FRACTIONS]
+    width = float(points[-1] - points[0])
+    beyond = np.array([points[0] - width, points[0] - 10.0 * width, points[-1] + width, points[-1] + 10.0 * width])
+    beside = [np.nextafter(points, -np.inf), points, np.nextafter(points, np.inf)]
+    found: Floats = np.concatenate([*beside, *inside, beyond])
+    return found[np.isfinite(found)]
+
+
+# --------------------------------------------------------------------------------------------- representative elements
+
+_ALL_PAIRS = 40
+_DIAMETERS = (0.2731, 0.5)
+_FIRST = 2**40
+
+
+class ProbeElements:
+    """Elements of two diameters in no set, each set, and two sets; of many sets only those that follow each other.
+
+    The last block that holds an element wins. That is an order of the blocks; it is the same in two decks when it is
+    the same for every two blocks that follow each other.
+    """
+
+    def __init__(self, sets: Sequence[str]) -> None:
+        self.sets = sets
+        pairs = combinations(sets, 2) if len(sets) <= _ALL_PAIRS else pairwise(sets)
+        memberships: list[tuple[str, ...]] = [(), *((name,) for name in sets), *pairs]
+        self.memberships = [membership for membership in memberships for _ in _DIAMETERS]
+
+    def elements(self) -> ExternalElements:
+        """The elements, each with two nodes of its own."""
+        count = len(self.memberships)
+        members: dict[str, list[int]] = {name: [] for name in self.sets}
+        for number, membership in enumerate(self.memberships, _FIRST):
+            for name in membership:
+                members[name].append(number)
+        return ExternalElements(
+            "representative elements",
+            _FIRST + np.arange(count),
+            _FIRST + np.arange(2 * count).reshape(count, 2),
+            np.resize(_DIAMETERS, count),
+            np.ones(count),
+            {name: np.array(ids, dtype=np.int64) for name, ids in members.items()},
+        )
+
+    def names(self) -> dict[int, str]:
+        """What each element is called, by its number."""
+        return {
+            number: f"an element of {' and '.join(membership)}" if membership else "an element of no set but ALL"
+            for number, membership in enumerate(self.memberships, _FIRST)
+        }

@@ -20,7 +20,14 @@ from mudline.scene.opaque_names import bare
 from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:
-    from mudline.keywords.library.element_sets import ElementRange, ElementSet, ElementSets, SetList
+    from mudline.keywords.library.element_sets import (
+        ElementRange,
+        ElementSet,
+        ElementSets,
+        SetGenerate,
+        SetList,
+        SetSubset,
+    )
     from mudline.scene.external_elements import ExternalElements
 
 ALL = "all"
@@ -63,11 +70,11 @@ class Sets:
         return self.named[ALL]
 
     def find(self, name: str) -> NamedSet | None:
-        """The set that a SET= names; None when there is no such set, which `check` tells of."""
+        """The set that a SET= names; None when there is no such set, which `check` reports."""
         return self.named.get(folded(bare(name)))
 
     def check(self, name: str, where: Where) -> None:
-        """Tell of a name at a place that is the name of no set."""
+        """Report a name at a place that is the name of no set."""
         if self.find(name) is None:
             near = self.context.near(name, self.named)
             hint = f" (did you mean {self.named[near].name}?)" if near else ""
@@ -93,6 +100,7 @@ class _Reader:
         self.elements = elements
         self.definitions: dict[str, list[tuple[ElementSet, Where]]] = {}
         self.sets = Sets(context, elements)
+        self.keys: dict[str, str] = {}
 
     def read(self) -> Sets:
         named = self.sets.named
@@ -101,23 +109,31 @@ class _Reader:
         named[ALL] = NamedSet("ALL", everything, None, open=bool(context.external_definers or context.restart))
         for where, block in context.deck.blocks("ELEMENT SETS"):
             for index, entry in enumerate(cast("ElementSets", block).sets):
-                self._collect(entry, where._replace(path=("sets", index)))
+                self._collect(entry, Where(where.section, where.block, ("sets", index)))
         for key, name in context.opaque_set_names.items():
             if key not in self.definitions:
                 named.setdefault(key, NamedSet(name, _NOTHING, None, open=True))
         for key in self.definitions:
-            self._expand(key)
+            if key not in named:
+                self._expand(key)
         return self.sets
+
+    def _key(self, name: str) -> str:
+        """`set_key`, found once for each name: most are written twice or more."""
+        key = self.keys.get(name)
+        if key is None:
+            key = self.keys[name] = set_key(name)
+        return key
 
     def _collect(self, entry: ElementSet, where: Where) -> None:
         name = cast("str | None", entry.name)
         if name is None:
             self.context.unread.add("ELEMENT SETS")
             return
-        key = folded(bare(name))
+        key = self._key(name)
         if key == ALL:
             message = "set ALL is predefined and holds every element: choose another name"
-            self.context.report(REF009, message, where._replace(path=(*where.path, "name")))
+            self.context.report(REF009, message, where.inside("name"))
         else:
             self.definitions.setdefault(key, []).append((entry, where))
 
@@ -138,30 +154,34 @@ class _Reader:
                 waiting += self._needed(current, unfinished)
 
     def _needed(self, key: str, unfinished: set[str]) -> Iterator[str]:
-        """The subsets that are to be expanded before a set; those that cannot be are told."""
-        for name, where in self._subsets(key):
-            other = folded(bare(name))
+        """The subsets that are to be expanded before a set; those that cannot be are reported."""
+        for name, where, index in self._subsets(key):
+            other = self._key(name)
             if other in unfinished:
                 message = f"set {shown(name)} contains itself: SUBSET= leads back to it; remove one of these lines"
-                self.context.report(REF008, message, where)
+                self.context.report(REF008, message, where.inside("members", index, "subset"))
             elif other in self.definitions:
                 yield other
             elif other not in self.sets.named:
                 near = self.context.near(name, self._names)
                 hint = f" (did you mean {self._names[near]}?)" if near else ""
                 message = f"SUBSET= names no set: {shown(name)} is not defined{hint}; define it"
-                self.context.report_missing(REF008, message, where, "ELEMENT SETS")
+                place = where.inside("members", index, "subset")
+                self.context.report_missing(REF008, message, place, "ELEMENT SETS")
 
     @cached_property
     def _names(self) -> dict[str, str]:
         """Every name of a set, by its folded form."""
         return self.context.opaque_set_names | {key: entries[0][0].name for key, entries in self.definitions.items()}
 
-    def _subsets(self, key: str) -> Iterator[tuple[str, Where]]:
+    def _subsets(self, key: str) -> Iterator[tuple[str, Where, int]]:
+        """The subsets of a set, each with the place of the definition that names it and its index among the members."""
         for entry, where in self.definitions[key]:
             for index, member in enumerate(entry.members):
-                if hasattr(member, "subset") and cast("str | None", member.subset) is not None:
-                    yield member.subset, where._replace(path=(*where.path, "members", index, "subset"))
+                if member.rule == "set_subset":
+                    name = cast("str | None", cast("SetSubset", member).subset)
+                    if name is not None:
+                        yield name, where, index
 
     def _settle(self, key: str) -> None:
         """The union of all members of all definitions of a name."""
@@ -173,21 +193,21 @@ class _Reader:
             unsure |= self.context.has_read_errors(where)
             members += len(entry.members)
             for index, member in enumerate(entry.members):
-                inner = where._replace(path=(*where.path, "members", index))
-                if hasattr(member, "elements"):
-                    found, whole = self._listed(cast("SetList", member), inner)
-                elif hasattr(member, "generate"):
-                    found, whole = self._range(member.generate, inner)
+                if member.rule == "set_subset":
+                    found, whole = self._subset(cast("SetSubset", member).subset)
+                elif member.rule == "set_list":
+                    found, whole = self._listed(cast("SetList", member), where.inside("members", index))
                 else:
-                    found, whole = self._subset(member.subset)
+                    given = cast("SetGenerate", member).generate
+                    found, whole = self._range(given, where.inside("members", index))
                 parts.append(found)
                 unsure |= not whole
         self.sets.named[key] = NamedSet(first.name, _union(parts), place, unsure)
-        if not members and not unsure:  # of what is listed and does not exist, enough is said where it stands
+        if not members and not unsure:  # of what is listed and does not exist, it is reported where it stands
             self.context.report(REF010, f"set {shown(first.name)} has no element: give it some, or remove it", place)
 
     def _subset(self, name: str | None) -> tuple[Indices, bool]:
-        found = None if name is None else self.sets.named.get(folded(bare(name)))
+        found = None if name is None else self.sets.named.get(self._key(name))
         return (_NOTHING, False) if found is None else (found.elements, not found.open)
 
     def _listed(self, member: SetList, where: Where) -> tuple[Indices, bool]:
@@ -196,16 +216,14 @@ class _Reader:
         numbers = np.array([member.elements[position] for position in positions], dtype=np.int64)
         indices = self.elements.indices(numbers)
         missing = np.flatnonzero(indices < 0).tolist()
-        places = [where._replace(path=(*where.path, "elements", positions[at])) for at in missing]
+        places = [where.inside("elements", positions[at]) for at in missing]
         self._missing(numbers[missing], places)
         for position, element in enumerate(member.elements):
             if isinstance(element, str):
-                self._label(element, where._replace(path=(*where.path, "elements", position)))
+                self._label(element, where.inside("elements", position))
         found = indices[indices >= 0]
         whole = len(found) == len(member.elements)
-        return _ascending(found), whole and not self.context.has_read_errors(
-            where._replace(path=(*where.path, "elements"))
-        )
+        return _ascending(found), whole and not self.context.has_read_errors(where.inside("elements"))
 
     def _missing(self, numbers: Ids, places: list[Where]) -> None:
         """Elements of a list that are not defined; where they may be defined out of sight, a word for a list."""
@@ -226,7 +244,7 @@ class _Reader:
 
     def _range(self, given: ElementRange, where: Where) -> tuple[Indices, bool]:
         """Elements of a range, without building it: it may be as long as a slip of the pen makes it."""
-        place = where._replace(path=(*where.path, "generate"))
+        place = where.inside("generate")
         numbers = self.context.generator(given, place)
         if numbers is None:
             return _NOTHING, False
@@ -252,6 +270,8 @@ def _ascending(indices: Indices) -> Indices:
 
 def _union(parts: list[Indices]) -> Indices:
     """Indices in ascending order, each once, of parts that are so. Sets of the same elements share an array."""
+    if len(parts) == 1:
+        return parts[0]
     largest = max(parts, key=len, default=_NOTHING)
     rest = [part for part in parts if part is not largest and len(part)]
     if not rest:

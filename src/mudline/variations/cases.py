@@ -1,32 +1,154 @@
-"""`*VARIATION` to cases: the values that its parameters have together, and what is done in every one of them."""
+"""`*VARIATION` to cases: the values of its parameters in each case, and the blocks that actions add or remove."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from decimal import Decimal
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, cast
 
 from mudline.codes import EXP001
 from mudline.codes.references import REF013
 from mudline.deck.model import Deck
 from mudline.deck.parameters import NoValueError
-from mudline.diagnostics import Problem, Where
-from mudline.keywords.text import shown
+from mudline.deck.reading import TextOrigin
+from mudline.diagnostics import Problem, Severity, Where
+from mudline.keywords import catalogue
+from mudline.keywords.text import shown, suggestion
 from mudline.keywords.values import Equation
-from mudline.variations.actions import action_of
-from mudline.variations.model import MOST_DECKS, Action, Cases
+from mudline.scene.deck_values import find_file
+from mudline.syntax.source import Source
+from mudline.syntax.tree import Kind, canonical_name, parse
 from mudline.variations.names import name_key, unquoted
-from mudline.variations.targets import Target, Targets
+from mudline.variations.rewriting import MOST_DECKS, Action, Addition, Removal, Target, Targets
 
 if TYPE_CHECKING:
-    from mudline.keywords.library.variation import NamedVariation, ValueRange, VariedParameter
+    from mudline.keywords.library.variation import NamedVariation, ValueRange, VariedBlock, VariedParameter
+
+_PLANNING = "PREPROCESSOR"
+"""The section of keywords that describe the decks; actions do not add or remove them."""
+
+_LARGEST = 64 * 2**20
+
+
+@dataclass(frozen=True, slots=True)
+class Cases:
+    """A variation: names of parameters, a row of their values for each case, and the actions in every case."""
+
+    name: str
+    where: Where
+    parameters: Sequence[str]
+    rows: Sequence[Sequence[str]]
+    actions: Sequence[Action]
+
+
+class RefusedError(Exception):
+    """An action that cannot be carried out; the message says why."""
+
+
+def action_of(deck: Deck, varied: VariedBlock, where: Where) -> Action | Problem:
+    """The effect of an ACTION= line on a deck that was read from text, or why it has none."""
+    try:
+        keyword = _keyword(varied)
+        section = _section(deck, varied, keyword)
+        if varied.action == "REMOVE":
+            return _removal(deck, keyword, section)
+        return _addition(deck, varied, keyword, section)
+    except RefusedError as reason:
+        return Problem(EXP001, str(reason), None, None, where)
+
+
+def _keyword(varied: VariedBlock) -> str:
+    keyword = canonical_name("*" + ",".join(unquoted(word) for word in varied.keyword))
+    if _PLANNING in (catalogue.sections_of(keyword) or ()):
+        raise RefusedError(f"*{keyword} describes the decks: a variation cannot add or remove it")
+    return keyword
+
+
+def _section(deck: Deck, varied: VariedBlock, keyword: str) -> str:
+    """The section of an action, which the deck has."""
+    there = [section.name for section in deck.sections]
+    if varied.section is not None:
+        name = canonical_name("$" + unquoted(varied.section).removeprefix("$"))
+    else:
+        belongs = catalogue.sections_of(keyword) or ()
+        if len(belongs) != 1:
+            known = " or ".join(f"${name}" for name in belongs)
+            raise RefusedError(f"missing SECTION= for *{keyword}{f': {known}' if known else ''}")
+        name = belongs[0]
+    if name not in there:
+        raise RefusedError(f"the deck has no section ${name}{suggestion(name, there)} for *{keyword}")
+    return name
+
+
+def _removal(deck: Deck, keyword: str, section: str) -> Removal:
+    blocks = [
+        (index, number, block.keyword)
+        for index, found in enumerate(deck.sections)
+        if found.name == section
+        for number, block in enumerate(found.blocks)
+    ]
+    gone = frozenset((index, number) for index, number, name in blocks if name == keyword)
+    if not gone:
+        hint = suggestion(keyword, {name for _, _, name in blocks})
+        raise RefusedError(f"${section} has no *{keyword}{hint} that could be removed")
+    return Removal(gone)
+
+
+def _addition(deck: Deck, varied: VariedBlock, keyword: str, section: str) -> Addition:
+    last = max(index for index, found in enumerate(deck.sections) if found.name == section)
+    if varied.file is None:
+        return Addition(last, f"*{keyword}\n")
+    if deck.folder is None:
+        raise RefusedError(
+            f"FILE={varied.file} lies beside the deck, which came from standard input: give the deck as a file"
+        )
+    path = find_file(deck.folder, varied.file)
+    if path is None:
+        raise RefusedError(f"file {shown(unquoted(varied.file))} is not found beside the deck")
+    text = _block_text(_content(path, varied.file), keyword)
+    try:
+        text.encode(cast("TextOrigin", deck.origin).source.encoding)
+    except UnicodeEncodeError as error:
+        raise RefusedError(f"{varied.file} holds {text[error.start]!r}, which the encoding of the deck lacks") from None
+    return Addition(last, text)
+
+
+def _content(path: Path, name: str) -> Source:
+    try:
+        if path.stat().st_size > _LARGEST:
+            raise RefusedError(f"{name} is larger than {_LARGEST // 2**20} MiB: expected a block of a deck")
+        source = Source.from_bytes(path.read_bytes(), name)
+    except OSError as error:
+        raise RefusedError(f"{name} cannot be read: {(error.strerror or str(error)).lower()}") from error
+    faults = [problem.message for problem in source.problems if problem.weight is Severity.ERROR]
+    if faults:
+        raise RefusedError(f"{name}: {faults[0]}")
+    return source
+
+
+def _block_text(source: Source, keyword: str) -> str:
+    """The lines of a file as blocks of a keyword; the head is added where the file has none."""
+    tree = parse(source)
+    if tree.sections:
+        raise RefusedError(f"{source.name} opens the section ${tree.sections[0].name}: expected only the block")
+    others = [block.name for block in tree.preamble.blocks if block.name != keyword]
+    if others:
+        raise RefusedError(f"{source.name} holds *{others[0]}, expected *{keyword} only")
+    text = source.unified.replace("\r\n", "\n")
+    text = text if text.endswith("\n") or not text else f"{text}\n"
+    if all(leaf.kind in (Kind.BLANK, Kind.COMMENT) for leaf in tree.preamble.leaves) and tree.preamble.blocks:
+        return text
+    return f"*{keyword}\n{text}"
+
 
 _NOISE = Decimal("1e-9")
 """Share of a step by which a range may miss its last value: ends may come from equations."""
 
 
 class CaseReader:
-    """Reads the variations of a deck that was read from text; what is wrong with them is in `problems`."""
+    """Reads the variations of a deck that was read from text; faults are added to `problems`."""
 
     def __init__(self, deck: Deck, targets: Targets) -> None:
         self.deck = deck
@@ -42,11 +164,11 @@ class CaseReader:
                 cases = self._cases(variation, place)
                 if name_key(cases.name) in found:
                     message = f"there is a variation {shown(cases.name)} already: choose another name"
-                    self._tell(message, place._replace(path=(*place.path, "name")))
+                    self._report(message, place._replace(path=(*place.path, "name")))
                 found[name_key(cases.name)] = cases
         return found
 
-    def _tell(self, message: str, where: Where) -> None:
+    def _report(self, message: str, where: Where) -> None:
         self.problems.append(Problem(EXP001, message, None, None, where))
 
     def _cases(self, variation: NamedVariation, where: Where) -> Cases:
@@ -59,10 +181,10 @@ class CaseReader:
                 continue
             target = self.targets.target(unquoted(varied.parameter))
             if target.name in columns:
-                self._tell(f"{shown(target.name)} varies twice in {shown(name)}: keep one of its lines", place)
+                self._report(f"{shown(target.name)} varies twice in {shown(name)}: keep one of its lines", place)
                 continue
             columns[target.name] = self._values(varied, target, place)
-        self._in_step(name, columns, where)
+        self._check_counts(name, columns, where)
         rows = list(zip(*columns.values(), strict=False)) if columns else [()]
         return Cases(name, where, list(columns), rows, list(self._actions(variation, where)))
 
@@ -74,36 +196,39 @@ class CaseReader:
             else:
                 yield action
 
-    def _in_step(self, name: str, columns: dict[str, list[str]], where: Where) -> None:
-        """Parameters of one variation change together, so that each needs a value for every case."""
+    def _check_counts(self, name: str, columns: dict[str, list[str]], where: Where) -> None:
+        """Check that the parameters of a variation, which change together, have a value for every case each."""
         counts = {len(values) for values in columns.values() if values}
         if len(counts) > 1:
             listed = ", ".join(f"PARA={target} has {len(values)}" for target, values in columns.items() if values)
             message = (
-                f"the parameters of variation {shown(name)} change together and need equally many values: {listed}; "
-                "what varies on its own is a variation of its own"
+                f"the parameters of variation {shown(name)} change together and need equally many values: {listed}. "
+                "Put those that vary independently into separate variations"
             )
-            self._tell(message, where)
+            self._report(message, where)
 
     def _values(self, varied: VariedParameter, target: Target, where: Where) -> list[str]:
-        """The values as fields of `*PARAMETERS`; none when they have been told to be faulty."""
+        """The values as fields of `*PARAMETERS`; none when they are faulty."""
         if varied.generate is not None:
             return self._range(varied.generate, where._replace(path=(*where.path, "generate")))
         if not varied.values:
-            self._tell(f"PARA={varied.parameter} has no value", where)
+            self._report(f"PARA={varied.parameter} has no value", where)
         values: list[str] = []
         for index, text in enumerate(varied.values or []):
             place = where._replace(path=(*where.path, "values", index))
             field = target.field(text)
             if field is None:
-                self._tell(f"value {index + 1} of PARA={varied.parameter}, {shown(text)}, is no value", place)
+                self._report(
+                    f"value {index + 1} of PARA={varied.parameter}, {shown(text)}, cannot be a value: correct it",
+                    place,
+                )
                 return []
             self._defined(field, place)
             values.append(field)
         return values
 
     def _defined(self, field: str, where: Where) -> None:
-        """An equation among the values uses parameters of the deck; whether it has a value depends on the case."""
+        """Check that an equation uses defined parameters; whether it has a value depends on the case."""
         if equation := Equation.match(field):
             try:
                 self.targets.parameters.evaluate(equation, where)
@@ -116,15 +241,15 @@ class CaseReader:
         numbers = [self.targets.parameters.number(end) for end in ends]
         known = [Decimal(repr(number)) for number in numbers if number is not None]
         if len(known) < len(numbers):
-            self._tell("GEN= needs numbers, or equations that give numbers", where)
+            self._report("GEN= needs numbers, or equations that give numbers", where)
             return []
         start, end, step = known
         steps = (end - start) / step + _NOISE if step else Decimal(-1)
         if steps < 0:
-            self._tell(f"GEN= gives no value: from {start} to {end} in steps of {step}", where)
+            self._report(f"GEN= gives no value: from {start} to {end} in steps of {step}", where)
             return []
         if steps >= MOST_DECKS:
-            self._tell(f"GEN= gives more than {MOST_DECKS} values: is the step right?", where)
+            self._report(f"GEN= gives more than {MOST_DECKS} values: correct the increment", where)
             return []
         return [_spelled(start + step * index) for index in range(int(steps) + 1)]
 

@@ -1,25 +1,27 @@
-"""Names of new files: what stands for a parameter in them, and what no file may be called."""
+"""Names in `*VARIATION` and `*COMBINATIONS`: how they compare, and which of them are undefined."""
 
 from __future__ import annotations
 
 import re
-import unicodedata
-from collections.abc import Callable
-from itertools import chain
+from collections.abc import Callable, Collection, Iterable, Iterator
+from typing import TYPE_CHECKING, NamedTuple, cast
 
-from mudline.deck.parameters import folded
+from mudline.codes.references import REF001, REF013
+from mudline.codes.words import SYN009, SYN010
+from mudline.deck.model import Deck, Opaque
+from mudline.deck.parameters import Parameters, folded
+from mudline.diagnostics import Problem, Severity, Where
+from mudline.keywords import catalogue
+from mudline.keywords.text import hint, shown, suggestion
+from mudline.spelling import Effort, nearest
+from mudline.syntax.tree import canonical_name
+
+if TYPE_CHECKING:
+    from mudline.keywords.library.combinations import Combinations
+    from mudline.keywords.library.parameters import Parameters as ParameterBlock
+    from mudline.keywords.library.variation import Variation, VariedBlock
 
 _PLACEHOLDER = re.compile(r"%([^%]+)%")
-_FORBIDDEN = re.compile(r'[\x00-\x1f\x7f<>:"|?*]')
-_DRIVE = re.compile(r"[A-Za-z]:")
-_DEVICES = frozenset(
-    ["CON", "PRN", "AUX", "NUL", "CONIN$", "CONOUT$"]
-    + [device + number for device in ("COM", "LPT") for number in "123456789\u00b9\u00b2\u00b3"]
-)
-LONGEST_PART = 240
-"""Bytes of a folder's or a file's name; the systems in use end at 255."""
-LONGEST_PATH = 1000
-"""Bytes of a path within the output folder."""
 
 
 def unquoted(text: str) -> str:
@@ -42,54 +44,152 @@ def filled(template: str, value_of: Callable[[str], str]) -> str:
     return _PLACEHOLDER.sub(lambda match: value_of(match[1].strip(" \t")), template)
 
 
-def path_fault(path: str) -> str:
-    """Why a path may not be used within the output folder, on any system; "" when it may."""
-    if "\\" in path:
-        return "holds a backslash: folders are parted by /"
-    if path.startswith("/") or _DRIVE.match(path):
-        return "is absolute: it would leave the output folder"
-    if len(path.encode(errors="replace")) > LONGEST_PATH:
-        return f"is longer than {LONGEST_PATH} bytes"
-    return next((fault for part in path.split("/") if (fault := _part_fault(part))), "")
+def undefined_parameter(name: str, known: Iterable[str], effort: Effort, where: Where) -> Problem:
+    """A parameter that is not among the known ones."""
+    near = suggestion(name, known, effort)
+    return Problem(REF013, f"parameter {shown(name)} is not defined{near}: define it in *PARAMETERS", where=where)
 
 
-def _part_fault(part: str) -> str:
-    """Why a folder or a file may not have this name."""
-    device = part.partition(".")[0].strip(" ")
-    sign = next(iter(_FORBIDDEN.findall(part)), "")
-    shown = sign if sign.isprintable() else f"U+{ord(sign):04X}"
-    faults = {
-        "leads out of the output folder with ..": part == "..",
-        "has a part without a name": not part.strip(" ."),
-        f"holds {shown}, which not every system has in names of files": bool(sign),
-        "has a part that ends with a blank or a dot, which some systems drop": part.endswith((" ", ".")),
-        f"has the part {device}, which is a device on some systems": device.upper() in _DEVICES,
-        f"has a part that is longer than {LONGEST_PART} bytes": len(part.encode(errors="replace")) > LONGEST_PART,
-    }
-    return next((fault for fault, found in faults.items() if found), "")
+def undefined_variation(name: str, known: Iterable[str], effort: Effort, where: Where) -> Problem:
+    """A variation that is not among the known ones; their names are without quotes."""
+    name = unquoted(name)
+    near = suggestion(name, known, effort)
+    return Problem(REF001, f"there is no variation {shown(name)}{near}: define it in *VARIATION", where=where)
 
 
-def same_place(path: str) -> str:
-    """What two paths share that some systems take for one: case and the composition of letters do not count."""
-    return unicodedata.normalize("NFC", unicodedata.normalize("NFC", path).casefold())
+# ------------------------------------------------------------------------------------------------------ in any deck
+
+_SECTION = "PREPROCESSOR"
 
 
-class Taken:
-    """The paths that are taken so far, each with who took it."""
+class _Named(NamedTuple):
+    """A name, and where it stands."""
 
-    def __init__(self) -> None:
-        self._files: dict[str, int] = {}
-        self._folders: dict[str, int] = {}
+    name: str
+    where: Where
 
-    def take(self, path: str, number: int) -> int | None:
-        """Take a path for a number; the number that has it, or needs it as a folder, when it is not free."""
-        place = same_place(path)
-        parts = place.split("/")
-        folders = ["/".join(parts[:length]) for length in range(1, len(parts))]
-        holders = chain((self._files.get(name) for name in (place, *folders)), [self._folders.get(place)])
-        holder = next((one for one in holders if one is not None), None)
-        if holder is None:
-            self._files[place] = number
-            for folder in folders:
-                self._folders.setdefault(folder, number)
-        return holder
+
+def undefined_parameters(deck: Deck) -> Iterator[Problem]:
+    """Parameters in PARA= or as `%name%` in a folder or file name that `*PARAMETERS` does not define."""
+    named = [*_varied(deck), *_in_names(deck)]
+    known = _parameters(deck) if named else None
+    effort = Effort()
+    for name, where in named:
+        if known is not None and folded(name) not in known:
+            yield undefined_parameter(name, known.values(), effort, where)
+
+
+def undefined_variations(deck: Deck) -> Iterator[Problem]:
+    """Variations in VARIATIONS= that no `*VARIATION` defines; `*EXCEL VARIATIONS`, not read, may define any."""
+    called = list(_called(deck))
+    present = deck.keywords(_SECTION)
+    if not called or "EXCEL VARIATIONS" in present or _unsure(deck, "VARIATION"):
+        return
+    variations = [
+        cast("str | None", variation.name) for _, block in _variations(deck) for variation in block.variations
+    ]
+    if None in variations:
+        return
+    known = {name_key(name): unquoted(name) for name in variations if name is not None}
+    effort = Effort()
+    for name, where in called:
+        if name_key(name) not in known and name_key(name) != "all":
+            yield undefined_variation(name, known.values(), effort, where)
+
+
+def misspelt_keywords(deck: Deck) -> Iterator[Problem]:
+    """Warn of an unknown keyword in KEYWORD= of an action whose spelling is close to a known one."""
+    effort = Effort()
+    for varied, where in _actions(deck):
+        words = cast("list[str] | None", varied.keyword) or ()
+        name = canonical_name("*" + ",".join(map(unquoted, words)))
+        if near := _similar(name, catalogue.keywords(), effort):
+            message = f"keyword *{name} is not known{hint(near)}: correct it"
+            yield Problem(SYN009, message, None, Severity.WARNING, where._replace(path=(*where.path, "keyword", 0)))
+
+
+def misspelt_sections(deck: Deck) -> Iterator[Problem]:
+    """Warn of an unknown section in SECTION= of an action whose spelling is close to a known one."""
+    effort = Effort()
+    for varied, where in _actions(deck):
+        name = canonical_name("$" + unquoted(varied.section or "").removeprefix("$"))
+        if near := _similar(name, catalogue.SECTIONS, effort):
+            message = f"section ${name} is not known{hint(near)}: correct it"
+            yield Problem(SYN010, message, None, Severity.WARNING, where._replace(path=(*where.path, "section")))
+
+
+def _similar(name: str, known: Collection[str], effort: Effort) -> str:
+    """The known name that is close to an unknown one, or ""."""
+    return "" if not name or name in known else nearest(name, known, effort)
+
+
+def _actions(deck: Deck) -> Iterator[tuple[VariedBlock, Where]]:
+    for where, block in _variations(deck):
+        for i, variation in enumerate(block.variations):
+            for j, varied in enumerate(variation.blocks):
+                yield varied, where._replace(path=("variations", i, "blocks", j))
+
+
+def _variations(deck: Deck) -> Iterable[tuple[Where, Variation]]:
+    return deck.blocks("VARIATION", _SECTION)
+
+
+def _combinations(deck: Deck) -> Iterable[tuple[Where, Combinations]]:
+    return deck.blocks("COMBINATIONS", _SECTION)
+
+
+def _varied(deck: Deck) -> Iterator[_Named]:
+    """The parameters that vary."""
+    for where, block in _variations(deck):
+        for i, variation in enumerate(block.variations):
+            for j, varied in enumerate(variation.parameters):
+                if cast("str | None", varied.parameter) is not None:
+                    path = ("variations", i, "parameters", j, "parameter")
+                    yield _Named(unquoted(varied.parameter), where._replace(path=path))
+
+
+def _in_names(deck: Deck) -> Iterator[_Named]:
+    """The parameters in names of folders and files."""
+    for where, block in _combinations(deck):
+        given: list[tuple[str | None, tuple[str | int, ...]]] = [(block.directory, ("directory",))]
+        for i, combination in enumerate(block.combinations):
+            path = ("combinations", i)
+            given.append((combination.subdirectory, (*path, "subdirectory")))
+            given.append((combination.filename, (*path, "filename")))
+        for text, place in given:
+            for name in placeholders(unquoted(text or "")):
+                yield _Named(name, where._replace(path=place))
+
+
+def _called(deck: Deck) -> Iterator[_Named]:
+    """The variations that combinations call."""
+    for where, block in _combinations(deck):
+        for i, combination in enumerate(block.combinations):
+            for j, line in enumerate(combination.variations):
+                for number, name in enumerate(cast("list[str] | None", line.names) or ()):
+                    path = ("combinations", i, "variations", j, "names", number)
+                    yield _Named(name, where._replace(path=path))
+
+
+def _parameters(deck: Deck) -> dict[str, str] | None:
+    """Names of parameters by their folded form; None where a line that could not be read may define more."""
+    blocks: Iterable[tuple[Where, ParameterBlock]] = deck.blocks("PARAMETERS", _SECTION)
+    listed = [parameter for _, block in blocks for parameter in block.parameters]
+    unread = any(cast("str | None", parameter.name) is None for parameter in listed)
+    if unread or _unsure(deck, "PARAMETERS"):
+        return None
+    defined = {key: found.name for key, found in Parameters(deck).definitions.items()}
+    without_value = [parameter.name for parameter in listed if cast("object", parameter.value) is None]
+    return {folded(name): name for name in without_value} | defined
+
+
+def _unsure(deck: Deck, keyword: str) -> bool:
+    """Whether a line of a keyword could not be used, or a block with a misspelt name may be meant for one."""
+    for i, section in enumerate(deck.sections):
+        for j, block in enumerate(section.blocks):
+            if block.keyword == keyword and section.name == _SECTION:
+                if deck.origin.lost(i, j):
+                    return True
+            elif isinstance(block, Opaque) and nearest(block.keyword, [keyword]):
+                return True
+    return False

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from math import prod
 from pathlib import PurePath
@@ -13,44 +13,26 @@ from mudline.codes import EXP001
 from mudline.deck.model import Deck
 from mudline.deck.reading import read_source
 from mudline.diagnostics import DeckError, Problem, Severity, Where
-from mudline.keywords.text import shown, suggestion
-from mudline.short_repr import short_repr
+from mudline.keywords.text import shown
 from mudline.spelling import Effort
 from mudline.syntax.source import Source
-from mudline.variations.cases import CaseReader
-from mudline.variations.companions import companions
-from mudline.variations.manifest import MANIFEST
-from mudline.variations.model import MOST_DECKS, Cases, PlannedDeck
-from mudline.variations.names import Taken, name_key, placeholders, unquoted
-from mudline.variations.paths import Namer, Template
-from mudline.variations.rewriting import Rewriter, as_text
-from mudline.variations.targets import Targets, Values
+from mudline.variations.cases import CaseReader, Cases
+from mudline.variations.files import MANIFEST, Namer, Taken, Template, companions
+from mudline.variations.names import name_key, placeholders, undefined_variation, unquoted
+from mudline.variations.rewriting import (
+    MOST_DECKS,
+    ExpansionPlan,
+    PlannedDeck,
+    Rewriter,
+    Targets,
+    Values,
+    as_text,
+)
 
 if TYPE_CHECKING:
     from mudline.keywords.library.combinations import Combination
 
-_MOST_TOLD = 20
-
-
-@dataclass(frozen=True, slots=True)
-class ExpansionPlan:
-    """The decks in the order of `*COMBINATIONS`, and what makes their texts.
-
-    `source` is the name of the file that they come from, `notes` are remarks for a reader. `companions` are files
-    beside the source that the new decks name too.
-    """
-
-    source: str
-    decks: Sequence[PlannedDeck]
-    rewriter: Rewriter
-    notes: Sequence[str] = ()
-    companions: Sequence[str] = ()
-
-    __repr__ = short_repr
-
-    def content(self, planned: PlannedDeck) -> bytes:
-        """The content of a planned deck."""
-        return self.rewriter.content(planned)
+_MOST_REPORTED = 20
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,10 +51,10 @@ class _Group:
 
 
 def plan(deck: Deck) -> ExpansionPlan:
-    """The decks that a deck describes.
+    """Plan the decks that a deck describes.
 
-    Raises DeckError for a deck with errors, and for what cannot be done: a parameter that is not defined, parameters
-    of one variation with different numbers of values, a name that leaves the output folder, two decks with one name.
+    Raises DeckError for a deck with errors, and for what cannot be expanded: an undefined parameter, parameters of one
+    variation with different numbers of values, a name that leaves the output folder, two decks with one name.
     """
     return _Planner(deck.require()).plan()
 
@@ -91,13 +73,13 @@ class _Planner:
         reader = CaseReader(self.text, self.targets)
         variations = reader.read()
         self.problems += self.targets.parameters.problems + reader.problems
-        groups = [group for group in self._groups(variations) if self._sound(group)]
+        groups = [group for group in self._groups(variations) if self._is_valid(group)]
         self._raise_any()
         total = sum(group.count for group in groups)
         if total > MOST_DECKS:
-            self._tell(f"{total} decks would be written: no more than {MOST_DECKS} are", groups[-1].where)
+            self._report(f"{total} decks would be written: expected no more than {MOST_DECKS}", groups[-1].where)
         if not groups:
-            self._tell(f"nothing says which decks to write: add *COMBINATIONS to $PREPROCESSOR{self._excel()}", Where())
+            self._report(f"no *COMBINATIONS: add it to $PREPROCESSOR to define the decks{self._excel()}", Where())
         self._raise_any()
         decks = self._named(groups, total)
         self._raise_any()
@@ -105,7 +87,7 @@ class _Planner:
         self._raise_any()
         return ExpansionPlan(PurePath(self.deck.file).name, decks, self.rewriter, self._notes(), companions(self.text))
 
-    def _tell(self, message: str, where: Where) -> None:
+    def _report(self, message: str, where: Where) -> None:
         self.problems.append(Problem(EXP001, message, None, None, where))
 
     def _raise_any(self) -> None:
@@ -119,7 +101,7 @@ class _Planner:
     def _notes(self) -> list[str]:
         if not self._excel():
             return []
-        return ["*EXCEL VARIATIONS is not expanded: it stands in every new deck as it is"]
+        return ["*EXCEL VARIATIONS is not expanded: it is passed through unchanged"]
 
     # ------------------------------------------------------------------------------------------------- combinations
 
@@ -127,7 +109,8 @@ class _Planner:
         for where, block in self.text.blocks("COMBINATIONS", "PREPROCESSOR"):
             for index, combination in enumerate(block.combinations):
                 place = where._replace(path=("combinations", index))
-                template = Template(block.directory, combination.subdirectory, combination.filename)
+                names = (block.directory, combination.subdirectory, combination.filename)
+                template = Template(*(name if name is None else unquoted(name) for name in names))
                 yield _Group(place, combination, template, self._called(combination, place, variations))
 
     def _called(self, combination: Combination, where: Where, variations: dict[str, Cases]) -> list[Cases]:
@@ -142,13 +125,13 @@ class _Planner:
                     called |= variations
                 else:
                     known = (cases.name for cases in variations.values())
-                    near = suggestion(unquoted(name), known, self.effort)
                     place = where._replace(path=(*where.path, "variations", index, "names", number))
-                    self._tell(f"there is no variation {shown(unquoted(name))}{near}: define it in *VARIATION", place)
+                    found = undefined_variation(name, known, self.effort, place)
+                    self.problems.append(replace(found, code=EXP001))
         return list((called if combination.variations else variations).values())
 
-    def _sound(self, group: _Group) -> bool:
-        """Whether the names of a combination's files can be made, and no parameter varies in two ways at once."""
+    def _is_valid(self, group: _Group) -> bool:
+        """Check that the parameters in file names are defined, and that none varies in two variations at once."""
         before = len(self.problems)
         owners: dict[str, str] = {}
         for cases in group.cases:
@@ -158,9 +141,9 @@ class _Planner:
                         f"{shown(name)} varies in {shown(owners[name])} and in {shown(cases.name)}: put its values in "
                         "one variation, or name only one of the two in VARIATIONS="
                     )
-                    self._tell(message, group.where)
+                    self._report(message, group.where)
                 owners[name] = cases.name
-        for name in (name for text in group.template.given for name in placeholders(text)):
+        for name in (name for text in group.template if text is not None for name in placeholders(text)):
             if problem := self.targets.undefined(name, group.where):
                 self.problems.append(problem)
         return len(self.problems) == before
@@ -168,7 +151,7 @@ class _Planner:
     # -------------------------------------------------------------------------------------------------------- decks
 
     def _named(self, groups: Sequence[_Group], total: int) -> list[PlannedDeck]:
-        """The decks with their paths, which nothing else may have."""
+        """The decks with their paths, each of them unique."""
         decks: list[PlannedDeck] = []
         taken = Taken()
         taken.take(MANIFEST, -1)
@@ -188,14 +171,14 @@ class _Planner:
                 if not fault and (holder := taken.take(path, number)) is not None:
                     fault = _clash(deck, decks[holder] if holder >= 0 else None)
                 if fault:
-                    self._tell(f"the deck with {told(values)}: its name {shown(path)} {fault}", group.where)
+                    self._report(f"the deck with {listed(values)}: its name {shown(path)} {fault}", group.where)
                     faults += 1
-                if faults == _MOST_TOLD:
+                if faults == _MOST_REPORTED:
                     return decks
         return decks
 
     def _readable(self, decks: Sequence[PlannedDeck]) -> None:
-        """Read a deck for each set of actions: what a file adds may not fit."""
+        """Read a deck for each set of actions: the lines that a file adds may be faulty."""
         tried: set[tuple[int, ...]] = set()
         for deck in decks:
             key = tuple(id(action) for action in deck.actions)
@@ -205,8 +188,8 @@ class _Planner:
             content = self.rewriter.content(PlannedDeck("", "", (), deck.values, deck.actions))
             read = read_source(Source.from_bytes(content, deck.path), units=self.deck.units)
             faults = [problem for problem in read.problems if problem.weight is Severity.ERROR]
-            for fault in read.diagnose(faults[:_MOST_TOLD]):
-                self._tell(
+            for fault in read.diagnose(faults[:_MOST_REPORTED]):
+                self._report(
                     f"the new deck {shown(deck.path)} cannot be read: line {fault.line}: {fault.message}", Where()
                 )
 
@@ -218,13 +201,13 @@ def _products(variations: Sequence[Cases]) -> Iterator[dict[str, str]]:
         yield dict(zip(names, (text for row in rows for text in row), strict=True))
 
 
-def told(values: Values) -> str:
-    """Values in words: `Offset=-100, Period=08`."""
+def listed(values: Values) -> str:
+    """Values as `Offset=-100, Period=08`."""
     return ", ".join(f"{name}={text}" for name, text in values.items()) or "no varied parameter"
 
 
 def _clash(deck: PlannedDeck, other: PlannedDeck | None) -> str:
     if other is None:
-        return "is that of the list of all decks"
+        return "is that of the manifest"
     same = "" if deck.path == other.path else f" (as {shown(other.path)})"
-    return f"is that of the deck with {told(other.values)}{same}: name what differs with %parameter%"
+    return f"is that of the deck with {listed(other.values)}{same}: name what differs with %parameter%"

@@ -1,23 +1,166 @@
-"""The text of each new deck: that of the source with other values of parameters, and with blocks that come and go."""
+"""The text of each new deck: that of the source with other parameter values, and blocks added or removed."""
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import cast
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, cast
 
-from mudline.deck.keyword_form import to_keyword
+from mudline.deck.forms.keyword import to_keyword
 from mudline.deck.loading import dump, form_of
 from mudline.deck.model import Deck
+from mudline.deck.parameters import Parameters, folded, list_items
 from mudline.deck.reading import TextOrigin, read_source
-from mudline.diagnostics import Span
+from mudline.diagnostics import Problem, Span, Where
 from mudline.keywords import catalogue
+from mudline.keywords.model import Block
 from mudline.keywords.reader import all_keys
+from mudline.keywords.values import Equation
+from mudline.short_repr import short_repr
+from mudline.spelling import Effort
 from mudline.syntax.edits import TextEdit, edited_bytes
-from mudline.syntax.fields import first_key
+from mudline.syntax.fields import first_key, split
+from mudline.syntax.rows import read_number
 from mudline.syntax.source import Source
 from mudline.syntax.tree import Kind, Leaf, RawBlock
-from mudline.variations.model import PlannedDeck, Removal
-from mudline.variations.targets import Targets
+from mudline.variations.names import undefined_parameter, unquoted
+
+if TYPE_CHECKING:
+    from mudline.keywords.library.parameters import Parameters as Block_
+
+MOST_DECKS = 100_000
+"""Decks that one deck may describe; more are refused, as they are a mistake."""
+
+
+@dataclass(frozen=True, slots=True)
+class Removal:
+    """Blocks to leave out, by section and block."""
+
+    blocks: frozenset[tuple[int, int]]
+
+
+@dataclass(frozen=True, slots=True)
+class Addition:
+    """Lines to put at the end of a section, each with a LF."""
+
+    section: int
+    text: str
+
+
+Action = Removal | Addition
+
+
+@dataclass(frozen=True, slots=True)
+class PlannedDeck:
+    """A deck to write: its path with `/` in the output folder, and its description.
+
+    `variations` are the names of those combined in it, `values` its varied parameters as they will be written.
+    """
+
+    path: str
+    description: str
+    variations: Sequence[str]
+    values: Mapping[str, str]
+    actions: Sequence[Action] = field(default=(), repr=False)
+
+    __repr__ = short_repr
+
+
+Values = Mapping[str, str]
+"""Values as they are written in `*PARAMETERS`, by the name of the parameter there."""
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """A parameter: its name and the text of its value, both as written, and the place of the value."""
+
+    name: str
+    text: str
+    span: Span
+    in_list: bool = False
+
+    def field(self, value: str) -> str | None:
+        """A value as it is written in the place of the old one, or None when it cannot be written there."""
+        field = parameter_field(value)
+        bare = field is not None and field == unquoted(field) and Equation.match(field) is None
+        if not self.in_list or not bare or read_number(value) is not None:
+            return field
+        return f'"{field}"'  # a colon or a slash would mean something else in a list
+
+
+class Targets:
+    """The parameters of a deck that was read from text; of several with one name the last, which holds."""
+
+    def __init__(self, deck: Deck) -> None:
+        self.deck = deck
+        self.parameters = Parameters(deck)
+        self._targets: dict[str, Target] = {}
+        self._effort = Effort()
+        for where, block in deck.blocks("PARAMETERS", "PREPROCESSOR"):
+            for index, parameter in enumerate(cast("Block_", block).parameters):
+                place = where._replace(path=("parameters", index, "value"))
+                self._targets |= {folded(target.name): target for target in self._written(parameter.name, place)}
+
+    def _written(self, name: str, where: Where) -> Iterator[Target]:
+        """The parameters that a line of `*PARAMETERS` defines."""
+        origin = cast("TextOrigin", self.deck.origin)
+        span = origin.read[where.section, where.block].places.find(where.path)
+        text = origin.source.text[slice(*span)]
+        if not text.startswith("/"):
+            yield Target(name, text, span)
+            return
+        for item in list_items(name, text)[0]:
+            start = span.start + item.start
+            yield Target(item.name, item.value, Span(start, start + len(item.value)), in_list=True)
+
+    def target(self, name: str) -> Target:
+        """A parameter that is known to exist."""
+        return self._targets[folded(name)]
+
+    def undefined(self, name: str, where: Where) -> Problem | None:
+        """The problem of a name that is not a parameter, else None."""
+        if folded(name) in self._targets:
+            return None
+        return undefined_parameter(name, (target.name for target in self._targets.values()), self._effort, where)
+
+    def in_a_name(self, name: str, values: Values) -> str | None:
+        """A parameter's value for the name of a file: as written, without quotes; None where an equation has none."""
+        key = folded(name)
+        given = next((text for other, text in values.items() if folded(other) == key), self._targets[key].text)
+        if Equation.match(given) is None:
+            return unquoted(given)
+        found = Parameters(with_values(self.deck, values)).values.get(key)
+        if isinstance(found, float) and found.is_integer() and abs(found) < 1e15:
+            return str(int(found))
+        return None if found is None else str(found)
+
+
+def with_values(deck: Deck, values: Values) -> Deck:
+    """The deck with other parameter values, for its equations only: its text is not that of the new one.
+
+    They are defined again after all others, as the last definition of a parameter applies.
+    """
+    where, block = [found for found in deck.blocks("PARAMETERS", "PREPROCESSOR") if found[1].parameters][-1]
+    known = cast("Block_", block).parameters
+    more = [known[-1].model_copy(update={"name": name, "value": text}) for name, text in values.items()]
+    sections = list(deck.sections)
+    blocks = list(sections[where.section].blocks)
+    blocks[where.block] = cast("Block", block).model_copy(update={"parameters": [*known, *more]})
+    sections[where.section] = replace(sections[where.section], blocks=blocks)
+    return replace(deck, sections=sections)
+
+
+def parameter_field(text: str) -> str | None:
+    """A value as a field of `*PARAMETERS`, a text with blanks or commas in quotes; None when it cannot be written."""
+    if read_number(text) is not None or Equation.match(text):
+        return text
+    if not text:
+        return None
+    fields, problems = split(text, Span(0, len(text)))
+    alone = len(fields) == 1 and not problems and fields[0].text == text
+    if alone and (unquoted(text) != text or not (set(text) & set(' \t"') or text[0] in "/=")):
+        return text
+    return None if '"' in text else f'"{text}"'
 
 
 def as_text(deck: Deck) -> Deck:
@@ -46,7 +189,7 @@ class Rewriter:
         )
 
     def content(self, planned: PlannedDeck) -> bytes:
-        """A new deck, in the form that the suffix of its path tells."""
+        """A new deck, in the form of its path's suffix."""
         content = edited_bytes(self.source, self.edits(planned))
         form = form_of(planned.path)
         if form == "keyword":
@@ -76,7 +219,7 @@ class Rewriter:
         return Span(block.head.span.start, self._end(section, block))
 
     def _insertion(self, section: int, text: str) -> TextEdit:
-        """Lines behind the last ones of a section that are no comment."""
+        """Lines inserted after the last ones of a section that are not a comment."""
         raw = self.tree.sections[section]
         head = cast("Leaf", raw.head)
         at = self._end(section, raw.blocks[-1]) if raw.blocks else max(leaf.span.end for leaf in (head, *raw.leaves))
@@ -92,3 +235,24 @@ class Rewriter:
             return leaf.kind not in (Kind.COMMENT, Kind.BLANK)
 
         return max(leaf.span.end for leaf in (block.head, *block.leaves) if leaf is block.head or is_data(leaf))
+
+
+@dataclass(frozen=True, slots=True)
+class ExpansionPlan:
+    """The decks in the order of `*COMBINATIONS`, and the rewriter that makes their texts.
+
+    `source` is the name of the file that they come from, `notes` are remarks for a reader. `companions` are files
+    beside the source that the new decks name too.
+    """
+
+    source: str
+    decks: Sequence[PlannedDeck]
+    rewriter: Rewriter
+    notes: Sequence[str] = ()
+    companions: Sequence[str] = ()
+
+    __repr__ = short_repr
+
+    def content(self, planned: PlannedDeck) -> bytes:
+        """The content of a planned deck."""
+        return self.rewriter.content(planned)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from itertools import islice
 from typing import TYPE_CHECKING, cast
 
@@ -11,16 +11,19 @@ import numpy as np
 from mudline.contact.input import LawKind
 from mudline.deck.model import Deck
 from mudline.diagnostics import Code, Problem, Severity, Where
+from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
 from mudline.scene.context import MOST_REPORTED
-from mudline.scene.sections import format_of
+from mudline.scene.sections import Section, format_of
+from mudline.scene.sets import set_key
 
 if TYPE_CHECKING:
     from mudline.keywords.library.geometric_sets import GeometricSet, GeometricSets
 
 GEO002 = Code("GEO002", "number-and-curve", Severity.WARNING)
 GEO003 = Code("GEO003", "drag-diameter-assumed", Severity.INFO)
+GEO006 = Code("GEO006", "repeated-section", Severity.WARNING)
 
 _BENDING = ("eiyy", "eizz")
 _CURVES = {
@@ -36,7 +39,8 @@ _CURVES = {
 _NAMES = {"eiyy": "EIyy", "eizz": "EIzz", "gj": "GJ", "ea": "EA", "e": "E"}
 
 
-def _sections(deck: Deck) -> Iterator[tuple[Where, GeometricSet]]:
+def section_entries(deck: Deck) -> Iterator[tuple[Where, GeometricSet]]:
+    """Every entry of *GEOMETRIC SETS with its place."""
     for where, block in deck.blocks("GEOMETRIC SETS"):
         for index, entry in enumerate(cast("GeometricSets", block).sets):
             yield where._replace(path=("sets", index)), entry
@@ -63,7 +67,7 @@ def number_and_curve(context: LintContext) -> Iterator[Problem]:
 
 
 def _given_twice(deck: Deck) -> Iterator[Problem]:
-    for where, entry in _sections(deck):
+    for where, entry in section_entries(deck):
         if entry.mooring is not None:
             continue  # its format has no place for a curve, and EA must be given
         for curve, (key, numbers) in _CURVES.items():
@@ -123,3 +127,67 @@ def drag_diameter_assumed(context: LintContext) -> Iterator[Problem]:
                 "section has no Do: give Do"
             )
             yield Problem(GEO003, message, where=section.where._replace(path=(*section.where.path, "flexible", "Dd")))
+
+
+@rule(GEO006)
+def repeated_section(context: LintContext) -> Iterator[Problem]:
+    """A set has two sections, and another set has none.
+
+    Of two sections of one set the later one counts. That is legal, but beside a set without a section it is a sign of
+    an entry that was copied and kept the name of the first: its elements have neither stiffness nor mass. Correct the
+    name in one of the two entries. Nothing is reported where elements come from lines or from another deck, where a
+    section names a set that is not defined (REF001), or where every element has a section.
+
+    Example:
+         $MODEL
+         *NODE
+          1, 0.0, 0.0
+          5, 0.0, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *ELEMENT SETS
+          SET=West
+          GEN=1, 2
+          SET=East
+          GEN=3, 4
+         *GEOMETRIC SETS
+          OPTION=RIGID
+          SET=West
+          207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
+        - SET=West
+        + SET=East
+          207.0E9, 79.6E9, 0.3239, 0.2731, 7850.0
+
+    Finds: 18:6
+    """
+    scene = context.scene
+    sections, reading = scene.section_table.sections, scene.context
+    repeated = _repeated(sections)
+    hidden = (
+        scene.section_table.open or reading.external_definers or reading.restart or "GEOMETRIC SETS" in reading.unread
+    )
+    if not repeated or hidden or any(scene.set_table.find(section.name) is None for section in sections):
+        return
+    lacking = scene.section_table.of_element < 0
+    sets = scene.set_table.named.values() if lacking.any() else ()
+    bare = [one.name for one in sets if one.elements.size and not one.open and lacking[one.elements].all()]
+    for section in repeated if bare else ():
+        message = (
+            f"SET={shown(section.name)} has a section already, and SET={shown(bare[0])} has none: correct one of the "
+            "two names"
+        )
+        yield Problem(GEO006, message, where=section.where._replace(path=(*section.where.path, "set")))
+
+
+def _repeated(sections: Iterable[Section]) -> list[Section]:
+    """Sections of a set that has one already."""
+    known: set[str] = set()
+    found: list[Section] = []
+    for section in sections:
+        name = set_key(section.name)
+        if name in known:
+            found.append(section)
+        known.add(name)
+    return found

@@ -12,17 +12,19 @@ from mudline.deck.parameters import folded
 from mudline.diagnostics import Blocks, Code, Problem, Severity
 from mudline.keywords.text import shown
 from mudline.scene.checks.declaring import check
-from mudline.scene.deck_values import number, surfaces
-from mudline.scene.seabed import SeabedKind
+from mudline.scene.checks.fields import missing_file
+from mudline.scene.deck_values import file_name, number, surfaces
+from mudline.scene.seabed import COMPILED, SeabedKind
 
 if TYPE_CHECKING:
     from mudline.keywords.library.seabed_planes import PlaneBounds, SeabedPlanes
+    from mudline.keywords.library.seabed_profile import SeabedProfile
     from mudline.scene.resolved import ResolvedDeck
 
 
 SBD011 = Code("SBD011", "profile-needs-elastic", Severity.ERROR)
 SBD012 = Code("SBD012", "steep-slope", Severity.ERROR)
-SBD023 = Code("SBD023", "unreadable-profile", Severity.WARNING)
+SBD023 = Code("SBD023", "unreadable-profile", Severity.INFO)
 EXT002 = Code("EXT002", "floor-conflict", Severity.ERROR)
 EXT007 = Code("EXT007", "bad-plane", Severity.ERROR)
 
@@ -104,24 +106,33 @@ def unreadable_profile(scene: ResolvedDeck) -> Iterator[Problem]:
     """The profile of the seabed cannot be read, or its points make no seabed.
 
     A compiled profile (.fcsbd) is binary, and its format is not public: the deck keeps it, and mudline knows nothing of
-    the seabed that it describes. A linear profile may be a text file instead, with a line `Y, elevation` for each
-    point; in such a file the finding names the first line that is not a point. Points that make no seabed, such as one
-    alone or two elevations at one Y, are an error.
+    the seabed that it describes, so the deck cannot be evaluated. A linear profile may be a text file instead, with a
+    line `Y, elevation` for each point; in such a file the finding is a warning and names the first line that cannot be
+    read. Points that make no seabed, such as a single one or two elevations at one Y, are an error. A file that is
+    missing is reported as REF015 only.
 
     Example:
          $MODEL
-         *SEABED PROFILE
-        - TYPE=2D
-        - FILE=shelf.fcsbd
+        -*ELASTIC SURFACE
+        - 50000.0, 0.3, 0.6
+        - 0.0, 0.0
+        - 0.0, 1.0
+        +*SEABED PROFILE
         + TYPE=SLOPING
         + SLOPE=1.5
 
-    Finds: 4:7
+    Finds: 4:2
     """
     seabed = scene.seabed
+    missing = {problem.where for problem in missing_file(scene)} if seabed.unreadable else set()
     for where, message in seabed.unreadable:
+        if where in missing:
+            continue
         used = bool(seabed.missing) and (where.section, where.block) == (seabed.where.section, seabed.where.block)
-        yield Problem(SBD023, message, where=where, blocks=Blocks.ALWAYS if used else Blocks.NEVER)
+        profile = cast("SeabedProfile", scene.deck.sections[where.section].blocks[where.block])
+        compiled = file_name(profile.file or "").lower().endswith(COMPILED)
+        severity = Severity.INFO if compiled else Severity.WARNING
+        yield Problem(SBD023, message, None, severity, where, blocks=Blocks.ALWAYS if used else Blocks.NEVER)
     known = seabed.kind is SeabedKind.PROFILE and not seabed.missing and not np.isnan(seabed.points).any()
     if known and (fault := _fault(scene)):
         where = seabed.where.inside("file") if seabed.file else seabed.where

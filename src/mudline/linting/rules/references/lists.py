@@ -13,7 +13,7 @@ from mudline.linting.registry import rule
 from mudline.scene.context import MOST_REPORTED
 
 if TYPE_CHECKING:
-    from mudline.keywords.library.element_sets import ElementSets
+    from mudline.keywords.library.element_sets import ElementSets, SetList
 
 REF012 = Code("REF012", "long-list", Severity.WARNING)
 LONGEST_LIST = 20
@@ -55,7 +55,7 @@ def _long(context: LintContext) -> Iterator[tuple[Where, int]]:
     for where, block in context.deck.blocks("ELEMENT SETS"):
         for index, entry in enumerate(cast("ElementSets", block).sets):
             for number, member in enumerate(entry.members):
-                count = len(getattr(member, "elements", ()))
+                count = len(cast("SetList", member).elements) if member.rule == "set_list" else 0
                 if count > LONGEST_LIST:
                     yield where._replace(path=("sets", index, "members", number, "elements")), count
 

@@ -93,9 +93,10 @@ def repeated_parameter(context: LintContext) -> Iterator[Problem]:
         for index, parameter in enumerate(cast("list[Parameter]", block.parameters)):
             repeated: list[str] = []
             for name in _names(parameter):
-                if folded(name) in known:
+                key = folded(name)
+                if key in known:
                     repeated.append(name)
-                known.add(folded(name))
+                known.add(key)
             if repeated and told < MOST_REPORTED:
                 told += 1
                 others = f" (and {len(repeated) - 1} more of this list)" if len(repeated) > 1 else ""

@@ -15,6 +15,7 @@ SBD013 = Code("SBD013", "legacy-friction-order", Severity.WARNING)
 SBD014 = Code("SBD014", "unused-friction-stiffness", Severity.INFO)
 SBD015 = Code("SBD015", "extent-without-stiffness", Severity.WARNING)
 SBD020 = Code("SBD020", "unused-characteristic-length", Severity.INFO)
+SBD024 = Code("SBD024", "one-friction-coefficient", Severity.WARNING)
 
 _DIRECTIONS = ("longitudinal", "transverse")
 _CHARACTERISTIC = (3.048, 10.0)
@@ -176,3 +177,36 @@ def unused_characteristic_length(context: LintContext) -> Iterator[Problem]:
             if both and not friction_replaced(context, entry):
                 message = f"the {direction} mobilisation length overrides this characteristic length: remove one"
                 yield Problem(SBD020, message, where=entry.place(name))
+
+
+@rule(SBD024)
+def one_friction_coefficient(context: LintContext) -> Iterator[Problem]:
+    """Friction has a longitudinal coefficient and no transverse one.
+
+    The second coefficient is 0 unless it is given (stated for the legacy surfaces, inferred for FRICTION=), so nothing
+    but the pipe itself resists sideways movement: it slides under the smallest current. People who mean one coefficient
+    for both directions write it once. Give both, or a 0 where no transverse friction is meant. A line with LATERAL=
+    needs none, as its spring replaces transverse friction.
+
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+        - FRICTION=0.6
+        + FRICTION=0.6, 0.6
+
+    Finds: 6:11
+    """
+    for entry in given(context):
+        longitudinal = entry.value("longitudinal")
+        single = positive(longitudinal) and entry.value("transverse") is None and absent(context, entry, "transverse")
+        sprung = entry.type_ != "RIGID" and positive(entry.value("lateral"))
+        if single and not sprung and not friction_replaced(context, entry):
+            source = "0" if entry.legacy else "0 (inferred)"
+            message = (
+                f"friction has one coefficient, {longitudinal!r}, and the transverse one is then {source}: "
+                "give both, the second one as 0 if that is meant"
+            )
+            yield Problem(SBD024, message, where=entry.place("longitudinal"))

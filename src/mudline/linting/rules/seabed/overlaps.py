@@ -1,4 +1,4 @@
-"""Elements that are given seabed properties twice."""
+"""Elements that are given seabed properties twice, and properties that no element gets."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import NamedTuple, cast
 
 import numpy as np
 
+from mudline.codes.references import REF010
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.model import Record
@@ -15,12 +16,14 @@ from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
 from mudline.scene.context import MOST_REPORTED
+from mudline.scene.deck_values import surfaces
 from mudline.scene.laws import SetLaw
 from mudline.scene.model import Scene
-from mudline.scene.numbering import Indices
+from mudline.scene.numbering import Indices, one_index
 from mudline.scene.sets import NamedSet
 
 SBD008 = Code("SBD008", "overlapping-sets", Severity.INFO)
+SBD025 = Code("SBD025", "law-without-effect", Severity.WARNING)
 
 
 @rule(SBD008)
@@ -56,15 +59,97 @@ def overlapping_sets(context: LintContext) -> Iterator[Problem]:
 
     Finds: 16:6
     """
-    scene = context.scene
-    own = len(scene.deck.own_sections)
-    grants = [grant for grant in scene.laws.set_laws if grant.where.section < own]
-    new = [grant for grant in grants if grant.family == "new"]
+    new = _own_grants(context, "new")
     if len(new) > 1:
-        yield from islice(_properties(scene, new), MOST_REPORTED)
-    embedment = [grant for grant in grants if grant.family == "legacy" and grant.curve >= 0]
+        yield from islice((problem for _, problem in _properties(context.scene, new)), MOST_REPORTED)
+    embedment = [grant for grant in _own_grants(context, "legacy") if grant.curve >= 0]
     if len(embedment) > 1:
-        yield from islice(_embedment(scene, embedment), MOST_REPORTED)
+        yield from islice(_embedment(context.scene, embedment), MOST_REPORTED)
+
+
+def _own_grants(context: LintContext, family: str) -> list[SetLaw]:
+    """What the deck itself gives, without the deck that it continues."""
+    own = len(context.scene.deck.own_sections)
+    grants = context.scene.laws.set_laws
+    return [grant for grant in grants if grant.family == family and grant.where.section < own]
+
+
+@rule(SBD025)
+def law_without_effect(context: LintContext) -> Iterator[Problem]:
+    """A seabed value is given that no element gets.
+
+    Several later definitions together hold for all elements of the set; or a legacy surface is followed by another one;
+    or the set is made of subsets without any element. Whoever changes the value will see no change in the results.
+    Remove it, or put it where it counts. One later definition that takes all elements of an earlier one is reported as
+    SBD008, a set with nothing in it as REF010, and legacy beside new keywords as SBD016. The stiffness of a legacy
+    surface may stand beside curves for every element, and a value may be replaced by a keyword of mudline, as Flexcom
+    still reads it.
+
+    Example:
+         $MODEL
+         *NODE
+          1, -0.05, 0.0
+          5, -0.05, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *ELEMENT SETS
+          SET=West
+          GEN=1, 2
+          SET=East
+          GEN=3, 4
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+        - SET=ALL
+        - STIFFNESS=50000.0
+          SET=West
+          STIFFNESS=40000.0
+          SET=East
+          STIFFNESS=60000.0
+
+    Finds: 16:6
+    """
+    if len(context.scene.element_ids):
+        yield from islice(_unused_properties(context), MOST_REPORTED)
+    yield from islice(_unused_surfaces(context), MOST_REPORTED)
+
+
+def _unused_properties(context: LintContext) -> Iterator[Problem]:
+    """Sets of *SEABED PROPERTIES without an element that follows them, unless SBD008 or REF010 gives the reason."""
+    scene = context.scene
+    only = one_index(scene.laws.covered)
+    followed = {only} if only is not None else set(np.unique(scene.laws.covered).tolist())
+    idle = {id(grant) for index, grant in enumerate(scene.laws.set_laws) if index not in followed}
+    new = _own_grants(context, "new")
+    if not any(id(grant) in idle for grant in new):
+        return
+    reported = {earlier for earlier, _ in _properties(scene, new)} if len(new) > 1 else set()
+    empty = {problem.where for problem in context.told(REF010)}
+    for index, grant in enumerate(new):
+        set_ = grant.set_
+        if id(grant) not in idle or grant.unknown or set_.open or index in reported:
+            continue
+        place = grant.where._replace(path=(*grant.where.path[:2], "set"))
+        if set_.elements.size:
+            message = (
+                f"no element gets this definition, as later ones hold for all elements of SET={shown(set_.name)}: "
+                "remove it, or correct the sets"
+            )
+            yield Problem(SBD025, message, where=place)
+        elif set_.where not in empty:
+            message = (
+                f"no element gets this definition, as no subset of SET={shown(set_.name)} has any: correct the set"
+            )
+            yield Problem(SBD025, message, where=place)
+
+
+def _unused_surfaces(context: LintContext) -> Iterator[Problem]:
+    """Legacy surfaces that a later one replaces, unless SBD002 speaks of two types."""
+    found = surfaces(context.scene.deck) if len(context.scene.laws.types) == 1 else []
+    for where, surface in found[:-1]:
+        message = f"no element gets these values, as a later *{surface.keyword} replaces them: remove one of the two"
+        yield Problem(SBD025, message, where=where._replace(path=("properties",)))
 
 
 class _Overlap(NamedTuple):
@@ -93,7 +178,8 @@ def _overlaps(sets: Sequence[NamedSet], count: int) -> Iterator[_Overlap]:
         holder[later.elements] = index
 
 
-def _properties(scene: Scene, grants: list[SetLaw]) -> Iterator[Problem]:
+def _properties(scene: Scene, grants: list[SetLaw]) -> Iterator[tuple[int, Problem]]:
+    """Overlaps that are reported, each with the place of the overridden definition in the list."""
     for earlier, later, elements in _overlaps([grant.set_ for grant in grants], len(scene.element_ids)):
         one, other = grants[earlier].set_, grants[later].set_
         where = grants[later].where
@@ -103,13 +189,13 @@ def _properties(scene: Scene, grants: list[SetLaw]) -> Iterator[Problem]:
                 f"{_called(one, other)} counts for nothing: this later definition takes all its elements; "
                 "put the larger set first, or remove one"
             )
-            yield Problem(SBD008, message, where=place)
+            yield earlier, Problem(SBD008, message, where=place)
         elif not _within(other, one, len(scene.element_ids)) and not _alike(scene, grants[earlier], grants[later]):
             message = (
                 f"this definition holds for {_counted(scene, elements)} of SET={shown(one.name)} too, whose earlier "
                 "one counts for nothing there; give each element one definition"
             )
-            yield Problem(SBD008, message, where=place)
+            yield earlier, Problem(SBD008, message, where=place)
 
 
 def _within(part: NamedSet, whole: NamedSet, count: int) -> bool:

@@ -1,0 +1,211 @@
+"""Diameters, walls, mobilisation lengths, element lengths and the water depth."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from itertools import islice
+
+import numpy as np
+
+from mudline.diagnostics import Code, Problem, Severity
+from mudline.linting.context import LintContext
+from mudline.linting.registry import rule
+from mudline.linting.rules.curves.columns import LARGEST_RATIO
+from mudline.linting.rules.seabed.elevation import depths
+from mudline.linting.rules.seabed.given import given
+from mudline.linting.rules.units.diameters import odd_diameters
+from mudline.linting.rules.units.quantities import LENGTH_UNIT, rounded
+from mudline.scene.context import MOST_REPORTED
+from mudline.scene.deck_values import LARGEST_MOBILISATION, number
+from mudline.scene.deck_values import LENGTH_UNIT as METRES
+from mudline.scene.force_curves import SceneCurve
+from mudline.scene.model import Scene
+from mudline.scene.numbering import Floats, Mask, looked_up
+
+UNT006 = Code("UNT006", "suspicious-length", Severity.WARNING)
+
+LONGEST_MOBILISATION = 10.0
+"""Diameters, where the usual characteristic length of 10 ft is shorter."""
+LONGEST_IN_USER_UNITS = 100.0
+"""Diameters."""
+LONGEST_ELEMENT = 25.0
+"""Times as long as the longer neighbour: meshes are graded in smaller steps."""
+FEWEST_POINTS, MOST_ROUND, ROUNDING = 3, 0.5, 1e-3
+"""Points of a curve over metres, the share of them that may be round numbers, and how well depths are rounded."""
+HIGHEST, HIGHEST_IN_USER_UNITS = 3.0, 10.0
+"""Water depths that a model may be high."""
+TALLEST = 500.0
+"""m that a model may rise above the sea, as no wind turbine does."""
+
+
+@rule(UNT006)
+def suspicious_length(context: LintContext) -> Iterator[Problem]:
+    """A length does not fit the pipe: millimetres, inches, or a wall thickness in place of a diameter.
+
+    Reported are, each with the likely unit:
+
+    * an external diameter above 60 m (a spar hull of 37 m is legal); one above 2 m with the wall of a steel pipe, at
+      least 90 mm and a 6th to a 50th of the diameter; one of a FLEXIBLE, MOORING or TRUSS section whose mass is below
+      1 % of the water that it displaces (0 and powers of ten are placeholders);
+    * an internal diameter below a tenth of the external one in a steel pipe up to 2.5 m wide: the wall thickness;
+    * a mobilisation length above 10 diameters and above 10 ft, the usual characteristic length;
+    * a force-embedment curve with three points or more whose ratios become round numbers when divided by the diameter;
+    * an element over 25 times as long as each of the neighbours at its two ends, all of one section;
+    * nodes over three times as high above the seabed as the water is deep, and over 500 m above the sea.
+
+    In user units only ratios are checked: masses against displaced water where *OCEAN gives its density, bores of walls
+    as dense as steel, mobilisation lengths above 100 diameters, curves, elements, and nodes above ten depths.
+
+    Example:
+         $MODEL
+         *GEOMETRIC SETS
+          OPTION=RIGID
+          SET=ALL
+        - 207.0E9, 79.6E9, 323.9, 288.9, 7850.0
+        + 207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
+
+    Finds: 5:19
+    """
+    for kind in (_diameters, _mobilisation, _curves, _elements, _ocean):
+        yield from islice(kind(context), MOST_REPORTED)
+
+
+def _diameters(context: LintContext) -> Iterator[Problem]:
+    for where, message in odd_diameters(context):
+        yield Problem(UNT006, message, where=where)
+
+
+def _mobilisation(context: LintContext) -> Iterator[Problem]:
+    """Mobilisation lengths against the widest pipe that they hold for, but for those that SBD013 speaks of."""
+    scene = context.scene
+    bed = scene.resistance
+    if not any(length > 0.0 for values in bed.values for length in values.mobilisation):
+        return
+    widest = np.full(len(bed.places) + 1, np.nan)
+    friction = scene.extensions.get("SEABED FRICTION")
+    used = np.ones(len(bed.of_element), dtype=np.bool_) if friction is None else friction.of_element < 0
+    np.fmax.at(widest, bed.of_element[used], scene.diameter[used])
+    places = {where: index for index, where in enumerate(bed.places)}
+    usual = 1.05 * LARGEST_MOBILISATION.get(scene.units, 0.0)
+    for entry in given(context):
+        diameter = float(widest[places[entry.where]]) if entry.where in places else math.nan
+        longest = max(LONGEST_MOBILISATION * diameter, usual) if usual else LONGEST_IN_USER_UNITS * diameter
+        for name in ("longitudinal_mobilisation", "transverse_mobilisation"):
+            length = entry.value(name)
+            if length is not None and diameter > 0.0 and longest < length < math.inf and length != 10.0:
+                unit = f" {LENGTH_UNIT[scene.units]}" if usual else ""
+                message = (
+                    f"mobilisation length {length!r}{unit} is {length / diameter:.3g} diameters of the pipe, expected "
+                    f"below {rounded(longest)}{unit}: write it in the unit of the diameter (mm?)"
+                )
+                yield Problem(UNT006, message, where=entry.place(name))
+
+
+def _curves(context: LintContext) -> Iterator[Problem]:
+    for curve, diameter in _in_lengths(context.scene):
+        message = (
+            f"every ratio of this curve is a round number of diameters of {diameter:.4g} (the last one "
+            f"{curve.points[:, 0].max() / diameter:.3g}): if these are depths, write them divided by the diameter"
+        )
+        yield Problem(UNT006, message, where=curve.where)
+
+
+def _in_lengths(scene: Scene) -> Iterator[tuple[SceneCurve, float]]:
+    """Curves of which every ratio is a round number of diameters and most are no round numbers; with the diameter.
+
+    All elements on the curve must have one diameter.
+    """
+    laws = scene.laws
+    candidates = [index for index, curve in enumerate(laws.curves) if _may_be_in_lengths(curve)]
+    if not candidates:
+        return
+    of_grant = np.array([*(grant.curve for grant in laws.set_laws), -1], dtype=np.intp)
+    of_element = looked_up(of_grant, laws.of_element)
+    smallest, largest = np.full(len(laws.curves) + 1, np.inf), np.full(len(laws.curves) + 1, -np.inf)
+    with np.errstate(invalid="ignore"):  # an element without a diameter makes both NaN
+        np.minimum.at(smallest, of_element, scene.diameter)
+        np.maximum.at(largest, of_element, scene.diameter)
+    for index in candidates:
+        curve, diameter = laws.curves[index], float(smallest[index])
+        if diameter == largest[index] and _is_round(_ratios(curve) / diameter).all():
+            yield curve, diameter
+
+
+def _may_be_in_lengths(curve: SceneCurve) -> bool:
+    """Whether most ratios of a curve are no round numbers, and CRV010 has nothing to say of them."""
+    ratios = _ratios(curve)
+    if not curve.usable or len(ratios) < FEWEST_POINTS or ratios.max() > LARGEST_RATIO:
+        return False
+    return bool(_is_round(ratios).mean() < MOST_ROUND)
+
+
+def _ratios(curve: SceneCurve) -> Floats:
+    found: Floats = curve.points[curve.points[:, 0] != 0.0, 0]
+    return found
+
+
+def _is_round(values: Floats) -> Mask:
+    """Which numbers have two significant digits, as far as rounding in the deck lets that be seen."""
+    with np.errstate(divide="ignore", over="ignore", under="ignore"):
+        digits = np.abs(values) / 10.0 ** np.floor(np.log10(np.abs(values)))
+    return np.abs(digits - digits.round(1)) <= ROUNDING * digits
+
+
+def _elements(context: LintContext) -> Iterator[Problem]:
+    scene = context.scene
+    for element, ratio in _longest_of_neighbours(scene):
+        message = (
+            f"element {scene.element_ids[element]} is {scene.length[element]:.4g} long, {ratio:.3g} times as long as "
+            "the longer of its neighbours: correct the coordinates of its nodes"
+        )
+        yield Problem(UNT006, message, where=scene.table.numbered.where(element))
+
+
+def _longest_of_neighbours(scene: Scene) -> Iterator[tuple[int, float]]:
+    """Index of each element that is over 25 times as long as any neighbour, at both ends, and how many times it is.
+
+    All must be of one section, so that a tether or a rigid link beside a finely meshed pipe does not count.
+    """
+    ends, length = scene.element_nodes, scene.length
+    shortest = length.min(where=length > 0.0, initial=np.inf)
+    if not np.fmax.reduce(length, initial=0.0) > LONGEST_ELEMENT * shortest:
+        return
+    usable = np.flatnonzero((ends >= 0).all(axis=1) & np.isfinite(length) & (length > 0.0))
+    order = usable[np.argsort(length[usable], kind="stable")]
+    nodes, elements = ends[order].ravel(), np.repeat(order, 2)
+    by_node = np.argsort(nodes, kind="stable")  # of one node the longest element comes last
+    nodes, elements = nodes[by_node], elements[by_node]
+    last = np.flatnonzero(np.append(nodes[1:] != nodes[:-1], True))
+    longest, second = np.full((2, len(scene.node_ids)), -1, dtype=np.intp)
+    longest[nodes[last]] = elements[last]
+    shared = last[(last > 0) & (nodes[last - 1] == nodes[last])]
+    second[nodes[shared]] = elements[shared - 1]
+    found = order[(longest[ends[order]] == order[:, None]).all(axis=1)]
+    found = found[(second[ends[found]] >= 0).all(axis=1)]
+    neighbours = second[ends[found]]
+    sections = scene.section_table.of_element
+    ratios = length[found] / length[neighbours].max(axis=1, initial=0.0)
+    odd = (sections[neighbours] == sections[found][:, None]).all(axis=1) & (ratios > LONGEST_ELEMENT)
+    yield from zip(found[odd].tolist(), ratios[odd].tolist(), strict=True)
+
+
+def _ocean(context: LintContext) -> Iterator[Problem]:
+    """The water depth against the heights of nodes, unless all of them lie above the sea, which GEO005 speaks of."""
+    scene = context.scene
+    oceans = [(where, number(block, "depth")) for where, block in scene.deck.blocks("OCEAN")]
+    if not oceans or not len(scene.node_ids):
+        return
+    where, depth = oceans[-1]
+    below = depths(scene)
+    metres = METRES.get(scene.units)
+    height = -float(below.min())
+    above_sea = (height - depth) * (metres or math.inf)
+    if not 0.0 < depth < math.inf or -float(below.max()) > depth or not height < math.inf:
+        return
+    if height > (HIGHEST if metres else HIGHEST_IN_USER_UNITS) * depth and above_sea > TALLEST:
+        message = (
+            f"node {scene.node_ids[below.argmin()]} lies {height:.5g} high in water {depth!r} deep, expected "
+            "little more than the depth: write both in one unit (km, feet or mm?), and heights as X"
+        )
+        yield Problem(UNT006, message, where=where._replace(path=("depth",)))
