@@ -37,9 +37,8 @@ from mudline.results.evaluation import Evaluation, Part, Prepared, Tension, eval
 from mudline.results.formats import CsvForm, JsonForm, plan_rows
 from mudline.results.plot_data import PlotData
 from mudline.results.reference import read_reference
-from mudline.scene.build import resolve
-from mudline.scene.external import read_external
-from mudline.scene.model import Scene
+from mudline.scene.external_elements import read_external
+from mudline.scene.model import Scene, resolve
 from mudline.scene.positions import Positions, read_positions
 
 MOST_ROWS = 40

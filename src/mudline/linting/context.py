@@ -12,10 +12,9 @@ from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Blocks, Code, Problem
 from mudline.linting.odd_curves import odd_curves
-from mudline.scene.build import resolve
-from mudline.scene.context import MOST_TOLD
+from mudline.scene.context import MOST_REPORTED
 from mudline.scene.force_curves import SceneCurve
-from mudline.scene.model import Scene
+from mudline.scene.model import Scene, resolve
 from mudline.variations.names import misspelt_keywords, misspelt_sections, undefined_parameters, undefined_variations
 
 T = TypeVar("T")
@@ -68,5 +67,5 @@ class LintContext:
 def _of_variations(deck: Deck) -> Iterator[Problem]:
     """Names in variations that lead nowhere: they spoil the decks that are made, and not this one."""
     for find in (undefined_parameters, undefined_variations, misspelt_keywords, misspelt_sections):
-        for problem in islice(find(deck), MOST_TOLD):
+        for problem in islice(find(deck), MOST_REPORTED):
             yield replace(problem, blocks=Blocks.NEVER)

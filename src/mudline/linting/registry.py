@@ -14,7 +14,7 @@ from mudline.linting import plugins
 from mudline.linting import rules as rules_package
 from mudline.linting.context import LintContext
 from mudline.resources import modules_of
-from mudline.scene.checks.running import all_checks
+from mudline.scene.checks.declaring import all_checks
 
 Check = Callable[[LintContext], Iterable[Problem]]
 

@@ -14,7 +14,7 @@ from mudline.keywords.catalogue import holds_in_soil
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
 from mudline.linting.rules.seabed.elevation import depths
-from mudline.scene.given import number
+from mudline.scene.deck_values import number
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Mask, blocks_of
 
@@ -72,7 +72,7 @@ def not_on_the_seabed(context: LintContext) -> Iterator[Problem]:
     Finds: 5:2
     """
     scene = context.scene
-    if scene.context.definers or scene.context.restart or any(map(holds_in_soil, scene.deck.keywords())):
+    if scene.context.external_definers or scene.context.restart or any(map(holds_in_soil, scene.deck.keywords())):
         return
     if (line := _line(scene)) is not None and (message := _above(line) or _along_z(line)):
         lowest = int(np.where(line.used, depths(scene), -np.inf).argmax())

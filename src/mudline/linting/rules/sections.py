@@ -14,9 +14,8 @@ from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
-from mudline.scene.checks.sections import format_of
-from mudline.scene.context import MOST_TOLD
-from mudline.scene.sections import Section
+from mudline.scene.context import MOST_REPORTED
+from mudline.scene.sections import Section, format_of
 from mudline.scene.sets import set_key
 
 if TYPE_CHECKING:
@@ -64,7 +63,7 @@ def number_and_curve(context: LintContext) -> Iterator[Problem]:
 
     Finds: 5:2
     """
-    yield from islice(_given_twice(context.deck), MOST_TOLD)
+    yield from islice(_given_twice(context.deck), MOST_REPORTED)
 
 
 def _given_twice(deck: Deck) -> Iterator[Problem]:
@@ -166,7 +165,9 @@ def repeated_section(context: LintContext) -> Iterator[Problem]:
     scene = context.scene
     sections, reading = scene.section_table.sections, scene.context
     repeated = _repeated(sections)
-    hidden = scene.section_table.open or reading.definers or reading.restart or "GEOMETRIC SETS" in reading.unread
+    hidden = (
+        scene.section_table.open or reading.external_definers or reading.restart or "GEOMETRIC SETS" in reading.unread
+    )
     if not repeated or hidden or any(scene.set_table.find(section.name) is None for section in sections):
         return
     lacking = scene.section_table.of_element < 0

@@ -11,7 +11,7 @@ from mudline.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
-from mudline.scene.context import MOST_TOLD
+from mudline.scene.context import MOST_REPORTED
 from mudline.scene.force_curves import SceneCurve
 from mudline.syntax.rows import line_spans, row_fields
 
@@ -67,7 +67,7 @@ def _exchange(text: TextOrigin, curve: SceneCurve) -> Repair | None:
     """Each row with its fields exchanged; None for a curve that could not be read whole, or is very long."""
     block = text.read.get((curve.where.section, curve.where.block))
     runs = block.places.runs.get((*curve.where.path, "points"), []) if block else []
-    if not runs or len(curve.points) > MOST_TOLD or not curve.whole:
+    if not runs or len(curve.points) > MOST_REPORTED or not curve.whole:
         return None
     source = text.source.unified
     edits: list[tuple[Span, str]] = []

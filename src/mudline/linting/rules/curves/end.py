@@ -10,8 +10,8 @@ from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
-from mudline.scene.floor import FloorKind
 from mudline.scene.force_curves import SceneCurve
+from mudline.scene.seabed import SeabedKind
 
 CRV008 = Code("CRV008", "steep-extrapolation", Severity.WARNING)
 CRV013 = Code("CRV013", "flat-last-segment", Severity.WARNING)
@@ -129,7 +129,7 @@ def beyond_curve(context: LintContext) -> Iterator[Problem]:
     Finds: 14:2
     """
     scene = context.scene
-    if scene.floor.kind is not FloorKind.FLAT:
+    if scene.seabed.kind is not SeabedKind.FLAT:
         return
     if not any(curve.usable for curve in scene.laws.curves):
         return

@@ -8,7 +8,7 @@ from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
 from mudline.linting.rules.curves.repairs import plain_rows, removal
-from mudline.scene.context import MOST_TOLD
+from mudline.scene.context import MOST_REPORTED
 from mudline.scene.force_curves import clashes_and_repeats
 
 CRV004 = Code("CRV004", "repeated-point", Severity.WARNING)
@@ -37,7 +37,7 @@ def repeated_point(context: LintContext) -> Iterator[Problem]:
     Finds: 6:2
     """
     for _, curve in context.odd_curves:
-        repeats = clashes_and_repeats(curve.points)[1][:MOST_TOLD].tolist()
+        repeats = clashes_and_repeats(curve.points)[1][:MOST_REPORTED].tolist()
         rows = plain_rows(context.text, curve) if context.text and repeats else None
         for index in repeats:
             ratio, force = curve.points[index].tolist()

@@ -9,7 +9,7 @@ import numpy as np
 
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Repair, Span
-from mudline.scene.context import MOST_TOLD
+from mudline.scene.context import MOST_REPORTED
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.numbering import Indices
 from mudline.syntax.rows import line_spans
@@ -41,7 +41,7 @@ class PlainRows:
 def plain_rows(text: TextOrigin, curve: SceneCurve) -> PlainRows | None:
     """The rows of a curve; None where they are very many or have equations, which other parameters would change."""
     block = text.read.get((curve.where.section, curve.where.block))
-    if block is None or len(curve.points) > MOST_TOLD:
+    if block is None or len(curve.points) > MOST_REPORTED:
         return None
     source = text.source.unified
     runs = block.places.runs.get((*curve.where.path, "points"), [])

@@ -10,7 +10,7 @@ from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
 from mudline.linting.rules.curves.repairs import sorting
-from mudline.scene.context import MOST_TOLD
+from mudline.scene.context import MOST_REPORTED
 from mudline.scene.force_curves import SceneCurve, clashes_and_repeats
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices
@@ -79,7 +79,7 @@ def decreasing_force(context: LintContext) -> Iterator[Problem]:
     for number, curve in context.odd_curves:
         order = _distinct(curve)
         ratios, forces = curve.points[order].T
-        falling = np.flatnonzero((forces[1:] < forces[:-1]) & (ratios[1:] > 0.0))[:MOST_TOLD]
+        falling = np.flatnonzero((forces[1:] < forces[:-1]) & (ratios[1:] > 0.0))[:MOST_REPORTED]
         for segment in falling.tolist():
             first, last = ratios[segment : segment + 2].tolist()
             with np.errstate(over="ignore"):
@@ -140,7 +140,7 @@ def negative_ratio(context: LintContext) -> Iterator[Problem]:
     for _, curve in context.odd_curves:
         if _free_above(curve.points):
             continue
-        for index in np.flatnonzero(curve.points[:, 0] < 0.0)[:MOST_TOLD].tolist():
+        for index in np.flatnonzero(curve.points[:, 0] < 0.0)[:MOST_REPORTED].tolist():
             ratio = float(curve.points[index, 0])
             drawn = " (a curve drawn for the invert starts at -0.5)" if ratio == -0.5 else ""
             message = f"ratio {ratio!r} lies above the mudline, and contact begins at 0: remove or correct it{drawn}"

@@ -10,7 +10,7 @@ from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Code, Problem, Repair, Severity, Span, Where
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
-from mudline.scene.context import MOST_TOLD
+from mudline.scene.context import MOST_REPORTED
 
 if TYPE_CHECKING:
     from mudline.keywords.library.element_sets import ElementSets, SetList
@@ -44,7 +44,7 @@ def long_list(context: LintContext) -> Iterator[Problem]:
 
     Finds: 11:73
     """
-    for where, count in islice(_long(context), MOST_TOLD):
+    for where, count in islice(_long(context), MOST_REPORTED):
         message = f"{count} elements on a line: the language allows {LONGEST_LIST}; put the rest on lines of their own"
         repair = _split(context.text, where, count) if context.text else None
         yield Problem(REF012, message, where=where._replace(path=(*where.path, LONGEST_LIST)), repair=repair)

@@ -11,7 +11,7 @@ from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
-from mudline.scene.context import MOST_TOLD
+from mudline.scene.context import MOST_REPORTED
 from mudline.scene.sets import ALL
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ def repeated_set(context: LintContext) -> Iterator[Problem]:
 
     Finds: 14:6
     """
-    yield from islice(_repeated_sets(context), MOST_TOLD)
+    yield from islice(_repeated_sets(context), MOST_REPORTED)
 
 
 def _repeated_sets(context: LintContext) -> Iterator[Problem]:
@@ -97,7 +97,7 @@ def repeated_parameter(context: LintContext) -> Iterator[Problem]:
                 if key in known:
                     repeated.append(name)
                 known.add(key)
-            if repeated and told < MOST_TOLD:
+            if repeated and told < MOST_REPORTED:
                 told += 1
                 others = f" (and {len(repeated) - 1} more of this list)" if len(repeated) > 1 else ""
                 message = (

@@ -11,7 +11,7 @@ from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
 from mudline.linting.rules.seabed.elevation import depths, steepness
-from mudline.scene.context import MOST_TOLD
+from mudline.scene.context import MOST_REPORTED
 from mudline.scene.model import Scene
 from mudline.scene.numbering import LARGEST, Indices, Mask
 
@@ -67,7 +67,7 @@ def one_constrained_dof(context: LintContext) -> Iterator[Problem]:
     told = 0
     for where, dof, nodes in held:
         found = nodes[alone[nodes]]
-        if found.size and told < MOST_TOLD:
+        if found.size and told < MOST_REPORTED:
             told += 1
             which = f"node {scene.node_ids[found[0]]}"
             if found.size > 1:

@@ -46,7 +46,7 @@ def deep_node(context: LintContext) -> Iterator[Problem]:
     Finds: 3:2
     """
     scene = context.scene
-    if not (scene.laws.types or scene.laws.grants) or any(map(holds_in_soil, scene.deck.keywords())):
+    if not (scene.laws.types or scene.laws.set_laws) or any(map(holds_in_soil, scene.deck.keywords())):
         return
     depth = depths(scene)
     thinnest = float(np.fmin.reduce(scene.diameter, initial=np.inf))  # of Python: a product may overflow

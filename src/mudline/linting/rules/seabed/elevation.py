@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from mudline.scene.floor import Floor, FloorKind
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, blocks_of
+from mudline.scene.seabed import SeabedKind, SeabedShape
 
 _VERTICAL = 90.0
 
@@ -17,14 +17,14 @@ def depths(scene: Scene) -> Floats:
     Of a polyline and of a surface it is a lower bound: no point of the bed is nearer. A surface is triangulated between
     its points, so it lies nowhere below the lowest of them. A cubic profile may lie anywhere between its points.
     """
-    floor = scene.floor
+    floor = scene.seabed
     x, y, z = scene.coordinates.T
     if not _is_bed(scene):
         return np.full(len(x), np.nan)
     with np.errstate(over="ignore", invalid="ignore"):
-        if floor.kind is FloorKind.PLANES:
+        if floor.kind is SeabedKind.PLANES:
             return _below_planes(floor, x, y, z)
-        if floor.kind in (FloorKind.FLAT, FloorKind.SLOPING):
+        if floor.kind in (SeabedKind.FLAT, SeabedKind.SLOPING):
             slope = np.radians(floor.slope)
             found = np.empty(len(x))
             for block in blocks_of(len(x)):
@@ -32,15 +32,15 @@ def depths(scene: Scene) -> Floats:
             return found
         if floor.missing or floor.points.size == 0 or floor.interpolation != "LINEAR":
             return np.full(len(x), np.nan)
-        if floor.kind is FloorKind.SURFACE:
+        if floor.kind is SeabedKind.SURFACE:
             return np.asarray(floor.points[:, 0].min() - x)
         return _below_profile(floor, x, _along(floor.direction, y, z))
 
 
 def _is_bed(scene: Scene) -> bool:
     """Whether slopes are below 90 degrees, and the deck describes one bed; other rules tell where not."""
-    floor = scene.floor
-    if floor.kind is FloorKind.PLANES and "SEABED PROFILE" in scene.deck.keywords():
+    floor = scene.seabed
+    if floor.kind is SeabedKind.PLANES and "SEABED PROFILE" in scene.deck.keywords():
         return False
     return all(abs(slope) < _VERTICAL for slope in (floor.slope, *(plane.slope for plane in floor.planes)))
 
@@ -50,11 +50,11 @@ def steepness(scene: Scene) -> Floats:
 
     NaN where they are not known.
     """
-    floor = scene.floor
+    floor = scene.seabed
     _, y, z = scene.coordinates.T
-    if floor.kind in (FloorKind.FLAT, FloorKind.SLOPING):
+    if floor.kind in (SeabedKind.FLAT, SeabedKind.SLOPING):
         return np.full(len(y), abs(np.tan(np.radians(floor.slope))))
-    if floor.kind is not FloorKind.PROFILE or floor.missing or floor.points.size == 0:
+    if floor.kind is not SeabedKind.PROFILE or floor.missing or floor.points.size == 0:
         return np.full(len(y), np.nan)
     points = floor.points[np.argsort(floor.points[:, 0], kind="stable")]
     slopes = np.concatenate([[0.0], _slopes(points), [0.0]])
@@ -78,14 +78,14 @@ def _slopes(points: Floats) -> Floats:
     return slopes
 
 
-def _below_profile(floor: Floor, x: Floats, along: Floats) -> Floats:
+def _below_profile(floor: SeabedShape, x: Floats, along: Floats) -> Floats:
     points = floor.points[np.argsort(floor.points[:, 0], kind="stable")]
     steepest = float(_slopes(points).max(initial=0.0))
     below: Floats = (np.interp(along, points[:, 0], points[:, 1]) - x) / np.hypot(1.0, steepest)
     return below
 
 
-def _below_planes(floor: Floor, x: Floats, y: Floats, z: Floats) -> Floats:
+def _below_planes(floor: SeabedShape, x: Floats, y: Floats, z: Floats) -> Floats:
     """Depth below the highest plane whose bounds hold the node; of two as high the later one counts."""
     highest = np.full(len(x), -np.inf)
     depth = np.full(len(x), np.nan)

@@ -7,8 +7,8 @@ from typing import Any, NamedTuple, cast
 
 from mudline.diagnostics import Where
 from mudline.linting.context import LintContext
+from mudline.scene.deck_values import surfaces
 from mudline.scene.laws import typed_blocks
-from mudline.scene.surfaces import surfaces
 
 _UNKNOWN = float("nan")
 _OF_SET = {
@@ -73,4 +73,6 @@ def absent(context: LintContext, entry: Given, name: str) -> bool:
     place = entry.place(name)
     line = place._replace(path=place.path[:-1])
     resolving = context.scene.context
-    return value == 0.0 or (value is None and not resolving.disturbed(line) and not resolving.disturbed(entry.where))
+    return value == 0.0 or (
+        value is None and not resolving.has_read_errors(line) and not resolving.has_read_errors(entry.where)
+    )

@@ -45,7 +45,7 @@ def short_mobilisation(context: LintContext) -> Iterator[Problem]:
     Finds: 17:21
     """
     scene = context.scene
-    bed = scene.bed
+    bed = scene.resistance
     if not any(length > 0.0 for given in bed.values for length in given.mobilisation):
         return
     lengths, friction = bed.column("mobilisation"), bed.column("friction")

@@ -22,7 +22,7 @@ def friction_replaced(context: LintContext, entry: Given) -> bool:
     names = _names(friction)
     if ALL in names:
         return True
-    bed = context.scene.bed
+    bed = context.scene.resistance
     followers = np.zeros(0, dtype=np.intp)
     if entry.where in bed.places:
         followers = np.flatnonzero(bed.of_element == bed.places.index(entry.where))

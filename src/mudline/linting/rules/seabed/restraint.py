@@ -12,9 +12,9 @@ from mudline.keywords.catalogue import holds_in_soil, is_superseded
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
 from mudline.scene.checks.laws import SBD004
-from mudline.scene.floor import FloorKind
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices, blocks_of
+from mudline.scene.seabed import SeabedKind
 
 SBD006 = Code("SBD006", "no-vertical-restraint", Severity.WARNING)
 
@@ -52,7 +52,7 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
     """
     scene = context.scene
     reading = scene.context
-    if reading.restart or any(map(is_superseded, reading.astray_keywords)) or reading.astray("SEABED PROPERTIES"):
+    if reading.restart or any(map(is_superseded, reading.misplaced_keywords)) or reading.misplaced("SEABED PROPERTIES"):
         return
     if any(map(is_superseded, reading.unread)) or "SEABED CONTACT" in scene.deck.keywords():
         return  # a law that was not read may hold
@@ -67,13 +67,13 @@ def _blocks(scene: Scene, elements: Indices) -> Iterator[Problem]:
     """Blocks without stiffness that hold for elements, unless a later one whose elements are not known may hold."""
     if not elements.size:
         return
-    grants = scene.laws.grants
+    grants = scene.laws.set_laws
     last_open = max((index for index, grant in enumerate(grants) if grant.set_.open), default=-1)
     legacy_open = any(grant.set_.open for grant in grants if grant.family == "legacy")
     found = np.unique(scene.laws.covered[elements], return_index=True, return_counts=True)
     for index, first, count in zip(*(part.tolist() for part in found), strict=True):
         where = grants[index].where
-        hidden = grants[index].unknown or scene.context.lost_behind(where, "SEABED PROPERTIES")
+        hidden = grants[index].unknown or scene.context.has_unread_line_after(where, "SEABED PROPERTIES")
         if legacy_open or last_open > index or hidden:
             continue
         which = _which(scene, elements[first], count, "gets", "get")
@@ -86,9 +86,9 @@ def _lying(scene: Scene, elements: Indices) -> Iterator[Problem]:
     if not elements.size:
         return
     uncertain = scene.laws.uncertain or "SEABED PROPERTIES" in scene.context.unread
-    if uncertain or scene.floor.kind is not FloorKind.FLAT or any(map(holds_in_soil, scene.deck.keywords())):
+    if uncertain or scene.seabed.kind is not SeabedKind.FLAT or any(map(holds_in_soil, scene.deck.keywords())):
         return
-    seabed = bool(scene.laws.types or scene.laws.grants)
+    seabed = bool(scene.laws.types or scene.laws.set_laws)
     lies = np.greater_equal if seabed else np.greater
     parts = (elements[block] for block in blocks_of(len(elements)))
     lying = np.concatenate([part[lies(_depths(scene, part), 0.0)] for part in parts])

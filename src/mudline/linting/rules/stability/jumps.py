@@ -12,7 +12,7 @@ from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
-from mudline.scene.context import MOST_TOLD
+from mudline.scene.context import MOST_REPORTED
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices
@@ -60,7 +60,7 @@ def _inside(entry: SceneCurve, ratios: Floats, slopes: Floats) -> Iterator[Probl
     steep = np.flatnonzero(slopes)
     before, behind = np.abs(slopes[steep[:-1]]), np.abs(slopes[steep[1:]])
     jumps = np.flatnonzero((before / FARTHEST > behind) | (behind / FARTHEST > before))
-    for at in jumps[:MOST_TOLD].tolist():
+    for at in jumps[:MOST_REPORTED].tolist():
         point = int(np.flatnonzero(entry.points[:, 0] == ratios[steep[at + 1]])[0])
         message = (
             f"the slope goes from {before[at]:.6g} to {behind[at]:.6g} here, over {FARTHEST:g} times: correct the "
@@ -71,7 +71,7 @@ def _inside(entry: SceneCurve, ratios: Floats, slopes: Floats) -> Iterator[Probl
 
 def _beside(scene: Scene) -> Iterator[Problem]:
     """Jumps between an element on a curve and its neighbour on a linear bed, one for each pair of laws."""
-    grants = scene.laws.grants
+    grants = scene.laws.set_laws
     told: set[tuple[int, int]] = set()
     slopes = [*map(_extremes, scene.laws.curves), (math.nan, math.nan)]
     if _near(scene, slopes):
@@ -85,7 +85,7 @@ def _beside(scene: Scene) -> Iterator[Problem]:
         far = (stiffness / FARTHEST > steepest) | ((stiffness > 0.0) & (softest / FARTHEST > stiffness))
     for at in np.flatnonzero(far).tolist():
         pair = (int(scene.laws.of_element[linear[at]]), int(scene.laws.of_element[curved[at]]))
-        if pair in told or len(told) >= MOST_TOLD:
+        if pair in told or len(told) >= MOST_REPORTED:
             continue
         told.add(pair)
         message = (
@@ -99,7 +99,7 @@ def _beside(scene: Scene) -> Iterator[Problem]:
 
 def _near(scene: Scene, extremes: Sequence[tuple[float, float]]) -> bool:
     """Whether no linear stiffness is far from the slopes of any curve, on whatever diameter it stands."""
-    linear = [grant.stiffness for grant in scene.laws.grants if grant.stiffness > 0.0]
+    linear = [grant.stiffness for grant in scene.laws.set_laws if grant.stiffness > 0.0]
     slopes = [(softest, steepest) for softest, steepest in extremes if softest > 0.0]
     thickest = float(np.fmax.reduce(scene.diameter, initial=0.0))
     if not linear or not slopes or thickest == 0.0:

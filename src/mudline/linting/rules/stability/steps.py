@@ -20,13 +20,9 @@ from mudline.contact.stiffest import (
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
-from mudline.scene.contact_parts.nodal import nodal_stiffness
-from mudline.scene.contact_parts.smoothing import KEYWORD
-from mudline.scene.contact_parts.unloading import KEYWORD as UNLOADING
-from mudline.scene.contact_parts.unloading import given_stiffness
+from mudline.scene.assignments import given_stiffness, nodal_stiffness
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats
-from mudline.scene.section_weight import mass_per_length
 
 if TYPE_CHECKING:
     from mudline.keywords.library.time import TimeSpan
@@ -84,7 +80,7 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
     blocks = list(scene.deck.blocks("TIME", "LOAD CASE"))
     if not blocks or not len(scene.element_ids):
         return
-    frequencies = omega(_stiffness(scene), mass_per_length(scene))
+    frequencies = omega(_stiffness(scene), scene.mass_per_length)
     if np.isnan(frequencies).all():
         return
     stiffest = int(np.nanargmax(frequencies))
@@ -104,15 +100,15 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
 
 def _stiffness(scene: Scene) -> Floats:
     """The largest stiffness of the contact of each element, per unit length; NaN without one."""
-    grants = scene.laws.grants
+    grants = scene.laws.set_laws
     linear = np.array([*(grant.stiffness for grant in grants), np.nan])[scene.laws.of_element]
     steepest = np.full(len(linear), np.nan)
     for number, entry in enumerate(scene.laws.curves):
         if entry.curve is not None and entry.whole:
             steepest[scene.laws.followers(number)] = steepest_slope(entry.curve.ratios, entry.curve.slopes)
     found = np.where(scene.law == LawKind.CURVE, steepest / scene.diameter, linear)
-    if UNLOADING in scene.extensions:
-        found = np.where(np.isnan(found), np.nan, np.fmax(found, given_stiffness(scene.extensions[UNLOADING])))
+    if "SEABED UNLOADING" in scene.extensions:
+        found = np.where(np.isnan(found), np.nan, np.fmax(found, given_stiffness(scene.extensions["SEABED UNLOADING"])))
     return np.where(scene.nodal, _nodal(scene), found) if scene.nodal.any() else found
 
 
@@ -124,6 +120,6 @@ def _nodal(scene: Scene) -> Floats:
     for end in nodes.T:
         np.add.at(length, end, 0.5 * scene.length)
     with np.errstate(all="ignore"):
-        spread = nodal_stiffness(scene, scene.extensions[KEYWORD]) / length
+        spread = nodal_stiffness(scene, scene.extensions["SEABED CONTACT"]) / length
     found: Floats = np.fmax(*spread[nodes].T)
     return found

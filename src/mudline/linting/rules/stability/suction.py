@@ -11,7 +11,7 @@ from mudline.contact.stiffest import release_stiffness
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
-from mudline.scene.contact_parts.suction import suction_law
+from mudline.scene.assignments import suction_law
 from mudline.scene.numbering import Floats
 
 STB001 = Code("STB001", "suction-snap", Severity.INFO)

@@ -14,7 +14,7 @@ from typing import NamedTuple
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Problem, Span
 from mudline.keywords.reader import ReadBlock, all_keys
-from mudline.scene.context import MOST_TOLD
+from mudline.scene.context import MOST_REPORTED
 from mudline.syntax.fields import first_key
 from mudline.syntax.tree import Kind, Leaf
 
@@ -73,6 +73,6 @@ def line_around(source: str, offset: int) -> Span:
 def first_told(problems: Iterable[Problem]) -> Iterator[Problem]:
     """As many findings as are told one by one; the next says that there are more."""
     found = iter(problems)
-    yield from islice(found, MOST_TOLD)
+    yield from islice(found, MOST_REPORTED)
     for further in islice(found, 1):
-        yield replace(further, message=f"and more of the same: the first {MOST_TOLD} are listed", repair=None)
+        yield replace(further, message=f"and more of the same: the first {MOST_REPORTED} are listed", repair=None)

@@ -26,9 +26,9 @@ from mudline.linting.rules.units.quantities import (
     rounded,
     water_density,
 )
-from mudline.scene.contact_parts.units import LENGTH_UNIT as METRES
-from mudline.scene.context import MOST_TOLD
-from mudline.scene.given import number
+from mudline.scene.context import MOST_REPORTED
+from mudline.scene.deck_values import LENGTH_UNIT as METRES
+from mudline.scene.deck_values import number
 from mudline.scene.model import Scene
 
 UNT004 = Code("UNT004", "suspicious-density", Severity.WARNING)
@@ -74,10 +74,10 @@ def suspicious_density(context: LintContext) -> Iterator[Problem]:
     """
     unit = DENSITY_UNIT.get(context.scene.units)
     if unit is None:
-        yield from islice(_ratios(context), MOST_TOLD)
+        yield from islice(_ratios(context), MOST_REPORTED)
     else:
-        yield from islice(_water(context.scene, unit), MOST_TOLD)
-        yield from islice(_walls(context, unit), MOST_TOLD)
+        yield from islice(_water(context.scene, unit), MOST_REPORTED)
+        yield from islice(_walls(context, unit), MOST_REPORTED)
 
 
 def _water(scene: Scene, unit: str) -> Iterator[Problem]:

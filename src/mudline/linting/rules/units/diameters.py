@@ -18,11 +18,10 @@ from mudline.linting.rules.units.quantities import (
     readable_sections,
     water_density,
 )
-from mudline.scene.checks.sections import format_of
-from mudline.scene.contact_parts.units import DEFAULT_DENSITY
-from mudline.scene.contact_parts.units import LENGTH_UNIT as METRES
-from mudline.scene.given import number
+from mudline.scene.deck_values import DEFAULT_DENSITY, number
+from mudline.scene.deck_values import LENGTH_UNIT as METRES
 from mudline.scene.model import Scene
+from mudline.scene.sections import format_of
 
 WIDEST = 60.0
 """m: no hull that is modelled by beams is wider."""

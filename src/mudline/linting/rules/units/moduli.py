@@ -23,8 +23,8 @@ from mudline.linting.rules.units.quantities import (
     rounded,
     water_density,
 )
-from mudline.scene.context import MOST_TOLD
-from mudline.scene.given import number
+from mudline.scene.context import MOST_REPORTED
+from mudline.scene.deck_values import number
 from mudline.scene.model import Scene
 
 UNT005 = Code("UNT005", "suspicious-modulus", Severity.WARNING)
@@ -64,7 +64,7 @@ def suspicious_modulus(context: LintContext) -> Iterator[Problem]:
 
     Finds: 5:2
     """
-    yield from islice(_suspicious(context), MOST_TOLD)
+    yield from islice(_suspicious(context), MOST_REPORTED)
 
 
 def _suspicious(context: LintContext) -> Iterator[Problem]:

@@ -10,9 +10,8 @@ from mudline.codes.fields import SYN015
 from mudline.diagnostics import Problem, Where
 from mudline.linting.context import LintContext
 from mudline.linting.rules.sections import section_entries
-from mudline.scene.checks.sections import format_of
-from mudline.scene.contact_parts.units import FOOT, POUND
-from mudline.scene.given import number
+from mudline.scene.deck_values import FOOT, POUND, number
+from mudline.scene.sections import format_of
 
 if TYPE_CHECKING:
     from mudline.keywords.library.geometric_sets import GeometricSet
