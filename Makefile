@@ -8,14 +8,15 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 INSTALLATION := pyproject.toml src/mudline/__init__.py
 OUT := demo-output
 BENCHMARKS := $(sort $(wildcard tests/benchmarks/*.py))
+CORE := $(addprefix tests/,syntax expression keywords curves contact scene comparison migration formatting)
 # More arguments for pytest: make test ARGS="-k curves --no-cov"
 ARGS ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help install demo test lint format typecheck docs pictures studies bench build clean
+.PHONY: help install demo test test-fast lint format typecheck docs pictures studies bench build clean
 
 help: ## this list
-	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-10s %s\n", $$1, $$2 }' Makefile
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-10s %s\n", $$1, $$2 }' Makefile
 
 install: $(VENV)/.developer ## the project with every extra and the developer's tools, in .venv
 
@@ -54,6 +55,9 @@ demo: $(VENV)/.user ## a look at what mudline does, on samples/
 
 test: $(VENV)/.developer ## the whole test suite, with coverage
 	$(BIN)/python -m pytest --numprocesses auto --dist loadfile --cov --cov-report=term-missing:skip-covered $(ARGS)
+
+test-fast: $(VENV)/.developer ## the unit tests of the core, in about a minute
+	$(BIN)/python -m pytest --numprocesses auto -m "not slow" $(CORE) $(ARGS)
 
 lint: $(VENV)/.developer ## style, layout of the code, and the order of the layers
 	$(BIN)/ruff check .

@@ -118,6 +118,14 @@ def test_named_files_are_there(path: Path) -> None:
     assert missing == []
 
 
+def test_the_newcomers_map_names_files_that_are_there() -> None:
+    text = (ROOT / "docs/architecture.md").read_text(encoding="utf-8")
+    names = set(re.findall(r"`([a-z_/]+/[a-z_]*(?:\.py|/)|[a-z_]+\.py)`", text))
+    assert len(names) > 30
+    folders = (ROOT, ROOT / "src/mudline")
+    assert [name for name in sorted(names) if not any((folder / name).exists() for folder in folders)] == []
+
+
 def test_made_pages_are_fresh() -> None:
     wanted = pages()
     stale = [path for path, text in wanted.items() if not (ROOT / path).exists() or (ROOT / path).read_text() != text]

@@ -10,7 +10,7 @@ from importlinter.cli import lint_imports
 ROOT = Path(__file__).parents[1]
 
 
-def test_every_room_knows_only_the_rooms_behind_it(capsys: pytest.CaptureFixture[str]) -> None:
+def test_packages_import_only_lower_layers_and_never_in_a_circle(capsys: pytest.CaptureFixture[str]) -> None:
     exit_code = lint_imports(config_filename=str(ROOT / "pyproject.toml"), no_cache=True, no_logo=True)
     report = capsys.readouterr().out
     assert exit_code == 0, report

@@ -13,6 +13,7 @@ from tests.docs.form_table import pages_with_tables
 from tests.docs.keyword_index import keyword_index
 from tests.docs.keyword_page import keyword_pages
 from tests.docs.law_page import law_page
+from tests.docs.layer_picture import layer_picture
 from tests.docs.refresh import copy_of_files, refreshed
 from tests.docs.rule_pages import rule_index, rule_page
 
@@ -26,7 +27,8 @@ def pages() -> dict[str, str]:
     """The text of every page by its path in the repository."""
     indexes = {"docs/keywords.md": keyword_index(), "docs/rules/README.md": rule_index(rules())}
     of_rules = {f"docs/rules/{rule.code.code}.md": rule_page(rule) for rule in rules()}
-    return indexes | keyword_pages() | of_rules | {"docs/laws.md": law_page()} | pages_with_tables()
+    single = {"docs/laws.md": law_page(), "docs/images/layers.svg": layer_picture()}
+    return indexes | keyword_pages() | of_rules | single | pages_with_tables()
 
 
 def made_files() -> set[str]:
