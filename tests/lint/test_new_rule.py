@@ -77,11 +77,10 @@ each_kind = pytest.mark.parametrize(
     [
         ("mudline.linting.rules", "new_subject.py", ADVICE),
         ("mudline.linting.rules", "new_family/new_subject.py", ADVICE),
-        ("mudline.linting.rules.curves", "new_subject.py", ADVICE),
         ("mudline.scene.checks", "new_subject.py", CHECK),
         ("mudline.codes", "new_subject.py", DECLARED),
     ],
-    ids=["rule", "package", "rule in a package", "check", "code"],
+    ids=["rule", "package", "check", "code"],
 )
 
 

@@ -14,7 +14,7 @@ from mudline.diagnostics import Problem
 from mudline.linting.context import LintContext
 from mudline.linting.engine import lint_bytes
 from mudline.linting.fixing import Fixed, fix_bytes
-from mudline.linting.rules.style.lines import first_told
+from mudline.linting.rules.style_lines import first_told
 from mudline.linting.selection import select
 from mudline.linting.settings import Fixing, LintSettings
 from mudline.scene.context import MOST_TOLD

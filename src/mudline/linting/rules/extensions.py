@@ -7,7 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from mudline.contact.input import LawKind
-from mudline.diagnostics import Code, Problem, Severity
+from mudline.diagnostics import Code, Problem, Severity, Where
+from mudline.keywords.catalogue import is_extension
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
 from mudline.scene.given import number
@@ -15,6 +16,7 @@ from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats
 
 EXT008 = Code("EXT008", "soft-unloading", Severity.WARNING)
+SBD018 = Code("SBD018", "extension-keyword", Severity.ERROR)
 _KEYWORD = "SEABED UNLOADING"
 
 
@@ -78,3 +80,33 @@ def _curve_slope(scene: Scene, index: int) -> float:
         return float("nan")
     ratios = scene.laws.curves[index].points[:, 0]
     return float(curve.evaluate(np.append(ratios[ratios > 0.0], 0.0))[1].max())
+
+
+@rule(SBD018)
+def extension_keyword(context: LintContext) -> Iterator[Problem]:
+    """An extension keyword stands in a deck for Flexcom.
+
+    The keyword belongs to mudline alone: Flexcom does not know it and will not run the deck. It is found only where
+    the deck is checked for that dialect. Remove it, or keep a copy of the deck for Flexcom.
+
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+        -*SEABED SUCTION
+        - SET=ALL
+        - COHESION=5000.0
+        + SUCTION=8000.0, 0.15
+
+    Finds: 6:1
+    Dialect: flexcom
+    """
+    if context.dialect != "flexcom":
+        return
+    for i, section in enumerate(context.deck.sections):
+        for j, block in enumerate(section.blocks):
+            if is_extension(block.keyword):
+                message = f"*{block.keyword} is an extension that Flexcom does not know: remove it for that program"
+                yield Problem(SBD018, message, where=Where(i, j))

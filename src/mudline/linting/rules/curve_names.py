@@ -1,18 +1,24 @@
-"""Curves and the places that name them."""
+"""Names of force-embedment curves, and the places that use them."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from bisect import bisect_right
+from collections.abc import Iterable, Iterator
+from itertools import groupby
 from typing import TYPE_CHECKING, cast
 
 from mudline.contact.input import LawKind
 from mudline.deck.parameters import folded
-from mudline.diagnostics import Code, Problem, Severity
+from mudline.deck.reading import TextOrigin
+from mudline.diagnostics import Code, Problem, Repair, Severity, Span, Where
+from mudline.keywords.reader import all_keys
 from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
-from mudline.linting.rules.references.removal import removals
+from mudline.linting.suppression import MARK
+from mudline.syntax.fields import first_key
 from mudline.syntax.rows import read_number
+from mudline.syntax.tree import Kind, Leaf
 
 if TYPE_CHECKING:
     from mudline.deck.model import Deck
@@ -22,6 +28,7 @@ if TYPE_CHECKING:
 
 REF003 = Code("REF003", "unused-curve", Severity.WARNING)
 REF004 = Code("REF004", "duplicate-curve", Severity.WARNING)
+SBD017 = Code("SBD017", "curve-named-as-number", Severity.WARNING)
 
 
 @rule(REF003)
@@ -130,3 +137,83 @@ def duplicate_curve(context: LintContext) -> Iterator[Problem]:
             message = f"{what}: the later one is taken (inferred); keep one of them"
             yield Problem(REF004, message, where=curve.title)
         known.add(key)
+
+
+def removals(text: TextOrigin, unused: Iterable[Where]) -> dict[Where, Repair]:
+    """For each curve of `*SEABED STIFFNESS` that is not used, its lines less; comments stay.
+
+    The first curve of a block takes the whole block with it where none of its curves is used, unless a comment hides
+    findings there: then it goes alone, as the others do.
+    """
+    found: dict[Where, Repair] = {}
+    for block, places in groupby(sorted(unused), lambda where: where._replace(path=())):
+        if (block.section, block.block) in text.read:  # not of a deck that this one continues
+            found |= _of_block(text, block, list(places))
+    return found
+
+
+def _of_block(text: TextOrigin, block: Where, unused: list[Where]) -> dict[Where, Repair]:
+    read = text.read[block.section, block.block]
+    raw = text.tree.sections[block.section].blocks[block.block]
+    source = text.source.unified
+    length = len(unused[0].path)
+    starts = {path: span.start for path, span in read.places.spans.items() if len(path) == length}
+    lines = _by_curve(raw.leaves, source, all_keys(type(read.model)), sorted(starts.values()))
+    found = {
+        where: Repair("unsafe", "remove the curve", tuple((span, "") for span in lines[starts[where.path]]))
+        for where in unused
+    }
+    if len(unused) == len(starts) and (len(starts) == 1 or not any(_hides(leaf, source) for leaf in raw.leaves)):
+        spans = [raw.head.span, *(span for start in sorted(lines) for span in lines[start])]
+        message = "remove the curve" if len(starts) == 1 else "remove the curves of this block"
+        found[unused[0]] = Repair("unsafe", message, tuple((span, "") for span in spans))
+    return found
+
+
+def _by_curve(leaves: list[Leaf], source: str, keys: frozenset[str], starts: list[int]) -> dict[int, list[Span]]:
+    """The lines of each curve without comments and blank lines; a curve is known by where it starts."""
+    lines: dict[int, list[Span]] = {start: [] for start in starts}
+    for leaf in leaves:
+        at = bisect_right(starts, leaf.span.end - 1) - 1
+        if at >= 0 and _counts(leaf, source, keys):
+            lines[starts[at]].append(leaf.span)
+    return lines
+
+
+def _hides(leaf: Leaf, source: str) -> bool:
+    return leaf.kind is Kind.COMMENT and MARK.match(source, *leaf.span) is not None
+
+
+def _counts(leaf: Leaf, source: str, keys: frozenset[str]) -> bool:
+    """Whether a line is part of the curve and not a comment."""
+    if leaf.kind is Kind.UNDECIDED:
+        return first_key(source, leaf.span) in keys
+    return leaf.kind not in (Kind.COMMENT, Kind.BLANK)
+
+
+@rule(SBD017)
+def curve_named_as_number(context: LintContext) -> Iterator[Problem]:
+    """The name of a curve reads as a number.
+
+    STIFFNESS= takes a number or the name of a curve, and a number comes first: the elements get a linear stiffness of
+    that value, and the curve is never used. Give the curve a name that begins with a letter.
+
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+        - CURVE=100
+        + CURVE=Clay 100
+          0.0, 0.0
+          0.5, 4200.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+        - STIFFNESS=100
+        + STIFFNESS=Clay 100
+
+    Finds: 3:8
+    """
+    for curve in context.scene.laws.curves:
+        if not curve.embedment and curve.named and read_number(curve.name) is not None:
+            message = "the name of this curve reads as a number, and STIFFNESS= takes the number: choose another name"
+            yield Problem(SBD017, message, where=curve.title)

@@ -16,7 +16,7 @@ from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
-from mudline.linting.rules.curves.columns import swapped
+from mudline.linting.rules.curve_shape import swapped
 from mudline.scene.context import MOST_TOLD
 from mudline.scene.model import Scene
 from mudline.scene.surfaces import surfaces

@@ -3,22 +3,38 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any, NamedTuple, cast
 
-from mudline.diagnostics import Code, Problem, Severity
+import numpy as np
+
+from mudline.deck.parameters import folded
+from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.linting.context import LintContext
 from mudline.linting.registry import rule
-from mudline.linting.rules.seabed.given import absent, given, positive
-from mudline.linting.rules.seabed.replaced import friction_replaced
+from mudline.scene.extensions import Extension
+from mudline.scene.laws import typed_blocks
+from mudline.scene.sets import ALL
+from mudline.scene.surfaces import surfaces
 
 SBD007 = Code("SBD007", "lateral-and-friction", Severity.WARNING)
 SBD013 = Code("SBD013", "legacy-friction-order", Severity.WARNING)
 SBD014 = Code("SBD014", "unused-friction-stiffness", Severity.INFO)
 SBD015 = Code("SBD015", "extent-without-stiffness", Severity.WARNING)
+SBD019 = Code("SBD019", "short-mobilisation", Severity.WARNING)
 SBD020 = Code("SBD020", "unused-characteristic-length", Severity.INFO)
 SBD024 = Code("SBD024", "one-friction-coefficient", Severity.WARNING)
 
 _DIRECTIONS = ("longitudinal", "transverse")
 _CHARACTERISTIC = (3.048, 10.0)
+
+_SHORTEST = 1e-4
+
+_UNKNOWN = float("nan")
+_OF_SET = {
+    "lateral": ("lateral",),
+    "suction_stiffness": ("suction", "stiffness"),
+    "suction_extent": ("suction", "extent"),
+}
 
 
 @rule(SBD007)
@@ -210,3 +226,133 @@ def one_friction_coefficient(context: LintContext) -> Iterator[Problem]:
                 "give both, the second one as 0 if that is meant"
             )
             yield Problem(SBD024, message, where=entry.place("longitudinal"))
+
+
+@rule(SBD019)
+def short_mobilisation(context: LintContext) -> Iterator[Problem]:
+    """A mobilisation length is under a ten-thousandth of the diameter.
+
+    Friction then builds up almost at once: its spring is so stiff that the solution jumps between stick and slip and
+    hardly converges. Soil mobilises friction over some thousandths of a diameter at least. Give a longer one.
+
+    Example:
+         $MODEL
+         *NODE
+          1, -0.05, 0.0
+          5, -0.05, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *GEOMETRIC SETS
+          OPTION=RIGID
+          SET=ALL
+          207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+        - FRICTION=0.3, 0.6, 0.00001, 0.05
+        + FRICTION=0.3, 0.6, 0.03, 0.05
+
+    Finds: 17:21
+    """
+    scene = context.scene
+    bed = scene.bed
+    if not any(length > 0.0 for given in bed.values for length in given.mobilisation):
+        return
+    lengths, friction = bed.column("mobilisation"), bed.column("friction")
+    friction[bed.column("lateral") > 0.0, 1] = 0.0  # a lateral spring takes its place
+    if replacing := scene.extensions.get("SEABED FRICTION"):
+        friction[replacing.of_element >= 0] = 0.0
+    for side, name in enumerate(("longitudinal_mobilisation", "transverse_mobilisation")):
+        length = lengths[:, side]
+        short = (length > 0.0) & (friction[:, side] > 0.0) & (length < _SHORTEST * scene.diameter)
+        for index in np.unique(bed.of_element[short]).tolist():
+            where = bed.places[index]
+            path = (name,) if where.path[0] == "properties" else ("friction", name)
+            value = bed.values[index].mobilisation[side]
+            message = f"mobilisation length {value!r} is under 1e-4 diameters of the pipe: give a longer one"
+            yield Problem(SBD019, message, where=where._replace(path=(*where.path, *path)))
+
+
+class Given(NamedTuple):
+    """A set of *SEABED PROPERTIES, or the first line of a legacy surface; `type_` is None where it is not known."""
+
+    part: Any
+    where: Where
+    type_: str | None
+    legacy: bool
+
+    def place(self, name: str) -> Where:
+        """Where a value stands; names are those of the fields of *ELASTIC SURFACE."""
+        return self.where._replace(path=(*self.where.path, *self._path(name)))
+
+    def value(self, name: str) -> float | None:
+        """A value: None where the deck gives none, NaN where it could not be read."""
+        found = self.part
+        for step in self._path(name):
+            found = getattr(found, step, None)
+        if found is None:
+            return None
+        return float(cast("float", found)) if isinstance(found, float | int) else _UNKNOWN
+
+    def _path(self, name: str) -> tuple[str, ...]:
+        return (name,) if self.legacy else _OF_SET.get(name, ("friction", name))
+
+
+def given(context: LintContext) -> list[Given]:
+    """All of them: legacy surfaces first, then the sets of *SEABED PROPERTIES in the order of the file."""
+    return context.once(_found)
+
+
+def _found(context: LintContext) -> list[Given]:
+    return list(_each(context))
+
+
+def _each(context: LintContext) -> Iterator[Given]:
+    deck = context.scene.deck
+    for where, surface in surfaces(deck):
+        place = where._replace(path=("properties",))
+        yield Given(getattr(surface, "properties", None), place, surface.facts.seabed_type, legacy=True)
+    for where, properties, type_ in typed_blocks(context.scene.context):
+        for index, entry in enumerate(properties.sets):
+            yield Given(entry, where._replace(path=("sets", index)), type_, legacy=False)
+
+
+def positive(value: float | None) -> bool:
+    """Whether a value is given, could be read and is above zero."""
+    return value is not None and value > 0.0
+
+
+def absent(context: LintContext, entry: Given, name: str) -> bool:
+    """Whether the deck gives no value, or zero; of a line that could not be read whole nothing is said."""
+    value = entry.value(name)
+    place = entry.place(name)
+    line = place._replace(path=place.path[:-1])
+    resolving = context.scene.context
+    return value == 0.0 or (value is None and not resolving.disturbed(line) and not resolving.disturbed(entry.where))
+
+
+def friction_replaced(context: LintContext, entry: Given) -> bool:
+    """Whether every element that follows this place has its friction from `*SEABED FRICTION` instead.
+
+    Of sets whose elements the deck does not show only the names are compared.
+    """
+    friction = context.scene.extensions.get("SEABED FRICTION")
+    if friction is None:
+        return False
+    names = _names(friction)
+    if ALL in names:
+        return True
+    bed = context.scene.bed
+    followers = np.zeros(0, dtype=np.intp)
+    if entry.where in bed.places:
+        followers = np.flatnonzero(bed.of_element == bed.places.index(entry.where))
+    if followers.size:
+        return bool((friction.of_element[followers] >= 0).all())
+    return not entry.legacy and folded(str(entry.part.set_name)) in names
+
+
+def _names(friction: Extension) -> set[str]:
+    return {folded(held.name) for held in friction.sets if held is not None}
