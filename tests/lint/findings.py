@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from mudline.linting.engine import lint_bytes
-from mudline.linting.registry import rules
-from mudline.linting.selection import select
+from mudline.linting.registry import rules, select
 
 PIPE = """\
 $MODEL

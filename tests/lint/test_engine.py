@@ -16,8 +16,7 @@ from mudline.deck.yaml_form import to_yaml
 from mudline.diagnostics import Diagnostic, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.engine import lint_bytes, lint_context, lint_deck
-from mudline.linting.registry import rules
-from mudline.linting.selection import select
+from mudline.linting.registry import rules, select
 
 # A line and, behind the bar, the codes that are found in it.
 FAULTY = """\

@@ -15,12 +15,11 @@ from mudline.deck.json_form import to_json
 from mudline.deck.loading import load_bytes
 from mudline.deck.yaml_form import to_yaml
 from mudline.diagnostics import Code, Problem, Severity
-from mudline.linting import registry
 from mudline.linting.context import LintContext
-from mudline.linting.engine import lint_bytes
-from mudline.linting.fix_state import FixState, Reader
-from mudline.linting.registry import Rule, rule, rules
-from mudline.linting.settings import LintSettings
+from mudline.linting.engine import LintSettings, lint_bytes
+from mudline.linting.fixing import FixState, Reader
+from mudline.linting.registry import rules
+from mudline.linting.rule import Rule, described_by, rule
 
 ROW = re.compile(r"\| \[([A-Z]+[0-9]+)\]\(\1\.md\) \| `([a-z0-9-]+)` \| (\w+)(, off)? \| (\w*) \| .+ \|")
 PAGE = Path(__file__).parents[2] / "docs" / "rules" / "README.md"
@@ -176,7 +175,7 @@ def described(lines: str, more: str = "") -> Rule:
     def check(context: LintContext) -> Iterator[Problem]:
         yield from context.told(SYN001)
 
-    return registry._described(Code("ABC001", "nothing", Severity.INFO), check, EXAMPLE.format(lines=lines) + more)
+    return described_by(Code("ABC001", "nothing", Severity.INFO), check, EXAMPLE.format(lines=lines) + more)
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ import pytest
 from mudline.deck.json_form import to_json
 from mudline.deck.loading import load_bytes
 from mudline.linting.engine import lint_bytes
-from mudline.linting.selection import select
+from mudline.linting.registry import select
 from tests.lint.findings import CLAY, CURVES, PIPE, PROPERTIES, RESTART, curve, found, messages
 
 ON_CLAY = "*SEABED STIFFNESS\n" + CLAY + PROPERTIES + " STIFFNESS=Clay\n"

@@ -32,7 +32,7 @@ PAGE = """
 HEAD = '''"""A new module."""
 
 from mudline.diagnostics import Code, Problem, Severity, Where
-from mudline.linting.registry import rule
+from mudline.linting.rule import rule
 from mudline.scene.checks.declaring import check
 
 NEW001 = Code("NEW001", "deck-with-model", Severity.WARNING)

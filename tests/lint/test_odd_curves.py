@@ -7,8 +7,7 @@ from hypothesis import strategies as st
 
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import Problem
-from mudline.linting.context import LintContext
-from mudline.linting.odd_curves import MOST_POINTS, odd_curves
+from mudline.linting.context import MOST_POINTS, LintContext, odd_curves
 from mudline.linting.registry import rules
 
 HEAD = "$MODEL\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=Clay\n*SEABED STIFFNESS\n CURVE=Clay\n"

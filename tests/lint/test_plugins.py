@@ -15,7 +15,8 @@ import mudline
 from mudline.diagnostics import Code, Problem, Severity, Span, Where
 from mudline.linting.engine import lint_bytes
 from mudline.linting.plugins import Guarded, PluginError, load, origin
-from mudline.linting.registry import Rule, rules
+from mudline.linting.registry import rules
+from mudline.linting.rule import Rule
 from mudline.plugins import LintContext
 from tests.processes import TIMEOUT
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from mudline.linting.engine import lint_bytes
-from mudline.linting.selection import select
+from mudline.linting.registry import select
 from tests.lint.findings import PIPE, PROPERTIES, RESTART, found, messages
 
 LAW = PROPERTIES + " STIFFNESS=60000.0\n"

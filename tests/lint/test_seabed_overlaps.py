@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from mudline.linting.engine import lint_bytes
-from mudline.linting.selection import select
+from mudline.linting.registry import select
 from tests.lint.findings import PIPE, PROPERTIES, RESTART, found, messages
 
 SETS = "*ELEMENT SETS\n SET=A\n GEN=1, 4\n SET=B\n GEN=3, 6\n SET=C\n GEN=3, 4\n SET=D\n GEN=1, 4\n"

@@ -7,10 +7,10 @@ from collections.abc import Iterator
 import pytest
 
 from mudline.diagnostics import Code, Problem, Severity
-from mudline.linting import registry, selection
+from mudline.linting import registry
 from mudline.linting.context import LintContext
-from mudline.linting.registry import Rule, rules
-from mudline.linting.selection import UnknownRule, select
+from mudline.linting.registry import UnknownRule, rules, select
+from mudline.linting.rule import Rule, rule
 
 
 def _codes(chosen: tuple[Rule, ...]) -> list[str]:
@@ -90,11 +90,11 @@ def quiet_rule(monkeypatch: pytest.MonkeyPatch) -> str:
 
     code = Code("QQQ001", "quiet-rule", Severity.INFO)
     known = rules()
-    monkeypatch.setattr(registry, "_RULES", {})
-    registry.rule(code, off=True)(check)
-    extended = (*known, *registry._RULES.values())
-    for module in (registry, selection):
-        monkeypatch.setattr(module, "rules", lambda: extended)
+    added: dict[str, Rule] = {}
+    monkeypatch.setattr("mudline.linting.rule.RULES", added)
+    rule(code, off=True)(check)
+    extended = (*known, *added.values())
+    monkeypatch.setattr(registry, "rules", lambda: extended)
     return code.code
 
 

@@ -12,11 +12,10 @@ from mudline.deck.json_form import to_json
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import Problem
 from mudline.linting.context import LintContext
-from mudline.linting.engine import lint_bytes
+from mudline.linting.engine import Fixing, LintSettings, lint_bytes
 from mudline.linting.fixing import Fixed, fix_bytes
+from mudline.linting.registry import select
 from mudline.linting.rules.style_lines import first_told
-from mudline.linting.selection import select
-from mudline.linting.settings import Fixing, LintSettings
 from mudline.scene.context import MOST_TOLD
 from tests.growth import FOURFOLD, TWOFOLD, call_growth, growth
 from tests.lint.findings import CLAY, CURVES, found, messages

@@ -12,7 +12,7 @@ from mudline.contact.laws.suction import SuctionLaw
 from mudline.contact.stiffest import CRITICAL_OMEGA_DT
 from mudline.deck.loading import load_bytes
 from mudline.linting.engine import lint_bytes
-from mudline.linting.selection import select
+from mudline.linting.registry import select
 from mudline.scene.build import resolve
 from mudline.scene.model import Scene
 from mudline.study.sample import TEXT, sample_scene

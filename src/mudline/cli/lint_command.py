@@ -21,8 +21,8 @@ from mudline.cli.writing import write_text
 from mudline.diagnostics import Severity
 from mudline.linting.baseline import Baseline, BaselineError, read_baseline
 from mudline.linting.configuration import Configuration
+from mudline.linting.engine import Fixing
 from mudline.linting.output.formats import FORMS
-from mudline.linting.settings import Fixing
 
 _CODES = "CODE[,CODE...]"
 

@@ -17,9 +17,9 @@ from mudline.deck.loading import form_of
 from mudline.diagnostics import Diagnostic
 from mudline.files import write_atomically
 from mudline.linting.baseline import Baseline
+from mudline.linting.engine import Fixing, LintSettings
 from mudline.linting.lint_file import FileReport, lint_one
 from mudline.linting.output.visible import visible
-from mudline.linting.settings import Fixing, LintSettings
 from mudline.syntax.source import Source
 
 SettingsOf = Callable[[Input], LintSettings]

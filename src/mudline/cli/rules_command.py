@@ -13,8 +13,8 @@ from mudline.cli.lazy import printing
 from mudline.cli.options import View
 from mudline.cli.streams import emit
 from mudline.linting.plugins import origin
-from mudline.linting.registry import Rule, rules
-from mudline.linting.selection import UnknownRule, select
+from mudline.linting.registry import UnknownRule, rules, select
+from mudline.linting.rule import Rule
 
 
 @click.command("rules")

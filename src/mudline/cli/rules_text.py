@@ -12,7 +12,7 @@ from mudline.cli.tables import print_table
 from mudline.linting.output.text import STYLES
 from mudline.linting.output.visible import visible_lines
 from mudline.linting.plugins import origin
-from mudline.linting.registry import Rule
+from mudline.linting.rule import Rule
 
 _PAGE = 100
 _COLUMNS = ("code", "severity", "name", "finds")

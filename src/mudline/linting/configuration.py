@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from mudline.linting.selection import UnknownRule, select
+from mudline.linting.registry import UnknownRule, select
 from mudline.spelling import nearest
 
 Values = dict[str, Any]

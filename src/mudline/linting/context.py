@@ -1,24 +1,30 @@
-"""What a rule sees."""
+"""What a rule sees: a deck, its scene, and the curves that a rule may have something to say about."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from itertools import chain, islice
+from itertools import chain, islice, pairwise
 from typing import TypeVar, cast
 
 from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Blocks, Code, Problem
-from mudline.linting.odd_curves import odd_curves
 from mudline.scene.build import resolve
 from mudline.scene.context import MOST_TOLD
 from mudline.scene.force_curves import SceneCurve
+from mudline.scene.laws import LawTable
 from mudline.scene.model import Scene
 from mudline.variations.names import misspelt_keywords, misspelt_sections, undefined_parameters, undefined_variations
 
 T = TypeVar("T")
+
+MOST_POINTS = 64
+"""Points of a curve that are looked at one by one; longer curves are left to the rules."""
+
+LARGEST_RATIO = 5.0
+STEEPEST = 100.0
 
 
 @dataclass
@@ -70,3 +76,25 @@ def _of_variations(deck: Deck) -> Iterator[Problem]:
     for find in (undefined_parameters, undefined_variations, misspelt_keywords, misspelt_sections):
         for problem in islice(find(deck), MOST_TOLD):
             yield replace(problem, blocks=Blocks.NEVER)
+
+
+def odd_curves(laws: LawTable) -> list[tuple[int, SceneCurve]]:
+    """The curves that are not as they should be, with their index in the table of laws.
+
+    As they should be are curves whose points were all read, begin at (0, 0) and rise in order, with slopes that differ
+    by a factor of 100 at most, to a ratio of 5 at most.
+    """
+    return [(number, entry) for number, entry in enumerate(laws.curves) if not _ordinary(entry)]
+
+
+def _ordinary(entry: SceneCurve) -> bool:
+    if not entry.usable or len(entry.points) > MOST_POINTS:
+        return False
+    points = entry.points.tolist()
+    if points[0] != [0.0, 0.0] or points[-1][0] > LARGEST_RATIO:
+        return False
+    steps = [(after[0] - before[0], after[1] - before[1]) for before, after in pairwise(points)]
+    if any(width <= 0.0 or rise <= 0.0 for width, rise in steps):
+        return False
+    slopes = [rise / width for width, rise in steps]
+    return bool(max(slopes) <= STEEPEST * min(slopes))

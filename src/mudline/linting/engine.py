@@ -1,22 +1,52 @@
-"""Running rules over decks."""
+"""Running rules over decks, under the settings of a run."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from enum import StrEnum
 from pathlib import Path
 
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import Deck
-from mudline.diagnostics import Blocks, DeckError, Diagnostic, Problem
+from mudline.diagnostics import Blocks, DeckError, Diagnostic, Problem, Severity
 from mudline.keywords.memory import BlockMemory
 from mudline.linting.context import LintContext
-from mudline.linting.registry import Rule
+from mudline.linting.rule import Rule
 from mudline.linting.suppression import suppressions
 from mudline.scene.continued import of_base
 
 _MEMORY = BlockMemory()
 """Rules look at decks and do not change them."""
+
+
+class Fixing(StrEnum):
+    """Which fixes are made: none, those that keep what the deck means, or also those that guess."""
+
+    NONE = "none"
+    SAFE = "safe"
+    UNSAFE = "unsafe"
+
+    def takes(self, applicability: str) -> bool:
+        """Whether fixes of an applicability ("safe" or "unsafe") are made."""
+        return self is Fixing.UNSAFE or (self is Fixing.SAFE and applicability == "safe")
+
+
+@dataclass(frozen=True, slots=True)
+class LintSettings:
+    """Which rules run, how bad their findings are, and what is done about them; it can be pickled.
+
+    `units` None means those that the file tells. `severities` holds by code instead of the rule's own. Findings of
+    `fail_on` or worse fail a run. Fixes of the codes in `unfixable` are never made.
+    """
+
+    rules: tuple[Rule, ...]
+    units: str | None = None
+    dialect: str = "mudline"
+    severities: Mapping[str, Severity] = field(default_factory=dict)
+    fail_on: Severity = Severity.WARNING
+    fixing: Fixing = Fixing.NONE
+    unfixable: frozenset[str] = frozenset()
 
 
 def lint_deck(deck: Deck, chosen: Sequence[Rule]) -> list[Diagnostic]:

@@ -7,9 +7,8 @@ from pathlib import Path
 
 from mudline.deck.loading import form_of
 from mudline.diagnostics import Diagnostic
-from mudline.linting.engine import lint_bytes
+from mudline.linting.engine import Fixing, LintSettings, lint_bytes
 from mudline.linting.fixing import Fixed, fix_bytes
-from mudline.linting.settings import Fixing, LintSettings
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,7 +18,8 @@ from mudline.deck.model import Deck, Opaque
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import Code, DeckError, Problem, Repair, Severity, Span, Where
 from mudline.keywords.model import Part, layout
-from mudline.linting.registry import Rule, find, rules
+from mudline.linting.registry import find, rules
+from mudline.linting.rule import Rule
 from mudline.spelling import nearest
 from mudline.syntax.source import Source
 from mudline.syntax.tree import Kind, Leaf

@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from mudline.diagnostics import Diagnostic, Severity
-from mudline.linting.registry import Rule, rules
+from mudline.linting.registry import rules
+from mudline.linting.rule import Rule
 
 _NO_RULE = "This is no rule and cannot be left out; the message says why the file could not be used or checked."
 

@@ -10,7 +10,7 @@ from mudline.curves import ForceCurve, QueryError
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
-from mudline.linting.registry import rule
+from mudline.linting.rule import rule
 from mudline.scene.floor import FloorKind
 from mudline.scene.force_curves import SceneCurve
 

@@ -10,7 +10,7 @@ from mudline.contact.input import LawKind
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.catalogue import is_extension
 from mudline.linting.context import LintContext
-from mudline.linting.registry import rule
+from mudline.linting.rule import rule
 from mudline.scene.given import number
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats

@@ -15,7 +15,7 @@ from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.catalogue import holds_in_soil
 from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
-from mudline.linting.registry import rule
+from mudline.linting.rule import rule
 from mudline.linting.rules.seabed_position import depths
 from mudline.scene.checks.sections import format_of
 from mudline.scene.context import MOST_TOLD

@@ -11,7 +11,7 @@ from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Code, Problem, Repair, Severity, Span, Where
 from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
-from mudline.linting.registry import rule
+from mudline.linting.rule import rule
 from mudline.scene.context import MOST_TOLD
 from mudline.scene.sets import ALL
 

@@ -14,7 +14,7 @@ from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.model import Record
 from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
-from mudline.linting.registry import rule
+from mudline.linting.rule import rule
 from mudline.scene.context import MOST_TOLD
 from mudline.scene.laws import Grant
 from mudline.scene.model import Scene

@@ -11,7 +11,7 @@ from mudline.contact.input import LawKind
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.catalogue import holds_in_soil, is_superseded
 from mudline.linting.context import LintContext
-from mudline.linting.registry import rule
+from mudline.linting.rule import rule
 from mudline.scene.checks.laws import SBD004
 from mudline.scene.context import MOST_TOLD
 from mudline.scene.floor import Floor, FloorKind

@@ -22,7 +22,7 @@ from mudline.contact.stiffest import (
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
-from mudline.linting.registry import rule
+from mudline.linting.rule import rule
 from mudline.scene.contact_parts.nodal import nodal_stiffness
 from mudline.scene.contact_parts.smoothing import KEYWORD
 from mudline.scene.contact_parts.suction import suction_law

@@ -13,7 +13,7 @@ from mudline.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.keywords import catalogue
 from mudline.keywords.reader import ReadBlock, all_keys
 from mudline.linting.context import LintContext
-from mudline.linting.registry import rule
+from mudline.linting.rule import rule
 from mudline.linting.suppression import STY010, suppressions
 from mudline.scene.context import MOST_TOLD
 from mudline.syntax.fields import first_key, trimmed

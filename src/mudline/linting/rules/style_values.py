@@ -11,7 +11,7 @@ from mudline.keywords.model import Part, layout
 from mudline.keywords.places import Path
 from mudline.keywords.reader import ReadBlock
 from mudline.linting.context import LintContext
-from mudline.linting.registry import rule
+from mudline.linting.rule import rule
 from mudline.linting.rules.style_lines import data_leaves, first_of_lines, first_told, line_around, placed_leaves
 from mudline.syntax.fields import Group, read_line, trimmed
 from mudline.syntax.rows import blank_separated, row_fields

@@ -11,7 +11,7 @@ from mudline.codes.fields import SYN015
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.model import Part
 from mudline.linting.context import LintContext
-from mudline.linting.registry import rule
+from mudline.linting.rule import rule
 from mudline.linting.rules.geometry import section_entries
 from mudline.scene.checks.sections import format_of
 from mudline.scene.contact_parts.units import FOOT, POUND

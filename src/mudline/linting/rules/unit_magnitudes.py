@@ -15,7 +15,7 @@ from mudline.deck.units import GRAVITIES
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
-from mudline.linting.registry import rule
+from mudline.linting.rule import rule
 from mudline.linting.rules.curve_shape import swapped
 from mudline.scene.context import MOST_TOLD
 from mudline.scene.model import Scene
