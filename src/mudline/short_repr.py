@@ -1,4 +1,4 @@
-"""Representations of a line or two: names, counts and shapes instead of the data."""
+"""Representations of a line or two: names, counts and shapes instead of the data; the error about a name lists them."""
 
 from __future__ import annotations
 
@@ -12,6 +12,21 @@ MOST_NAMES = 8
 """Names that stand in a list of names."""
 _LONGEST_TEXT = 40
 _LONGEST_TUPLE = 4
+
+
+class UnknownNameError(KeyError):
+    """There is nothing of a name; the message says which names there are."""
+
+    def __str__(self) -> str:
+        return str(self.args[0]) if self.args else ""
+
+    @classmethod
+    def among(cls, kind: str, name: object, names: Collection[str], hint: str = "") -> UnknownNameError:
+        """Return the error for a name that is not among `names`, those of things of a `kind` (`set`)."""
+        if not names:
+            return cls(f"no {kind} {name!r}: there are no {kind}s")
+        verb = "is" if len(names) == 1 else "are"
+        return cls(f"no {kind} {name!r}{hint}: there {verb} {listed(names)}")
 
 
 def short_repr(thing: object) -> str:

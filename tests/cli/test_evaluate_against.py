@@ -8,6 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mudline.contact import numpy_driver
+from mudline.results.against import Comparison
+from mudline.results.evaluation import Part
 from tests.cli.conftest import Place
 from tests.cli.decks import CLEAN
 from tests.cli.runner import SAMPLES, assert_fits, run
@@ -86,6 +89,31 @@ def test_times_are_met_and_told(place: Place) -> None:
     assert found["steps"][0]["elements"][0]["force_against"] is None
     assert found["steps"][1]["elements"][0]["force_against"] == 900.0
     assert found["against"]["times_not_evaluated"] == [9.0]
+
+
+def test_the_time_of_the_largest_difference_in_a_series_of_several_parts(
+    place: Place, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Steps count from the beginning of the series, not of the part that they are evaluated in."""
+    monkeypatch.setattr(numpy_driver, "BLOCK", 1)
+    times = (0.0, 2.5, 4.0, 7.0)
+    nodes = [(node, 10.0 * (node - 1)) for node in (1, 2, 3)]
+    rows = [f"{time},{node},-0.1,{y},0.0\n" for time in times for node, y in nodes]
+    ours = [f"{time},1,{force}\n" for time, force in zip(times, (1500, 1500, 9000, 1500), strict=True)]
+    positions = place("".join(["time,node,x,y,z\n", *rows]), "steps.csv")
+    other = place("".join(["time,element,force\n", *ours]), "other.csv")
+    counted: list[int] = []
+    take = Comparison.take
+
+    def counting(self: Comparison, part: Part) -> None:
+        counted.append(part.count)
+        take(self, part)
+
+    monkeypatch.setattr(Comparison, "take", counting)
+    options = (place(), "--positions", positions, "--against", other, "--output-format", "json")
+    [column] = run("evaluate", *options).json()["against"]["columns"]
+    assert counted == [1, 1, 1, 1]
+    assert column["largest_difference"]["time"] == column["largest_relative"]["time"] == 4.0
 
 
 def test_one_time_is_met_by_one_state(place: Place) -> None:

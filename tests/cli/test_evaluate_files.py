@@ -4,15 +4,37 @@ from __future__ import annotations
 
 import csv
 import json
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from mudline.cli import result_files
 from tests.cli.conftest import Place
 from tests.cli.decks import CLEAN, PULLING
 from tests.cli.runner import SAMPLES, assert_fits, no_constant, run
 
+TOY = """
+from contextlib import contextmanager
+
+SUMMARY, BESIDE = "a toy", False
+
+class Toy:
+    steps = 0
+
+    def take(self, part):
+        self.steps += part.count
+
+    def finish(self, more):
+        self.stream.write(f"{self.steps} step\\n".encode())
+
+@contextmanager
+def opened(evaluation, elements, streams, folder, view):
+    toy = Toy()
+    toy.stream = streams[0]
+    yield toy
+"""
 STEPS = """\
 time,node,x,y,z
 0.0,1,-0.1,0.0,0.0
@@ -259,3 +281,19 @@ def test_json_never_holds_nan(place: Place, steps: str, folder: Path) -> None:
     text = (folder / "out.json").read_text(encoding="utf-8")
     found = json.loads(text, parse_constant=no_constant)
     assert {element["ratio"] for step in found["steps"] for element in step["elements"]} == {None}
+
+
+def test_a_module_is_a_form_of_files(place: Place, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A form of result files is there by its module alone; the others are not imported for it."""
+    toy = folder / "forms"
+    toy.mkdir()
+    (toy / "toy.py").write_text(TOY, encoding="utf-8")
+    monkeypatch.setattr(result_files, "__path__", [*result_files.__path__, str(toy)])
+    for name in [name for name in sys.modules if name.startswith(f"{result_files.__name__}.")]:
+        monkeypatch.delitem(sys.modules, name)
+    assert run("evaluate", place(), "-o", "out.toy", "-q").code == 0
+    assert Path("out.toy").read_text(encoding="utf-8") == "1 step\n"
+    assert "are written as .csv, .json, .npz, .parquet or .toy" in run("evaluate", place(), "-o", "out.xls").err
+    imported = {name for name in sys.modules if name.startswith(f"{result_files.__name__}.")}
+    monkeypatch.delitem(sys.modules, f"{result_files.__name__}.toy")
+    assert imported == {f"{result_files.__name__}.toy"}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from unittest.mock import patch
@@ -66,6 +67,7 @@ def test_parquet_has_groups_of_rows(place: Place, long: str, folder: Path, monke
 
 def test_without_pyarrow(place: Place, folder: Path) -> None:
     with patch.dict("sys.modules", {"mudline.results.parquet_file": None}):
+        sys.modules.pop("mudline.cli.result_files.parquet", None)
         outcome = run("evaluate", place(), "-o", "out.parquet")
     assert (outcome.code, outcome.out) == (1, "")
     assert outcome.err == "mudline: .parquet needs pyarrow: pip install 'mudline[parquet]'\n"

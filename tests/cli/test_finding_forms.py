@@ -7,7 +7,7 @@ import json
 import pytest
 
 from mudline.diagnostics import Diagnostic, Edit, Fix, Severity
-from mudline.linting.output.json_objects import json_array, json_lines
+from mudline.linting.output.formats import form
 from mudline.linting.output.statistics import statistics_lines
 from mudline.linting.output.text import Screen, excerpt, findings, summary
 from mudline.linting.output.visible import LONGEST, visible, visible_lines
@@ -29,7 +29,7 @@ def lines(diagnostic: Diagnostic, source: Source = TEXT, screen: Screen = SCREEN
 
 def test_fix_in_json() -> None:
     fix = Fix("unsafe", "write SET=", (Edit((2, 2), (2, 8), "SET"), Edit((3, 1), (3, 1), "\n")))
-    objects = json.loads("".join(json_array([found(fix=fix), found()])))
+    objects = json.loads("".join(form("json", [], "")([found(fix=fix), found()])))
     assert_fits(objects, "lint")
     assert objects[0]["fix"] == {
         "applicability": "unsafe",
@@ -39,11 +39,11 @@ def test_fix_in_json() -> None:
             {"start": [3, 1], "end": [3, 1], "text": "\n"},
         ],
     }
-    assert [json.loads(line) for line in json_lines([found(fix=fix), found()])] == objects
+    assert [json.loads(line) for line in form("jsonl", [], "")([found(fix=fix), found()])] == objects
 
 
 def test_nothing() -> None:
-    assert list(json_lines([])) == []
+    assert list(form("jsonl", [], "")([])) == []
     assert list(statistics_lines([])) == []
     assert list(findings([], TEXT, SCREEN)) == []
 

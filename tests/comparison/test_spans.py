@@ -15,6 +15,7 @@ from mudline.deck.loading import load_bytes
 from mudline.scene.build import resolve
 
 NUMBERS = st.lists(st.integers(-30, 30))
+Run = tuple[int, int, int]
 RUNS = st.lists(st.tuples(st.integers(-30, 30), st.integers(-30, 30), st.integers(1, 4)))
 
 
@@ -74,3 +75,32 @@ def test_generated_sets_are_not_listed() -> None:
         ("element sets/A", "1-9000000", "1-10000000"),
     ]
     assert peak < 5_000_000
+
+
+@pytest.mark.parametrize("step", [1, 2, 7])
+def test_sets_of_the_same_lines_are_not_generated(step: int) -> None:
+    """Also with an increment, under which no two numbers make a span."""
+    text = f"$MODEL\n*LINES\n x\n*ELEMENT SETS\n SET=A\n GEN=1, {step * 10**7}, {step}\n 4, 9\n"
+    before, after = (resolve(load_bytes(text.encode(), "deck.keyxm")) for _ in range(2))
+    tracemalloc.start()
+    try:
+        assert not compare(before, after)
+        _, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert peak < 5_000_000
+
+
+@given(NUMBERS, RUNS, RUNS)
+def test_sets_differ_by_what_they_hold(numbers: list[int], runs: list[Run], more: list[Run]) -> None:
+    """However the numbers are given: in lists, ranges, or both."""
+    lines = "".join(f" GEN={start}, {end}, {step}\n" for start, end, step in runs)
+    listed = sorted({n for start, end, step in runs for n in range(start, end + 1, step)} | set(numbers))
+    given = "".join(f" {number}\n" for number in numbers)
+    written = [f"{lines}{given}", "".join(f" {number}\n" for number in listed)]
+    extra = {n for start, end, step in more for n in range(start, end + 1, step)} - set(listed)
+    written.append(written[0] + "".join(f" {number}\n" for number in sorted(extra)))
+    head = "$MODEL\n*LINES\n x\n*ELEMENT SETS\n SET=A\n"
+    scenes = [resolve(load_bytes(f"{head}{text}".encode(), "deck.keyxm")) for text in written]
+    assert not compare(scenes[0], scenes[1])
+    assert bool(compare(scenes[1], scenes[2])) == bool(extra)

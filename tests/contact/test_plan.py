@@ -13,6 +13,7 @@ import pytest
 
 from mudline.contact import ContactModel, LawKind
 from mudline.contact.laws import known_laws
+from mudline.short_repr import UnknownNameError
 from tests.contact.builders import (
     CLAY,
     CURVE,
@@ -102,8 +103,15 @@ def test_the_scene_may_say_why_something_is_left_out() -> None:
     assert plan["friction"].why == "FRICTION= is not evaluated by this version"
     assert not plan["friction"].active
     assert plan["floor"].why == "one flat seabed at X = 0; SLOPE= is not"
-    with pytest.raises(KeyError, match="waves"):
+
+
+def test_a_stage_that_is_not_there() -> None:
+    plan = ContactModel(chain([CURVE])).plan
+    with pytest.raises(KeyError, match="waves") as caught:
         plan["waves"]
+    assert isinstance(caught.value, UnknownNameError)
+    stages = ("'floor', 'normal law', 'smoothing', 'unloading'", "'suction', 'friction', 'lateral', 'trench'")
+    assert str(caught.value) == f"no stage 'waves': there are {', '.join(stages)}, and 1 more"
 
 
 def test_the_plan_as_text() -> None:

@@ -54,7 +54,7 @@ def test_normal_laws() -> None:
         np.testing.assert_array_equal(stiffness, expected)
         np.testing.assert_array_equal(damping, np.where(np.isnan(expected), NAN, 0.0))
         assert per == "length"
-    with pytest.raises(KeyError, match="suction"):
+    with pytest.raises(KeyError, match="no law 'suction': there are 'linear', 'smoothed', 'curve'"):
         ContactModel(inputs).stiffest()["suction"]
 
 

@@ -9,6 +9,7 @@ from tempfile import TemporaryDirectory
 
 from mudline.linting.registry import rules
 from tests.docs.config_schema import CONFIG_SCHEMA, config_schema
+from tests.docs.form_table import pages_with_tables
 from tests.docs.keyword_index import keyword_index
 from tests.docs.keyword_page import keyword_pages
 from tests.docs.law_page import law_page
@@ -25,7 +26,7 @@ def pages() -> dict[str, str]:
     """The text of every page by its path in the repository."""
     indexes = {"docs/keywords.md": keyword_index(), "docs/rules/README.md": rule_index(rules())}
     of_rules = {f"docs/rules/{rule.code.code}.md": rule_page(rule) for rule in rules()}
-    return indexes | keyword_pages() | of_rules | {"docs/laws.md": law_page()}
+    return indexes | keyword_pages() | of_rules | {"docs/laws.md": law_page()} | pages_with_tables()
 
 
 def made_files() -> set[str]:

@@ -10,8 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mudline.linting.output.github import github
-from mudline.linting.output.gitlab import gitlab
+from mudline.linting.output.formats import form
 from mudline.linting.output.visible import visible
 from mudline.linting.registry import rules
 from tests.cli.decks import BAD_NUMBER
@@ -37,7 +36,7 @@ def _unescaped(text: str, more: str) -> str:
 
 @given(TEXTS, TEXTS)
 def test_a_command_says_the_same_to_the_runner(file: str, message: str) -> None:
-    (text,) = github([finding(file=file, message=message)])
+    (text,) = form("github", [], "")([finding(file=file, message=message)])
     assert re.fullmatch(r"[^\r\n]*\n", text)
     word, values, said = heard(text[:-1])
     assert (word, values["file"], said) == ("warning", file.removeprefix("./"), visible(message))
@@ -47,7 +46,7 @@ def test_a_command_says_the_same_to_the_runner(file: str, message: str) -> None:
 
 @given(st.lists(st.tuples(TEXTS, TEXTS), max_size=5))
 def test_an_issue_of_gitlab_has_the_keys_and_words_of_its_document(found: list[tuple[str, str]]) -> None:
-    issues = json.loads("".join(gitlab(finding(file=file, message=message) for file, message in found)))
+    issues = json.loads("".join(form("gitlab", [], "")(finding(file=file, message=message) for file, message in found)))
     assert len(issues) == len(found)
     for issue in issues:
         assert all(isinstance(issue[key], str) and issue[key] for key in ("description", "check_name", "fingerprint"))
@@ -72,5 +71,5 @@ def test_a_run_tells_gitlab_and_github_of_the_same(tmp_path: Path, monkeypatch: 
 
 def test_every_name_of_a_rule_stands_in_a_title_as_it_is() -> None:
     for rule in rules():
-        (text,) = github([finding(code=rule.code.code, slug=rule.code.slug)])
+        (text,) = form("github", [], "")([finding(code=rule.code.code, slug=rule.code.slug)])
         assert f",title={rule.code.code} {rule.code.slug}::" in text

@@ -7,7 +7,7 @@ import re
 import pytest
 from junitparser import Failure, JUnitXml, TestCase, TestSuite
 
-from mudline.linting.output.junit import junit
+from mudline.linting.output.formats import form
 from tests.cli.decks import BAD_NUMBER, CLEAN
 from tests.cli.runner import run
 from tests.lint.outputs import finding
@@ -70,7 +70,7 @@ def test_texts_tell_place_and_message_in_both_places(opened: JUnitXml) -> None:
 
 def test_control_characters_are_replaced() -> None:
     found = finding(file="o\x1bdd.keyxm", message="10\x1b[31m\x00<&\"']]>\ud800\ufffe\x85é")
-    opened = JUnitXml.fromstring("".join(junit([found], [found.file])).encode())
+    opened = JUnitXml.fromstring("".join(form("junit", [found.file], "")([found])).encode())
     assert isinstance(opened, JUnitXml)
     (case,) = cases(opened)
     (failure,) = failures(case)

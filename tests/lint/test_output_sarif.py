@@ -6,12 +6,12 @@ from typing import Any
 import pytest
 
 from mudline.diagnostics import Diagnostic, Severity
-from mudline.linting.output.sarif import sarif
+from mudline.linting.output.formats import form
 from tests.lint.outputs import finding
 
 
 def run_of(*found: Diagnostic) -> dict[str, Any]:
-    log = json.loads("".join(sarif(found, "1.2.3")))
+    log = json.loads("".join(form("sarif", [], "1.2.3")(found)))
     assert log["version"] == "2.1.0"
     (run,) = log["runs"]
     assert isinstance(run, dict)

@@ -16,7 +16,7 @@ from mudline.linting.engine import Fixing, LintSettings
 from mudline.linting.fixing import fix_bytes
 from mudline.linting.registry import select
 from mudline.syntax.source import Source
-from mudline.syntax.tree import mark_of, parse
+from mudline.syntax.tree import line_grammar, mark_of, parse
 from tests.reading.decks import deck_texts, mutated
 from tests.samples import SAMPLES
 
@@ -25,10 +25,14 @@ BOM = b"\xef\xbb\xbf"
 
 
 def read_back(data: bytes) -> Source:
-    """The source of some bytes, having held its leaves and its bytes against them."""
+    """The source of some bytes, after a comparison of its leaves and bytes with them, and of its leaves with lark's."""
     source = Source.from_bytes(data, "deck.keyxm")
+    leaves = list(parse(source).leaves())
+    if source.readable:
+        tokens = line_grammar().lex(source.unified)
+        assert [(leaf.kind.value, leaf.span.start) for leaf in leaves] == [(one.type, one.start_pos) for one in tokens]
     at = 0
-    for leaf in parse(source).leaves():
+    for leaf in leaves:
         assert leaf.span.start == at
         assert leaf.span.end > at
         at = leaf.span.end

@@ -9,10 +9,9 @@ from pathlib import Path
 import pytest
 from matplotlib.figure import Figure
 
-from mudline.study.machine import _processor, machine
 from mudline.study.picture import Picture, label, legend_below, style
 from mudline.study.report import Column, Omission, StudyReport, StudyTable
-from mudline.study.timing import timed
+from mudline.study.timing import _processor, machine, timed
 
 TABLE = StudyTable(
     "errors",
@@ -73,7 +72,7 @@ def test_processor(tmp_path: Path) -> None:
 
 
 def test_package_that_is_not_there_is_not_listed(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mudline.study.machine._PACKAGES", ("numpy", "no-such-package"))
+    monkeypatch.setattr("mudline.study.timing._PACKAGES", ("numpy", "no-such-package"))
     assert "no-such-package" not in machine()
 
 

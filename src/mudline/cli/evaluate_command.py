@@ -14,7 +14,6 @@ from mudline.cli.evaluate_files import read_against, read_elements, read_positio
 from mudline.cli.evaluate_notes import SlowSuction, tell_before, tell_behind
 from mudline.cli.evaluate_outputs import (
     PICTURES,
-    RESULTS,
     Several,
     Sink,
     Taker,
@@ -23,6 +22,7 @@ from mudline.cli.evaluate_outputs import (
     form_of,
     has_library,
     printed,
+    result_forms,
     run,
 )
 from mudline.cli.exits import DONE, FOUND
@@ -60,7 +60,7 @@ MOST_ROWS = 40
 @click.option(
     "-o",
     "--output",
-    metavar="OUT.csv|json|npz|parquet",
+    metavar=f"OUT.{'|'.join(result_forms())}",
     help="Write the results; CSV and Parquet write the nodes to OUT-nodes beside it.",
 )
 @click.option("--plot", "picture", metavar="FILE.png|svg", help="Draw the results (needs the extra mudline[plot]).")
@@ -98,7 +98,7 @@ def command(
 
     Forces are per unit length, in the deck's units; reactions are the total force of the bed on a node.
     """
-    for needed in (form_of(output, RESULTS), form_of(picture, PICTURES)):
+    for needed in (form_of(output, result_forms()), form_of(picture, PICTURES)):
         if needed and not has_library(needed):
             return FOUND
     loaded = load(deck, units=units, stdin_name=stdin_name)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mudline.cli.evaluate_outputs import TABLES, beside
+from mudline.cli.evaluate_outputs import beside, result_file
 from mudline.cli.terminal import tell
 from mudline.contact import LawKind
 from mudline.results.against import Comparison
@@ -56,7 +56,7 @@ def tell_behind(evaluation: Evaluation, slow: SlowSuction, written: Path | None)
         tell(f"suction is pulled slower than REGULARISATION {when}: the force there is less than alpha v^n")
     if written is None:
         return
-    if written.suffix.lower() in TABLES:
+    if result_file(written.suffix.lower().removeprefix(".")).BESIDE:
         tell(f"nodes -> {beside(written).as_posix()}")
     tell(f"{evaluation.scene.deck.file} -> {written.as_posix()}")
 

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager
-from functools import partial
+from contextlib import AbstractContextManager, ExitStack, contextmanager
 from importlib import import_module
 from pathlib import Path
-from types import ModuleType
-from typing import BinaryIO, Protocol
+from pkgutil import iter_modules
+from typing import BinaryIO, Protocol, cast
 
 import click
 
+from mudline.cli import result_files
 from mudline.cli.lazy import drawing
 from mudline.cli.options import View
 from mudline.cli.progress import Progress, looked_at
@@ -19,16 +19,12 @@ from mudline.cli.streams import emit, encoded
 from mudline.cli.terminal import tell
 from mudline.cli.writing import writing
 from mudline.linting.output.visible import visible
-from mudline.results.columns import ElementTable, NodeTable
+from mudline.results.columns import ElementTable
 from mudline.results.evaluation import Evaluation, Part
-from mudline.results.formats import CsvForm, JsonForm, TextForm
-from mudline.results.npz_file import NpzFile
+from mudline.results.formats import TextForm
 from mudline.results.plot_data import PlotData
 
-RESULTS = ("csv", "json", "npz", "parquet")
 PICTURES = ("png", "svg")
-TABLES = (".csv", ".parquet")
-"""Suffixes of files with one table: nodes go to a second one."""
 
 More = Mapping[str, object]
 """What is known only behind the last step, by its key in JSON."""
@@ -48,6 +44,21 @@ class Sink(Taker, Protocol):
         """What stands behind the last step."""
 
 
+class ResultFile(Protocol):
+    """The module of a form of result files.
+
+    `SUMMARY` says in the documentation what is in it; where it is `BESIDE`, the nodes go to a second file.
+    """
+
+    SUMMARY: str
+    BESIDE: bool
+
+    def opened(
+        self, evaluation: Evaluation, elements: ElementTable, streams: list[BinaryIO], folder: Path, view: View
+    ) -> AbstractContextManager[Sink]:
+        """Return what takes the results and writes them into one or two files of `folder`."""
+
+
 class Written:
     """Text, written as it is spelled by `write`."""
 
@@ -61,23 +72,6 @@ class Written:
     def finish(self, more: More) -> None:
         """Write the end."""
         self._write(self._form.tail(more))
-
-
-class Packed:
-    """An archive, packed when all results are there."""
-
-    def __init__(self, archive: NpzFile, stream: BinaryIO, view: View) -> None:
-        self._archive, self._stream, self._view = archive, stream, view
-
-    def take(self, part: Part) -> None:
-        """Keep some steps."""
-        self._archive.take(part)
-
-    def finish(self, more: More) -> None:
-        """Pack the arrays; an archive has no place for more."""
-        del more
-        with Progress(self._archive.count, self._view, shown=looked_at(self._view)) as progress:
-            self._archive.write(self._stream, progress.advance)
 
 
 class Several:
@@ -114,12 +108,12 @@ def beside(path: Path) -> Path:
 
 def has_library(form: str) -> bool:
     """Whether the library for a form of files is there; says what to do if not."""
-    if form not in _LIBRARIES:
+    if form not in _EXTRAS:
         return True
-    library, extra, load = _LIBRARIES[form]
     try:
-        load()
+        drawing("evaluation") if form in PICTURES else result_file(form)
     except ImportError:
+        library, extra = _EXTRAS[form]
         tell(f".{form} needs {library}: pip install 'mudline[{extra}]'")
         return False
     return True
@@ -133,17 +127,18 @@ def draw(data: PlotData, path: Path, view: View) -> None:
         tell(f"plot -> {path.as_posix()}")
 
 
-def _parquet() -> ModuleType:
-    """The module that writes Parquet; raises ImportError without the extra `parquet`."""
-    return import_module("mudline.results.parquet_file")
+def result_forms() -> list[str]:
+    """Return the forms of result files, found without importing one."""
+    return sorted(found.name for found in iter_modules(result_files.__path__))
 
 
-_LIBRARIES: dict[str, tuple[str, str, Callable[[], ModuleType]]] = {
-    "parquet": ("pyarrow", "parquet", _parquet),
-    "png": ("matplotlib", "plot", partial(drawing, "evaluation")),
-    "svg": ("matplotlib", "plot", partial(drawing, "evaluation")),
-}
-"""By form: what draws or writes it, the extra that brings it, and how it is loaded."""
+def result_file(form: str) -> ResultFile:
+    """Return the module of a form of result files; raises ImportError without the library that it needs."""
+    return cast("ResultFile", import_module(f"{result_files.__name__}.{form}"))
+
+
+_EXTRAS = {"parquet": ("pyarrow", "parquet"), "png": ("matplotlib", "plot"), "svg": ("matplotlib", "plot")}
+"""By form: what draws or writes it, and the extra that brings it."""
 
 
 def printed(form: TextForm) -> Sink:
@@ -154,25 +149,14 @@ def printed(form: TextForm) -> Sink:
 @contextmanager
 def files(evaluation: Evaluation, elements: ElementTable, path: Path, view: View) -> Iterator[Sink]:
     """The file of an evaluation by its suffix, or two files; they are there when all is written, or not at all."""
-    suffix, nodes = path.suffix.lower(), NodeTable(evaluation)
-    with ExitStack() as opened:
-        stream = opened.enter_context(writing(path))
-        if suffix == ".json":
-            yield Written(JsonForm(evaluation, elements), _to(stream))
-        elif suffix == ".npz":
-            archive = opened.enter_context(NpzFile(evaluation, [elements, nodes], path.parent))
-            yield Packed(archive, stream, view)
-        else:
-            second = opened.enter_context(writing(beside(path)))
-            pairs = ((elements, stream), (nodes, second))
-            if suffix == ".csv":
-                yield Several(*(Written(CsvForm(evaluation, table), _to(into)) for table, into in pairs))
-            else:
-                make = _parquet().ParquetFile
-                yield Several(*(opened.enter_context(make(evaluation, table, into)) for table, into in pairs))
+    form = result_file(path.suffix.lower().removeprefix("."))
+    with ExitStack() as stack:
+        streams = [stack.enter_context(writing(one)) for one in (path, *([beside(path)] if form.BESIDE else []))]
+        yield stack.enter_context(form.opened(evaluation, elements, streams, path.parent, view))
 
 
-def _to(stream: BinaryIO) -> Callable[[Iterator[str]], None]:
+def text_into(stream: BinaryIO) -> Callable[[Iterator[str]], None]:
+    """Return what writes pieces of text into a file."""
     return lambda pieces: stream.writelines(map(encoded, pieces))
 
 

@@ -10,7 +10,7 @@ from mudline.cli import options
 from mudline.cli.exits import DONE, FOUND
 from mudline.cli.inputs import collect
 from mudline.cli.lint_jobs import Effort
-from mudline.cli.lint_outputs import TEXT, outputs
+from mudline.cli.lint_outputs import complete, outputs
 from mudline.cli.lint_report import Report
 from mudline.cli.lint_run import Run
 from mudline.cli.lint_settings import Configured, Given, merged
@@ -22,7 +22,7 @@ from mudline.diagnostics import Severity
 from mudline.linting.baseline import Baseline, BaselineError, read_baseline
 from mudline.linting.configuration import Configuration
 from mudline.linting.engine import Fixing
-from mudline.linting.output.formats import FORMS
+from mudline.linting.output.formats import TEXT, form_names
 
 _CODES = "CODE[,CODE...]"
 
@@ -48,7 +48,9 @@ def _words(given: tuple[str, ...]) -> tuple[str, ...]:
     "forms",
     multiple=True,
     metavar="FORM[=FILE]",
-    help=f"Form of what is printed: {TEXT} (default), {', '.join(FORMS)}; with =FILE written besides. Repeatable.",
+    shell_complete=complete,
+    help=f"Form of what is printed: {', '.join([f'{TEXT} (default)', *form_names()])}; "
+    "with =FILE written besides. Repeatable.",
 )
 @click.option("--fix", is_flag=True, help="Make the safe fixes, in place; the deck of - is printed.")
 @click.option("--unsafe-fixes", "unsafe", is_flag=True, help="With --fix or --diff: make the fixes that guess, too.")

@@ -11,9 +11,7 @@ import click
 from mudline import __version__
 from mudline.cli.writing import write_text
 from mudline.diagnostics import Diagnostic
-from mudline.linting.output.formats import FORMS, form
-
-TEXT = "text"
+from mudline.linting.output.formats import TEXT, form, form_names
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,14 +27,20 @@ class Outputs:
             write_text(path, form(name, files, __version__)(found))
 
 
+def complete(_context: click.Context, _parameter: click.Parameter, incomplete: str) -> list[str]:
+    """What a shell completes behind `--output-format`."""
+    return [name for name in (TEXT, *form_names()) if name.startswith(incomplete)]
+
+
 def outputs(given: Sequence[str]) -> Outputs:
     """What `--output-format` asks for: FORM, or FORM=FILE. Raises click.UsageError."""
+    known = [TEXT, *form_names()]
     printed: list[str] = []
     files: list[tuple[str, Path]] = []
     for word in given:
         name, mark, path = word.partition("=")
-        if name not in FORMS and name != TEXT:
-            raise click.UsageError(f"--output-format: {name!r} is not one of {TEXT}, {', '.join(FORMS)}")
+        if name not in known:
+            raise click.UsageError(f"--output-format: {name!r} is not one of {', '.join(known)}")
         if not mark:
             printed.append(name)
         elif not path or name == TEXT:

@@ -11,8 +11,7 @@ from mudline.cli.options import View
 from mudline.cli.streams import emit
 from mudline.cli.terminal import tell
 from mudline.diagnostics import Diagnostic, Severity
-from mudline.linting.output.concise import concise
-from mudline.linting.output.formats import FORMS, form
+from mudline.linting.output.formats import TEXT, form
 from mudline.linting.output.statistics import statistics_lines
 from mudline.syntax.source import Source
 
@@ -46,7 +45,7 @@ class Report:
 
     @property
     def _as_they_come(self) -> bool:
-        return self.outputs.form not in FORMS and not (self.view.quiet or self.statistics or self.aside)
+        return self.outputs.form == TEXT and not (self.view.quiet or self.statistics or self.aside)
 
     def finish(self) -> None:
         """What stands at the end."""
@@ -56,15 +55,15 @@ class Report:
             self._tell_aside(found)
         elif self.statistics:
             emit(statistics_lines(found))
-        elif self.outputs.form in FORMS:
+        elif self.outputs.form != TEXT:
             emit(form(self.outputs.form, self.names, __version__)(found))
         elif self.view.quiet:
-            emit(concise(found))
+            emit(form("concise", self.names, __version__)(found))
         elif self.files:
             self._summary(found)
 
     def _tell_aside(self, found: list[Diagnostic]) -> None:
-        name = self.outputs.form if self.outputs.form in FORMS else "concise"
+        name = self.outputs.form if self.outputs.form != TEXT else "concise"
         pieces = statistics_lines(found) if self.statistics else form(name, self.names, __version__)(found)
         for piece in pieces:
             click.echo(piece, err=True, nl=False)

@@ -13,10 +13,11 @@ from typing import NoReturn
 import click
 
 from mudline.cli.inputs import STDIN, is_deck
-from mudline.cli.lint_outputs import TEXT, Outputs
+from mudline.cli.lint_outputs import Outputs
 from mudline.cli.options import View
 from mudline.cli.searching import GITIGNORE
 from mudline.cli.terminal import tell
+from mudline.linting.output.formats import TEXT
 
 WAIT = 0.3
 """Seconds between two looks; more where a look takes long, so that waiting costs little."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from typing import cast
 
 import click
 
@@ -18,11 +18,7 @@ from mudline.cli.streams import emit
 from mudline.cli.terminal import reason, tell
 from mudline.scene.build import resolve
 from mudline.scene.model import Scene
-from mudline.study.errors import StudyError
-from mudline.study.options import StudyOptions, silent
-
-if TYPE_CHECKING:
-    from mudline.study.report import StudyReport
+from mudline.study.report import StudyError, StudyOptions, StudyReport, silent
 
 STUDIES = ("precision", "stability", "pruning")
 _EXTRAS = frozenset({"matplotlib", "mpmath", "scipy"})

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from mudline.comparison.model import Difference, Kind, Tolerance, Value, plain
 from mudline.comparison.side import Side
-from mudline.comparison.spans import NO_SPANS, Spans, spans_of, spans_of_run, text_of, union
+from mudline.comparison.spans import Spans, spans_of, spans_of_run, text_of, union
 from mudline.deck.parameters import Definition, folded
 from mudline.diagnostics import Where
 from mudline.keywords.values import Label
 from mudline.scene.force_curves import SceneCurve
-from mudline.scene.numbering import MOST_GENERATED, Floats, Indices
+from mudline.scene.numbering import MOST_GENERATED, Floats, Ids, Indices
 from mudline.scene.sets import NamedSet
 
 _KINDS = {False: "curves", True: "curves of sets"}
@@ -43,18 +43,38 @@ def _plain(value: float | str | None) -> Value:
     return plain(value) if isinstance(value, float) else value
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class _Members:
-    """What a set holds: numbers, and words for what has none."""
+    """What a set holds: numbers, and words for what has none.
 
-    numbers: Spans
-    words: tuple[str, ...] = ()
+    The numbers are those of several arrays and of ranges (first, last, step). They become spans only where two sets do
+    not hold the same arrays and ranges: most sets of two versions of a deck do.
+    """
+
+    arrays: list[Ids] = field(default_factory=list)
+    ranges: list[tuple[int, int, int]] = field(default_factory=list)
+    words: set[str] = field(default_factory=set)
+    _spans: Spans | None = None
+
+    @property
+    def spans(self) -> Spans:
+        """The numbers."""
+        if self._spans is None:
+            self._spans = union([*map(spans_of, self.arrays), *(spans_of_run(*given) for given in self.ranges)])
+        return self._spans
 
     def same(self, other: _Members) -> bool:
-        return self.words == other.words and np.array_equal(self.numbers, other.numbers)
+        """Whether another set holds the same."""
+        return self.words == other.words and (self._given_alike(other) or np.array_equal(self.spans, other.spans))
+
+    def _given_alike(self, other: _Members) -> bool:
+        """Whether the same arrays and ranges are given."""
+        if self.ranges != other.ranges or len(self.arrays) != len(other.arrays):
+            return False
+        return all(np.array_equal(one, two) for one, two in zip(self.arrays, other.arrays, strict=True))
 
 
-_NO_MEMBERS = _Members(NO_SPANS)
+_NO_MEMBERS = _Members()
 
 
 def sets(one: Side, other: Side) -> Iterator[Difference]:
@@ -77,39 +97,37 @@ def sets(one: Side, other: Side) -> Iterator[Difference]:
 
 
 def _text(members: _Members | None) -> str | None:
-    return None if members is None else ", ".join(filter(None, [text_of(members.numbers), *members.words]))
+    return None if members is None else ", ".join(filter(None, [text_of(members.spans), *sorted(members.words)]))
 
 
 def _members(side: Side, indices: Indices) -> _Members:
-    return _Members(spans_of(side.scene.element_ids[indices]))
+    return _Members([side.scene.element_ids[indices]])
 
 
 def _written(side: Side) -> dict[str, _Members]:
     """What sets hold by their lines: for those with elements that the deck does not show."""
-    numbers: dict[str, list[Spans]] = {}
-    words: dict[str, set[str]] = {}
+    found: dict[str, _Members] = {}
     for _, block in side.scene.deck.blocks("ELEMENT SETS"):
         for entry in block.sets:
-            name = folded(str(entry.name))
-            numbers.setdefault(name, [])
-            words.setdefault(name, set())
+            members = found.setdefault(folded(str(entry.name)), _Members())
             for member in entry.members:
                 if subset := getattr(member, "subset", None):
-                    words[name].add(f"SUBSET={folded(str(subset))}")
-                listed = getattr(member, "elements", None) or []
-                words[name] |= {folded(item) for item in listed if isinstance(item, Label)}
-                whole = [item for item in listed if isinstance(item, int)]
-                numbers[name].append(spans_of(np.array(whole, dtype=np.int64)))
+                    members.words.add(f"SUBSET={folded(str(subset))}")
+                if listed := getattr(member, "elements", None):
+                    members.words |= {folded(item) for item in listed if isinstance(item, Label)}
+                    whole = [item for item in listed if isinstance(item, int)]
+                    members.arrays.append(np.array(whole, dtype=np.int64))
                 if given := getattr(member, "generate", None):
-                    numbers[name].append(_generated(given.start, given.end, given.increment))
-    return {name: _Members(union(numbers[name]), tuple(sorted(words[name]))) for name in numbers}
+                    members.ranges += _generated(given.start, given.end, given.increment)
+    return found
 
 
-def _generated(start: object, end: object, step: object) -> Spans:
+def _generated(start: object, end: object, step: object) -> list[tuple[int, int, int]]:
+    """The range of a GEN=; none where it is not one."""
     step = 1 if step is None else step
     if not (isinstance(start, int) and isinstance(end, int) and isinstance(step, int)) or step < 1:
-        return NO_SPANS
-    return spans_of_run(start, min(end, start + MOST_GENERATED * step), step)
+        return []
+    return [(start, min(end, start + MOST_GENERATED * step), step)]
 
 
 def curves(one: Side, other: Side, tolerance: Tolerance) -> Iterator[Difference]:

@@ -29,6 +29,7 @@ def spans_of_run(start: int, end: int, step: int) -> Spans:
 
 def union(parts: Sequence[Spans]) -> Spans:
     """The spans of all numbers in any of several."""
+    parts = [part for part in parts if len(part)]
     if len(parts) == 1:
         return parts[0]
     return _joined(*(np.concatenate([NO_SPANS[:, end], *(part[:, end] for part in parts)]) for end in (0, 1)))
@@ -44,8 +45,12 @@ def _joined(firsts: NDArray[np.int64], lasts: NDArray[np.int64]) -> Spans:
     if not len(firsts):
         return NO_SPANS
     if not (firsts[1:] >= firsts[:-1]).all():
+        alone = firsts is lasts
         order = np.argsort(firsts, kind="stable")
-        firsts, lasts = firsts[order], lasts[order]
+        firsts = firsts[order]
+        lasts = firsts if alone else lasts[order]
+    if firsts is lasts and (firsts[1:] - firsts[:-1] > 1).all():  # none is next to another: the numbers are the spans
+        return np.broadcast_to(firsts[:, np.newaxis], (len(firsts), 2))
     reached = np.maximum.accumulate(lasts)
     begins = np.flatnonzero(firsts[1:] - reached[:-1] > 1) + 1
     ends = np.append(begins - 1, len(firsts) - 1)

@@ -17,7 +17,7 @@ import numpy as np
 from mudline.contact.arrays import FloatArray
 from mudline.contact.input import ContactInput, LawKind
 from mudline.contact.tables import Tables
-from mudline.short_repr import outline
+from mudline.short_repr import UnknownNameError, outline
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -62,11 +62,11 @@ class Plan:
         return iter(self.stages)
 
     def __getitem__(self, name: str) -> Stage:
-        """The stage of this name; KeyError when there is none."""
+        """Return the stage of this name; UnknownNameError, a KeyError, when there is none."""
         for stage in self.stages:
             if stage.stage == name:
                 return stage
-        raise KeyError(name)
+        raise UnknownNameError.among("stage", name, [stage.stage for stage in self.stages])
 
     def __str__(self) -> str:
         lines = [f"{stage.stage:<10} {'yes' if stage.active else 'no':<3} {stage.why}" for stage in self.stages]

@@ -27,7 +27,7 @@ from mudline.contact.input import AssignedLaw
 from mudline.contact.laws.suction import SuctionLaw, breakout_uplift, maximum_force
 from mudline.contact.result import ContactResult
 from mudline.contact.tables import NormalRows, Tables, steepest_anywhere
-from mudline.short_repr import outline, short_repr
+from mudline.short_repr import UnknownNameError, outline, short_repr
 
 
 class LawStiffness(NamedTuple):
@@ -55,11 +55,11 @@ class Stiffest(NamedTuple):
         return outline("Stiffest", ", ".join(law.law for law in self.laws) or "no laws")
 
     def __getitem__(self, law: str | int | slice) -> LawStiffness:  # type: ignore[override]
-        """Return a law by its name; KeyError when the model does not have it."""
+        """Return a law by its name; UnknownNameError, a KeyError, when the model does not have it."""
         for found in self.laws:
             if found.law == law:
                 return found
-        raise KeyError(law)
+        raise UnknownNameError.among("law", law, [found.law for found in self.laws])
 
     def per_length(self, tables_length: FloatArray) -> FloatArray:
         """Return the largest stiffness (m,) of laws per unit length and of nodes over `tables_length` (m,)."""

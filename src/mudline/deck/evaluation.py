@@ -61,12 +61,13 @@ def _has_equation(value: object) -> bool:
     """Whether there is an equation in a value or below it."""
     if value is None or type(value) in _PLAIN:
         return False
-    if isinstance(value, Part):
-        return any(_has_equation(getattr(value, name)) for name in _evaluated_slots(type(value)))
-    if isinstance(value, Table):
-        return value.equations
     if isinstance(value, list):
         return any(map(_has_equation, value))
+    if isinstance(value, Part):
+        slots = _evaluated_slots(type(value))
+        return bool(slots) and any(_has_equation(getattr(value, name)) for name in slots)
+    if isinstance(value, Table):
+        return value.equations
     return isinstance(value, Equation)
 
 

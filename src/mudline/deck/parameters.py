@@ -56,12 +56,16 @@ def list_items(prefix: str, text: str) -> tuple[list[ListItem], str]:
 
 @dataclass(slots=True)
 class Definition:
-    """A parameter: the name as written, its value or equation, and where it stands."""
+    """A parameter: the name as written, its value or equation, and where it stands.
+
+    `expression` is the equation once it is read, `used` the parameters in it.
+    """
 
     name: str
     value: Value | Equation
     where: Where
     expression: Expression | None = None
+    used: list[str] = field(default_factory=list)
 
 
 class NoValueError(Exception):
@@ -86,7 +90,7 @@ class Parameters:
     def __post_init__(self) -> None:
         for where, block in self.deck.blocks("PARAMETERS", "PREPROCESSOR"):
             for index, parameter in enumerate(block.parameters):
-                self._define(parameter, where._replace(path=("parameters", index, "value")))
+                self._define(parameter, Where(where.section, where.block, ("parameters", index, "value")))
         for name in self.definitions:
             self._resolve(name)
 
@@ -152,7 +156,7 @@ class Parameters:
                 stack.pop()
                 continue
             waiting = self._waiting(current, definition)
-            cyclic = open_names.intersection(waiting)
+            cyclic = open_names.intersection(waiting) if waiting else set()
             if waiting and not cyclic:
                 open_names.add(current)
                 stack += waiting
@@ -170,11 +174,12 @@ class Parameters:
             self.values[name] = definition.value
             return []
         try:
-            expression = definition.expression or self._parse(definition.value, definition.where)
-            definition.expression = expression
-            used = [folded(other) for other in expression.names if folded(other) in self.definitions]
-            waiting = [other for other in used if other not in self.values]
-            if self.failed.intersection(used):
+            expression = definition.expression
+            if expression is None:
+                expression = definition.expression = self._parse(definition.value, definition.where)
+                definition.used = [other for other in map(folded, expression.names) if other in self.definitions]
+            waiting = [other for other in definition.used if other not in self.values]
+            if waiting and self.failed.intersection(waiting):
                 self._fail(name, None)
                 return []
             if not waiting:
@@ -197,7 +202,6 @@ class Parameters:
             raise NoValueError(_problem(SYN017, equation, error, where)) from error
 
     def _value(self, expression: Expression, where: Where) -> Value:
-        equation = Equation(f"=[{expression.text}]")
         try:
             return evaluate(expression, lambda name: self.values[folded(name)])
         except UndefinedName as error:
@@ -207,11 +211,16 @@ class Parameters:
             message = f"parameter {word} is not defined{near}: define it in *PARAMETERS"
             raise NoValueError(Problem(REF013, message, None, None, where)) from error
         except UnknownFunction as error:
-            problem = _problem(SYN017, equation, error, where)
+            problem = _problem(SYN017, _equation(expression), error, where)
             message = f"{problem.message}; the equation is not evaluated"
             raise NoValueError(Problem(SYN017, message, None, Severity.WARNING, where)) from error
         except ExpressionError as error:
-            raise NoValueError(_problem(SYN017, equation, error, where)) from error
+            raise NoValueError(_problem(SYN017, _equation(expression), error, where)) from error
+
+
+def _equation(expression: Expression) -> Equation:
+    """An expression as it is written in a deck."""
+    return Equation(f"=[{expression.text}]")
 
 
 def _problem(code: Code, equation: Equation, error: ExpressionError, where: Where) -> Problem:

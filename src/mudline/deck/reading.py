@@ -54,7 +54,7 @@ class TextOrigin:
     def damaged(self, where: Where) -> bool:
         """Whether something at this place could not be read."""
         block = self.read.get((where.section, where.block))
-        return block is not None and where.path in block.own.damaged
+        return block is not None and block.damaged(where.path)
 
     def lost(self, section: int, block: int) -> int:
         """How many lines of a block could not be used at all."""

@@ -11,8 +11,11 @@ from mudline.expression.nodes import Call, Chain, Comparison, Group, Logical, Na
 
 Match = Node | Token
 
-_SAME_OPERATOR = {"==": "=", "!=": "<>"}
-_FORTRAN_EXPONENT = str.maketrans("dD", "ee")
+SAME_OPERATOR = {"==": "=", "!=": "<>"}
+"""The one spelling of operators that have two."""
+
+FORTRAN_EXPONENT = str.maketrans("dD", "ee")
+"""The letters of an exponent as `float` reads them."""
 
 
 class Builder(Transformer[Token, Node]):
@@ -20,7 +23,7 @@ class Builder(Transformer[Token, Node]):
 
     def number(self, parts: list[Match]) -> Node:
         """A number literal."""
-        return Number(_span(parts), float(_tokens(parts)[0].translate(_FORTRAN_EXPONENT)))
+        return Number(_span(parts), float(_tokens(parts)[0].translate(FORTRAN_EXPONENT)))
 
     def text(self, parts: list[Match]) -> Node:
         """Text in double quotes."""
@@ -52,7 +55,7 @@ class Builder(Transformer[Token, Node]):
         """A comparison."""
         operator = str(_tokens(parts)[0])
         left, right = _nodes(parts)
-        return Comparison(_span(parts), _SAME_OPERATOR.get(operator, operator), left, right)
+        return Comparison(_span(parts), SAME_OPERATOR.get(operator, operator), left, right)
 
     def chain(self, parts: list[Match]) -> Node:
         """A sum or a product."""

@@ -14,6 +14,7 @@ from typing import assert_never, cast
 from mudline.expression.errors import EvaluationError, UndefinedName, UnknownFunction, shorten
 from mudline.expression.functions import CONSTANTS, FORMS, FUNCTIONS
 from mudline.expression.nodes import (
+    LEAVES,
     Call,
     Chain,
     Comparison,
@@ -78,7 +79,7 @@ def _steps(node: Node, lookup: Lookup) -> Steps:
         case Prefix() | Power() | Comparison():
             return (yield from _operation(node))
         case Chain():
-            return (yield from _chain(node))
+            return (yield from _chain(node, lookup))
         case Logical():
             return (yield from _logical(node.operator, node.operands))
         case Call():
@@ -125,12 +126,13 @@ def _prefixed(operator: str, operand: Operand) -> float:
     return -operand.number if operator == "-" else operand.number
 
 
-def _chain(node: Chain) -> Steps:
-    first = node.operands[0]
-    total = Operand((yield first), first.span)
-    for operator, operand in zip(node.operators, node.operands[1:], strict=True):
-        total = arithmetic(operator, total, Operand((yield operand), operand.span))
-    return total.value
+def _chain(node: Chain, lookup: Lookup) -> Steps:
+    total: Operand | None = None
+    for operator, part in zip(("", *node.operators), node.operands, strict=True):
+        value = _leaf(part, lookup) if isinstance(part, LEAVES) else (yield part)
+        operand = Operand(value, part.span)
+        total = operand if total is None else arithmetic(operator, total, operand)
+    return cast("Operand", total).value
 
 
 def _logical(operator: str, operands: Sequence[Node]) -> Steps:

@@ -99,12 +99,17 @@ class Call:
 
 Node = Number | Text | Name | Group | Prefix | Power | Comparison | Chain | Logical | Call
 
+LEAVES = (Number, Text, Name)
+"""The parts without parts."""
+
 NESTING = (Group, Prefix, Power, Call)
 """The parts that count as a level of nesting."""
 
 
 def children(node: Node) -> tuple[Node, ...]:
     """The parts directly inside a part, in the order of the text."""
+    if isinstance(node, LEAVES):  # most parts: asked first, as matching a class takes longer
+        return ()
     match node:
         case Group(inner=only) | Prefix(operand=only):
             return (only,)
@@ -112,8 +117,6 @@ def children(node: Node) -> tuple[Node, ...]:
             return (first, second)
         case Chain(operands=several) | Logical(operands=several) | Call(arguments=several):
             return several
-        case _:
-            return ()
 
 
 def walk(root: Node) -> Iterator[tuple[Node, int]]:

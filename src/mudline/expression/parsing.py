@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Set as AbstractSet
 from functools import cache
+from re import Pattern
 from typing import Any, cast
 
 from lark import Lark, Token, UnexpectedCharacters, UnexpectedInput, UnexpectedToken
 
 from mudline.expression.builder import Builder
+from mudline.expression.descent import descend
 from mudline.expression.errors import ExpressionError, shorten
 from mudline.expression.nodes import Call, Expression, Name, NameSpan, Node, walk
 from mudline.resources import grammar_file
+from mudline.syntax.scanning import scanner
 
 LONGEST = 10_000
 """The longest equation that is read, in code points."""
@@ -27,6 +30,12 @@ def _grammar() -> Lark:
     )
 
 
+@cache
+def tokens() -> Pattern[str]:
+    """Return the terminals of the grammar as one regular expression."""
+    return scanner(_grammar())
+
+
 def parse(text: str) -> Expression:
     """Read an equation: `text` is what stands between `=[` and `]`.
 
@@ -37,6 +46,11 @@ def parse(text: str) -> Expression:
         raise ExpressionError(f"the equation is longer than {LONGEST} characters", LONGEST, len(text))
     if not text.strip():
         raise ExpressionError("the equation is empty", 0, len(text))
+    return descend(text, tokens()) or by_grammar(text)
+
+
+def by_grammar(text: str) -> Expression:
+    """Return the equation as the grammar gives it; raises ExpressionError where it is not one."""
     return _expression(text, _root(text))
 
 

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache, lru_cache
+from itertools import pairwise
 from typing import NamedTuple, cast
 
 from lark import Lark, Token, Tree, UnexpectedToken
@@ -22,7 +23,11 @@ _NAME = re.compile(r"\b[a-z_][a-z_0-9]*+")
 _OPENING = re.compile(rf"({_NAME.pattern})\s*:")
 _TERMINAL = re.compile(r"\b[A-Z][A-Z_0-9]*+")
 
-_SMALL = 64
+_RECORDS = re.compile(r"[a-z_]+: ([a-z_]+)\*\n")
+_IN_BRACKETS = re.compile(r"\([^()]*\)")
+_OPENED = re.compile(r"[a-z_]+: ([A-Z_0-9]+)(?![A-Z_0-9?*+])")
+
+SMALL = 64
 """Contents of a block whose tree is remembered: decks of one family hold blocks of the same few forms."""
 
 
@@ -102,16 +107,59 @@ def parse(rule: str, contents: list[Content]) -> tuple[Node, list[Mismatch]]:
 
     A line that does not fit is left out, unless putting in a missing line before it makes it fit; each is reported.
     """
-    if len(contents) <= _SMALL:
-        tree = _fitting(rule, tuple([content.terminal for content in contents]))
+    if len(contents) <= SMALL:
+        tree = fitting(rule, tuple([content.terminal for content in contents]))
         if tree is not None:
             return _node(tree, contents), []
-    return _parsed(rule, contents)
+    return by_records(rule, contents) or by_lines(rule, contents)
+
+
+class Records(NamedTuple):
+    """The rule of the records of which a block is a list, and the terminal with which each of them begins."""
+
+    rule: str
+    opening: str
+
+
+@cache
+def records_of(rule: str) -> Records | None:
+    """Return the records of a block of nothing else; None unless a terminal stands at their beginning, and only there.
+
+    Such a block can be cut into records before it is parsed: its tree has no other one.
+    """
+    listed = _RECORDS.fullmatch(_rules()[rule])
+    opened = listed and _OPENED.match(_rules()[listed[1]])
+    if listed is None or opened is None:
+        return None
+    always = "|" not in _IN_BRACKETS.sub("", _rules()[listed[1]])
+    once = terminals_below(listed[1]).count(opened[1]) == 1
+    return Records(listed[1], opened[1]) if always and once else None
+
+
+def terminals_below(rule: str) -> list[str]:
+    """Return the terminals of a rule and of those it leads to, each as often as it is written."""
+    return _TERMINAL.findall(_part(rule).partition("%declare")[0])
+
+
+def by_records(rule: str, contents: list[Content]) -> tuple[Node, list[Mismatch]] | None:
+    """Return the tree of a block, a record at a time; None where it has no records, or one does not fit."""
+    records = records_of(rule)
+    starts = [i for i, content in enumerate(contents) if content.terminal == records.opening] if records else []
+    if records is None or starts[:1] != [0]:
+        return None
+    children: list[Node | Content] = []
+    for start, stop in pairwise([*starts, len(contents)]):
+        piece = contents[start:stop]
+        tree = fitting(records.rule, tuple([content.terminal for content in piece])) if len(piece) <= SMALL else None
+        if tree is None:
+            return None
+        children.append(_node(tree, piece))
+    return Node(rule, children), []
 
 
 @lru_cache(maxsize=1024)
-def _fitting(rule: str, terminals: tuple[str, ...]) -> Tree[Token] | None:
-    """The tree of lines by their terminals, if all of them fit."""
+def fitting(rule: str, terminals: tuple[str, ...]) -> Tree[Token] | None:
+    """Return the tree of lines by their terminals, if all of them fit."""
     parser = _parser(rule).parse_interactive()
     try:
         for index, terminal in enumerate(terminals):
@@ -121,8 +169,8 @@ def _fitting(rule: str, terminals: tuple[str, ...]) -> Tree[Token] | None:
         return None
 
 
-def _parsed(rule: str, contents: list[Content]) -> tuple[Node, list[Mismatch]]:
-    """The same line by line, whatever fits."""
+def by_lines(rule: str, contents: list[Content]) -> tuple[Node, list[Mismatch]]:
+    """Return the tree of a block line by line, whatever fits."""
     parser = _parser(rule).parse_interactive()
     mismatches: list[Mismatch] = []
     for index, content in enumerate(contents):

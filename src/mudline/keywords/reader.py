@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cache
 from typing import Protocol, cast
@@ -16,7 +17,8 @@ from mudline.keywords.builder import Builder, Built, construct
 from mudline.keywords.comments import CommentLine, attach
 from mudline.keywords.grammar import END, ROW, Content, Mismatch
 from mudline.keywords.model import Block, Layout, Part, layout, row_format
-from mudline.keywords.places import Places
+from mudline.keywords.places import Path, Places
+from mudline.keywords.plain import read_plain
 from mudline.keywords.remarks import one_a_line
 from mudline.keywords.text import hint, instead, shown, suggestion
 from mudline.short_repr import short_repr
@@ -30,12 +32,13 @@ from mudline.syntax.tree import Kind, Leaf, RawBlock
 class ReadBlock:
     """A block that was read: its model, where its values stand, what was wrong, and the comments behind its last line.
 
-    `lost` counts lines that could not be used at all: what they would have defined is unknown. `own` are the places in
-    the text that was read; where that was a piece, `whole` is the text that it belongs to and where it begins there.
+    `lost` counts lines that could not be used at all: what they would have defined is unknown. `found` are the places
+    in the text that was read, or what finds them when somebody asks; a block of the second kind has no damaged value.
+    Where a piece was read, `whole` is the text that it belongs to and where it begins there.
     """
 
     model: Block
-    own: Places
+    found: Places | Callable[[], Places]
     problems: list[Problem]
     trailing: list[str] = field(default_factory=list)
     lost: int = 0
@@ -44,12 +47,23 @@ class ReadBlock:
     __repr__ = short_repr
 
     @property
+    def own(self) -> Places:
+        """The places in the text that was read."""
+        if not isinstance(self.found, Places):
+            self.found = self.found()
+        return self.found
+
+    @property
     def places(self) -> Places:
         """The places in the whole text; worked out when somebody asks."""
         if self.whole:
-            self.own = self.own.moved(*self.whole)
+            self.found = self.own.moved(*self.whole)
             self.whole = None
         return self.own
+
+    def damaged(self, path: Path) -> bool:
+        """Whether something at this place could not be read."""
+        return isinstance(self.found, Places) and path in self.found.damaged
 
     @property
     def unpublished(self) -> bool:
@@ -66,7 +80,19 @@ class BlockReader(Protocol):
 
 def read_block(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
     """Read a block. `text` is the unified text of the source; `last` says that nothing follows the block in it."""
-    return _Reader(text, raw, declared, last=last).read()
+    return _plain(text, raw, declared, last=last) or _Reader(text, raw, declared, last=last).read()
+
+
+def _plain(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock | None:
+    """A long block of plain records; its places are found by reading it again, line by line."""
+    values = read_plain(text, raw, declared, all_keys(declared))
+    if values is None:
+        return None
+    try:
+        model = declared.model_validate({"keyword": raw.name, **values})
+    except ValidationError:
+        return None
+    return ReadBlock(model, lambda: _Reader(text, raw, declared, last=last).read().own, [])
 
 
 class _Reader:

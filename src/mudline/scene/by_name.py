@@ -6,20 +6,14 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import TypeVar, overload
 
 from mudline.deck.parameters import folded
-from mudline.keywords.text import shown, suggestion
-from mudline.short_repr import counted, cut, listed
+from mudline.keywords.text import suggestion
+from mudline.short_repr import UnknownNameError, counted, cut, listed
 
 Value = TypeVar("Value")
 Default = TypeVar("Default")
 
 _LONGEST = 200
-
-
-class UnknownNameError(KeyError):
-    """There is nothing of a name; the message says which names there are."""
-
-    def __str__(self) -> str:
-        return str(self.args[0]) if self.args else ""
+_LONGEST_NAME = 60
 
 
 class ByName(Mapping[str, Value]):
@@ -38,7 +32,7 @@ class ByName(Mapping[str, Value]):
     def __getitem__(self, name: str) -> Value:
         found = self._find(name)
         if found is None:
-            raise UnknownNameError(self._missing(name))
+            raise self._missing(name)
         return found[1]
 
     @overload
@@ -71,11 +65,8 @@ class ByName(Mapping[str, Value]):
     def _find(self, name: object) -> tuple[str, Value] | None:
         return self._entries.get(self._key(name)) if isinstance(name, str) else None
 
-    def _missing(self, name: object) -> str:
+    def _missing(self, name: object) -> UnknownNameError:
         if not isinstance(name, str):
-            return f"a {self._kind} is found by its name, a str, not by {type(name).__name__}"
-        if not self:
-            return f"no {self._kind} {shown(name)}: there are no {self._kind}s"
+            return UnknownNameError(f"a {self._kind} is found by its name, a str, not by {type(name).__name__}")
         names = list(self)
-        verb = "is" if len(names) == 1 else "are"
-        return f"no {self._kind} {shown(name)}{suggestion(name, names)}: there {verb} {listed(names)}"
+        return UnknownNameError.among(self._kind, cut(name, _LONGEST_NAME), names, suggestion(name, names))

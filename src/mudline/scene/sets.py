@@ -21,7 +21,14 @@ from mudline.scene.numbering import Ids, Indices, Numbered, constant, identity
 from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:
-    from mudline.keywords.library.element_sets import ElementRange, ElementSet, ElementSets, SetList
+    from mudline.keywords.library.element_sets import (
+        ElementRange,
+        ElementSet,
+        ElementSets,
+        SetGenerate,
+        SetList,
+        SetSubset,
+    )
 
 ALL = "all"
 _NOTHING = np.zeros(0, dtype=np.intp)
@@ -93,6 +100,7 @@ class _Reader:
         self.elements = elements
         self.definitions: dict[str, list[tuple[ElementSet, Where]]] = {}
         self.sets = Sets(context, elements)
+        self.keys: dict[str, str] = {}
 
     def read(self) -> Sets:
         named = self.sets.named
@@ -101,20 +109,28 @@ class _Reader:
         named[ALL] = NamedSet("ALL", everything, None, open=bool(context.definers or context.restart))
         for where, block in context.deck.blocks("ELEMENT SETS"):
             for index, entry in enumerate(cast("ElementSets", block).sets):
-                self._collect(entry, where._replace(path=("sets", index)))
+                self._collect(entry, Where(where.section, where.block, ("sets", index)))
         for key, name in context.harvested.items():
             if key not in self.definitions:
                 named.setdefault(key, NamedSet(name, _NOTHING, None, open=True))
         for key in self.definitions:
-            self._expand(key)
+            if key not in named:
+                self._expand(key)
         return self.sets
+
+    def _key(self, name: str) -> str:
+        """`set_key`, found once for each name: most are written twice or more."""
+        key = self.keys.get(name)
+        if key is None:
+            key = self.keys[name] = set_key(name)
+        return key
 
     def _collect(self, entry: ElementSet, where: Where) -> None:
         name = cast("str | None", entry.name)
         if name is None:
             self.context.unread.add("ELEMENT SETS")
             return
-        key = folded(bare(name))
+        key = self._key(name)
         if key == ALL:
             message = "set ALL is predefined and holds every element: choose another name"
             self.context.tell(REF009, message, where._replace(path=(*where.path, "name")))
@@ -139,29 +155,33 @@ class _Reader:
 
     def _needed(self, key: str, unfinished: set[str]) -> Iterator[str]:
         """The subsets that are to be expanded before a set; those that cannot be are told."""
-        for name, where in self._subsets(key):
-            other = folded(bare(name))
+        for name, where, index in self._subsets(key):
+            other = self._key(name)
             if other in unfinished:
                 message = f"set {shown(name)} contains itself: SUBSET= leads back to it; remove one of these lines"
-                self.context.tell(REF008, message, where)
+                self.context.tell(REF008, message, _inside(where, "members", index, "subset"))
             elif other in self.definitions:
                 yield other
             elif other not in self.sets.named:
                 near = self.context.near(name, self._names)
                 hint = f" (did you mean {self._names[near]}?)" if near else ""
                 message = f"SUBSET= names no set: {shown(name)} is not defined{hint}; define it"
-                self.context.tell_missing(REF008, message, where, "ELEMENT SETS")
+                place = _inside(where, "members", index, "subset")
+                self.context.tell_missing(REF008, message, place, "ELEMENT SETS")
 
     @cached_property
     def _names(self) -> dict[str, str]:
         """Every name of a set, by its folded form."""
         return self.context.harvested | {key: entries[0][0].name for key, entries in self.definitions.items()}
 
-    def _subsets(self, key: str) -> Iterator[tuple[str, Where]]:
+    def _subsets(self, key: str) -> Iterator[tuple[str, Where, int]]:
+        """The subsets of a set, each with the place of the definition that names it and its index among the members."""
         for entry, where in self.definitions[key]:
             for index, member in enumerate(entry.members):
-                if hasattr(member, "subset") and cast("str | None", member.subset) is not None:
-                    yield member.subset, where._replace(path=(*where.path, "members", index, "subset"))
+                if member.rule == "set_subset":
+                    name = cast("str | None", cast("SetSubset", member).subset)
+                    if name is not None:
+                        yield name, where, index
 
     def _settle(self, key: str) -> None:
         """The union of all members of all definitions of a name."""
@@ -173,13 +193,13 @@ class _Reader:
             unsure |= self.context.disturbed(where)
             members += len(entry.members)
             for index, member in enumerate(entry.members):
-                inner = where._replace(path=(*where.path, "members", index))
-                if hasattr(member, "elements"):
-                    found, whole = self._listed(cast("SetList", member), inner)
-                elif hasattr(member, "generate"):
-                    found, whole = self._range(member.generate, inner)
+                if member.rule == "set_subset":
+                    found, whole = self._subset(cast("SetSubset", member).subset)
+                elif member.rule == "set_list":
+                    found, whole = self._listed(cast("SetList", member), _inside(where, "members", index))
                 else:
-                    found, whole = self._subset(member.subset)
+                    given = cast("SetGenerate", member).generate
+                    found, whole = self._range(given, _inside(where, "members", index))
                 parts.append(found)
                 unsure |= not whole
         self.sets.named[key] = NamedSet(first.name, _union(parts), place, unsure)
@@ -187,7 +207,7 @@ class _Reader:
             self.context.tell(REF010, f"set {shown(first.name)} has no element: give it some, or remove it", place)
 
     def _subset(self, name: str | None) -> tuple[Indices, bool]:
-        found = None if name is None else self.sets.named.get(folded(bare(name)))
+        found = None if name is None else self.sets.named.get(self._key(name))
         return (_NOTHING, False) if found is None else (found.elements, not found.open)
 
     def _listed(self, member: SetList, where: Where) -> tuple[Indices, bool]:
@@ -243,6 +263,11 @@ class _Reader:
         return found, not lacking
 
 
+def _inside(where: Where, *steps: str | int) -> Where:
+    """A place further inside."""
+    return Where(where.section, where.block, (*where.path, *steps))
+
+
 def _ascending(indices: Indices) -> Indices:
     """Indices in ascending order, each once."""
     return indices if (indices[1:] > indices[:-1]).all() else np.unique(indices)
@@ -250,6 +275,8 @@ def _ascending(indices: Indices) -> Indices:
 
 def _union(parts: list[Indices]) -> Indices:
     """Indices in ascending order, each once, of parts that are so. Sets of the same elements share an array."""
+    if len(parts) == 1:
+        return parts[0]
     largest = max(parts, key=len, default=_NOTHING)
     rest = [part for part in parts if part is not largest and len(part)]
     if not rest:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 if TYPE_CHECKING:  # only who draws loads matplotlib
     from matplotlib.axes import Axes
@@ -14,6 +14,9 @@ if TYPE_CHECKING:  # only who draws loads matplotlib
 _COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000", "#e69f00", "#56b4e9", "#8c6d31", "#7a7a7a", "#b2182b")
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">", "*")
 _LINES = ("-", "--", "-.", ":")
+_LONGEST = 34
+
+Points = Sequence[tuple[float, float]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,6 +55,26 @@ def style(index: int) -> dict[str, Any]:
         "markersize": 5,
         "linewidth": 1.4,
     }
+
+
+def draw_lines(axes: Axes, lines: Mapping[str, Points], scale: Literal["loglog", "semilogx"] = "loglog") -> None:
+    """A line through points for each name of the legend, in the styles from the first on."""
+    draw = getattr(axes, scale)
+    for index, (name, points) in enumerate(lines.items()):
+        draw([x for x, _ in points], [y for _, y in points], label=name, **style(index))
+
+
+def panels(figure: Figure, count: int, across: int, *, sharey: bool = False) -> list[Axes]:
+    """So many axes, `across` of them in a row."""
+    found: list[Axes] = list(figure.subplots(-(-count // across), across, squeeze=False, sharey=sharey).flat)
+    for axes in found[count:]:
+        axes.remove()
+    return found[:count]
+
+
+def shortened(name: str) -> str:
+    """A name that fits above a panel."""
+    return name if len(name) <= _LONGEST else name[: _LONGEST - 3] + "..."
 
 
 def label(axes: Axes, title: str, x: str, y: str) -> None:

@@ -1,20 +1,53 @@
-"""What a study found: tables, pictures, words; and the files they become."""
+"""How a study is run, and what it found: tables, pictures, words; and the files they become.
+
+A study is made of parts. A part declares the columns of its tables once (`Layout`), draws its pictures, and returns
+both with its notes and omissions as a `Section`; here they become one report, its CSV, JSON and PNG files.
+"""
 
 from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, Generic, NamedTuple, TypeAlias, TypeVar
 
 from mudline.files import write_atomically
 from mudline.results.csv_lines import csv_lines
-from mudline.study.machine import machine
 from mudline.study.picture import Picture
+from mudline.study.timing import machine
 
+Row = TypeVar("Row")
+Key = TypeVar("Key", bound=Hashable)
 Cell: TypeAlias = str | bool | int | float | None
+
+# ------------------------------------------------------------------------------------------------------------- running
+
+
+class StudyError(Exception):
+    """The scene has nothing that this study could measure, or something that it cannot; the message says what."""
+
+
+def silent(message: str) -> None:
+    """Report nothing."""
+    del message
+
+
+@dataclass(frozen=True, slots=True)
+class StudyOptions:
+    """What the user chose.
+
+    Attributes:
+        full: a longer run, with finer ladders and more repeats.
+        progress: is called with a few words on what is done next.
+    """
+
+    full: bool = False
+    progress: Callable[[str], None] = silent
+
+
+# -------------------------------------------------------------------------------------------------------------- tables
 
 
 class Column(NamedTuple):
@@ -52,12 +85,70 @@ class StudyTable:
         rows: Iterable[Iterable[Cell]] = (tuple(map(_finite, row)) for row in self.rows)
         return csv_lines([tuple(column.heading for column in self.columns), *rows])
 
+    def as_json(self) -> dict[str, Any]:
+        """The table as it stands in the JSON of a report; what is not finite is null."""
+        return {
+            "name": self.name,
+            "title": self.title,
+            "columns": [column._asdict() for column in self.columns],
+            "rows": [[_finite(cell) for cell in row] for row in self.rows],
+        }
+
+
+@dataclass(frozen=True)
+class Layout(Generic[Row]):
+    """A table before it has rows: the one place to add a column.
+
+    Attributes:
+        name: a word for its file.
+        title: what it shows, for people; may have words in braces, which the study fills in.
+        columns: what fills each column, by its name with the unit in brackets: "step [s]", "mass [{mass}/{length}]".
+        brief: see `StudyTable`.
+    """
+
+    name: str
+    title: str
+    columns: Mapping[str, Callable[[Row], Cell]]
+    brief: bool = True
+
+    def table(self, rows: Iterable[Row], **words: object) -> StudyTable:
+        """The table of these rows; `words` are those in braces."""
+        parts = (heading.format(**words).removesuffix("]").partition(" [") for heading in self.columns)
+        columns = tuple(Column(name, unit) for name, _, unit in parts)
+        cells = [tuple(cell(row) for cell in self.columns.values()) for row in rows]
+        return StudyTable(self.name, self.title.format(**words), columns, cells, self.brief)
+
+
+def grouped(rows: Iterable[Row], key: Callable[[Row], Key]) -> dict[Key, list[Row]]:
+    """The rows of each key, in the order in which they come."""
+    found: dict[Key, list[Row]] = {}
+    for row in rows:
+        found.setdefault(key(row), []).append(row)
+    return found
+
+
+# -------------------------------------------------------------------------------------------------------------- report
+
 
 class Omission(NamedTuple):
     """Something that a study tried, or would have tried, and has no result for."""
 
     what: str
     reason: str
+
+
+class Section(NamedTuple):
+    """What one part of a study found; the fields are those of `StudyReport`."""
+
+    tables: Sequence[StudyTable] = ()
+    pictures: Sequence[Picture] = ()
+    notes: Sequence[str] = ()
+    omissions: Sequence[Omission] = ()
+
+
+def paragraphs(text: str) -> list[str]:
+    """The notes of a text, one from each paragraph, without its line breaks."""
+    return [" ".join(paragraph.split()) for paragraph in text.strip().split("\n\n")]
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,13 +173,26 @@ class StudyReport:
     omissions: tuple[Omission, ...] = ()
     machine: dict[str, str] = field(default_factory=machine)
 
+    @classmethod
+    def of(cls, name: str, title: str, sections: Iterable[Section]) -> StudyReport:
+        """Join sections; a note that several of them have stands there once."""
+        found = list(sections)
+        return cls(
+            name,
+            title,
+            tuple(table for section in found for table in section.tables),
+            tuple(picture for section in found for picture in section.pictures),
+            tuple(dict.fromkeys(note for section in found for note in section.notes)),
+            tuple(omission for section in found for omission in section.omissions),
+        )
+
     def json(self) -> str:
         """Everything but the pictures as JSON; what is not finite is null."""
         whole: dict[str, Any] = {
             "study": self.name,
             "title": self.title,
             "machine": self.machine,
-            "tables": [_table(table) for table in self.tables],
+            "tables": [table.as_json() for table in self.tables],
             "pictures": [{"name": picture.name, "caption": picture.caption} for picture in self.pictures],
             "notes": list(self.notes),
             "omissions": [omission._asdict() for omission in self.omissions],
@@ -112,12 +216,3 @@ class StudyReport:
 
 def _finite(cell: Cell) -> Cell:
     return None if isinstance(cell, float) and not math.isfinite(cell) else cell
-
-
-def _table(table: StudyTable) -> dict[str, Any]:
-    return {
-        "name": table.name,
-        "title": table.title,
-        "columns": [column._asdict() for column in table.columns],
-        "rows": [[_finite(cell) for cell in row] for row in table.rows],
-    }

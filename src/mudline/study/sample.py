@@ -12,7 +12,7 @@ from mudline.scene.model import Scene
 NAME = "built-in-sample.keyxm"
 
 TEXT = """\
-C A pipe of 0.3 m on soft clay, part of it on a linear bed. Synthetic values. Metre, kilogram, second, newton.
+C A pipe of 0.3 m on soft clay, part of it on a linear seabed. Synthetic values. Metre, kilogram, second, newton.
 $MODEL
 *OCEAN
  1000.0, 1025.0, 9.81

@@ -1,11 +1,24 @@
-"""Run times: the best and the middle one of repeated runs."""
+"""Run times, of the wall clock or of the processor, and the machine they were measured on."""
 
 from __future__ import annotations
 
+import os
+import platform
 import statistics
-from collections.abc import Callable
-from time import perf_counter
+from collections.abc import Callable, Sequence
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from time import get_clock_info, perf_counter, process_time
 from typing import NamedTuple
+
+_RUNS = 5
+_AT_LEAST = 0.03
+_LEAST = 1e-3
+_TICKS = 20.0
+_SLOW = 1.0
+"""Seconds of one run from which on two runs are enough."""
+_PACKAGES = ("mudline", "numpy", "scipy", "mpmath", "matplotlib", "numba")
+_PROCESSORS = Path("/proc/cpuinfo")
 
 
 class Timing(NamedTuple):
@@ -29,4 +42,57 @@ def timed(call: Callable[[], object], *, runs: int = 7, at_least: float = 0.0, w
         start = perf_counter()
         call()
         taken.append(perf_counter() - start)
-    return Timing(min(taken), statistics.median(taken), len(taken))
+    return _timing(taken)
+
+
+def processor_time(call: Callable[[], object], *, few: bool = False) -> Timing:
+    """Processor seconds of a call, so that other programs do not count: once to warm up, then several times.
+
+    `few`: not so often. Short calls are repeated within a run until the clock is fine enough.
+    """
+    once = _seconds(call, 1)
+    repeats = max(1, round(max(_LEAST, _TICKS * get_clock_info("process_time").resolution) / max(once, 1e-7)))
+    runs, at_least = (2, 0.0) if few or once > _SLOW else (_RUNS, _AT_LEAST)
+    taken: list[float] = []
+    while len(taken) < runs or repeats * sum(taken) < at_least:
+        taken.append(max(_seconds(call, repeats), 1e-9 * repeats) / repeats)
+    return _timing(taken)
+
+
+def _seconds(call: Callable[[], object], repeats: int) -> float:
+    start = process_time()
+    for _ in range(repeats):
+        call()
+    return process_time() - start
+
+
+def _timing(seconds: Sequence[float]) -> Timing:
+    return Timing(min(seconds), statistics.median(seconds), len(seconds))
+
+
+def machine() -> dict[str, str]:
+    """Return processor, cores, system and versions, by name; nothing that names the machine or its user."""
+    return {
+        "processor": _processor(),
+        "cores": str(os.cpu_count() or "unknown"),
+        "system": f"{platform.system()} {platform.machine()}",
+        "Python": f"{platform.python_implementation()} {platform.python_version()}",
+        **{name: found for name in _PACKAGES if (found := _version(name))},
+    }
+
+
+def _version(package: str) -> str:
+    try:
+        return version(package)
+    except PackageNotFoundError:
+        return ""
+
+
+def _processor(listing: Path = _PROCESSORS) -> str:
+    """The model name as the system tells it; Python alone knows it on few systems."""
+    try:
+        lines = listing.read_text(encoding="utf-8", errors="replace").splitlines()
+    except OSError:
+        lines = []
+    names = (line.partition(":")[2].strip() for line in lines if line.startswith("model name"))
+    return next(names, "") or platform.processor() or "unknown"

@@ -7,13 +7,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import Enum
 from functools import cache
-from typing import NamedTuple, cast
+from typing import NamedTuple
 
 from lark import Lark
 
 from mudline.diagnostics import Span
 from mudline.resources import grammar_file
 from mudline.short_repr import short_repr
+from mudline.syntax.scanning import scanner
 from mudline.syntax.source import CONTROLS, Source
 
 _BLANKS = re.compile(r"[ \t]+")
@@ -85,9 +86,14 @@ class SyntaxTree:
 
 
 @cache
-def _cutter() -> Lark:
-    grammar = grammar_file("deck.lark").read_text(encoding="utf-8")
-    return Lark(grammar, parser=None, lexer="basic")
+def line_grammar() -> Lark:
+    """Return the grammar of level one."""
+    return Lark(grammar_file("deck.lark").read_text(encoding="utf-8"), parser=None, lexer="basic")
+
+
+@cache
+def _cutter() -> re.Pattern[str]:
+    return scanner(line_grammar())
 
 
 def canonical_name(line: str) -> str:
@@ -110,16 +116,15 @@ def parse(source: Source) -> SyntaxTree:
     preamble = section = RawSection(None, "")
     sections: list[RawSection] = []
     leaves = section.leaves
-    for token in _cutter().lex(source.unified):
-        kind = _KINDS[token.type]
-        start = cast("int", token.start_pos)
-        leaf = Leaf(kind, Span(start, start + len(token)))
+    for match in _cutter().finditer(source.unified):
+        kind = _KINDS[match.lastgroup]
+        leaf = Leaf(kind, Span(*match.span()))
         if kind is Kind.SECTION:
-            section = RawSection(leaf, canonical_name(token))
+            section = RawSection(leaf, canonical_name(match[0]))
             sections.append(section)
             leaves = section.leaves
         elif kind is Kind.KEYWORD:
-            block = RawBlock(leaf, canonical_name(token))
+            block = RawBlock(leaf, canonical_name(match[0]))
             section.blocks.append(block)
             leaves = block.leaves
         else:
@@ -127,4 +132,4 @@ def parse(source: Source) -> SyntaxTree:
     return SyntaxTree(source, preamble, tuple(sections))
 
 
-_KINDS = {kind.value: kind for kind in Kind}
+_KINDS: dict[str | None, Kind] = {kind.value: kind for kind in Kind}

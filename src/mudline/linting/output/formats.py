@@ -1,35 +1,50 @@
-"""The forms of findings by name; the module of a form is imported when the form is asked for."""
+"""The forms of findings by name: the modules of `mudline.linting.output.forms`, each imported when it is asked for."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from functools import partial
 from importlib import import_module
-from typing import cast
+from pkgutil import iter_modules
+from typing import Protocol, cast
 
 from mudline.diagnostics import Diagnostic
+from mudline.linting.output import forms
 
-Form = Callable[[Iterable[Diagnostic]], Iterable[str]]
+TEXT = "text"
+"""The form for people, which goes to the terminal as the findings come."""
 
-FORMS = {
-    "concise": ("concise", "concise"),
-    "json": ("json_objects", "json_array"),
-    "jsonl": ("json_objects", "json_lines"),
-    "github": ("github", "github"),
-    "gitlab": ("gitlab", "gitlab"),
-    "junit": ("junit", "junit"),
-    "sarif": ("sarif", "sarif"),
-}
-"""Module beside this one and function of every form but text."""
+TEXT_SUMMARY = "for people: place, message, the source line with a mark; standard output only"
 
 
-def form(name: str, files: Sequence[str], version: str) -> Form:
-    """The function that makes the text of findings in a form.
+@dataclass(frozen=True, slots=True)
+class LintRun:
+    """What a form may say besides the findings: the files linted, in their order, and the version of mudline."""
 
-    `files` are those linted, which JUnit lists; `version` is that of mudline, which SARIF tells.
-    """
-    module, function = FORMS[name]
-    found = getattr(import_module(f"mudline.linting.output.{module}"), function)
-    if name == "junit":
-        return partial(found, files=files)
-    return cast("Form", partial(found, version=version) if name == "sarif" else found)
+    files: Sequence[str]
+    version: str
+
+
+class FormModule(Protocol):
+    """What the module of a form holds: a sentence for the documentation, and what makes its text."""
+
+    SUMMARY: str
+
+    def write(self, diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:
+        """Return the text of findings in pieces."""
+
+
+def form_names() -> list[str]:
+    """Return the name of every form but text, found without importing one."""
+    return sorted(found.name for found in iter_modules(forms.__path__))
+
+
+def form_module(name: str) -> FormModule:
+    """Return the module of a form."""
+    return cast("FormModule", import_module(f"{forms.__name__}.{name}"))
+
+
+def form(name: str, files: Sequence[str], version: str) -> Callable[[Iterable[Diagnostic]], Iterator[str]]:
+    """Return the function that makes the text of findings in a form; `files` and `version` are those of `LintRun`."""
+    return partial(form_module(name).write, run=LintRun(files, version))

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterable, Iterator
 from typing import Any
 
 from mudline.diagnostics import Diagnostic, Fix
@@ -30,18 +28,3 @@ def as_object(found: Diagnostic) -> dict[str, Any]:
 def _fix(fix: Fix) -> dict[str, Any]:
     edits = [{"start": list(edit.start), "end": list(edit.end), "text": edit.text} for edit in fix.edits]
     return {"applicability": fix.applicability, "message": fix.message, "edits": edits}
-
-
-def json_array(diagnostics: Iterable[Diagnostic]) -> Iterator[str]:
-    """One array, an object a line; `[]` when there is nothing."""
-    mark = "["
-    for found in diagnostics:
-        yield f"{mark}\n {json.dumps(as_object(found), ensure_ascii=False)}"
-        mark = ","
-    yield "[]\n" if mark == "[" else "\n]\n"
-
-
-def json_lines(diagnostics: Iterable[Diagnostic]) -> Iterator[str]:
-    """An object a line."""
-    for found in diagnostics:
-        yield f"{json.dumps(as_object(found), ensure_ascii=False)}\n"

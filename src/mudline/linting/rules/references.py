@@ -16,7 +16,7 @@ from mudline.scene.context import MOST_TOLD
 from mudline.scene.sets import ALL
 
 if TYPE_CHECKING:
-    from mudline.keywords.library.element_sets import ElementSets
+    from mudline.keywords.library.element_sets import ElementSets, SetList
     from mudline.keywords.library.parameters import Parameter
 
 REF011 = Code("REF011", "long-name", Severity.WARNING)
@@ -95,7 +95,7 @@ def _long(context: LintContext) -> Iterator[tuple[Where, int]]:
     for where, block in context.deck.blocks("ELEMENT SETS"):
         for index, entry in enumerate(cast("ElementSets", block).sets):
             for number, member in enumerate(entry.members):
-                count = len(getattr(member, "elements", ()))
+                count = len(cast("SetList", member).elements) if member.rule == "set_list" else 0
                 if count > LONGEST_LIST:
                     yield where._replace(path=("sets", index, "members", number, "elements")), count
 
@@ -197,9 +197,10 @@ def repeated_parameter(context: LintContext) -> Iterator[Problem]:
         for index, parameter in enumerate(cast("list[Parameter]", block.parameters)):
             repeated: list[str] = []
             for name in _names(parameter):
-                if folded(name) in known:
+                key = folded(name)
+                if key in known:
                     repeated.append(name)
-                known.add(folded(name))
+                known.add(key)
             if repeated and told < MOST_TOLD:
                 told += 1
                 others = f" (and {len(repeated) - 1} more of this list)" if len(repeated) > 1 else ""

@@ -1,8 +1,8 @@
-"""A mass dragged along the seabed: it comes with some speed, slides against Coulomb friction, and swings back.
+"""A mass dragged along the seabed: it comes with some speed, slides against Coulomb friction, and returns.
 
 Below the limit mu N friction is a spring Kt. With omega = sqrt(Kt / m) and the threshold displacement Th = mu N / Kt:
-it sticks up to Th, where the speed is v1 = sqrt(v^2 - omega^2 Th^2); slips v1^2 m / (2 mu N) farther; and swings about
-Th before its last place, with the speed omega Th.
+it sticks up to Th, where the speed is v1 = sqrt(v^2 - omega^2 Th^2); slips v1^2 m / (2 mu N) farther; and oscillates
+about Th before its last place, with the speed omega Th.
 """
 
 from __future__ import annotations
@@ -15,17 +15,16 @@ import numpy as np
 
 from mudline.contact.arrays import FloatArray
 from mudline.contact.laws.friction import FrictionHistory, FrictionLaw, slide
-from mudline.study.precision.case import RUNS, Case, Start, uneven
-from mudline.study.schemes.marching import Trajectory
-from mudline.study.schemes.system import Forces, History, Motion
+from mudline.study.motion import Forces, History, Motion, Trajectory
+from mudline.study.precision.integration import RUNS, Case, Start, uneven
 
 _SPEED = 3.0
-"""Of omega Th: most of the way is slip."""
+"""Of omega Th: most of the displacement is slip."""
 
 
 @dataclass(frozen=True, slots=True)
 class Drag:
-    """A mass per unit length that is pressed on with a limit mu N, and the stiffness Kt of the friction spring."""
+    """A mass per unit length, its friction limit mu N, and the stiffness Kt of the friction spring."""
 
     name: str
     mass: float
@@ -61,7 +60,7 @@ def drag_case(drag: Drag) -> Case:
     omega, threshold = math.sqrt(drag.stiffness / drag.mass), drag.limit / drag.stiffness
     speed = _SPEED * omega * threshold
     slipping = math.sqrt(speed**2 - (omega * threshold) ** 2)
-    way = threshold + slipping**2 * drag.mass / (2.0 * drag.limit)
+    travel = threshold + slipping**2 * drag.mass / (2.0 * drag.limit)
     sticks, slips = math.asin(1.0 / _SPEED) / omega, slipping * drag.mass / drag.limit
     ones = np.ones((RUNS, 2))
     law = FrictionLaw(ones, np.full((RUNS, 2), drag.stiffness), ones, np.zeros(RUNS, np.bool_), np.ones(RUNS, np.bool_))
@@ -79,7 +78,7 @@ def drag_case(drag: Drag) -> Case:
         energy = 0.5 * drag.mass * back**2 + memory.dissipated
         found = np.array(
             [
-                run.position.max(axis=0) / way,
+                run.position.max(axis=0) / travel,
                 back / (omega * threshold),
                 energy / (0.5 * drag.mass * speed**2),
             ]
@@ -87,15 +86,15 @@ def drag_case(drag: Drag) -> Case:
         return np.abs(found - 1.0)
 
     return Case(
-        "drag",
-        f"dragged on {drag.name}, friction",
-        ("farthest way", "speed of swinging back", "energy"),
-        "closed form",
-        system,
-        omega,
-        sticks + slips + 0.5 * math.pi / omega,
-        1e3 * way,
-        start,
-        errors,
-        "",
+        name="drag",
+        title=f"dragged on {drag.name}, friction",
+        quantities=("maximum displacement", "return velocity", "energy"),
+        reference="closed form",
+        system=system,
+        omega=omega,
+        duration=sticks + slips + 0.5 * math.pi / omega,
+        bound=1e3 * travel,
+        start=start,
+        errors=errors,
+        missing="",
     )

@@ -11,12 +11,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
-from mudline.study.errors import StudyError
-from mudline.study.precision.case import RUNS, Case, Start
+from mudline.study.motion import Forces, History, Motion, Trajectory
+from mudline.study.precision.integration import RUNS, Case, Start
 from mudline.study.precision.laws import Law
 from mudline.study.precision.reference import contact_time
-from mudline.study.schemes.marching import Trajectory
-from mudline.study.schemes.system import Forces, History, Motion
+from mudline.study.report import StudyError
 
 _DOUBLINGS = 12
 
@@ -71,17 +70,17 @@ def drop_case(name: str, title: str, drop: Drop) -> Case:
     """The case of a drop."""
     omega = math.sqrt(drop.law.steepest(drop.deepest) / drop.mass)
     return Case(
-        name,
-        title,
-        ("peak penetration", "rebound speed", "energy"),
-        "balance of energies, exact",
-        _Falling(np.full(RUNS, drop.mass), drop.law, drop.weight),
-        omega,
-        1.15 * contact_time(drop.law, drop.mass, drop.weight, drop.speed),
-        1e3 * drop.deepest,
-        lambda dt: _start(drop, dt),
-        lambda run: _errors(drop, run),
-        "no step ended off the bed in 1.15 times the exact time and 8 steps",
+        name=name,
+        title=title,
+        quantities=("peak penetration", "rebound speed", "energy"),
+        reference="balance of energies, exact",
+        system=_Falling(np.full(RUNS, drop.mass), drop.law, drop.weight),
+        omega=omega,
+        duration=1.15 * contact_time(drop.law, drop.mass, drop.weight, drop.speed),
+        bound=1e3 * drop.deepest,
+        start=lambda dt: _start(drop, dt),
+        errors=lambda run: _errors(drop, run),
+        missing="no step ended above the seabed in 1.15 times the exact time and 8 steps",
     )
 
 

@@ -1,7 +1,7 @@
 """A mass pulled off the seabed with a constant force, against suction, from its static penetration to beyond breakout.
 
 The suction depends on the velocity, so there is no closed form: the exact values come from an integration that stops
-at the corners of the trapezoid, with the law written anew for it.
+at the corners of the trapezoid, with an independent implementation of the law.
 """
 
 from __future__ import annotations
@@ -14,12 +14,11 @@ import numpy as np
 
 from mudline.contact.arrays import FloatArray
 from mudline.contact.laws.suction import SuctionHistory, SuctionLaw, SuctionState, step
-from mudline.study.errors import StudyError
-from mudline.study.precision.case import RUNS, Case, Start, uneven
+from mudline.study.motion import Forces, History, Motion, Trajectory
+from mudline.study.precision.integration import RUNS, Case, Start, uneven
 from mudline.study.precision.laws import Law
 from mudline.study.precision.reference import Event, Stop, next_event
-from mudline.study.schemes.marching import Trajectory
-from mudline.study.schemes.system import Forces, History, Motion
+from mudline.study.report import StudyError
 
 _MARGIN = 3.0
 """The pull over the largest suction at the usual velocity."""
@@ -65,7 +64,7 @@ class Pull:
     """What is pulled off what: per unit length.
 
     Attributes:
-        sunk: penetration at the start.
+        embedment: penetration at the start.
         velocity: a usual pull-out velocity, which scales the pull.
     """
 
@@ -73,7 +72,7 @@ class Pull:
     law: Law
     suction: SuctionNumbers
     mass: float
-    sunk: float
+    embedment: float
     velocity: float
 
     @property
@@ -84,8 +83,8 @@ class Pull:
 
     def passing(self) -> float:
         """Speed when the mass passes the mudline, from the energies."""
-        stored = float(self.law.work(np.array([self.sunk]))[0])
-        return math.sqrt(2.0 * (stored + self.pull * self.sunk) / self.mass)
+        stored = float(self.law.work(np.array([self.embedment]))[0])
+        return math.sqrt(2.0 * (stored + self.pull * self.embedment) / self.mass)
 
 
 class Breakout(NamedTuple):
@@ -102,14 +101,14 @@ def breakout(pull: Pull) -> Breakout:
     """Integrate from the mudline to breakout, stopping at the corners of the trapezoid.
 
     Raises:
-        StudyError: the mass slows down on its way, or does not break out.
+        StudyError: the mass slows down before breakout, or does not break out.
     """
     law, mass, force = pull.suction, pull.mass, pull.pull
 
     def rate(_: float, state: FloatArray) -> list[float]:
         x, v, _work = state.tolist()
-        held = law.force(x, v) if x > 0.0 else 0.0
-        return [v, (force - held) / mass, held * v]
+        resistance = law.force(x, v) if x > 0.0 else 0.0
+        return [v, (force - resistance) / mass, resistance * v]
 
     def corner(share: float) -> Event:
         return lambda _, state: float(state[0]) - share * law.depth(float(state[1]))
@@ -127,7 +126,7 @@ def breakout(pull: Pull) -> Breakout:
         if stop.event == len(events) - 1:
             x, v, work = stop.state.tolist()
             return Breakout(stop.time, x, v, largest, work)
-    raise StudyError(f"{pull.name}: the mass comes by the corners of its suction again and again")
+    raise StudyError(f"{pull.name}: the mass passes the corners of its suction law repeatedly")
 
 
 class _Memory(NamedTuple):
@@ -145,37 +144,37 @@ class _Rising:
     pull: float
 
     def forces(self, position: FloatArray, velocity: FloatArray, history: History) -> Forces:
-        bed, slope = self.law.spring(-position)
-        found, after = step(self.suction, history.suction, np.maximum(position, 0.0), velocity, bed > 0.0)
+        reaction, slope = self.law.spring(-position)
+        found, after = step(self.suction, history.suction, np.maximum(position, 0.0), velocity, reaction > 0.0)
         memory = _Memory(after, np.maximum(history.largest, -found.force))
-        return Forces(bed + found.force + self.pull, found.by_uplift - slope, found.by_velocity, memory)
+        return Forces(reaction + found.force + self.pull, found.by_uplift - slope, found.by_velocity, memory)
 
 
 def pull_case(pull: Pull) -> Case:
     """The case of a pull; raises StudyError as `breakout` does."""
     exact = breakout(pull)
     rise = exact.suction / (pull.suction.first_corner * exact.uplift)
-    omega = math.sqrt(max(pull.law.steepest(pull.sunk), rise) / pull.mass)
+    omega = math.sqrt(max(pull.law.steepest(pull.embedment), rise) / pull.mass)
     system = _Rising(np.full(RUNS, pull.mass), pull.law, pull.suction.rows(RUNS), pull.pull)
     rest = pull.passing() * pull.mass / pull.pull
 
     def start(dt: float) -> Start:
         memory = _Memory(SuctionHistory.initial(system.suction), np.zeros(RUNS))
-        sunk = np.full(RUNS, -pull.sunk)
-        return Start(Motion.start(system, sunk, np.zeros(RUNS), memory), uneven(dt))
+        start_height = np.full(RUNS, -pull.embedment)
+        return Start(Motion.start(system, start_height, np.zeros(RUNS), memory), uneven(dt))
 
     return Case(
-        "pull",
-        f"pulled off {pull.name}, suction",
-        ("largest suction", "speed at breakout", "work against suction"),
-        "event-located integration (DOP853, rtol 1e-12)",
-        system,
-        omega,
-        1.05 * (rest + exact.time),
-        1e3 * (exact.uplift + pull.sunk),
-        start,
-        lambda run: _errors(pull, exact, run),
-        "the mass did not break out in time",
+        name="pull",
+        title=f"pulled off {pull.name}, suction",
+        quantities=("largest suction", "speed at breakout", "work against suction"),
+        reference="event-located integration (DOP853, rtol 1e-12)",
+        system=system,
+        omega=omega,
+        duration=1.05 * (rest + exact.time),
+        bound=1e3 * (exact.uplift + pull.embedment),
+        start=start,
+        errors=lambda run: _errors(pull, exact, run),
+        missing="the mass did not break out in time",
     )
 
 
@@ -188,6 +187,6 @@ def _errors(pull: Pull, exact: Breakout, run: Trajectory) -> FloatArray:
     found = np.array(
         [memory.largest / exact.suction, np.sqrt(np.maximum(squared, 0.0)) / exact.speed, work / exact.work]
     )
-    # Broken out, or so far away since that the seabed has forgotten it.
+    # Broken out, or so far away since that the history was reset.
     out = ~memory.suction.armed & (memory.suction.state != SuctionState.COMPRESSION) & (x > 0.5 * exact.uplift)
     return np.where(out, np.abs(found - 1.0), np.nan)

@@ -11,8 +11,8 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from mudline.contact.arrays import FloatArray
-from mudline.study.errors import StudyError
 from mudline.study.precision.laws import Law
+from mudline.study.report import StudyError
 
 Rate = Callable[[float, FloatArray], list[float]]
 Event = Callable[[float, FloatArray], float]
@@ -36,7 +36,7 @@ def next_event(rate: Rate, start: Stop, events: Sequence[Event], longest: float)
 
     def counted(time: float, state: FloatArray) -> list[float]:
         if next(evaluations, None) is None:
-            raise StudyError("the exact motion takes too long to find: its stiffnesses are too far apart")
+            raise StudyError("the exact motion takes too long to find: its stiffnesses differ too much")
         return rate(time, state)
 
     numbers = [index for index in range(len(events)) if index != start.event]
@@ -96,7 +96,7 @@ def bounce(law: Law, mass: float, weight: float, speed: float) -> Flight:
         if stop.event <= 0:
             break
     if stop.event != 0:
-        raise StudyError(f"{law.name} does not let go of a mass that falls on it")
+        raise StudyError(f"{law.name} does not release a mass that falls on it")
     return Flight(stop.time, deepest, -float(stop.state[1]))
 
 

@@ -3,18 +3,27 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from typing import NamedTuple
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from functools import partial
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
-from mudline.study.precision.case import Case
+from mudline.results.units import unit_names
+from mudline.scene.model import Scene
+from mudline.study.newton import Newton
+from mudline.study.picture import Picture, Points, draw_lines, label
+from mudline.study.precision.cases import ElasticContact, reference_drop
 from mudline.study.precision.drop import Drop, drop_case
-from mudline.study.precision.integration import StepRow, row
+from mudline.study.precision.integration import row
 from mudline.study.precision.laws import LinearLaw, smoothed_spring
-from mudline.study.schemes.catalogue import SCHEMES
-from mudline.study.schemes.newton import Newton
+from mudline.study.report import Layout, Section, StudyOptions, grouped
+from mudline.study.schemes import SCHEMES
+
+if TYPE_CHECKING:  # only who draws loads matplotlib
+    from matplotlib.figure import Figure
 
 SHARES = (0.0, *(10.0 ** (power / 2.0) for power in range(-6, 7)))
 """Half widths over the static penetration of the kinked law."""
@@ -23,6 +32,10 @@ WIDTHS = (0.0, 1e-6, 1e-4, 1e-3, 1e-2)
 _IMPACT_SHARES = (0.0, *(10.0 ** (power / 2.0) for power in range(-8, 1)))
 _IMPACT_SCHEMES = ("newmark", "generalised-alpha-0.5", "backward-euler")
 _IMPACT_STEPS = (0.1, 0.5)
+
+
+_NONE = 1e-5
+"""Where h = 0 stands on a logarithmic axis."""
 
 
 class Rest(NamedTuple):
@@ -67,6 +80,78 @@ class ImpactRow(NamedTuple):
     reason: str
 
 
+SMOOTHING = Layout[RestRow](
+    "smoothing",
+    "Smoothing at rest: Newton iterations and error",
+    {
+        "case": lambda row: row.case,
+        "half width h [{length}]": lambda row: row.half_width,
+        "h / static penetration": lambda row: row.share,
+        "penetration [{length}]": lambda row: row.penetration,
+        "error of penetration [relative]": lambda row: row.error,
+        "iterations from above": lambda row: row.from_above,
+        "iterations from below": lambda row: row.from_below,
+    },
+)
+IMPACTS = Layout[ImpactRow](
+    "impacts",
+    "Smoothing at an impact",
+    {
+        "scheme": lambda row: row.scheme,
+        "omega dt": lambda row: row.omega_dt,
+        "half width h [m]": lambda row: row.half_width,
+        "h / deepest penetration": lambda row: row.share,
+        "error of rebound speed [relative]": lambda row: row.rebound,
+        "Newton iterations per step": lambda row: row.iterations,
+        "reason": lambda row: row.reason,
+    },
+    brief=False,
+)
+
+
+def study_smoothing(scene: Scene, contacts: Sequence[ElasticContact], options: StudyOptions) -> Section:
+    """At rest on the published case and on the scene's stiffest law as if it were linear; and the published impact."""
+    options.progress("smoothing")
+    widths = np.unique([float(f"{width:.4g}") for width in (*WIDTHS, *(share * 1e-5 for share in SHARES))])
+    rest = list(at_rest(PUBLISHED, widths))
+    for contact in contacts[:1]:
+        stiffness, start = contact.stiffness, 0.7 * contact.diameter
+        own = Rest(contact.law.name, stiffness, 2e-5 * stiffness, contact.weight, start)
+        rest += at_rest(own, np.array(SHARES) * own.kinked)
+    hits = list(impacts(weightless(reference_drop())))
+    tables = SMOOTHING.table(rest, length=unit_names(scene.units).length), IMPACTS.table(hits)
+    caption = "Smoothing: Newton iterations and errors against the half width h of the zone; h = 0 stands far left."
+    return Section(tables, [Picture("smoothing", caption, partial(_draw, rest, hits), (11.5, 9.0))])
+
+
+def _draw(rest: Sequence[RestRow], hits: Sequence[ImpactRow], figure: Figure) -> None:
+    """At rest: iterations and error; at an impact: error of the rebound and iterations."""
+    (iterations, error), (rebound, effort) = figure.subplots(2, 2)
+    tries: dict[str, Points] = {}
+    wrong: dict[str, Points] = {}
+    for name, rows in grouped(sorted(rest, key=_share), lambda row: row.case).items():
+        tries[f"{name}, from above"] = [(_share(row), row.from_above) for row in rows]
+        tries[f"{name}, from below"] = [(_share(row), row.from_below) for row in rows]
+        wrong[name] = [(_share(row), row.error) for row in rows if row.error > 1e-15]
+    draw_lines(iterations, tries, "semilogx")
+    draw_lines(error, wrong)
+    label(iterations, "at rest", "h / static penetration [-]; h = 0 far left", "Newton iterations [-]")
+    label(error, "at rest", "h / static penetration [-]; h = 0 far left", "error of the penetration [-]")
+    runs = grouped(hits, lambda row: f"{SCHEMES[row.scheme].title}, omega dt = {row.omega_dt:g}")
+    speeds = {name: [(_share(r), r.rebound) for r in rows if r.rebound is not None] for name, rows in runs.items()}
+    draw_lines(rebound, speeds)
+    draw_lines(effort, {name: [(_share(r), r.iterations) for r in rows] for name, rows in runs.items()}, "semilogx")
+    label(rebound, "impact", "h / deepest penetration [-]; h = 0 far left", "error of the rebound speed [-]")
+    label(effort, "impact", "h / deepest penetration [-]; h = 0 far left", "Newton iterations per step [-]")
+    for axes in (iterations, error, rebound):
+        axes.legend(fontsize="x-small", loc="best")
+
+
+def _share(row: RestRow | ImpactRow) -> float:
+    """The half width over the penetration, where it is drawn."""
+    return max(row.share, _NONE)
+
+
 def at_rest(rest: Rest, widths: FloatArray) -> Iterator[RestRow]:
     """Solve for every half width, from above the seabed and from below."""
     count = len(widths)
@@ -90,19 +175,15 @@ def impacts(drop: Drop) -> Iterator[ImpactRow]:
     stiffness = drop.law.steepest(0.0)
     for share in _IMPACT_SHARES:
         width = share * drop.deepest
-        case = _smoothed(drop, stiffness, width)
+        law = LinearLaw(f"h = {width:g}", stiffness, width)
+        case = drop_case("smoothed", law.name, replace(drop, law=law))
         for name in _IMPACT_SCHEMES:
             for omega_dt in _IMPACT_STEPS:
-                found: StepRow = row(case, SCHEMES[name], omega_dt)
+                found = row(case, SCHEMES[name], omega_dt)
                 yield ImpactRow(name, omega_dt, width, share, found.errors[1], found.iterations, found.reason)
-
-
-def _smoothed(drop: Drop, stiffness: float, width: float) -> Case:
-    law = LinearLaw(f"h = {width:g}", stiffness, width)
-    return drop_case("smoothed", law.name, Drop(law, drop.mass, 0.0, drop.speed, drop.deepest))
 
 
 def weightless(drop: Drop) -> Drop:
     """The same without gravity, so that nothing but the impact is seen."""
     deepest = drop.speed * math.sqrt(drop.mass / drop.law.steepest(0.0))
-    return Drop(drop.law, drop.mass, 0.0, drop.speed, deepest)
+    return replace(drop, weight=0.0, deepest=deepest)

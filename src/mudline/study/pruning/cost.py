@@ -1,22 +1,29 @@
-"""Time and memory of each scene at each number of nodes."""
+"""Time and memory of each scene at each number of nodes, and what a scene with nothing but a curve pays beyond it."""
 
 from __future__ import annotations
 
 import tracemalloc
-from collections.abc import Iterator, Sequence
-from typing import NamedTuple
+from collections.abc import Sequence
+from functools import partial
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mudline.contact.arrays import FloatArray
+from mudline.contact.input import ContactInput
 from mudline.contact.model import ContactModel
-from mudline.study.options import StudyOptions
-from mudline.study.pruning.bare import bare_evaluation
-from mudline.study.pruning.clock import spent
-from mudline.study.pruning.motion import STEPS, positions, series
-from mudline.study.pruning.pipe import Pipe
-from mudline.study.pruning.variants import Variant, line
-from mudline.study.timing import Timing
+from mudline.study.picture import Picture, draw_lines, label, legend_below, style
+from mudline.study.pruning.scenes import CURVE, STEPS, Pipe, Variant, line, positions, series
+from mudline.study.report import Layout, Section, StudyOptions, grouped
+from mudline.study.timing import Timing, processor_time
+
+if TYPE_CHECKING:  # only who draws loads matplotlib
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+LADDER = (100, 1000, 10_000, 100_000)
+MOST = 1_000_000
 
 
 class CostRow(NamedTuple):
@@ -59,12 +66,111 @@ class CurveRow(NamedTuple):
         return self.scene / self.bare
 
 
-def costs(found: Sequence[Variant], pipe: Pipe, ladder: Sequence[int], options: StudyOptions) -> Iterator[CostRow]:
-    """Every scene at every number of nodes."""
-    for nodes in ladder:
-        for variant in found:
+ALONE = Layout[CurveRow](
+    "curve",
+    "A scene with nothing but a curve, one step, every element in contact",
+    {
+        "nodes": lambda row: row.nodes,
+        "curve alone [ns/node]": lambda row: row.curve,
+        "plain numpy [ns/node]": lambda row: row.bare,
+        "scene [ns/node]": lambda row: row.scene,
+        "scene / curve alone": lambda row: row.over_curve,
+        "scene / plain numpy": lambda row: row.over_bare,
+    },
+)
+STAGES = Layout[tuple[CostRow, CostRow]](
+    "stages",
+    "Scenes of {nodes} nodes",
+    {
+        "scene": lambda both: both[0].scene,
+        "steps": lambda both: "one by one" if both[0].history else "together",
+        "in contact [%]": lambda both: 100.0 * both[0].touching,
+        "time [ns/node/step]": lambda both: both[0].nanoseconds,
+        "times the curve's": lambda both: both[0].nanoseconds / both[1].nanoseconds,
+        "memory [bytes/node]": lambda both: both[0].peak,
+        "to prepare [ns/node]": lambda both: both[0].prepare,
+    },
+)
+"""A scene, and that with nothing but a curve."""
+NODES = Layout[CostRow](
+    "nodes",
+    "Time and memory against the number of nodes",
+    {
+        "scene": lambda row: row.scene,
+        "nodes": lambda row: row.nodes,
+        "best time [ns/node/step]": lambda row: row.nanoseconds,
+        "median time [ns/node/step]": lambda row: row.median,
+        "share in contact": lambda row: row.touching,
+        "memory [bytes/node]": lambda row: row.peak,
+        "to prepare [ns/node]": lambda row: row.prepare,
+        "history": lambda row: row.history,
+    },
+    brief=False,
+)
+
+
+def study_curve(pipe: Pipe, options: StudyOptions) -> list[CurveRow]:
+    """The curve alone at every number of nodes."""
+    rows = []
+    for nodes in (*LADDER, MOST):
+        options.progress(f"{nodes} nodes: the curve alone, and the scene that has nothing else")
+        rows.append(curve_alone(pipe, nodes))
+    return rows
+
+
+def study_cost(variants: Sequence[Variant], pipe: Pipe, alone: Sequence[CurveRow], options: StudyOptions) -> Section:
+    """Every scene at every number of nodes, beside the rows of the curve alone."""
+    rows = []
+    for nodes in (*LADDER, MOST) if options.full else LADDER:
+        for variant in variants:
             options.progress(f"{nodes} nodes: {variant.name}")
-            yield cost(variant, pipe, nodes)
+            rows.append(cost(variant, pipe, nodes))
+    most = max(row.nodes for row in rows)
+    largest = [row for row in rows if row.nodes == most]
+    plain = next(row for row in largest if row.scene == CURVE)
+    tables = (
+        ALONE.table(alone),
+        STAGES.table([(row, plain) for row in largest], nodes=most),
+        NODES.table(rows),
+    )
+    caption = "Time per node and step, and memory per node, against the number of nodes: one line a scene."
+    stages = "Cost of each scene in times that of the curve alone."
+    pictures = (
+        Picture("nodes", caption, partial(_draw_nodes, rows, alone), (12.0, 8.0)),
+        Picture("stages", stages, partial(_draw_stages, largest, plain), (11, 6.5)),
+    )
+    return Section(tables, pictures)
+
+
+def _draw_nodes(rows: Sequence[CostRow], alone: Sequence[CurveRow], figure: Figure) -> None:
+    time, memory = figure.subplots(1, 2)
+    scenes = grouped(rows, lambda row: row.scene)
+    draw_lines(time, {scene: [(row.nodes, row.nanoseconds) for row in part] for scene, part in scenes.items()})
+    draw_lines(memory, {scene: [(row.nodes, row.peak) for row in part] for scene, part in scenes.items()})
+    nodes, curve = [row.nodes for row in alone], [row.curve for row in alone]
+    time.loglog(nodes, curve, "k:", linewidth=2.5, label="ForceCurve.evaluate alone")
+    label(time, "Time of one step", "nodes [-]", "time per node and step [ns]")
+    label(memory, "Most memory during one step", "nodes [-]", "memory per node [bytes]")
+    memory.set_ylim(100.0, 2.0 * max(row.peak for row in rows))
+    memory.yaxis.set_minor_formatter("")
+    legend_below(figure, time, 4)
+
+
+def _draw_stages(largest: Sequence[CostRow], plain: CostRow, figure: Figure) -> None:
+    time, memory = figure.subplots(1, 2, sharey=True)
+    names = [row.scene for row in largest]
+    _bars(time, names, [row.nanoseconds / plain.nanoseconds for row in largest])
+    _bars(memory, names, [row.peak / plain.peak for row in largest])
+    label(time, f"Time of one step, {plain.nodes} nodes", "times that of the scene with a curve [-]", "")
+    label(memory, "Most memory during one step", "times that of the scene with a curve [-]", "")
+    time.invert_yaxis()
+
+
+def _bars(axes: Axes, names: Sequence[str], values: Sequence[float]) -> None:
+    bars = axes.barh(names, values, color=style(0)["color"])
+    axes.bar_label(bars, fmt="%.2g", padding=3)
+    axes.set_xlim(0.0, 1.15 * max(values))
+    axes.axvline(1.0, color="0.4", linestyle=":")
 
 
 def cost(variant: Variant, pipe: Pipe, nodes: int) -> CostRow:
@@ -73,7 +179,7 @@ def cost(variant: Variant, pipe: Pipe, nodes: int) -> CostRow:
     model = ContactModel(inputs)
     points = positions(variant, inputs, pipe)
     taken = stepping(model, series(points, pipe))
-    prepared = spent(lambda: ContactModel(inputs), few=True)
+    prepared = processor_time(lambda: ContactModel(inputs), few=True)
     per = 1e9 / (nodes * STEPS)
     touching, peak = _evaluated(model, points)
     return CostRow(
@@ -96,7 +202,7 @@ def stepping(model: ContactModel, moved: FloatArray) -> Timing:
         for _ in model.stream(moved, times=times):
             pass
 
-    return spent(run)
+    return processor_time(run)
 
 
 def curve_alone(pipe: Pipe, nodes: int) -> CurveRow:
@@ -113,7 +219,7 @@ def curve_alone(pipe: Pipe, nodes: int) -> CurveRow:
     least = [np.inf] * len(calls)
     for _ in range(3):  # turn by turn: a machine that gets busy slows all of them
         for index, call in enumerate(calls):
-            least[index] = min(least[index], spent(call).best)
+            least[index] = min(least[index], processor_time(call).best)
     curve, bare, scene = (1e9 * seconds / nodes for seconds in least)
     return CurveRow(nodes, curve, bare, scene)
 
@@ -129,3 +235,24 @@ def _evaluated(model: ContactModel, points: FloatArray) -> tuple[float, int]:
     finally:
         tracemalloc.stop()
     return float(result.contact.mean()), peak
+
+
+def bare_evaluation(inputs: ContactInput, points: FloatArray) -> tuple[NDArray[np.float64 | np.bool_], ...]:
+    """Depth, ratio, contact, force, slope, stiffness, and reactions, of a chain of elements on one curve, flat seabed.
+
+    What nobody who wants the same results can do without, in plain numpy: a line of code for each. All elements are
+    taken to touch the seabed; nothing is checked, no history, no other law or seabed.
+    """
+    gap = points[:, 0] + 0.0
+    depth = -0.5 * (gap[:-1] + gap[1:])
+    ratio = depth / inputs.diameter
+    contact = depth > 0.0
+    force, slope = inputs.curves[0].evaluate(ratio)
+    stiffness = slope / inputs.diameter
+    share = 0.5 * inputs.length * force
+    normal_force = np.zeros(len(points))
+    normal_force[:-1] += share
+    normal_force[1:] += share
+    reaction = np.zeros(points.shape)
+    reaction[:, 0] = normal_force
+    return gap, depth, ratio, contact, force, slope, stiffness, normal_force, reaction

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from typing import NamedTuple
+from functools import partial
+from itertools import pairwise
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -13,28 +15,27 @@ from mudline.contact.model import ContactModel
 from mudline.curves import ForceCurve
 from mudline.deck.loading import load_bytes
 from mudline.scene.build import resolve
-from mudline.study.options import StudyOptions
-from mudline.study.pruning.clock import spent
+from mudline.study.picture import Picture, label, panels, style
 from mudline.study.pruning.cost import stepping
-from mudline.study.pruning.fitting import exponent, per_unit, upper_half
-from mudline.study.pruning.growing_deck import deck_with_sets
-from mudline.study.pruning.motion import positions, series
-from mudline.study.pruning.pipe import Pipe
-from mudline.study.pruning.seabeds import planes
-from mudline.study.pruning.variants import Variant, everything, line
+from mudline.study.pruning.scenes import Pipe, Variant, everything, line, planes, positions, series
+from mudline.study.report import Layout, Section, StudyOptions, grouped
+from mudline.study.timing import processor_time
+
+if TYPE_CHECKING:  # only who draws loads matplotlib
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 NODES = 10_001
 FEW_NODES = 1001
 ELEMENTS = 2048
-LADDERS = {
-    "points on the curve": (2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096),
-    "curves": (1, 2, 4, 8, 16, 32, 64, 128, 256, 512),
-    "sets": (1, 2, 4, 8, 16, 32, 64, 128, 256, 512),
-    "planes": (1, 2, 4, 8, 16, 32, 64, 128, 256),
-    "steps, curve": (1, 2, 4, 8, 16, 32, 64, 128, 256),
-    "steps, everything": (1, 2, 4, 8, 16, 32, 64),
-}
 _DEEPEST = 0.5
+
+
+class Ladder(NamedTuple):
+    """Sizes of one thing, and the seconds that a scene of a pipe takes with it."""
+
+    sizes: Sequence[int]
+    measure: Callable[[Pipe, int], float]
 
 
 class GrowthRow(NamedTuple):
@@ -63,22 +64,109 @@ class Fit(NamedTuple):
     unit: float
 
 
+FITS = Layout[Fit](
+    "growth",
+    "How time grows",
+    {
+        "number of": lambda fit: fit.what,
+        "from": lambda fit: fit.least,
+        "to": lambda fit: fit.largest,
+        "exponent": lambda fit: fit.exponent,
+        "exponent, upper half": lambda fit: fit.upper,
+        "time, largest / smallest": lambda fit: fit.factor,
+        "time of one more [us]": lambda fit: 1e6 * fit.unit,
+    },
+)
+SIZES = Layout[GrowthRow](
+    "sizes",
+    "Time against size",
+    {
+        "number of": lambda row: row.what,
+        "size": lambda row: row.size,
+        "best time [s]": lambda row: row.seconds,
+    },
+    brief=False,
+)
+
+
+def study_growth(pipe: Pipe, options: StudyOptions) -> Section:
+    """All ladders, with fitted power laws."""
+    rows = list(growth(pipe, options))
+    found = list(fits(rows))
+    return Section((FITS.table(found), SIZES.table(rows)), [growth_picture(rows, found)])
+
+
+def growth_picture(rows: Sequence[GrowthRow], found: Sequence[Fit]) -> Picture:
+    """Time against the size of one thing each, with the fitted slopes."""
+    caption = "Time against size, with fitted power laws."
+    return Picture("growth", caption, partial(_draw, rows, found), (12.0, 7.5))
+
+
+def _draw(rows: Sequence[GrowthRow], found: Sequence[Fit], figure: Figure) -> None:
+    ladders = grouped(rows, lambda row: row.what)
+    for axes, fit in zip(panels(figure, len(found), 3), found, strict=True):
+        sizes = [row.size for row in ladders[fit.what]]
+        seconds = [1e3 * row.seconds for row in ladders[fit.what]]
+        axes.loglog(sizes, seconds, label="measured", **style(0) | {"linestyle": "none"})
+        _slope(axes, sizes, seconds, fit.exponent, "--", "all sizes")
+        half = len(sizes) // 2
+        _slope(axes, sizes[half:], seconds[half:], fit.upper, "-", "larger half")
+        axes.set_ylim(0.25 * min(seconds), max(4.0 * max(seconds), 50.0 * min(seconds)))
+        axes.set_xlim(0.8 * min(sizes), 1.25 * max(sizes))
+        label(axes, f"Number of {fit.what}", "number [-]", "time [ms]")
+        axes.legend(fontsize="small", loc="upper left")
+
+
+def _slope(
+    axes: Axes, sizes: Sequence[float], milliseconds: Sequence[float], exponent: float, dash: str, what: str
+) -> None:
+    """A power law through the middle of the points."""
+    if not np.isfinite(exponent):
+        return
+    x, y = np.log(sizes), np.log(milliseconds)
+    color = style(1 if dash == "--" else 2)["color"]
+    axes.loglog(
+        sizes, np.exp(y.mean() + exponent * (x - x.mean())), dash, color=color, label=f"{what}: exponent {exponent:.2f}"
+    )
+
+
 def growth(pipe: Pipe, options: StudyOptions) -> Iterator[GrowthRow]:
     """All ladders; longer by a factor of four with `full`."""
-    for what, sizes in LADDERS.items():
+    for what, (sizes, measure) in LADDERS.items():
         for size in [*sizes, *((4 * sizes[-1],) if options.full else ())]:
             options.progress(f"{what}: {size}")
-            yield GrowthRow(what, size, _MEASURED[what](pipe, size))
+            yield GrowthRow(what, size, measure(pipe, size))
 
 
 def fits(rows: Sequence[GrowthRow]) -> Iterator[Fit]:
     """One for each ladder."""
-    for what in dict.fromkeys(row.what for row in rows):
-        ladder = [row for row in rows if row.what == what]
+    for what, ladder in grouped(rows, lambda row: row.what).items():
         sizes, seconds = [float(row.size) for row in ladder], [row.seconds for row in ladder]
         factor = seconds[-1] / seconds[0]
         numbers = (exponent(sizes, seconds), upper_half(sizes, seconds), factor, per_unit(sizes, seconds))
         yield Fit(what, ladder[0].size, ladder[-1].size, *numbers)
+
+
+def exponent(sizes: Sequence[float], seconds: Sequence[float]) -> float:
+    """Slope of the straight line through log(size), log(seconds), by least squares; NaN for less than two sizes."""
+    if len(set(sizes)) < 2:
+        return float("nan")
+    x, y = np.log(np.asarray(sizes, np.float64)), np.log(np.asarray(seconds, np.float64))
+    x = x - x.mean()
+    return float((x * (y - y.mean())).sum() / (x * x).sum())
+
+
+def upper_half(sizes: Sequence[float], seconds: Sequence[float]) -> float:
+    """The same for the larger half of the sizes, where the constant part of the cost matters least."""
+    start = len(sizes) // 2
+    return exponent(sizes[start:], seconds[start:])
+
+
+def per_unit(sizes: Sequence[float], seconds: Sequence[float]) -> float:
+    """Seconds that one more unit costs at the largest size: the difference of the last two points."""
+    if len(sizes) < 2:
+        return float("nan")
+    return (seconds[-1] - seconds[-2]) / (sizes[-1] - sizes[-2])
 
 
 def spread(points: int, scale: float) -> ForceCurve:
@@ -103,7 +191,7 @@ def _sets(pipe: Pipe, size: int) -> float:
     """Reading the deck until its evaluator stands."""
     del pipe
     text = deck_with_sets(size, ELEMENTS).encode()
-    return spent(lambda: resolve(load_bytes(text, "sets.keyxm")).contact(), few=True).best
+    return processor_time(lambda: resolve(load_bytes(text, "sets.keyxm")).contact(), few=True).best
 
 
 def _planes(pipe: Pipe, size: int) -> float:
@@ -113,7 +201,7 @@ def _planes(pipe: Pipe, size: int) -> float:
 def _pressed(pipe: Pipe, inputs: ContactInput) -> float:
     model = ContactModel(inputs)
     points = positions(Variant("", lambda _: inputs), inputs, pipe)
-    return spent(lambda: model.evaluate(points)).best
+    return processor_time(lambda: model.evaluate(points)).best
 
 
 def _stepped(make: Callable[[Pipe, int], ContactInput]) -> Callable[[Pipe, int], float]:
@@ -125,11 +213,42 @@ def _stepped(make: Callable[[Pipe, int], ContactInput]) -> Callable[[Pipe, int],
     return measured
 
 
-_MEASURED: dict[str, Callable[[Pipe, int], float]] = {
-    "points on the curve": _points,
-    "curves": _curves,
-    "sets": _sets,
-    "planes": _planes,
-    "steps, curve": _stepped(line),
-    "steps, everything": _stepped(everything),
+LADDERS = {
+    "points on the curve": Ladder((2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096), _points),
+    "curves": Ladder((1, 2, 4, 8, 16, 32, 64, 128, 256, 512), _curves),
+    "sets": Ladder((1, 2, 4, 8, 16, 32, 64, 128, 256, 512), _sets),
+    "planes": Ladder((1, 2, 4, 8, 16, 32, 64, 128, 256), _planes),
+    "steps, curve": Ladder((1, 2, 4, 8, 16, 32, 64, 128, 256), _stepped(line)),
+    "steps, everything": Ladder((1, 2, 4, 8, 16, 32, 64), _stepped(everything)),
 }
+
+
+def deck_with_sets(sets: int, elements: int) -> str:
+    """The text of a straight line on linear seabeds; the elements are shared out among the sets."""
+    edges = [number * elements // sets for number in range(sets + 1)]
+    ranges = [(f"Part {number + 1}", first + 1, last) for number, (first, last) in enumerate(pairwise(edges))]
+    return "\n".join(
+        [
+            "$MODEL",
+            "*NODE",
+            " 1, -0.01, 0.0, 0.0",
+            f" {elements + 1}, -0.01, {2.0 * elements}, 0.0",
+            f" GEN=1, {elements + 1}",
+            "*ELEMENT",
+            " 1, 1, 2",
+            f" GEN=1, {elements}",
+            "*ELEMENT SETS",
+            *(f" SET={name}\n GEN={first}, {last}" for name, first, last in ranges),
+            "*GEOMETRIC SETS",
+            " OPTION=RIGID",
+            " SET=ALL",
+            " 207.0E9, 79.6E9, 0.3, 0.25, 7850.0",
+            "*SEABED PROPERTIES",
+            " TYPE=ELASTIC",
+            *(f" SET={name}\n STIFFNESS={50_000 + first}" for name, first, _ in ranges),
+            "$LOAD CASE",
+            "*ANALYSIS TYPE",
+            " TYPE=STATIC",
+            "",
+        ]
+    )

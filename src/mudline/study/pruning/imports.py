@@ -11,9 +11,8 @@ from dataclasses import fields
 from typing import NamedTuple
 
 from mudline.contact.input import ContactInput
-from mudline.study.options import StudyOptions
-from mudline.study.pruning.variants import Variant
-from mudline.study.report import Omission
+from mudline.study.pruning.scenes import CURVE, Variant
+from mudline.study.report import Layout, Omission, Section, StudyOptions
 
 NODES = 11
 _RUNS = 3
@@ -50,6 +49,38 @@ class ImportRow(NamedTuple):
     modules: int
     others: int
     beyond: tuple[str, ...]
+
+
+def _parts(row: ImportRow) -> str:
+    """The laws, else the packages, that the modules are of."""
+    return ", ".join(dict.fromkeys(module.removeprefix("laws.").partition(".")[0] for module in row.beyond))
+
+
+IMPORTS = Layout[ImportRow](
+    "imports",
+    "What a scene loads, in a fresh interpreter",
+    {
+        "scene": lambda row: row.scene,
+        "time [ms]": lambda row: 1e3 * row.seconds,
+        "modules of mudline": lambda row: row.modules,
+        "other modules": lambda row: row.others,
+        "beyond those of the curve": _parts,
+    },
+)
+MODULES = Layout[tuple[str, str]](
+    "modules",
+    "Modules that a scene loads beyond those of a curve",
+    {"scene": lambda pair: pair[0], "module beyond those of the curve": lambda pair: pair[1]},
+    brief=False,
+)
+
+
+def study_imports(variants: Sequence[Variant], options: StudyOptions) -> Section:
+    """What every scene loads, each in a fresh interpreter."""
+    omissions: list[Omission] = []
+    rows = list(imports(variants, CURVE, options, omissions))
+    modules = [(row.scene, module) for row in rows for module in row.beyond]
+    return Section((IMPORTS.table(rows), MODULES.table(modules)), omissions=omissions)
 
 
 def imports(

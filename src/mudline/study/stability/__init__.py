@@ -1,16 +1,25 @@
-"""How stable a deck's contacts are under time steps, Newton's method, suction that lets go, and extreme numbers."""
+"""How stable a deck's contacts are under time steps, Newton's method, the release of suction, and extreme numbers."""
 
 from __future__ import annotations
 
 from mudline.scene.model import Scene
-from mudline.study.options import StudyOptions
-from mudline.study.report import StudyReport
-from mudline.study.sample import sample_scene
-from mudline.study.stability.whole import study_scene
+from mudline.study.report import StudyOptions, StudyReport
+from mudline.study.stability.critical import study_steps
+from mudline.study.stability.cycles import study_cycles
+from mudline.study.stability.ladder import study_ladder
+from mudline.study.stability.landings import study_landings
+from mudline.study.stability.release import study_release
 
 __all__ = ["run"]
 
 
-def run(scene: Scene | None, options: StudyOptions) -> StudyReport:
-    """Study the contacts of a scene, of the built-in sample where there is none; raises DeckError."""
-    return study_scene(sample_scene() if scene is None else scene, options)
+def run(scene: Scene, options: StudyOptions) -> StudyReport:
+    """Study the contacts of a scene; raises DeckError."""
+    sections = (
+        study_steps(scene, options),
+        study_landings(options),
+        study_cycles(),
+        study_release(scene, options),
+        study_ladder(options),
+    )
+    return StudyReport.of("stability", f"Stability of the contacts of {scene.deck.file}", sections)

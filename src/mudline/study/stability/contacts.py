@@ -8,13 +8,13 @@ import numpy as np
 
 from mudline.contact.arrays import FloatArray, IndexArray
 from mudline.contact.input import LawKind
-from mudline.contact.stiffest import omega, steepest_slope
+from mudline.contact.stiffest import ADVISED_OMEGA_DT, CRITICAL_OMEGA_DT, omega, steepest_slope
 from mudline.curves import ForceCurve
 from mudline.scene.contact_parts.unloading import KEYWORD as UNLOADING
 from mudline.scene.contact_parts.unloading import given_stiffness
 from mudline.scene.model import Scene
 from mudline.scene.section_weight import mass_per_length
-from mudline.study.report import Omission
+from mudline.study.report import Layout, Omission
 
 
 class Contact(NamedTuple):
@@ -28,8 +28,8 @@ class Contact(NamedTuple):
     omega: root of stiffness over mass, radians per unit of time.
     depth: a penetration in the middle of where the law has this stiffness.
     reach: how far to both sides it has it.
-    scale: the largest distance that the law computes with there: a swing below its rounding is lost.
-    unloading: whether the stiffness is that of the way back.
+    scale: the largest distance that the law computes with there: an oscillation below its rounding is not resolved.
+    unloading: whether the stiffness is that of the unloading line.
     """
 
     name: str
@@ -44,6 +44,28 @@ class Contact(NamedTuple):
     unloading: bool = False
 
 
+CONTACTS = Layout[Contact](
+    "contacts",
+    "Frequencies of the contacts, the fastest first",
+    {
+        "contact": lambda one: one.name,
+        "elements": lambda one: one.elements,
+        "largest stiffness [{force}/{length}2]": lambda one: one.stiffness,
+        "mass [{mass}/{length}]": lambda one: one.mass,
+        "omega [rad/s]": lambda one: one.omega,
+        "advised step, implicit [s]": lambda one: ADVISED_OMEGA_DT / one.omega,
+        "critical step, central-difference [s]": lambda one: CRITICAL_OMEGA_DT["central-difference"] / one.omega,
+        "critical step, rk4 [s]": lambda one: CRITICAL_OMEGA_DT["rk4"] / one.omega,
+    },
+)
+_UNITS = {"metric": ("N", "m", "kg"), "imperial": ("lbf", "ft", "slug")}
+
+
+def unit_words(units: str) -> dict[str, str]:
+    """What the headings of tables call force, length and mass in these units of a deck."""
+    return dict(zip(("force", "length", "mass"), _UNITS.get(units, ("force", "length", "mass")), strict=True))
+
+
 class _Steepest(NamedTuple):
     stiffness: float
     depth: float
@@ -52,7 +74,7 @@ class _Steepest(NamedTuple):
 
 
 def find_contacts(scene: Scene) -> tuple[list[Contact], list[Omission]]:
-    """The contacts that swing, the stiffest first, and those of which no frequency is known."""
+    """The contacts that oscillate, the fastest first, and those of which no frequency is known."""
     springs = np.flatnonzero(np.isin(scene.law, (LawKind.CURVE, LawKind.LINEAR)))
     back = scene.extensions.get(UNLOADING)
     ways = np.full(len(scene.law), -1) if back is None else back.of_element
@@ -81,7 +103,7 @@ def find_contacts(scene: Scene) -> tuple[list[Contact], list[Omission]]:
 
 
 def _nodal(scene: Scene, masses: FloatArray) -> tuple[list[Contact], list[Omission]]:
-    """Nodes with a stiffness of their own: of each stiffness the node that swings fastest, per unit of its length."""
+    """Nodes with a stiffness of their own: of each stiffness the fastest node, per unit of its length."""
     springs = scene.contact_input().assigned.get("nodal")
     if springs is None:
         return [], []
@@ -102,9 +124,9 @@ def _nodal(scene: Scene, masses: FloatArray) -> tuple[list[Contact], list[Omissi
         node = int(nodes[np.nanargmax(frequency[nodes])])
         element = int(np.flatnonzero((scene.element_nodes == node).any(axis=1))[0])
         name = f"nodal {stiffness:.6g} at node {scene.node_ids[node]}"
-        per_length, swings = float(stiffness / length[node]), float(frequency[node])
+        per_length, own = float(stiffness / length[node]), float(frequency[node])
         load = float(mass[node] / length[node])
-        found.append(Contact(name, element, len(nodes), per_length, load, swings, *_small(scene, element)))
+        found.append(Contact(name, element, len(nodes), per_length, load, own, *_small(scene, element)))
     return found, left_out
 
 

@@ -1,4 +1,4 @@
-"""Newton's method on friction that holds up to a limit: iterates that go round for ever, and the cure.
+"""Newton's method on friction with a limit: iterates that cycle for ever, and the cure.
 
 A structure of stiffness kb, held by a friction spring kt up to mu N, is pulled with a force F:
 
@@ -12,13 +12,15 @@ friction is that of the evaluator.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from mudline.contact.arrays import FloatArray, IndexArray
 from mudline.contact.laws.friction import FrictionHistory, FrictionLaw, slide
-from mudline.study.schemes.newton import ROUND_OFF, TOLERANCE, Newton
+from mudline.study.newton import ROUND_OFF, TOLERANCE, Newton
+from mudline.study.report import Layout, Section
 
 STARTS = np.linspace(-20.0, 20.0, 101)
 MOST = 50
@@ -26,7 +28,7 @@ RATIOS = (1.0, 9.0, 99.0, 1e4, 1e6)
 FORCES = (0.1, 0.5, 0.9, 1.5)
 
 
-class Pulled(NamedTuple):
+class FrictionProblem(NamedTuple):
     """kb, kt, mu N and F, in any one system of units."""
 
     structure: float
@@ -35,10 +37,10 @@ class Pulled(NamedTuple):
     force: float
 
 
-EXAMPLE = Pulled(1.0, 99.0, 10.0, 5.0)
+EXAMPLE = FrictionProblem(1.0, 99.0, 10.0, 5.0)
 
 
-class Path(NamedTuple):
+class NewtonPath(NamedTuple):
     """Iterates of one solution, and whether it converged."""
 
     iterates: list[float]
@@ -46,56 +48,32 @@ class Path(NamedTuple):
     converged: bool
 
 
-class Ensemble(NamedTuple):
-    """Solutions from many starts.
-
-    starts: how many.
-    converged: how many converged.
-    mean: iterations of these; NaN without any.
-    most: iterations of the slowest of these.
-    """
-
-    starts: int
-    converged: int
-    mean: float
-    most: int
-
-    @property
-    def lost(self) -> int:
-        """How many did not."""
-        return self.starts - self.converged
-
-
-def path(pulled: Pulled, start: float, newton: Newton) -> Path:
+def newton_path(problem: FrictionProblem, start: float, newton: Newton) -> NewtonPath:
     """Follow Newton's method from one start: the points that it took, the start first."""
     points = [start]
     for most in range(1, newton.most + 1):
         solution = Newton(newton.tolerance, most, newton.halving).solve(
-            lambda u: residual(pulled, u), np.array([start])
+            lambda u: residual(problem, u), np.array([start])
         )
         if int(solution.iterations[0]) < most:
             break
         points.append(float(solution.root[0]))
         if solution.residual[0] == 0.0:
             break
-    return Path(points, len(points) - 1, bool(solution.residual[0] == 0.0))
+    return NewtonPath(points, len(points) - 1, bool(solution.residual[0] == 0.0))
 
 
-def ensemble(pulled: Pulled, newton: Newton) -> Ensemble:
-    """Solve from all of `STARTS`."""
-    solution = newton.solve(lambda u: residual(pulled, u), STARTS)
-    good = solution.residual == 0.0
-    done = solution.iterations[good]
-    mean = float(done.mean()) if done.size else float("nan")
-    return Ensemble(len(STARTS), int(good.sum()), mean, int(done.max(initial=0)))
+def newton_failures(problem: FrictionProblem, newton: Newton) -> int:
+    """From how many of `STARTS` a solution does not converge."""
+    return int((newton.solve(lambda u: residual(problem, u), STARTS).residual != 0.0).sum())
 
 
-def residual(pulled: Pulled, u: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+def residual(problem: FrictionProblem, u: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Residuals at displacements (k,), their derivatives, and their largest terms."""
     count = len(u)
     law = FrictionLaw(
         np.ones((count, 2)),
-        np.full((count, 2), pulled.spring),
+        np.full((count, 2), problem.spring),
         np.full((count, 2), np.nan),
         np.zeros(count, np.bool_),
         np.ones(count, np.bool_),
@@ -104,13 +82,13 @@ def residual(pulled: Pulled, u: FloatArray) -> tuple[FloatArray, FloatArray, Flo
     points = np.zeros((count, 3))
     points[:, 1] = u
     along, across = np.tile([0.0, 1.0, 0.0], (count, 1)), np.tile([0.0, 0.0, 1.0], (count, 1))
-    held = slide(law, stuck, points, (along, across), np.full(count, pulled.limit))
-    friction, own = held.force[:, 0], pulled.structure * u
-    size = np.maximum(np.maximum(np.abs(own), np.abs(friction)), abs(pulled.force))
-    return own - friction - pulled.force, pulled.structure - held.by_position[:, 0, 0], size
+    held = slide(law, stuck, points, (along, across), np.full(count, problem.limit))
+    friction, own = held.force[:, 0], problem.structure * u
+    size = np.maximum(np.maximum(np.abs(own), np.abs(friction)), abs(problem.force))
+    return own - friction - problem.force, problem.structure - held.by_position[:, 0, 0], size
 
 
-class Cycling(NamedTuple):
+class CycleCount(NamedTuple):
     """Ensembles of one case.
 
     ratio: spring over structure, kt / kb.
@@ -129,26 +107,57 @@ class Cycling(NamedTuple):
     most: int
 
 
-def cyclings() -> list[Cycling]:
+CYCLES = Layout[CycleCount](
+    "newton-cycles",
+    "Newton's method on friction that slips",
+    {
+        "spring / structure [-]": lambda one: one.ratio,
+        "force / limit [-]": lambda one: one.share,
+        "starts": lambda one: one.starts,
+        "lost: plain": lambda one: one.plain,
+        "lost: halved corrections": lambda one: one.halved,
+        "lost: bracketed": lambda one: one.bracketed,
+        "most iterations, bracketed": lambda one: one.most,
+    },
+)
+
+
+def study_cycles() -> Section:
+    """From how many starts each method fails, and the iterates of the example."""
+    plain, halved = (
+        newton_path(EXAMPLE, 1.0, Newton(most=most, halving=halving)) for most, halving in ((6, False), (50, True))
+    )
+    note = (
+        "Newton's method on friction (kb = 1, kt = 99, mu N = 10, F = 5, from 1) goes "
+        f"{_points(plain.iterates)}, ... without end; with halved corrections {_points(halved.iterates)}: "
+        f"{halved.iterations} iterations."
+    )
+    return Section([CYCLES.table(cycle_counts())], notes=[note])
+
+
+def _points(iterates: Sequence[float]) -> str:
+    return ", ".join(f"{point:.4g}" for point in iterates)
+
+
+def cycle_counts() -> list[CycleCount]:
     """Springs from as stiff as the structure to 10^6 times as stiff, forces below and above the limit."""
-    return [_cycling(ratio, share) for ratio in RATIOS for share in FORCES]
+    return [_cycle_count(ratio, share) for ratio in RATIOS for share in FORCES]
 
 
-def _cycling(ratio: float, share: float) -> Cycling:
-    pulled = Pulled(1.0, ratio, 10.0, 10.0 * share)
-    plain, halved = (ensemble(pulled, Newton(most=MOST, halving=halving)) for halving in (False, True))
-    safe = bracketed(pulled, STARTS)
-    lost = int((safe < 0).sum())
-    return Cycling(ratio, share, len(STARTS), plain.lost, halved.lost, lost, int(safe.max()))
+def _cycle_count(ratio: float, share: float) -> CycleCount:
+    problem = FrictionProblem(1.0, ratio, 10.0, 10.0 * share)
+    plain, halved = (newton_failures(problem, Newton(most=MOST, halving=halving)) for halving in (False, True))
+    iterations = bracketed(problem, STARTS)
+    return CycleCount(ratio, share, len(STARTS), plain, halved, int((iterations < 0).sum()), int(iterations.max()))
 
 
-def bracketed(pulled: Pulled, starts: FloatArray) -> IndexArray:
+def bracketed(problem: FrictionProblem, starts: FloatArray) -> IndexArray:
     """Iterations (k,) of Newton's method with a bracket from `starts` (k,); -1 where it does not converge."""
     u = np.array(starts)
     low, high = np.full(u.shape, -np.inf), np.full(u.shape, np.inf)
     taken = np.full(u.shape, -1, np.intp)
     for iteration in range(MOST + 1):
-        value, slope, size = residual(pulled, u)
+        value, slope, size = residual(problem, u)
         done = np.abs(value) <= np.maximum(TOLERANCE, ROUND_OFF * size)
         taken = np.where(done & (taken < 0), iteration, taken)
         if done.all():

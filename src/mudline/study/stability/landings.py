@@ -1,23 +1,31 @@
 """Energy at touchdown: a mass lands on an elastic seabed at every phase of a step, and should leave as fast as it came.
 
+The seabed is elastic, without gravity or damping. What a scheme makes of it depends on omega dt and on the landing
+phase alone: the share of a step that is left when the seabed is reached.
+
 The figures to compare with were computed once, apart from this program, with the same 400 phases, and rounded to the
 digits that stand here. HHT and generalised-alpha average the forces of both ends of a step.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
-from mudline.study.schemes.catalogue import SCHEMES
-from mudline.study.schemes.impact import restitution
-from mudline.study.schemes.system import Scheme
+from mudline.study.motion import Forces, History, Motion, Scheme, march
+from mudline.study.picture import Picture, label, legend_below, style
+from mudline.study.report import Layout, Section, StudyOptions, grouped
+from mudline.study.schemes import SCHEMES
+
+if TYPE_CHECKING:  # only who draws loads matplotlib
+    from matplotlib.figure import Figure
 
 PHASES: FloatArray = (np.arange(400) + 0.5) / 400
 OMEGA_DTS = (0.1, 0.5, 1.0, 4.4721, 10.0, 100.0)
-LANDERS = (
+LANDING_SCHEMES = (
     "velocity-verlet",
     "rk4",
     "newmark",
@@ -41,6 +49,13 @@ _COMPARED = {
     "velocity-verlet": "0.9988/1.0000/1.0012 0.9783/1.0002/1.0221 1/1/1",
 }
 """Least/mean/largest for each of `OMEGA_DTS`."""
+_SHOWN = ((0.1, 0.9965, 1.0025), (0.5, 0.89, 1.04), (1.0, 0.2, 1.15), (10.0, -0.1, 3.0))
+"""omega dt of each panel, and what it shows of the axis."""
+_DRAWN = tuple(name for name in LANDING_SCHEMES if name != "generalised-alpha-1")
+"""With a spectral radius of 1 generalised-alpha does what Newmark's scheme does."""
+_SETTLING = 64
+"""Steps besides those of the contact: backward Euler creeps out of the seabed at large steps, and the acceleration that
+the generalised-alpha scheme carries along dies away by the half in each."""
 
 
 class Landing(NamedTuple):
@@ -68,9 +83,62 @@ class Landing(NamedTuple):
         )
 
 
+LANDINGS = Layout[Landing](
+    "landings",
+    "Speed after landing over speed before, 400 landing phases",
+    {
+        "scheme": lambda one: one.scheme.title,
+        "omega dt [-]": lambda one: one.omega_dt,
+        "least [-]": lambda one: one.least,
+        "mean [-]": lambda one: one.mean,
+        "largest [-]": lambda one: one.largest,
+        "compared with": lambda one: "/".join(one.compared or ()),
+        "agrees": lambda one: {None: "", True: "yes", False: "NO"}[one.agrees],
+    },
+)
+
+
+def study_landings(options: StudyOptions) -> Section:
+    """All schemes at all steps: in which of them the rebound is faster than the landing."""
+    options.progress("landings")
+    landed = landings()
+    agree = [one.agrees for one in landed if one.agrees is not None]
+    implicit = grouped((one for one in landed if not one.scheme.explicit), lambda one: one.scheme.title)
+    never = [name for name, rows in implicit.items() if max(0.0, *(one.largest for one in rows)) <= 1.0]
+    notes = (
+        f"{sum(agree)} of {len(agree)} landings agree with independently computed figures, to the last digit given.",
+        f"Implicit schemes whose rebound is never faster than the landing: {', '.join(never)}.",
+    )
+    caption = "Rebound of a mass from an elastic seabed; 1 is exact, above 1 energy is gained."
+    return Section([LANDINGS.table(landed)], [Picture("landings", caption, _draw, (10.0, 8.0))], notes)
+
+
+def _draw(figure: Figure) -> None:
+    """Restitution over the landing phase, a panel for each omega dt."""
+    panels = figure.subplots(2, 2, sharex=True)
+    for axes, (omega_dt, low, high) in zip(panels.flat, _SHOWN, strict=True):
+        for index, name in enumerate(_DRAWN):
+            speeds = speeds_over_phases(SCHEMES[name], omega_dt)
+            axes.plot(PHASES, speeds, label=SCHEMES[name].title, **style(index), markevery=(6 * index, 50))
+        axes.axhline(1.0, color="0.4", linewidth=0.8, zorder=0)
+        axes.set_ylim(low, high)
+        label(axes, f"ω dt = {omega_dt:g}{_off(omega_dt, low)}", "", "speed after / before landing [-]")
+    for axes in panels[1]:
+        axes.set_xlabel("landing phase, share of the step left at the seabed [-]")
+    legend_below(figure, panels.flat[0])
+
+
+def _off(omega_dt: float, low: float) -> str:
+    """Where backward Euler lies, if it is below the panel."""
+    speeds = speeds_over_phases(SCHEMES["backward-euler"], omega_dt)
+    if speeds.min() >= low:
+        return ""
+    return f"  (backward Euler below: {speeds.min():.2f} to {speeds.max():.2f})"
+
+
 def landings() -> list[Landing]:
     """All schemes at all steps."""
-    return [landing(SCHEMES[name], omega_dt) for name in LANDERS for omega_dt in OMEGA_DTS]
+    return [landing(SCHEMES[name], omega_dt) for name in LANDING_SCHEMES for omega_dt in OMEGA_DTS]
 
 
 def landing(scheme: Scheme, omega_dt: float) -> Landing:
@@ -93,3 +161,29 @@ def speeds_over_phases(scheme: Scheme, omega_dt: float) -> FloatArray:
 def _last_digit(text: str) -> float:
     """One in the last digit of a figure, in the fourth or third for the whole ones."""
     return 10.0 ** -max(len(text.partition(".")[2]), 3) * 1.001
+
+
+@dataclass(frozen=True, slots=True)
+class ElasticSeabed:
+    """m a = k max(-x, 0): a seabed below x = 0."""
+
+    mass: FloatArray
+    stiffness: FloatArray
+
+    def forces(self, position: FloatArray, velocity: FloatArray, history: History) -> Forces:
+        """See `System`."""
+        below = position < 0.0
+        force = np.where(below, -self.stiffness * position, 0.0)
+        return Forces(force, np.where(below, -self.stiffness, 0.0), np.zeros(velocity.shape), history)
+
+
+def restitution(scheme: Scheme, omega_dt: float, phases: FloatArray) -> FloatArray:
+    """Speed after over speed before contact for landing phases (k,) in (0, 1); NaN where the mass never left again.
+
+    The speed after is that of the free flight, when the acceleration that a scheme carries along has died away.
+    """
+    system = ElasticSeabed(np.ones(len(phases)), np.full(len(phases), omega_dt * omega_dt))
+    start = Motion.start(system, np.asarray(phases, np.float64), np.full(len(phases), -1.0))
+    run = march(scheme, system, start, 1.0, int(np.ceil(2.0 * np.pi / omega_dt)) + _SETTLING)
+    left = (run.position[-1] > 0.0) & (run.velocity[-1] > 0.0)
+    return np.where(left, run.velocity[-1], np.nan)

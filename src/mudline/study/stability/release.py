@@ -1,12 +1,13 @@
-"""Suction that lets go: where a static solution is unique, and where the pipe snaps off.
+"""Release of suction: where a static solution is unique, and where the pipe snaps off.
 
-On the release the suction falls with slope F_max / ((1 - xc2) Delta_B). A pipe that hangs on a structure of
+On the release the suction falls with slope F_max / ((1 - xc2) Delta_B). A pipe suspended from a structure of
 stiffness ks (per unit length), whose far end is raised slowly, has one equilibrium at each height of that end only for
 a greater ks.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -16,6 +17,8 @@ from mudline.contact.input import AssignedLaw
 from mudline.contact.laws.suction import SuctionHistory, SuctionLaw, breakout_uplift, maximum_force, step
 from mudline.contact.stiffest import release_stiffness
 from mudline.scene.model import Scene
+from mudline.study.report import Layout, Omission, Section, StudyOptions
+from mudline.study.stability.contacts import unit_words
 
 VELOCITIES = (1e-3, 1e-2, 1e-1, 1.0)
 SHARES = (0.5, 0.99, 1.01, 2.0)
@@ -39,6 +42,33 @@ class Release(NamedTuple):
     depth: float
     needed: float
     equilibria: tuple[int, ...]
+
+
+def _equilibria(index: int) -> Callable[[Release], int]:
+    return lambda one: one.equilibria[index]
+
+
+RELEASE = Layout[Release](
+    "release",
+    "Structural stiffness for one equilibrium during the release of suction",
+    {
+        "element": lambda one: one.element,
+        "velocity [{length}/s]": lambda one: one.velocity,
+        "largest suction [{force}/{length}]": lambda one: one.force,
+        "breakout [{length}]": lambda one: one.depth,
+        "needed stiffness [{force}/{length}2]": lambda one: one.needed,
+        **{f"equilibria at {share:g} of it": _equilibria(index) for index, share in enumerate(SHARES)},
+    },
+)
+
+
+def study_release(scene: Scene, options: StudyOptions) -> Section:
+    """What suction asks of a structure during its release, on the laws of a scene."""
+    options.progress("release of suction")
+    suction = scene.contact_input().assigned.get("suction")
+    omissions = [] if suction is not None else [Omission("release of suction", "no element has *SEABED SUCTION")]
+    found = [] if suction is None else releases(scene, suction)
+    return Section([RELEASE.table(found, **unit_words(scene.units))], omissions=omissions)
 
 
 def releases(scene: Scene, suction: AssignedLaw) -> list[Release]:

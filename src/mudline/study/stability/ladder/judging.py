@@ -1,10 +1,12 @@
-"""A cell goes the whole way, from text to forces, and is judged."""
+"""A cell is evaluated from its text to forces, is compared with exact results, and is judged."""
 
 from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
+from enum import StrEnum
 from fractions import Fraction
 from math import isfinite
 from sys import float_info
@@ -18,14 +20,57 @@ from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Problem, Severity
 from mudline.scene.build import resolve
 from mudline.scene.model import Scene
-from mudline.study.stability.ladder.cells import Cell
-from mudline.study.stability.ladder.comparing import BOUND, Compared, Tally, compare
-from mudline.study.stability.ladder.exact import ExactCurve, ExactLaw
-from mudline.study.stability.ladder.verdict import Judgement, Verdict
+from mudline.study.exact import BOUND, Compared, ExactCurve, ExactLaw, Tally
+from mudline.study.stability.ladder.cells import LENGTH, Cell
 
 FILE = "cell.keyxm"
 _ABOVE = (0.0, 5e-324, 0.05, 1e6)
 _LARGEST = Fraction(float_info.max) * (1 - Fraction(1, 2**50))
+
+
+class Verdict(StrEnum):
+    """Only the first three may ever appear."""
+
+    RIGHT = "right"
+    """Every result is within the bound."""
+    RIGHT_UNTIL_REFUSED = "right, beyond refused"
+    """Results are within the bound; where one would overflow it is refused, with a line of the deck."""
+    REFUSED = "refused"
+    """The deck is refused, with a line of the deck."""
+    WRONG = "WRONG"
+    """A result is outside its bound, or not finite."""
+    NO_LINE = "REFUSED WITHOUT A LINE"
+    """A refusal that names no line, or one of a result that a float64 can hold."""
+    WARNED = "WARNED"
+    """A numpy warning came out, or an error that is none of ours."""
+
+    @property
+    def acceptable(self) -> bool:
+        """Whether it may appear."""
+        return self in {Verdict.RIGHT, Verdict.RIGHT_UNTIL_REFUSED, Verdict.REFUSED}
+
+
+@dataclass(frozen=True, slots=True)
+class Judgement:
+    """A cell and what came of it.
+
+    Attributes:
+        family: what grows along the ladder.
+        value: where on it, as the deck has it.
+        verdict: see `Verdict`.
+        results: how many numbers were compared.
+        error: the largest error, in roundings (2^-53) of the largest term; 0 where nothing was compared.
+        bound: roundings that are allowed.
+        message: the diagnostic of a refusal, else what is wrong.
+    """
+
+    family: str
+    value: str
+    verdict: Verdict
+    results: int = 0
+    error: float = 0.0
+    bound: float = 0.0
+    message: str = ""
 
 
 def judge(cell: Cell) -> Judgement:
@@ -34,16 +79,18 @@ def judge(cell: Cell) -> Judgement:
 
 
 def guarded(family: str, value: str, judged: Callable[[], Judgement]) -> Judgement:
-    """What is judged, with every numpy warning an error, refusals of decks and all other errors told."""
+    """What is judged, with every numpy warning an error, refusals of decks and all other errors reported."""
     with np.errstate(all="raise"), warnings.catch_warnings():
         warnings.simplefilter("error")
         try:
             return judged()
         except DeckError as error:
-            told = refusal(error)
-            return Judgement(family, value, Verdict.REFUSED if told else Verdict.UNTOLD, told=told or str(error))
+            message = refusal(error)
+            return Judgement(
+                family, value, Verdict.REFUSED if message else Verdict.NO_LINE, message=message or str(error)
+            )
         except (ArithmeticError, Warning, ValueError, LookupError, TypeError) as error:
-            return Judgement(family, value, Verdict.NOISY, told=f"{type(error).__name__}: {error}")
+            return Judgement(family, value, Verdict.WARNED, message=f"{type(error).__name__}: {error}")
 
 
 def scene_of(text: str) -> Scene:
@@ -74,15 +121,17 @@ def refusal(error: DeckError) -> str:
 def _judged(cell: Cell) -> Judgement:
     scene = scene_of(cell.text)
     if cell.law is None:
-        return Judgement(cell.family, cell.value, Verdict.WRONG, told="a deck that holds no law was taken")
+        return Judgement(cell.family, cell.value, Verdict.WRONG, message="a deck without a valid law was accepted")
     tally, heights = Tally(), _heights(cell.law)
     if isinstance(cell.law, ExactCurve):
         _compare_curve(tally, scene, cell.law)
-    told = _compare_heights(tally, scene, cell.law, heights)
-    if told is None:
-        return Judgement(cell.family, cell.value, Verdict.UNTOLD, told="a value was refused that a float64 can hold")
-    verdict = Verdict.WRONG if tally.fault else Verdict.UP_TO if told else Verdict.RIGHT
-    return Judgement(cell.family, cell.value, verdict, tally.results, tally.error, BOUND, tally.fault or told)
+    message = _compare_heights(tally, scene, cell.law, heights)
+    if message is None:
+        return Judgement(
+            cell.family, cell.value, Verdict.NO_LINE, message="a value was refused that a float64 can hold"
+        )
+    verdict = Verdict.WRONG if tally.fault else Verdict.RIGHT_UNTIL_REFUSED if message else Verdict.RIGHT
+    return Judgement(cell.family, cell.value, verdict, tally.results, tally.error, BOUND, tally.fault or message)
 
 
 def _heights(law: ExactLaw) -> list[float]:
@@ -106,7 +155,7 @@ def _compare_heights(tally: Tally, scene: Scene, law: ExactLaw, heights: list[fl
 
 
 def _one_by_one(tally: Tally, scene: Scene, law: ExactLaw, heights: list[float]) -> str | None:
-    told = ""
+    message = ""
     for height in heights:
         try:
             result = _evaluated(scene, [height])
@@ -114,10 +163,10 @@ def _one_by_one(tally: Tally, scene: Scene, law: ExactLaw, heights: list[float])
             line = refusal(error)
             if not line or not _overflows(law, height):
                 return None
-            told = told or line
+            message = message or line
         else:
             compare(tally, law, height, result.step(0))
-    return told
+    return message
 
 
 def _overflows(law: ExactLaw, height: float) -> bool:
@@ -145,3 +194,33 @@ def _compare_curve(tally: Tally, scene: Scene, law: ExactCurve) -> None:
         force, slope = curve.evaluate(ratio)
         tally.add(f"the curve at {ratio!r}", Compared(float(force), spring.force, spring.term))
         tally.add(f"the slope of the curve at {ratio!r}", Compared(float(slope), spring.slope, abs(spring.slope)))
+
+
+def compare(tally: Tally, law: ExactLaw, height: float, result: ContactResult) -> None:
+    """One element whose two nodes lie at `height`: what it gives against what it should."""
+    for what, compared in _pairs(law, height, result):
+        tally.add(f"{what} at height {height!r}", compared)
+
+
+def _pairs(law: ExactLaw, height: float, result: ContactResult) -> Iterator[tuple[str, Compared]]:
+    """Each link of the chain from what the link before gave: none hides behind the condition of another."""
+    depth, ratio = float(result.depth[0]), float(result.ratio[0])
+    exact_ratio = Fraction(depth) / Fraction(law.diameter)
+    yield "the depth", _itself(depth, -Fraction(height))
+    yield "the embedment ratio", _itself(ratio, exact_ratio)
+    numbers = [float(values[0]) for values in (result.force, result.slope, result.stiffness)]
+    if depth > 0.0:
+        spring = law.spring(Fraction(depth), Fraction(ratio))
+        yield "the force", Compared(numbers[0], spring.force, spring.term)
+        yield "the slope", _itself(numbers[1], spring.slope)
+        yield "the stiffness", _itself(numbers[2], spring.stiffness)
+    else:
+        for what, number in zip(("the force", "the slope", "the stiffness"), numbers, strict=True):
+            yield what, _itself(number, Fraction(0))
+    for node in range(2):
+        half = Fraction(numbers[0]) * Fraction(LENGTH) / 2 if isfinite(numbers[0]) else Fraction(0)
+        yield "a reaction", _itself(float(result.reaction[node, 0]), half)
+
+
+def _itself(found: float, exact: Fraction) -> Compared:
+    return Compared(found, exact, abs(exact))

@@ -9,11 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from mudline.study.stability.ladder.comparing import Compared, Tally
-from mudline.study.stability.ladder.decks import DIAMETER, suction_deck
-from mudline.study.stability.ladder.exact import SMALLEST
-from mudline.study.stability.ladder.judging import guarded, located, scene_of
-from mudline.study.stability.ladder.verdict import Judgement, Verdict
+from mudline.study.exact import SMALLEST, Compared, Tally
+from mudline.study.stability.ladder.cells import DIAMETER, suction_deck
+from mudline.study.stability.ladder.judging import Judgement, Verdict, guarded, located, scene_of
 
 BOUND = 64.0
 """Roundings of the largest suction. Powers and products behind a law take some 15; on the release, where the distance
@@ -51,7 +49,7 @@ def _judged(cell: SuctionCell) -> Judgement:
     scene = scene_of(suction_deck(cell.cohesion))
     model = scene.contact()
     if not model.input.has("suction"):
-        return Judgement(cell.family, cell.value, Verdict.WRONG, told="the deck's suction is not there")
+        return Judgement(cell.family, cell.value, Verdict.WRONG, message="the suction of the deck is missing")
     velocity = float(cell.velocity)
     heights, exact, largest = _expected(float(cell.cohesion), velocity, _SHARES)
     tally = Tally()
@@ -81,9 +79,9 @@ def _expected(
     with mp.workdps(_DIGITS):
         size, reference = mpf(float(DIAMETER)), mpf(1e-3)
         n_f, n_d = mpf(0.18), mpf(0.26)
-        pace = max(mpf(v), reference)
-        way = mpf(v) / pace
-        most = mpf(1.12) * size * mpf(cohesion) * (pace / size) ** n_f * way * (2 - n_f + (n_f - 1) * way)
+        speed = max(mpf(v), reference)
+        slow = mpf(v) / speed
+        most = mpf(1.12) * size * mpf(cohesion) * (speed / size) ** n_f * slow * (2 - n_f + (n_f - 1) * slow)
         depth = mpf(0.98) * size * max(mpf(v), reference) ** n_d
         first, second = mpf(0.2), mpf(0.8)
         heights = [float(share * depth) for share in shares]

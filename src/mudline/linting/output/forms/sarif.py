@@ -1,0 +1,94 @@
+"""Findings in SARIF 2.1.0, the interchange form of static analysis."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+from collections.abc import Iterable, Iterator
+from typing import Any
+from urllib.parse import quote
+
+from mudline.diagnostics import Diagnostic, Edit, Severity
+from mudline.linting.output.fingerprints import Fingerprints
+from mudline.linting.output.formats import LintRun
+from mudline.linting.output.pages import address
+from mudline.linting.output.sarif_rules import described
+from mudline.linting.output.visible import visible
+
+SUMMARY = "SARIF 2.1.0: rules with help, levels, regions in code points, fixes and fingerprints"
+
+SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
+LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
+_BASE = "ROOT"
+
+
+def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:
+    """One log with one run; its rules are those that something was found by."""
+    listed = list(diagnostics)
+    first = {found.code: found for found in reversed(listed)}
+    codes = sorted(first)
+    fingerprints = Fingerprints()
+    driver = {
+        "name": "mudline",
+        "version": run.version,
+        "semanticVersion": run.version,
+        "rules": [described(first[code], LEVELS, address(code)) for code in codes],
+    }
+    head = {"$schema": SCHEMA, "version": "2.1.0"}
+    log = {
+        "tool": {"driver": driver},
+        "columnKind": "unicodeCodePoints",
+        "newlineSequences": ["\r\n", "\r", "\n"],
+        "originalUriBaseIds": {_BASE: {"description": {"text": "the folder that the linter was run in"}}},
+    }
+    yield f'{json.dumps(head)[:-1]}, "runs": [\n{json.dumps(log)[:-1]}, "results": ['
+    for number, found in enumerate(listed):
+        result = _result(found, codes.index(found.code), fingerprints.of(found))
+        yield f"{',' * (number > 0)}\n {json.dumps(result)}"
+    yield "\n]}]}\n"
+
+
+def _result(found: Diagnostic, index: int, fingerprint: str) -> dict[str, Any]:
+    place = {
+        "artifactLocation": _location(found.file),
+        "region": _region((found.line, found.column), (found.end_line, found.end_column)),
+    }
+    result: dict[str, Any] = {
+        "ruleId": found.code,
+        "ruleIndex": index,
+        "level": LEVELS[found.severity],
+        "message": {"text": visible(found.message)},
+        "locations": [{"physicalLocation": place}],
+        "partialFingerprints": {"mudline/v1": fingerprint},
+    }
+    if found.fix is not None:
+        changes = [{"artifactLocation": _location(found.file), "replacements": [_edit(e) for e in found.fix.edits]}]
+        result["fixes"] = [{"description": {"text": visible(found.fix.message)}, "artifactChanges": changes}]
+    return result
+
+
+def _location(file: str) -> dict[str, str]:
+    path = file.removeprefix("./")
+    written = quote(_bytes(path), safe="/")
+    if path.startswith("/"):
+        return {"uri": f"file://{written}"}
+    if re.match(r"[A-Za-z]:/", path):
+        return {"uri": f"file:///{quote(_bytes(path), safe='/:')}"}
+    return {"uri": written, "uriBaseId": _BASE}
+
+
+def _bytes(path: str) -> bytes:
+    """The bytes of a name, those of the file system if it may have such a name."""
+    try:
+        return os.fsencode(path)
+    except UnicodeEncodeError:
+        return path.encode("utf-8", "backslashreplace")
+
+
+def _region(start: tuple[int, int], end: tuple[int, int]) -> dict[str, int]:
+    return {"startLine": start[0], "startColumn": start[1], "endLine": end[0], "endColumn": end[1]}
+
+
+def _edit(edit: Edit) -> dict[str, Any]:
+    return {"deletedRegion": _region(edit.start, edit.end), "insertedContent": {"text": edit.text}}

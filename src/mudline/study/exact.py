@@ -1,0 +1,136 @@
+"""Laws in exact rational arithmetic, on the numbers as a float64 holds them, and results compared with them."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import pairwise
+from math import copysign, inf, isfinite, nextafter
+from sys import float_info
+from typing import NamedTuple, Protocol
+
+ROUNDING = Fraction(1, 2**53)
+"""Largest relative error of one operation on float64."""
+SMALLEST = Fraction(1, 2**1074)
+"""Smallest float64 above 0: what cannot be said more closely near 0."""
+BOUND = 8.0
+"""Roundings of the largest term. A slope is three (two differences and their quotient), a force between points has one
+for the distance to the point, one for the product and one for the sum besides: six to first order; two are left for a
+stiffness and for what is of second order."""
+
+
+class Spring(NamedTuple):
+    """Exact force per unit length, d force / d ratio, d force / d penetration, and the largest term in the force."""
+
+    force: Fraction
+    slope: Fraction
+    stiffness: Fraction
+    term: Fraction
+
+
+class ExactLaw(Protocol):
+    """An exact law of one element."""
+
+    @property
+    def diameter(self) -> float:
+        """External diameter of the element."""
+        ...
+
+    def spring(self, depth: Fraction, ratio: Fraction) -> Spring:
+        """The spring of an element in contact."""
+        ...
+
+    def ratios(self) -> list[float]:
+        """Where its value matters: embedment ratios at, between, beside and beyond all corners."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class ExactLinear:
+    """Force = stiffness * depth."""
+
+    stiffness: float
+    diameter: float
+
+    def spring(self, depth: Fraction, ratio: Fraction) -> Spring:
+        """See `ExactLaw`."""
+        del ratio
+        stiffness = Fraction(self.stiffness)
+        force = stiffness * depth
+        return Spring(force, stiffness * Fraction(self.diameter), stiffness, abs(force))
+
+    def ratios(self) -> list[float]:
+        """See `ExactLaw`."""
+        return [1e-300, 1e-12, 1e-3, 0.1, 1.0, 1e3]
+
+
+class ExactCurve:
+    """Linear between points, the end segments continued; at a point the segment behind it holds."""
+
+    def __init__(self, points: Sequence[tuple[float, float]], diameter: float) -> None:
+        self.diameter = diameter
+        self.points = sorted({(Fraction(ratio), Fraction(force)) for ratio, force in points})
+        self._inner = [ratio for ratio, _ in self.points[1:-1]]
+
+    def spring(self, depth: Fraction, ratio: Fraction) -> Spring:
+        """See `ExactLaw`."""
+        del depth
+        left = bisect_right(self._inner, ratio)
+        (r0, f0), (r1, f1) = self.points[left : left + 2]
+        slope = (f1 - f0) / (r1 - r0)
+        # beyond the last point the line is drawn from there
+        r, f = self.points[-1] if ratio >= self.points[-1][0] else (r0, f0)
+        rise = slope * (ratio - r)
+        return Spring(f + rise, slope, slope / Fraction(self.diameter), max(abs(f), abs(rise), abs(f + rise)))
+
+    def ratios(self) -> list[float]:
+        """See `ExactLaw`."""
+        knots = [float(ratio) for ratio, _ in self.points]
+        middles = [0.5 * low + 0.5 * high for low, high in pairwise(knots)]
+        beside = [nextafter(knot, end) for knot in knots for end in (-inf, inf)]
+        every = {*knots, *middles, *beside, 1.5 * knots[-1], 1e-300, 1e-9}
+        return sorted(ratio for ratio in every if isfinite(ratio))
+
+
+class Compared(NamedTuple):
+    """A number that came out, what it should be, and what its error is measured by."""
+
+    found: float
+    exact: Fraction
+    term: Fraction
+
+
+@dataclass(slots=True)
+class Tally:
+    """Numbers compared so far; the worst of them in roundings of its largest term."""
+
+    results: int = 0
+    error: float = 0.0
+    fault: str = ""
+
+    def add(self, what: str, compared: Compared, bound: float = BOUND, floor: Fraction = 2 * SMALLEST) -> None:
+        """Compare one more; an error up to `floor` is none: results near 0 have no more digits."""
+        self.results += 1
+        if not isfinite(compared.found):
+            self.error, self.fault = inf, f"{what} is {compared.found}"
+            return
+        if compared.found == 0.0 and copysign(1.0, compared.found) < 0.0:
+            self.fault = f"{what} is -0.0"
+        off = max(abs(Fraction(compared.found) - compared.exact) - floor, Fraction(0))
+        error = _roundings(off, compared.term)
+        self.error = max(self.error, error)
+        if error > bound:
+            self.fault = f"{what} is {compared.found!r} instead of {_shown(compared.exact)}"
+
+
+def _roundings(off: Fraction, term: Fraction) -> float:
+    if not off:
+        return 0.0
+    return float(min(off / (term * ROUNDING), Fraction(10**300))) if term else inf
+
+
+def _shown(exact: Fraction) -> str:
+    largest = Fraction(float_info.max)
+    return repr(float(exact)) if abs(exact) <= largest else "a number too large for a float64"

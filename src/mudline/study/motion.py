@@ -1,0 +1,186 @@
+"""What the schemes integrate, m a = f(x, v) with a force that may remember, and stepping to the end of a run.
+
+k systems of one degree of freedom are stepped side by side, so that an ensemble costs little more than one run.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from time import perf_counter
+from typing import Any, ClassVar, NamedTuple, Protocol
+
+import numpy as np
+
+from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
+from mudline.contact.stiffest import CRITICAL_OMEGA_DT
+
+History = Any
+"""What a system remembers between steps; only the system itself looks at it."""
+
+
+class Forces(NamedTuple):
+    """Forces f of k systems, arrays (k,), their consistent tangents, and the history behind this moment.
+
+    force: in the direction of the position.
+    by_position: d f / d x, negative for a spring.
+    by_velocity: d f / d v, negative for a damper.
+    history: what the next step begins with if the step ends here.
+    """
+
+    force: FloatArray
+    by_position: FloatArray
+    by_velocity: FloatArray
+    history: History
+
+
+class System(Protocol):
+    """k systems of one degree of freedom, side by side."""
+
+    @property
+    def mass(self) -> FloatArray:
+        """Masses (k,), > 0."""
+        ...
+
+    def forces(self, position: FloatArray, velocity: FloatArray, history: History) -> Forces:
+        """Forces at positions and velocities (k,) in a step that began with `history`."""
+        ...
+
+
+class Motion(NamedTuple):
+    """Where k systems are: arrays (k,), and what they remember.
+
+    acceleration: as the scheme carries it along; only for some schemes it is force over mass.
+    force: at this moment.
+    """
+
+    position: FloatArray
+    velocity: FloatArray
+    acceleration: FloatArray
+    force: FloatArray
+    history: History
+
+    @classmethod
+    def start(cls, system: System, position: FloatArray, velocity: FloatArray, history: History = None) -> Motion:
+        """At rest or not: the acceleration is that of the forces at this moment."""
+        forces = system.forces(position, velocity, history)
+        return cls(position, velocity, forces.force / system.mass, forces.force, forces.history)
+
+
+class Step(NamedTuple):
+    """One step made.
+
+    motion: behind the step.
+    evaluations: how often the forces were evaluated.
+    iterations: (k,) Newton iterations; 0 for explicit schemes.
+    residual: (k,) what was left of the balance of forces; 0 for explicit schemes, and where it converged.
+    """
+
+    motion: Motion
+    evaluations: int
+    iterations: IndexArray
+    residual: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class Scheme(ABC):
+    """A way to step.
+
+    Attributes:
+        name: a word for tables, "central-difference".
+        title: what people call it.
+        explicit: whether it takes no Newton iterations.
+    """
+
+    name: str
+    title: str
+    explicit: ClassVar[bool] = True
+
+    @property
+    def limit(self) -> float:
+        """Largest omega dt at which an undamped oscillator does not grow; inf for implicit schemes.
+
+        That says nothing of contact that opens and closes.
+        """
+        return CRITICAL_OMEGA_DT.get(self.name, np.inf)
+
+    @abstractmethod
+    def step(self, system: System, motion: Motion, dt: float | FloatArray) -> Step:
+        """Go on by dt, one number or one for each system (k,)."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Trajectory:
+    """What k systems did at n + 1 moments.
+
+    Attributes:
+        time: (n + 1, k) seconds.
+        position: (n + 1, k); as it was where a run has failed, like the velocity.
+        velocity: (n + 1, k).
+        iterations: (n, k) Newton iterations.
+        failures: why a run ended early, by its index.
+        evaluations: of the forces.
+        seconds: run time of all steps together.
+        end: where the runs ended.
+    """
+
+    time: FloatArray
+    position: FloatArray
+    velocity: FloatArray
+    iterations: IndexArray
+    failures: dict[int, str]
+    evaluations: int
+    seconds: float
+    end: Motion
+
+
+def march(
+    scheme: Scheme, system: System, start: Motion, dt: float | FloatArray, steps: int, bound: float = np.inf
+) -> Trajectory:
+    """Make so many steps of dt (one number, or one for each run).
+
+    A run has failed where Newton's method did not converge or a position is not finite or beyond +-`bound`: then it
+    stands still.
+    """
+    shape = (steps + 1, *start.position.shape)
+    position, velocity = np.empty(shape), np.empty(shape)
+    iterations = np.zeros((steps, *start.position.shape), np.intp)
+    position[0], velocity[0] = start.position, start.velocity
+    motion, evaluations, failures = start, 0, dict[int, str]()
+    sound: BoolArray = np.ones(start.position.shape, np.bool_)
+    began = perf_counter()
+    with np.errstate(all="ignore"):
+        for index in range(steps):
+            step = scheme.step(system, motion, dt)
+            evaluations += step.evaluations
+            motion, iterations[index] = step.motion, step.iterations
+            good = (step.residual == 0.0) & (np.abs(motion.position) <= bound) & np.isfinite(motion.velocity)
+            if not good.all():
+                for run in np.flatnonzero(sound & ~good).tolist():
+                    failures[run] = _why(index + 1, int(step.iterations[run]), float(step.residual[run]))
+                sound = sound & good
+                motion = _held(motion, position[index], sound)
+            position[index + 1], velocity[index + 1] = motion.position, motion.velocity
+            if not sound.any():
+                position[index + 2 :], velocity[index + 2 :] = motion.position, motion.velocity
+                break
+    seconds = perf_counter() - began
+    time: FloatArray = np.arange(steps + 1.0)[:, None] * (dt * np.ones(start.position.shape))
+    return Trajectory(time, position, velocity, iterations, failures, evaluations, seconds, motion)
+
+
+def _held(motion: Motion, before: FloatArray, sound: BoolArray) -> Motion:
+    """The runs that failed stand where they were."""
+    return Motion(
+        np.where(sound, motion.position, before),
+        np.where(sound, motion.velocity, 0.0),
+        np.where(sound, motion.acceleration, 0.0),
+        motion.force,
+        motion.history,
+    )
+
+
+def _why(step: int, iterations: int, residual: float) -> str:
+    if residual > 0.0:
+        return f"step {step}: Newton's method left a residual of {residual:.3g} after {iterations} iterations"
+    return f"step {step}: the motion grew without bound"

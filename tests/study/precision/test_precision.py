@@ -1,0 +1,102 @@
+"""The whole precision study, with short ladders."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from mudline.scene.section_weight import surroundings
+from mudline.study import precision
+from mudline.study.precision import backbones, integration
+from mudline.study.precision import curves as curve_study
+from mudline.study.report import StudyOptions
+from mudline.study.sample import TEXT, sample_scene
+from tests.study.builders import scene_of
+
+SAMPLES = Path(__file__).parents[3] / "samples"
+
+
+@pytest.fixture(autouse=True)
+def short(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(integration, "LADDER", (0.5, 10.0))
+    monkeypatch.setattr(integration, "FINE_LADDER", (0.3,))
+    monkeypatch.setattr(backbones, "POINTS", (3, 10))
+    monkeypatch.setattr(curve_study, "_TIMED", 1000)
+    monkeypatch.setattr(curve_study, "_CHECKED", 50)
+
+
+def test_report_of_the_sample(tmp_path: Path) -> None:
+    progress: list[str] = []
+    report = precision.run(sample_scene(), StudyOptions(progress=progress.append))
+    assert [table.name for table in report.tables] == [
+        "curves",
+        "backbones",
+        "cases",
+        "goals",
+        "steps",
+        "smoothing",
+        "impacts",
+    ]
+    assert [row[0] for row in report.tables[2].rows] == ["drop-reference", "drop-curve", "drop-linear", "pull", "drag"]
+    assert len(report.tables[4].rows) == 5 * 9 * 2
+    assert all(len(row) == len(table.columns) for table in report.tables for row in table.rows)
+    assert any("omega dt 10" in omission.what for omission in report.omissions)
+    assert any("time integration" in words for words in progress)
+    files = {path.name for path in report.write(tmp_path)}
+    pictures = {
+        f"precision-{name}.png" for name in ("curves", "backbones", "drop", "pull-drag", "run-time", "smoothing")
+    }
+    assert pictures <= files
+    assert json.loads((tmp_path / "precision.json").read_text(encoding="utf-8"))["study"] == "precision"
+
+
+def test_deck_with_less() -> None:
+    text = TEXT.replace(" STIFFNESS=Soft Clay\n FRICTION=0.35, 0.60, 0.003, 0.150\n", " STIFFNESS=20.0E3\n")
+    text = text.replace("*GEOMETRIC SETS\n OPTION=RIGID\n SET=ALL\n 207.0E9, 79.6E9, 0.3, 0.25, 7850.0\n", "")
+    text = text.replace("*SEABED SUCTION\n SET=Clay\n COHESION=5.0E3\n", "")
+    text = text.replace(
+        "*SEABED STIFFNESS\n CURVE=Soft Clay\n",
+        "*SEABED STIFFNESS\n CURVE=Soft Clay\n 0, 0\n 0.3, 9\n CURVE=Second\n 0, 0\n 0.3, 7\n CURVE=Third\n",
+    )
+    report = precision.run(scene_of(text), StudyOptions())
+    assert "curve Third" in {omission.what for omission in report.omissions}
+    assert any("mass of the pipe is not known" in note for note in report.notes)
+    assert any("submerged weight of the pipe is unknown" in note for note in report.notes)
+    assert [row[0] for row in report.tables[2].rows] == ["drop-reference", "drop-linear", "pull", "drag"]
+    full = precision.run(scene_of(text), StudyOptions(full=True))
+    assert "curve Third" not in {omission.what for omission in full.omissions}
+
+
+def test_deck_without_a_law() -> None:
+    report = precision.run(
+        scene_of("$MODEL\n*NODE\n 1, 0.0, 0.0, 0.0\n 2, 0.0, 1.0, 0.0\n*ELEMENT\n 1, 1, 2\n"), StudyOptions()
+    )
+    assert any("only the reference case was run" in note for note in report.notes)
+    assert [row[0] for row in report.tables[2].rows] == ["drop-reference"]
+    assert "curves" not in {picture.name for picture in report.pictures}
+
+
+@pytest.mark.parametrize("stiffness", ["1.0E-300", "1.0E300", "1.0E-3", "1.0E15"])
+def test_extreme_decks_end_in_reasons(stiffness: str) -> None:
+    report = precision.run(scene_of(TEXT.replace("50.0E3", stiffness)), StudyOptions())
+    assert report.tables[2].rows
+
+
+@pytest.mark.parametrize("point", ["1.0E-290, 450.0", "0.01, 1.0E15", "0.01, 1.0E-300", "0.01, -450.0", "1.0E9, 450.0"])
+def test_extreme_curves_end_in_reasons(point: str) -> None:
+    text = TEXT.replace("*SEABED SUCTION\n SET=Clay\n COHESION=5.0E3\n", "")
+    report = precision.run(scene_of(text.replace("0.01,  450.0", point)), StudyOptions())
+    assert report.tables[0].rows
+    assert json.loads(report.json())["study"] == "precision"
+
+
+def test_imperial_deck() -> None:
+    deck = SAMPLES / "imperial-riser.keyxi"
+    found = scene_of(deck.read_text(encoding="utf-8"), deck.name)
+    around = surroundings(found)
+    assert 32.0 < around.gravity < 32.4
+    assert 1.9 < around.density < 2.1
+    report = precision.run(found, StudyOptions())
+    assert report.tables[4].rows

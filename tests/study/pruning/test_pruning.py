@@ -1,0 +1,217 @@
+"""The pruning study: measuring, fits, tables and the command, with small scenes."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mudline.study import pruning, timing
+from mudline.study.pruning import cost as costs
+from mudline.study.pruning import growth, imports
+from mudline.study.pruning.cost import cost, curve_alone
+from mudline.study.pruning.growth import (
+    GrowthRow,
+    deck_with_sets,
+    exponent,
+    fits,
+    growth_picture,
+    per_unit,
+    spread,
+    upper_half,
+)
+from mudline.study.pruning.scenes import CURVE, Pipe, Variant, line, variants
+from mudline.study.report import Omission, StudyOptions, StudyReport
+from mudline.study.sample import TEXT, sample_scene
+from mudline.study.timing import Timing, processor_time
+from tests.cli.runner import run
+from tests.contact.builders import CLAY, everything
+from tests.growth import calls
+from tests.study.builders import scene_of
+
+SAMPLES = Path(__file__).parents[3] / "samples"
+ELEMENTS, LONGEST = growth.ELEMENTS, growth.LADDERS["sets"].sizes[-1]
+PIPE = Pipe(CLAY, 6.0e4, 0.3, 2.0)
+PLAIN = Variant(CURVE, lambda nodes: line(PIPE, nodes))
+
+
+@pytest.fixture(autouse=True)
+def small(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(costs, "LADDER", (20, 60))
+    monkeypatch.setattr(costs, "MOST", 100)
+    monkeypatch.setattr(growth, "LADDERS", {what: one._replace(sizes=(2, 4)) for what, one in growth.LADDERS.items()})
+    monkeypatch.setattr(growth, "NODES", 51)
+    monkeypatch.setattr(growth, "FEW_NODES", 21)
+    monkeypatch.setattr(growth, "ELEMENTS", 16)
+    monkeypatch.setattr(imports, "_RUNS", 1)
+
+
+@pytest.fixture
+def hasty(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Figures that nobody looks at."""
+    monkeypatch.setattr(timing, "_LEAST", 0.0)
+    monkeypatch.setattr(timing, "_TICKS", 0.0)
+    monkeypatch.setattr(timing, "_SLOW", -1.0)
+
+
+@pytest.fixture
+def without_interpreters(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(imports, "_asked", lambda data: (0.01 + 1e-9 * len(data), ["mudline.contact.model"], 8))
+
+
+def report(text: str = TEXT, *, full: bool = False) -> StudyReport:
+    return pruning.run(scene_of(text), StudyOptions(full))
+
+
+def test_fits_find_power_laws() -> None:
+    sizes = [1.0, 2.0, 4.0, 8.0]
+    assert exponent(sizes, [3.0 * size**1.5 for size in sizes]) == pytest.approx(1.5)
+    assert upper_half(sizes, [9.0, 9.0, 4.0, 8.0]) == pytest.approx(1.0)
+    assert per_unit(sizes, [1.0, 1.0, 4.0, 8.0]) == 1.0
+    assert np.isnan([exponent([2.0], [1.0]), upper_half([2.0], [1.0]), per_unit([2.0], [1.0])]).all()
+    rows = [GrowthRow("planes", size, float(size)) for size in (1, 2, 4, 8)]
+    (found,) = fits(rows)
+    assert found[:3] == ("planes", 1, 8)
+    assert found[3:] == pytest.approx((1.0, 1.0, 8.0, 1.0))
+
+
+def test_a_fit_of_one_size_is_not_drawn() -> None:
+    rows = [GrowthRow("planes", 2, 0.1)]
+    assert growth_picture(rows, list(fits(rows))).png().startswith(b"\x89PNG")
+
+
+def test_the_clock_counts_work(monkeypatch: pytest.MonkeyPatch) -> None:
+    values = np.random.default_rng(1).random(200_000)
+    short, long = processor_time(lambda: np.sort(values[:20_000])), processor_time(lambda: np.sort(values))
+    assert 0.0 < short.best <= short.median
+    assert long.best > 3.0 * short.best
+    assert long.runs >= 5
+    monkeypatch.setattr(timing, "_SLOW", -1.0)
+    assert processor_time(lambda: np.sort(values)).runs == 2
+
+
+def test_cost_of_a_scene() -> None:
+    plain = cost(PLAIN, PIPE, 2000)
+    assert (plain.scene, plain.nodes, plain.touching, plain.history) == (CURVE, 2000, 1.0, False)
+    assert 0.0 < plain.nanoseconds <= plain.median
+    assert plain.prepare > 0.0
+    assert 84.0 < plain.peak < 400.0  # the result alone has 84 bytes a node
+    dear = cost(variants(everything(9, 1), PIPE)[-1], PIPE, 2000)
+    assert dear.history
+    assert dear.nanoseconds > 3.0 * plain.nanoseconds
+    assert dear.peak > 2.0 * plain.peak
+
+
+def test_the_curve_is_a_part_of_the_scene(monkeypatch: pytest.MonkeyPatch) -> None:
+    def counted(call: Callable[[], object]) -> Timing:
+        made = float(calls(call))
+        return Timing(made, made, 1)
+
+    monkeypatch.setattr("mudline.study.pruning.cost.processor_time", counted)
+    row = curve_alone(PIPE, 5000)
+    assert row.curve < row.bare
+    assert row.over_curve > 1.0
+    assert row.over_bare == pytest.approx(row.scene / row.bare)
+
+
+def test_imports_are_distinguished() -> None:
+    found = {one.name: one for one in variants(everything(9, 1), PIPE)}
+    chosen = [found[name] for name in ("curve", "linear law", "curve, unloading")]
+    omissions: list[Omission] = []
+    plain, linear, unloading = imports.imports(chosen, CURVE, StudyOptions(), omissions)
+    assert omissions == []
+    assert plain.beyond == ()
+    assert plain.seconds > 0.0
+    assert linear.beyond == ("laws.linear",)
+    assert linear.modules < plain.modules
+    assert unloading.beyond == ("laws.unloading",)
+    assert unloading.modules == plain.modules + 1
+
+
+def test_quick_loads_are_repeated_and_slow_ones_not(monkeypatch: pytest.MonkeyPatch) -> None:
+    times = iter([0.3, 0.1, 0.2, 2.0])
+    monkeypatch.setattr(imports, "_RUNS", 3)
+    monkeypatch.setattr(imports, "_asked", lambda data: (next(times), ["mudline.contact.model"], len(data) * 0))
+    rows = list(imports.imports([PLAIN, Variant("slow", PLAIN.make)], CURVE, StudyOptions(), []))
+    assert [row.seconds for row in rows] == [0.1, 2.0]
+
+
+def test_an_interpreter_that_fails_is_an_omission(monkeypatch: pytest.MonkeyPatch) -> None:
+    def fails(data: bytes) -> tuple[float, list[str], int]:
+        raise subprocess.TimeoutExpired("python", len(data))
+
+    monkeypatch.setattr(imports, "_asked", fails)
+    omissions: list[Omission] = []
+    assert list(imports.imports([PLAIN], CURVE, StudyOptions(), omissions)) == []
+    assert omissions[0].what == "imports of curve"
+    assert "timed out" in omissions[0].reason
+
+
+@pytest.mark.parametrize("sets", [1, 3, 16])
+def test_decks_with_sets_share_out_the_elements(sets: int) -> None:
+    scene = scene_of(deck_with_sets(sets, 16))
+    inputs = scene.contact_input()
+    assert len(scene.element_ids) == 16
+    assert len(set(inputs.assigned["linear"]["stiffness"])) == sets
+
+
+def test_the_longest_ladder_has_an_element_for_each_set() -> None:
+    assert 4 * LONGEST <= ELEMENTS
+
+
+def test_spread_curves_have_their_points() -> None:
+    assert [len(spread(points, 1000.0).ratios) for points in (2, 5, 4096)] == [2, 5, 4096]
+
+
+@pytest.mark.usefixtures("hasty", "without_interpreters")
+def test_report() -> None:
+    found = report()
+    assert [table.name for table in found.tables] == [
+        *("curve", "stages", "imports", "growth", "nodes", "sizes", "modules"),
+    ]
+    assert [picture.name for picture in found.pictures] == ["nodes", "stages", "growth"]
+    assert [row[0] for row in found.tables[0].rows] == [20, 60, 100]
+    assert len(found.tables[1].rows) == 16
+    assert len(found.tables[4].rows) == 32
+    assert {row[0] for row in found.tables[3].rows} == set(growth.LADDERS)
+    assert [omission.what for omission in found.omissions] == ["100 nodes with stages on"]
+
+
+@pytest.mark.usefixtures("hasty", "without_interpreters")
+def test_full_report_has_the_largest_scenes_too() -> None:
+    progress: list[str] = []
+    found = pruning.run(sample_scene(), StudyOptions(full=True, progress=progress.append))
+    assert max(row[1] for row in found.tables[4].rows if isinstance(row[1], int)) == 100
+    assert found.omissions == ()
+    assert "100 nodes: everything" in progress
+    assert "planes: 16" in progress
+
+
+@pytest.mark.usefixtures("hasty", "without_interpreters")
+def test_a_deck_without_curves_is_studied_with_the_usual_one() -> None:
+    found = report(TEXT.replace("STIFFNESS=Soft Clay", "STIFFNESS=50.0E3"))
+    assert found.notes[-1].startswith("The deck's elements have no curve")
+
+
+@pytest.mark.usefixtures("hasty", "without_interpreters")
+def test_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    deck = SAMPLES / "scr-touchdown.keyxm"
+    outcome = run("study", "pruning", deck, "-o", tmp_path, "--output-format", "json", "-q")
+    assert (outcome.code, outcome.err) == (0, "")
+    assert outcome.json()["study"] == "pruning"
+    assert json.loads((tmp_path / "pruning.json").read_text(encoding="utf-8"))["title"].endswith("touchdown.keyxm")
+    assert len(list(tmp_path.glob("pruning-*.csv"))) == 7
+    pictures = list(tmp_path.glob("pruning-*.png"))
+    assert len(pictures) == 3
+    assert all(picture.read_bytes().startswith(b"\x89PNG") for picture in pictures)
+    made = report()
+    monkeypatch.setattr(pruning, "run", lambda scene, options: options.progress(scene.units) or made)
+    text = run("study", "pruning", deck)
+    assert "A scene with nothing but a curve" in text.out
+    assert text.err == "mudline: pruning: metric\n"
+    table = run("study", "pruning", deck, "--output-format", "csv", "-q").out
+    assert table.startswith("nodes,curve alone [ns/node],")
