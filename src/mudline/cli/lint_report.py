@@ -12,7 +12,7 @@ from mudline.cli.streams import emit
 from mudline.cli.terminal import tell
 from mudline.diagnostics import Diagnostic, Severity
 from mudline.linting.output.formats import TEXT, form
-from mudline.linting.output.statistics import statistics_lines
+from mudline.linting.output.text import statistics_lines
 from mudline.syntax.source import Source
 
 
