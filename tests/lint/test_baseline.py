@@ -79,9 +79,9 @@ ENTRY = '{"path": "a", "code": "REF003", "content": "", "count": 1}'
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
-        ("", "no JSON"),
-        ("[" * 100_000, "no JSON"),
-        ("\udcff", "no JSON"),
+        ("", "not JSON"),
+        ("[" * 100_000, "not JSON"),
+        ("\udcff", "not JSON"),
         ("[]", "mudline-baseline/1"),
         ('{"format": "mudline-baseline/2"}', "mudline-baseline/1"),
         ('{"format": "mudline-baseline/1"}', "no list"),

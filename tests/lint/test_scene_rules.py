@@ -58,7 +58,7 @@ def test_a_curve_whose_name_reads_as_a_number_is_not_reached() -> None:
 def test_a_second_curve_of_a_set_is_a_duplicate_too() -> None:
     text = "$MODEL\n*ELASTIC SURFACE\n ,\n*EMBEDMENT\n 0, 0\n 1, 1\n SET=all\n 0, 0\n 1, 1\n"
     assert found(text, "REF004") == [("REF004", 7, 6)]
-    assert messages(text, "REF004")[0].startswith("set 'all' has a curve already")
+    assert messages(text, "REF004")[0].startswith("set 'all' already has a curve")
 
 
 def test_a_curve_and_a_set_may_share_a_name() -> None:

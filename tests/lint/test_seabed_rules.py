@@ -38,7 +38,13 @@ def test_blocks_without_stiffness_are_told_each_with_their_elements() -> None:
     text = PIPE + sets + PROPERTIES + " STIFFNESS=1\n SET=a\n FRICTION=1\n SET=b\n LATERAL=1\n SET=c\n STIFFNESS=2\n"
     assert restraint(text) == [
         (24, "3 elements (first: 1"),
-        (26, "element 4 gets no stiffness from this block, which is taken whole: give STIFFNESS= here too"),
+        (
+            26,
+            (
+                "element 4 gets no stiffness from this block, which overrides earlier ones as a whole: give "
+                "STIFFNESS= here too"
+            ),
+        ),
     ]
 
 
@@ -48,7 +54,7 @@ def test_elements_on_the_bed_without_a_law_are_counted_once() -> None:
     assert restraint(text) == [(8, "6 elements (first: 5")]
     assert restraint(text.replace("-0.05", "0.0")) == [(8, "6 elements (first: 5")]
     assert restraint(text.replace("-0.05", "0.05")) == []
-    assert restraint(text.replace("11, -0.05", "11, 0.05")) == [(8, "element 5 lies at or below the bed (X = 0")]
+    assert restraint(text.replace("11, -0.05", "11, 0.05")) == [(8, "element 5 lies at or below the seabed (X = 0")]
 
 
 def test_without_a_seabed_only_elements_below_it_count() -> None:

@@ -86,7 +86,7 @@ def quiet_rule(monkeypatch: pytest.MonkeyPatch) -> str:
 
         Finds: 1:1
         """
-        yield from context.told(code)
+        yield from context.problems_of(code)
 
     code = Code("QQQ001", "quiet-rule", Severity.INFO)
     known = rules()

@@ -15,7 +15,7 @@ from mudline.linting.context import LintContext
 from mudline.linting.engine import Fixing, LintSettings, lint_bytes
 from mudline.linting.fixing import Fixed, fix_bytes
 from mudline.linting.registry import select
-from mudline.linting.rules.style_lines import first_told
+from mudline.linting.rule import first_reported
 from mudline.scene.context import MOST_TOLD
 from tests.growth import FOURFOLD, TWOFOLD, call_growth, growth
 from tests.lint.findings import CLAY, CURVES, found, messages
@@ -264,8 +264,8 @@ def test_many_names_of_numbers_are_looked_at_in_no_time() -> None:
     def told(context: LintContext) -> list[Problem]:
         return [problem for rule in STYLE for problem in rule.check(context)]
 
-    assert call_growth(told, named(250), named(500)) < TWOFOLD
-    assert growth(told, named(250), named(1000)) < FOURFOLD
+    assert call_growth(told, named(500), named(1000)) < TWOFOLD  # places of longer blocks are looked up when asked for
+    assert growth(told, named(500), named(2000)) < FOURFOLD
     assert told(named(5000)) == []
 
 
@@ -305,4 +305,4 @@ def test_of_many_findings_the_first_are_told_and_a_long_table_is_quick() -> None
     told = exponents(long)
     assert len(told) == MOST_TOLD + 1
     assert "and more" in told[-1]
-    assert list(first_told([])) == []
+    assert list(first_reported([])) == []

@@ -45,9 +45,9 @@ _MAGIC = b"mudline-lint-cache/1 "
 
 
 def stands_alone(name: str, data: bytes) -> bool:
-    """Whether a deck certainly names no other file, so that nothing but its content tells what is found in it.
+    """Whether a deck certainly names no other file, so that its findings depend on nothing but its content.
 
-    Decks that continue others or read files are looked at anew in each run, and so is what is not certain: text of
+    Decks that continue others or read files are linted again in each run, and so is what is not certain: text of
     two bytes a character, and escapes by which JSON and YAML may write any name.
     """
     if b"\0" in data:
@@ -77,7 +77,7 @@ def of_settings(settings: LintSettings, running: str) -> bytes:
 
 
 def key(start: bytes, name: str, data: bytes) -> str:
-    """The key of a file's content under settings; what it is called tells units and form, and stands in findings."""
+    """The key of a file's content under settings; its name gives units and form, and is named in findings."""
     called = name.encode("utf-8", "surrogatepass")
     digest = blake2b(b"%d %d " % (len(start), len(called)), digest_size=KEY // 2)
     for part in (start, called, data):
@@ -251,7 +251,7 @@ class Cache:
             write_entries(self.path, {**self.known, **self.new})
 
     def _start(self, settings: LintSettings) -> bytes:
-        """Settings are few, hold for many files, and are alive as long as they stand here."""
+        """Settings are few, hold for many files, and are alive as long as they are in here."""
         found = self._starts.get(id(settings))
         if found is None:
             found = self._starts[id(settings)] = (settings, of_settings(settings, self._program))

@@ -54,11 +54,11 @@ class LintContext:
         return odd_curves(self.scene.laws)
 
     @cached_property
-    def _told(self) -> dict[str, list[Problem]]:
-        told: dict[str, list[Problem]] = {}
+    def _by_code(self) -> dict[str, list[Problem]]:
+        found: dict[str, list[Problem]] = {}
         for problem in chain(self.scene.findings, _of_variations(self.deck)):
-            told.setdefault(problem.code.code, []).append(problem)
-        return told
+            found.setdefault(problem.code.code, []).append(problem)
+        return found
 
     def once(self, make: Callable[[LintContext], T]) -> T:
         """What a function makes of this deck, made once for all rules that ask."""
@@ -66,13 +66,13 @@ class LintContext:
             self._made[make] = make(self)
         return cast("T", self._made[make])
 
-    def told(self, code: Code) -> Iterator[Problem]:
-        """What reading and resolving the deck, and the checks of its scene, noticed under a code."""
-        yield from self._told.get(code.code, ())
+    def problems_of(self, code: Code) -> Iterator[Problem]:
+        """What reading and resolving the deck, and the checks of its scene, report under a code."""
+        yield from self._by_code.get(code.code, ())
 
 
 def _of_variations(deck: Deck) -> Iterator[Problem]:
-    """Names in variations that lead nowhere: they spoil the decks that are made, and not this one."""
+    """Undefined names in variations: they are faults of the varied decks, and not of this one."""
     for find in (undefined_parameters, undefined_variations, misspelt_keywords, misspelt_sections):
         for problem in islice(find(deck), MOST_TOLD):
             yield replace(problem, blocks=Blocks.NEVER)

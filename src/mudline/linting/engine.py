@@ -34,10 +34,10 @@ class Fixing(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class LintSettings:
-    """Which rules run, how bad their findings are, and what is done about them; it can be pickled.
+    """Which rules run, how severe their findings are, and which are fixed; it can be pickled.
 
-    `units` None means those that the file tells. `severities` holds by code instead of the rule's own. Findings of
-    `fail_on` or worse fail a run. Fixes of the codes in `unfixable` are never made.
+    `units` None means those of the file. `severities` override the rules' own by code. Findings of `fail_on` or worse
+    fail a run. Fixes of the codes in `unfixable` are never made.
     """
 
     rules: tuple[Rule, ...]
@@ -56,13 +56,13 @@ def lint_deck(deck: Deck, chosen: Sequence[Rule]) -> list[Diagnostic]:
 
 def lint_context(context: LintContext, chosen: Sequence[Rule]) -> list[Diagnostic]:
     """The same for a deck whose scene is needed for more than the findings."""
-    return context.deck.diagnose(told(context, problems_in(context, chosen), chosen))
+    return context.deck.diagnose(unsuppressed(context, problems_in(context, chosen), chosen))
 
 
 def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
-    """What the chosen rules notice in a deck itself; what lies in a deck that it continues is told of that one.
+    """What the chosen rules find in a deck itself; what lies in a deck that it continues is reported for that one.
 
-    What comments suppress is among it, and unused comments are not.
+    Suppressed problems are among them; unused suppression comments are not.
     """
     found = (_advice(problem) if rule.advises else problem for rule in chosen for problem in rule.check(context))
     return [problem for problem in found if not of_base(context.deck, problem)]
@@ -73,7 +73,7 @@ def _advice(problem: Problem) -> Problem:
     return problem if problem.blocking is Blocks.NEVER else replace(problem, blocks=Blocks.NEVER)
 
 
-def told(context: LintContext, problems: list[Problem], chosen: Sequence[Rule]) -> list[Problem]:
+def unsuppressed(context: LintContext, problems: list[Problem], chosen: Sequence[Rule]) -> list[Problem]:
     """The problems that comments of the deck do not suppress, and the comments that suppress nothing."""
     found = suppressions(context.deck)
     return problems if found is None else found.split(problems, chosen)[0]
@@ -88,13 +88,13 @@ def lint_bytes(
     folder: Path | None = None,
     dialect: str = "mudline",
 ) -> list[Diagnostic]:
-    """All findings in a file's content, in its order; `name` tells its form and stands in the findings.
+    """All findings in a file's content, in its order; `name` gives its form, and is named in the findings.
 
-    `folder` is where files that the deck names stand; without it none of them is looked for. `dialect` is the program
+    `folder` is where files that the deck names are; without it none of them is looked for. `dialect` is the program
     that the deck is for, "mudline" or "flexcom".
 
     Never raises for content: a JSON or YAML file that holds no deck gives the reasons (DOC001, DOC002), whatever rules
-    are chosen, as nothing else can be said of it.
+    are chosen, as nothing else can be checked.
     """
     try:
         deck = load_bytes(data, name, units=units, folder=folder, read=_MEMORY.read)

@@ -14,7 +14,7 @@ from mudline.deck.model import Deck
 from mudline.deck.reading import read_source
 from mudline.diagnostics import Diagnostic, Problem, Repair, Severity, Span
 from mudline.linting.context import LintContext
-from mudline.linting.engine import LintSettings, problems_in, told
+from mudline.linting.engine import LintSettings, problems_in, unsuppressed
 from mudline.linting.suppression import MARK
 from mudline.syntax.edits import TextEdit, edited_bytes
 from mudline.syntax.source import Source
@@ -45,8 +45,8 @@ def fix_bytes(data: bytes, name: str, settings: LintSettings, folder: Path | Non
     first = run.reader.read(data)
     last = run.fix(first)
     if last.unreadable:
-        told = f"not fixed: correct what cannot be read first, {_place(last)}" if run.wanted(first) else ""
-        return Fixed(None, (), told)
+        note = f"not fixed: correct what cannot be read first, {_place(last)}" if run.wanted(first) else ""
+        return Fixed(None, (), note)
     changed = last.data if last.data != data else None
     return Fixed(changed, tuple(run.fixed), run.note())
 
@@ -98,7 +98,7 @@ class _Run:
         """The findings that the settings want fixed."""
         return [
             problem
-            for problem in state.told
+            for problem in state.findings
             if problem.repair is not None
             and any(state.source.text[slice(*span)] != text for span, text in problem.repair.edits)
             and self.settings.fixing.takes(problem.repair.applicability)
@@ -172,12 +172,12 @@ def _meet(one: Span, other: Span) -> bool:
 
 @dataclass
 class FixState:
-    """One stage of a deck. `told` are its findings without those that its comments suppress."""
+    """One stage of a deck. `findings` are those that its comments do not suppress."""
 
     data: bytes
     source: Source
     deck: Deck
-    told: list[Problem]
+    findings: list[Problem]
     errors: Counter[str]
 
     @property
@@ -196,7 +196,7 @@ class FixState:
 
     @cached_property
     def comments(self) -> Counter[str]:
-        """Comments without their layout, and how often each stands there; those for this linter do not count."""
+        """Comments without their layout and how often each occurs; those for this linter are left out."""
         text = self.source.unified
         comments = (text[slice(*leaf.span)] for leaf in self.tree.leaves() if leaf.kind is Kind.COMMENT)
         return Counter(" ".join(comment[1:].split()) for comment in comments if not MARK.match(comment))
@@ -227,7 +227,7 @@ class Reader:
         problems = problems_in(context, self.settings.rules)
         everything = [*deck.problems, *context.scene.problems, *problems]
         errors = Counter(problem.code.code for problem in everything if problem.weight is Severity.ERROR)
-        return FixState(data, source, deck, told(context, problems, self.settings.rules), errors)
+        return FixState(data, source, deck, unsuppressed(context, problems, self.settings.rules), errors)
 
     def after(self, before: FixState, repairs: Sequence[Repair]) -> FixState | None:
         """The stage after some repairs; None if they cannot be made, change nothing, or make the deck worse."""

@@ -28,9 +28,9 @@ class FileReport:
 
 
 def lint_one(name: str, data: bytes, settings: LintSettings, folder: Path | None = None) -> FileReport:
-    """Lint the content of a file, and fix it if the settings say so; writes nothing and never raises for content.
+    """Lint the content of a file, and fix it if the settings ask for it; writes nothing and never raises for content.
 
-    `folder` is where files that the deck names stand; without it none of them is looked for.
+    `folder` is where files that the deck names are; without it none of them is looked for.
     """
     result = _fixed(name, data, settings, folder)
     content = data if result.changed is None else result.changed

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
+from itertools import islice
 from textwrap import dedent
 
+from mudline.deck.findings import MOST_TOLD
 from mudline.diagnostics import Code, Problem
 from mudline.linting.context import LintContext
 
@@ -23,8 +25,8 @@ RULES: dict[str, Rule] = {}
 class Rule:
     """A rule: its code, the function that finds, and what its page says.
 
-    `title` is the first sentence, `why` the text behind it, `bad` a deck that it finds something in at `place` (line
-    and column), `good` the same deck mended; `file` is the name that the examples are read under. `encoding` is that of
+    `title` is the first sentence, `why` the text after it, `bad` a deck that it finds something in at `place` (line
+    and column), `good` the deck corrected; `file` is the name that the examples are read under. `encoding` is that of
     the bad deck's bytes, `dialect` the one under which it is at fault. A rule that is `off` runs only where it is
     selected.
     """
@@ -63,27 +65,27 @@ class Rule:
             return f"with --dialect {self.dialect}"
         if self.encoding != "utf-8":
             return f"saved as {self.encoding.upper()}"
-        return "" if self.bad.endswith("\n") else "the file ends behind the last character, without a line end"
+        return "" if self.bad.endswith("\n") else "the file ends without a line end"
 
 
 @dataclass(frozen=True, slots=True)
 class Noticed:
-    """What reading and resolving a deck, or a check of its scene, noticed under a code."""
+    """What reading and resolving a deck, or a check of its scene, reports under a code."""
 
     code: Code
 
     def __call__(self, context: LintContext) -> Iterable[Problem]:
         """The problems of the code."""
-        return context.told(self.code)
+        return context.problems_of(self.code)
 
 
 def rule(code: Code, *, off: bool = False) -> Callable[[Check], Check]:
     """Register a function as the rule of a code that only advises; `off` keeps it from running unless it is selected.
 
-    Its docstring begins with the title, a sentence on a line of its own; the text behind it says why. Below `Example:`
-    stand a bad and a good deck in one, four blanks in: a line behind a blank is in both, one behind `-` in the bad deck
-    only, one behind `+` in the good deck only. `Finds: line:column` is the place of the one finding in the bad deck.
-    `File: name` (default deck.keyxm) is the name of both decks. `Bytes: encoding` saves the bad deck in another
+    Its docstring begins with the title, a sentence on a line of its own; the text after it says why. Below `Example:`
+    are a bad and a good deck in one, indented by four spaces: a line after a space is in both, one after `-` in the bad
+    deck only, one after `+` in the good deck only. `Finds: line:column` is the place of the only finding in the bad
+    deck. `File: name` (default deck.keyxm) is the name of both decks. `Bytes: encoding` saves the bad deck in another
     encoding than UTF-8; `Cut: yes` leaves out its last line end; `Dialect: name` reads both decks in a dialect.
 
     Raises ValueError for a docstring that lacks a part, for a line of the example that has no mark, for two decks that
@@ -101,7 +103,7 @@ def add(described: Rule) -> None:
     """Register a rule; raises ValueError for a code or slug that another rule has."""
     code = described.code
     if any(code.code == known.code.code or code.slug == known.code.slug for known in RULES.values()):
-        raise ValueError(f"there is a rule {code.code} or {code.slug} already")
+        raise ValueError(f"there is already a rule {code.code} or {code.slug}")
     RULES[code.code] = described
 
 
@@ -133,7 +135,7 @@ def described_by(code: Code, check: Check, page: str, *, off: bool = False) -> R
         dialect=words.get("Dialect", "mudline"),
     )
     if described.bad_bytes == described.good_bytes:
-        raise ValueError(f"the decks of the example of {code.code} must differ in a line behind - or +")
+        raise ValueError(f"the decks of the example of {code.code} must differ in a line with - or +")
     return described
 
 
@@ -145,7 +147,7 @@ def _decks(code: Code, example: str) -> tuple[str, str]:
         marked = _MARKED.fullmatch(line or "     ")
         if marked is None:
             raise ValueError(
-                f"the line {line!r} of the example of {code.code} must have four blanks, then a blank, - or +"
+                f"the line {line!r} of the example of {code.code} must have four spaces, then a space, - or +"
             )
         mark, text = marked.groups()
         if mark != "+":
@@ -153,3 +155,11 @@ def _decks(code: Code, example: str) -> tuple[str, str]:
         if mark != "-":
             good.append(f"{text}\n")
     return "".join(bad), "".join(good)
+
+
+def first_reported(problems: Iterable[Problem]) -> Iterator[Problem]:
+    """As many findings as are reported one by one; the next one says that there are more."""
+    found = iter(problems)
+    yield from islice(found, MOST_TOLD)
+    for further in islice(found, 1):
+        yield replace(further, message=f"and more of the same: the first {MOST_TOLD} are listed", repair=None)

@@ -39,10 +39,10 @@ def _at_zero(curve: ForceCurve) -> float:
 def force_at_zero(context: LintContext) -> Iterator[Problem]:
     """The force at ratio 0 is not 0.
 
-    Contact begins at ratio 0, when the centreline reaches the mudline. With a force there, the seabed pushes with all
-    of it at once as soon as the pipe touches, and lets go at once when it rises: the solver sees a jump and finds no
-    equilibrium near it. Below its first point a curve goes on with its first slope, so a curve without the point (0, 0)
-    may have such a force too. More than a hundredth of the largest force of the curve is told. Add the point 0, 0.
+    Contact begins at ratio 0, when the centreline reaches the mudline. With a force there, the full reaction acts as
+    soon as the pipe touches, and vanishes as soon as it lifts off: the solver sees a jump and finds no equilibrium near
+    it. Below its first point a curve continues with its first slope, so a curve without the point (0, 0) may have such
+    a force too. A force above a hundredth of the largest one of the curve is reported. Add the point 0, 0.
 
     Example:
          $MODEL
@@ -78,9 +78,9 @@ def force_at_zero(context: LintContext) -> Iterator[Problem]:
 def curve_pulls(context: LintContext) -> Iterator[Problem]:
     """The force of a curve is negative at a ratio above 0.
 
-    A pipe that has sunk would be pulled down by the seabed. A slip in a sign does this, and so does a curve that goes
-    on falling behind its last point, or one whose first slope is so steep that it crosses 0 too late. Suction belongs
-    into *SEABED SUCTION or SUCTION=, where it acts on a pipe that rises. Correct the force.
+    An embedded pipe would be pulled down by the seabed. A wrong sign does this, and so does a curve that keeps
+    decreasing beyond its last point, or one whose first slope is so steep that it crosses 0 too late. Suction belongs
+    in *SEABED SUCTION or SUCTION=, where it acts on a rising pipe. Correct the force.
 
     Example:
          $MODEL
@@ -111,8 +111,8 @@ def curve_pulls(context: LintContext) -> Iterator[Problem]:
             if entry.curve.slopes[-1] < 0.0:
                 last = int(np.argmax(entry.points[:, 0]))
                 message = (
-                    "the force goes on falling behind the last point, and the seabed pulls the pipe down in the end: "
-                    "add a point with a force that does not fall"
+                    "the force keeps decreasing beyond the last point, until the seabed pulls the pipe down: "
+                    "add a point whose force does not decrease"
                 )
                 yield Problem(CRV012, message, where=entry.point(last))
 
@@ -126,7 +126,7 @@ def _deepest(curve: SceneCurve) -> int:
 def steep_extrapolation(context: LintContext) -> Iterator[Problem]:
     """The last segment of a curve is over 100 times steeper than the one before it.
 
-    A curve goes on behind its last point with its last slope, so this segment alone gives the stiffness at every
+    A curve continues beyond its last point with its last slope, so this segment alone gives the stiffness at every
     greater depth. A rounded ratio or two points very close together make such a slope by accident. Correct the last
     point, or remove it. Flat segments are left out of the comparison.
 
@@ -163,8 +163,8 @@ def steep_extrapolation(context: LintContext) -> Iterator[Problem]:
 def flat_last_segment(context: LintContext) -> Iterator[Problem]:
     """The last segment of a curve is flat.
 
-    A curve goes on behind its last point with its last slope: here with none. A pipe that is heavier than the last
-    force sinks without end, and a static run does not converge. Add a point that the force rises to.
+    A curve continues beyond its last point with its last slope, which is zero here. A pipe that is heavier than the
+    last force sinks without end, and a static run does not converge. Add a point with a larger force.
 
     Example:
          $MODEL
@@ -185,8 +185,8 @@ def flat_last_segment(context: LintContext) -> Iterator[Problem]:
         if entry.curve is not None and entry.whole and entry.curve.slopes[-1] == 0.0:
             force = float(entry.curve.forces[-1])
             message = (
-                f"the force stays at {force!r} at every greater depth: nothing holds a pipe that is heavier; add a "
-                "point that it rises to"
+                f"the force stays at {force!r} at every greater depth and does not support a heavier pipe: add a "
+                "point with a larger force"
             )
             yield Problem(CRV013, message, where=entry.point(_deepest(entry)))
 
@@ -196,8 +196,8 @@ def beyond_curve(context: LintContext) -> Iterator[Problem]:
     """Elements lie deeper, in the deck's coordinates, than their curve reaches.
 
     The force there is extrapolated with the last slope, and nothing was measured or calculated for it. Perhaps the
-    coordinates have another datum than the bed, X = 0; otherwise add points down to the depth of the elements.
-    Nothing is said of models whose bed is not flat.
+    coordinates have another datum than the seabed, X = 0; otherwise add points down to the depth of the elements.
+    Nothing is reported in models whose seabed is not flat.
 
     Example:
          $MODEL

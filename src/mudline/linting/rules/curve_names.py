@@ -36,8 +36,8 @@ def unused_curve(context: LintContext) -> Iterator[Problem]:
     """No STIFFNESS= uses the curve.
 
     It was measured or calculated for something, so perhaps the elements that it was meant for follow another law. Name
-    it in a STIFFNESS= of *SEABED PROPERTIES, or remove it. Nothing is said of a deck whose STIFFNESS= is an equation:
-    its parameters choose the curve; nor of a curve whose name reads as a number, which SBD017 tells.
+    it in a STIFFNESS= of *SEABED PROPERTIES, or remove it. Nothing is reported in a deck whose STIFFNESS= is an
+    equation, as its parameters choose the curve, or for a curve whose name reads as a number (SBD017).
 
     Example:
          $MODEL
@@ -65,11 +65,11 @@ def unused_curve(context: LintContext) -> Iterator[Problem]:
         name = folded(curve.name)
         if curve.embedment or not curve.named or name in scene.laws.referenced:
             continue
-        if read_number(name) is not None:  # a STIFFNESS= may mean it, which SBD017 tells
+        if read_number(name) is not None:  # a STIFFNESS= may mean it, which SBD017 reports
             continue
         if name in unused:
             unused[name].append(curve)
-        elif not scene.context.near(name, unknown):  # else it is misspelt where it is used, which has been told
+        elif not scene.context.near(name, unknown):  # else it is misspelt where it is used, which is reported there
             unused[name] = [curve]
     places = [curve.where for curves in unused.values() for curve in curves]
     repairs = removals(context.text, places) if context.text else {}
@@ -83,7 +83,7 @@ def _chosen_elsewhere(context: LintContext) -> bool:
     scene = context.scene
     own = zip(
         _stiffnesses(context.deck), _stiffnesses(scene.deck), strict=False
-    )  # a continued deck has more behind them
+    )  # a continued deck adds more after them
     if any(written is not value for written, value in own):
         return True  # an equation, whose parameters may be varied
     if any(grant.kind is LawKind.NONE and grant.unknown for grant in scene.laws.grants):
@@ -109,8 +109,8 @@ def _stiffnesses(deck: Deck) -> Iterator[object]:
 def duplicate_curve(context: LintContext) -> Iterator[Problem]:
     """Two curves have one name, or one set has two curves in *EMBEDMENT.
 
-    The later one is taken (inferred: the language does not say what happens), so the points of the earlier one count
-    for nothing. Case does not count in names. Choose another name, or remove one of the curves.
+    The later one is used (inferred: the language does not say what happens) and overrides the earlier one. Names are
+    compared without case. Choose another name, or remove one of the curves.
 
     Example:
          $MODEL
@@ -132,15 +132,15 @@ def duplicate_curve(context: LintContext) -> Iterator[Problem]:
     for curve in context.scene.laws.curves:
         key = (curve.embedment, folded(curve.name))
         if key in known and curve.named:
-            what = "set {} has a curve already" if curve.embedment else "there is a curve {} already"
+            what = "set {} already has a curve" if curve.embedment else "curve {} is already defined"
             what = what.format(shown(curve.name))
-            message = f"{what}: the later one is taken (inferred); keep one of them"
+            message = f"{what}: the later one is used (inferred); keep one of them"
             yield Problem(REF004, message, where=curve.title)
         known.add(key)
 
 
 def removals(text: TextOrigin, unused: Iterable[Where]) -> dict[Where, Repair]:
-    """For each curve of `*SEABED STIFFNESS` that is not used, its lines less; comments stay.
+    """For each curve of `*SEABED STIFFNESS` that is not used, the removal of its lines; comments stay.
 
     The first curve of a block takes the whole block with it where none of its curves is used, unless a comment hides
     findings there: then it goes alone, as the others do.

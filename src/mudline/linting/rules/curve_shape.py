@@ -41,7 +41,7 @@ def swapped(curve: SceneCurve) -> bool:
 
 @rule(CRV009)
 def swapped_columns(context: LintContext) -> Iterator[Problem]:
-    """The columns of a curve seem to be exchanged: forces stand where the ratios belong.
+    """The columns of a curve seem to be exchanged: forces are where the ratios belong.
 
     A point is the embedment ratio, then the force. Ratios above 10 with forces below 1 make no sense together; tables
     of soil springs, such as those of *P-Y, have the force first, and were perhaps copied. With the columns exchanged
@@ -119,7 +119,7 @@ def ratio_range(context: LintContext) -> Iterator[Problem]:
         ratio = float(curve.points[last, 0])
         if ratio > LARGEST_RATIO:
             message = (
-                f"a ratio of {ratio!r} is as many diameters deep: if this is a depth or a percentage, write the "
+                f"ratio {ratio!r} means a depth of as many diameters: if this is a depth or a percentage, write the "
                 "depth divided by the external diameter"
             )
             yield Problem(CRV010, message, where=curve.point(last))
@@ -129,8 +129,8 @@ def ratio_range(context: LintContext) -> Iterator[Problem]:
 def unsorted_points(context: LintContext) -> Iterator[Problem]:
     """The points of a curve are not in the order of their ratios.
 
-    This is legal: they are sorted before anything else. A reader of the deck sees another curve than the one that
-    holds, though, and a point out of order is sometimes a slip in its ratio. Put the points in order.
+    This is legal: they are sorted before anything else. A reader of the deck sees another curve than the one that is
+    used, though, and a point out of order sometimes has a wrong ratio. Put the points in order.
 
     Example:
          $MODEL
@@ -158,12 +158,12 @@ def unsorted_points(context: LintContext) -> Iterator[Problem]:
 
 @rule(CRV005)
 def decreasing_force(context: LintContext) -> Iterator[Problem]:
-    """The force falls while the pipe sinks deeper.
+    """The force decreases while the pipe penetrates deeper.
 
-    The stiffness of the seabed is negative there: the bed does not hold the pipe but lets it snap through, unless the
-    pipe itself holds against it. Equilibrium needs a structural stiffness above |slope| / D for each unit of length,
-    D being the external diameter. Softening soil is real, but a static run rarely converges on it; give the curve a
-    force that does not fall, or keep this one knowingly.
+    The stiffness of the seabed is negative there: the seabed does not support the pipe but lets it snap through, unless
+    the pipe itself resists. Equilibrium needs a structural stiffness above |slope| / D for each unit of length, D being
+    the external diameter. Softening soil is real, but a static run rarely converges on it; give the curve a force that
+    does not decrease, or keep this one knowingly.
 
     Example:
          $MODEL
@@ -192,7 +192,7 @@ def decreasing_force(context: LintContext) -> Iterator[Problem]:
                 slope = -float(fall / (ratios[segment + 1] - ratios[segment]))
             if np.isfinite(slope):
                 message = (
-                    f"force falls between ratio {first!r} and {last!r}, slope {slope:.6g}: equilibrium needs a "
+                    f"force decreases between ratio {first!r} and {last!r}, slope {slope:.6g}: equilibrium needs a "
                     f"structural stiffness per unit length above {_needed(context.scene, number, slope)}"
                 )
                 yield Problem(CRV005, message, where=curve.point(int(order[segment + 1])))
@@ -222,9 +222,9 @@ def negative_ratio(context: LintContext) -> Iterator[Problem]:
     """A point of a curve lies above the mudline.
 
     The embedment ratio is measured at the centreline of the pipe, and contact begins where it is positive: evaluation
-    never reaches such a point. A curve drawn for the invert, which touches the bed half a diameter earlier, begins at
-    -0.5; its part above 0 is lost, and the force jumps when contact begins. Remove the point, or draw the curve for the
-    centreline. A curve that has the force 0 up to ratio 0 loses nothing, and is not told.
+    never reaches such a point. A curve drawn for the invert, which touches the seabed half a diameter earlier, begins
+    at -0.5; its part above 0 is lost, and the force jumps when contact begins. Remove the point, or draw the curve for
+    the centreline. A curve that has the force 0 up to ratio 0 loses nothing, and is not reported.
 
     Example:
          $MODEL
@@ -253,14 +253,14 @@ def negative_ratio(context: LintContext) -> Iterator[Problem]:
 
 
 def _free_above(points: Floats) -> bool:
-    """Whether a curve says no more of the part above the mudline than that there is no force, up to a point at 0."""
+    """Whether a curve has no force above the mudline, up to a point at 0."""
     above = points[points[:, 0] <= 0.0]
     return bool((above[:, 0] == 0.0).any() and (above[:, 1] == 0.0).all())
 
 
 @rule(CRV004)
 def repeated_point(context: LintContext) -> Iterator[Problem]:
-    """The same point stands in a curve twice.
+    """A curve has the same point twice.
 
     It counts once, so nothing is wrong yet; but when one of the two is changed later, the curve has two forces at one
     ratio. Remove it.
@@ -285,21 +285,21 @@ def repeated_point(context: LintContext) -> Iterator[Problem]:
         rows = plain_rows(context.text, curve) if context.text and repeats else None
         for index in repeats:
             ratio, force = curve.points[index].tolist()
-            message = f"the point ({ratio!r}, {force!r}) stands here a second time: it counts once; remove it"
+            message = f"the point ({ratio!r}, {force!r}) is given twice and counts once: remove it"
             repair = removal(rows, int(curve.rows[index])) if rows else None
             yield Problem(CRV004, message, where=curve.point(index), repair=repair)
 
 
 @dataclass(frozen=True, slots=True)
 class PlainRows:
-    """The lines of a table, without blanks and line ends behind them; `before` is what its curve has above them."""
+    """The lines of a table, without white space and line ends after them; `before` is what its curve has above them."""
 
     source: str
     lines: list[Span]
     before: str
 
-    def parted_by(self, order: Indices) -> bool:
-        """Whether a comment stands before or behind a row that the order puts elsewhere, or that others pass."""
+    def crosses_comment(self, order: Indices) -> bool:
+        """Whether a comment is next to a row that the order moves, or that other rows pass."""
         settled = np.maximum.accumulate(order) == np.arange(len(order))  # up to here the rows stay among themselves
         stays = order == np.arange(len(order))
         if "mudline" in self.before.lower() and not stays[0]:  # a comment that speaks of the first row alone
@@ -333,13 +333,13 @@ def plain_rows(text: TextOrigin, curve: SceneCurve) -> PlainRows | None:
 def sorting(text: TextOrigin, curve: SceneCurve) -> Repair | None:
     """The rows in the order of their ratios.
 
-    None for a curve that could not be read whole, is very long or has equations, and where a comment would come to
-    stand beside another row than now.
+    None for a curve that could not be read whole, is very long or has equations, and where a comment would be next to
+    another row than now.
     """
     if not curve.whole or (rows := plain_rows(text, curve)) is None or len(rows.lines) != len(curve.points):
         return None
     order = np.argsort(curve.points[:, 0], kind="stable")
-    if rows.parted_by(order):
+    if rows.crosses_comment(order):
         return None
     edits = [
         (rows.lines[place], rows.source[slice(*rows.lines[row])])
@@ -350,7 +350,7 @@ def sorting(text: TextOrigin, curve: SceneCurve) -> Repair | None:
 
 
 def removal(rows: PlainRows, row: int) -> Repair:
-    """A row less."""
+    """The removal of a row."""
     line = rows.lines[row]
     following = rows.source.find("\n", line.end)
     end = len(rows.source) if following < 0 else following + 1

@@ -1,4 +1,4 @@
-"""Unloading against the loading law."""
+"""Extension keywords: unloading against the loading law, and decks for Flexcom."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def soft_unloading(context: LintContext) -> Iterator[Problem]:
     """The unloading stiffness is below the steepest slope of the loading law.
 
     Soil unloads at least as stiffly as it was loaded: with a softer return path a cycle would give energy back, and the
-    trench would lie above the bed. The stiffness is raised to the slope reached. Give a higher one.
+    trench would lie above the seabed. The stiffness is raised to the slope reached. Give a higher one.
 
     Example:
          $MODEL
@@ -59,7 +59,7 @@ def soft_unloading(context: LintContext) -> Iterator[Problem]:
             message = (
                 f"unloading stiffness {stiffness!r} is below the steepest slope of the loading law of "
                 f"{softer.size} elements (first: {scene.element_ids[softer[0]]}), "
-                f"{float(steepest[softer].max()):.6g}: it is raised to it; give at least that"
+                f"{float(steepest[softer].max()):.6g}: it is raised to that; give at least as much"
             )
             yield Problem(EXT008, message, where=where._replace(path=(*where.path, "stiffness")))
 
@@ -84,9 +84,9 @@ def _curve_slope(scene: Scene, index: int) -> float:
 
 @rule(SBD018)
 def extension_keyword(context: LintContext) -> Iterator[Problem]:
-    """An extension keyword stands in a deck for Flexcom.
+    """An extension keyword is used in a deck for Flexcom.
 
-    The keyword belongs to mudline alone: Flexcom does not know it and will not run the deck. It is found only where
+    The keyword belongs to mudline alone: Flexcom does not know it and will not run the deck. It is reported only where
     the deck is checked for that dialect. Remove it, or keep a copy of the deck for Flexcom.
 
     Example:

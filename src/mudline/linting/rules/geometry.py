@@ -52,7 +52,7 @@ _CURVES = {
     "hysteresis_curve": ("EI_HYSTERESIS", _BENDING),
     "e_curve": ("E", ("e",)),
 }
-"""Which numbers of the property line a curve stands in for; the setting that names the curve."""
+"""Which numbers of the property line a curve replaces, and the setting that names the curve."""
 _NAMES = {"eiyy": "EIyy", "eizz": "EIzz", "gj": "GJ", "ea": "EA", "e": "E"}
 
 
@@ -186,7 +186,7 @@ def number_and_curve(context: LintContext) -> Iterator[Problem]:
     """A stiffness is given twice: as a number, and by a curve.
 
     Where SET= names a curve of the non-linear stiffness, its number on the property line is to be left empty. With both
-    it is not clear which one a run takes. Leave the field empty, or remove the curve.
+    it is not clear which one a run uses. Leave the field empty, or remove the curve.
 
     Example:
          $MODEL
@@ -204,7 +204,7 @@ def number_and_curve(context: LintContext) -> Iterator[Problem]:
 def _given_twice(deck: Deck) -> Iterator[Problem]:
     for where, entry in section_entries(deck):
         if entry.mooring is not None:
-            continue  # its format has no place for a curve, and EA must be given
+            continue  # its format has no field for a curve, and EA must be given
         for curve, (key, numbers) in _CURVES.items():
             if getattr(entry, curve) is None:
                 continue
@@ -217,7 +217,7 @@ def _given_twice(deck: Deck) -> Iterator[Problem]:
 
 @rule(GEO003)
 def drag_diameter_assumed(context: LintContext) -> Iterator[Problem]:
-    """A flexible section under a force-embedment curve has no Do: the drag diameter Dd is taken.
+    """A flexible section under a force-embedment curve has no Do: the drag diameter Dd is used.
 
     The embedment ratio is a depth divided by the external diameter, so the stiffness of the seabed depends on it. The
     drag diameter is often larger, as it takes in marine growth, fairings or strakes. Give Do, the last field but one of
@@ -258,7 +258,7 @@ def drag_diameter_assumed(context: LintContext) -> Iterator[Problem]:
         if section.source == "Dd" and not np.isnan(section.diameter) and not section.faulty:
             elements = "an element" if count == 1 else f"{count} elements"
             message = (
-                f"the embedment ratio of {elements} on a curve is formed with Dd = {section.diameter:g}, as the "
+                f"the embedment ratio of {elements} on a curve is computed with Dd = {section.diameter:g}, as the "
                 "section has no Do: give Do"
             )
             yield Problem(GEO003, message, where=section.where._replace(path=(*section.where.path, "flexible", "Dd")))
@@ -268,10 +268,10 @@ def drag_diameter_assumed(context: LintContext) -> Iterator[Problem]:
 def repeated_section(context: LintContext) -> Iterator[Problem]:
     """A set has two sections, and another set has none.
 
-    Of two sections of one set the later one counts. That is legal, but beside a set without a section it is a sign of
-    an entry that was copied and kept the name of the first: its elements have neither stiffness nor mass. Correct the
-    name in one of the two entries. Nothing is reported where elements come from lines or from another deck, where a
-    section names a set that is not defined (REF001), or where every element has a section.
+    The later section of a set overrides the earlier one. That is legal, but beside a set without a section it suggests
+    an entry that was copied and kept the name of the first: the elements of that set have neither stiffness nor mass.
+    Correct the name in one of the two entries. Nothing is reported where elements come from lines or from another deck,
+    where a section names a set that is not defined (REF001), or where every element has a section.
 
     Example:
          $MODEL
@@ -308,14 +308,14 @@ def repeated_section(context: LintContext) -> Iterator[Problem]:
     bare = [one.name for one in sets if one.elements.size and not one.open and lacking[one.elements].all()]
     for section in repeated if bare else ():
         message = (
-            f"SET={shown(section.name)} has a section already, and SET={shown(bare[0])} has none: correct one of the "
+            f"SET={shown(section.name)} already has a section, and SET={shown(bare[0])} has none: correct one of the "
             "two names"
         )
         yield Problem(GEO006, message, where=section.where._replace(path=(*section.where.path, "set")))
 
 
 def _repeated(sections: Iterable[Section]) -> list[Section]:
-    """Sections of a set that has one already."""
+    """Sections of a set that already has one."""
     known: set[str] = set()
     found: list[Section] = []
     for section in sections:

@@ -1,4 +1,4 @@
-"""Superseded keywords."""
+"""Superseded keywords, and decks that mix them with newer ones."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ SBD016 = Code("SBD016", "mixed-families", Severity.WARNING)
 def superseded_keyword(context: LintContext) -> Iterator[Problem]:
     """The keyword is superseded by a newer one.
 
-    It is still legal and means what it meant. The newer keywords say more (profiles, friction by set), and new decks
-    are written with them.
+    It is still legal and keeps its meaning. The newer keywords can express more (profiles, friction by set), and new
+    decks use them.
 
     Example:
          $MODEL
@@ -65,9 +65,8 @@ def _migration(context: LintContext) -> Repair | None:
 def mixed_families(context: LintContext) -> Iterator[Problem]:
     """The model has legacy and new seabed keywords.
 
-    The manual does not say how the two add up, so the deck may mean something else to another version of the program.
-    Here a block of *SEABED PROPERTIES that gives a stiffness holds over the legacy keywords (inferred). Keep one
-    family.
+    The manual does not say how the two combine, so the deck may mean something else to another version of the program.
+    Here a block of *SEABED PROPERTIES that gives a stiffness overrides the legacy keywords (inferred). Keep one family.
 
     Example:
          $MODEL
@@ -90,7 +89,7 @@ def mixed_families(context: LintContext) -> Iterator[Problem]:
     own = len(context.scene.deck.own_sections)
     where, keyword = max((place for place in (legacy, new) if place[0].section < own), default=legacy)
     other = (new if is_superseded(keyword) else legacy)[1]
-    message = f"*{keyword} stands in one model with *{other}: their sum is not documented; keep one family of keywords"
+    message = f"*{keyword} and *{other} are in one model, and how they combine is not documented: keep one family"
     yield Problem(SBD016, message, where=where)
 
 

@@ -32,7 +32,7 @@ LONGEST_LIST = 20
 def long_name(context: LintContext) -> Iterator[Problem]:
     """The name of a set has more than 256 characters.
 
-    The language allows 256. A longer name may be cut when the deck is run, and names that differ only behind the cut
+    The language allows 256. A longer name may be cut when the deck is run, and names that differ only after the cut
     would then be one set. Choose a shorter name.
 
     Example:
@@ -63,9 +63,8 @@ def long_name(context: LintContext) -> Iterator[Problem]:
 def long_list(context: LintContext) -> Iterator[Problem]:
     """A line of a set lists more than 20 elements.
 
-    The language allows 20 on a line. What stands behind them may be dropped when the deck is run, and those elements
-    then lack the stiffness or the curve of their set without a word. Put the rest on lines of their own: lines of a set
-    add up.
+    The language allows 20 on a line. Further elements may be dropped without a warning when the deck is run, and then
+    lack the stiffness or the curve of their set. Put the rest on lines of their own: lines of a set add up.
 
     Example:
          $MODEL
@@ -101,7 +100,7 @@ def _long(context: LintContext) -> Iterator[tuple[Where, int]]:
 
 
 def _split(text: TextOrigin, where: Where, count: int) -> Repair | None:
-    """A new line behind every 20 elements, indented as the line is; None where more than commas stands between them."""
+    """A line break after every 20 elements, indented as the line is; None where more than commas is between them."""
     source = text.source.unified
     edits: list[tuple[Span, str]] = []
     line_break = _line_break(text.source.text, text.span(where))
@@ -118,7 +117,7 @@ def _split(text: TextOrigin, where: Where, count: int) -> Repair | None:
 
 
 def _line_break(text: str, line: Span | None) -> str:
-    """A line end as the file has them, and the indentation of a line; at least a blank."""
+    """A line end as the file has them, and the indentation of a line; at least a space."""
     at = line.start if line else 0
     start = max(text.rfind("\n", 0, at), text.rfind("\r", 0, at)) + 1
     end = "\r\n" if "\r\n" in text else "\n" if "\n" in text else "\r" if "\r" in text else "\n"
@@ -130,8 +129,8 @@ def _line_break(text: str, line: Span | None) -> str:
 def repeated_set(context: LintContext) -> Iterator[Problem]:
     """A set is defined twice: it holds the elements of both definitions.
 
-    Who changes one of them believes that the set is changed, and the elements of the other one stay in it, with their
-    stiffness and curve. Case does not count in names. Put the elements under one SET=, or choose another name.
+    Whoever changes one of them expects the set to change, but the elements of the other one stay in it, with their
+    stiffness and curve. Names are compared without case. Put the elements under one SET=, or choose another name.
 
     Example:
          $MODEL
@@ -165,18 +164,17 @@ def _repeated_sets(context: LintContext) -> Iterator[Problem]:
                 continue
             key = folded(name)
             if key in known and key != ALL:
-                message = f"there is a set {shown(name)} already, and this one adds to it: put the elements into one"
+                message = f"set {shown(name)} is already defined, and this adds to it: put its elements under one SET="
                 yield Problem(REF016, message, where=where._replace(path=("sets", index, "name")))
             known.add(key)
 
 
 @rule(REF017)
 def repeated_parameter(context: LintContext) -> Iterator[Problem]:
-    """A parameter is defined twice: the later value holds everywhere.
+    """A parameter is defined twice: the later value applies everywhere.
 
-    Also equations that stand before the second definition use its value, so the first one counts for nothing, though it
-    is the one that a reader finds first. Items of a list have the name of the list in front, as in Soil_stiffness.
-    Remove one of the two.
+    Equations before the second definition use its value too: the first definition is overridden, although a reader
+    finds it first. Items of a list have the name of the list in front, as in Soil_stiffness. Remove one of the two.
 
     Example:
          $PREPROCESSOR
@@ -192,7 +190,7 @@ def repeated_parameter(context: LintContext) -> Iterator[Problem]:
     Finds: 5:2
     """
     known: set[str] = set()
-    told = 0
+    reported = 0
     for where, block in context.deck.blocks("PARAMETERS", "PREPROCESSOR"):
         for index, parameter in enumerate(cast("list[Parameter]", block.parameters)):
             repeated: list[str] = []
@@ -201,11 +199,12 @@ def repeated_parameter(context: LintContext) -> Iterator[Problem]:
                 if key in known:
                     repeated.append(name)
                 known.add(key)
-            if repeated and told < MOST_TOLD:
-                told += 1
+            if repeated and reported < MOST_TOLD:
+                reported += 1
                 others = f" (and {len(repeated) - 1} more of this list)" if len(repeated) > 1 else ""
                 message = (
-                    f"parameter {shown(repeated[0])}{others} is defined a second time: this value holds; remove one"
+                    f"parameter {shown(repeated[0])}{others} is defined twice, and this value overrides the earlier "
+                    "one: remove one of them"
                 )
                 yield Problem(REF017, message, where=where._replace(path=("parameters", index, "name")))
 

@@ -41,9 +41,9 @@ _OF_SET = {
 def lateral_and_friction(context: LintContext) -> Iterator[Problem]:
     """Lateral resistance and transverse friction are given for the same elements.
 
-    A lateral spring takes the place of transverse friction and never adds to it: the program sets the transverse
-    coefficient to zero. Lateral walking is then held by the spring alone, however large the coefficient is. Keep the
-    one that the assessment is meant to rest on.
+    A lateral spring replaces transverse friction and never adds to it: the program sets the transverse coefficient to
+    zero. Lateral walking is then resisted by the spring alone, however large the coefficient is. Keep the one that the
+    assessment relies on.
 
     Example:
          $MODEL
@@ -69,7 +69,7 @@ def lateral_and_friction(context: LintContext) -> Iterator[Problem]:
 def legacy_friction_order(context: LintContext) -> Iterator[Problem]:
     """FRICTION= seems to have the order of fields of a legacy surface.
 
-    Behind the two coefficients *RIGID SURFACE has characteristic lengths, whose default is 3.048 m or 10 ft, where
+    After the two coefficients *RIGID SURFACE has characteristic lengths, whose default is 3.048 m or 10 ft, where
     FRICTION= has mobilisation lengths. A line copied from a legacy deck then spreads the build-up of friction over
     metres, and the pipe slides far before it is held. Leave the field empty, or give the mobilisation length.
 
@@ -98,8 +98,8 @@ def legacy_friction_order(context: LintContext) -> Iterator[Problem]:
 def unused_friction_stiffness(context: LintContext) -> Iterator[Problem]:
     """A friction stiffness is given in a direction whose coefficient is zero.
 
-    Modal and frequency-domain runs put the stiffness in place of friction only where the coefficient is not zero; in
-    this direction the pipe is free, and the modes have less restraint than the deck seems to give. The same holds for
+    Modal and frequency-domain runs use the stiffness instead of friction only where the coefficient is not zero; in
+    this direction the pipe is free, and the modes have less restraint than the deck suggests. The same holds for
     *FRICTION of a load case or of modes. Give a coefficient, or remove the stiffness.
 
     Example:
@@ -147,8 +147,8 @@ def _of_load_cases(context: LintContext) -> Iterator[Problem]:
 def extent_without_stiffness(context: LintContext) -> Iterator[Problem]:
     """A suction zone has an extent and no stiffness.
 
-    The extent is the height over which suction holds a rising pipe; without a stiffness nothing holds it, and uplift is
-    free at once. Give the suction stiffness, or remove the extent.
+    The extent is the height over which suction resists a rising pipe; without a stiffness there is no suction. Give the
+    suction stiffness, or remove the extent.
 
     Example:
          $MODEL
@@ -163,7 +163,7 @@ def extent_without_stiffness(context: LintContext) -> Iterator[Problem]:
     """
     for entry in given(context):
         if positive(entry.value("suction_extent")) and absent(context, entry, "suction_stiffness"):
-            message = "a suction zone without suction stiffness holds nothing: give the stiffness, or remove the extent"
+            message = "a suction zone without suction stiffness has no effect: give the stiffness, or remove the extent"
             yield Problem(SBD015, message, where=entry.place("suction_extent"))
 
 
@@ -171,8 +171,8 @@ def extent_without_stiffness(context: LintContext) -> Iterator[Problem]:
 def unused_characteristic_length(context: LintContext) -> Iterator[Problem]:
     """A characteristic length is given together with a mobilisation length.
 
-    The mobilisation length of a direction overrides its characteristic length, which then counts for nothing: a reader
-    who changes it to see what the mesh does will see no change. Remove the one that is not meant.
+    The mobilisation length of a direction overrides its characteristic length: changing the characteristic length has
+    no effect. Remove the one that is not meant.
 
     Example:
          $MODEL
@@ -262,7 +262,7 @@ def short_mobilisation(context: LintContext) -> Iterator[Problem]:
     if not any(length > 0.0 for given in bed.values for length in given.mobilisation):
         return
     lengths, friction = bed.column("mobilisation"), bed.column("friction")
-    friction[bed.column("lateral") > 0.0, 1] = 0.0  # a lateral spring takes its place
+    friction[bed.column("lateral") > 0.0, 1] = 0.0  # a lateral spring replaces it
     if replacing := scene.extensions.get("SEABED FRICTION"):
         friction[replacing.of_element >= 0] = 0.0
     for side, name in enumerate(("longitudinal_mobilisation", "transverse_mobilisation")):
@@ -285,7 +285,7 @@ class Given(NamedTuple):
     legacy: bool
 
     def place(self, name: str) -> Where:
-        """Where a value stands; names are those of the fields of *ELASTIC SURFACE."""
+        """The place of a value; names are those of the fields of *ELASTIC SURFACE."""
         return self.where._replace(path=(*self.where.path, *self._path(name)))
 
     def value(self, name: str) -> float | None:
@@ -326,7 +326,7 @@ def positive(value: float | None) -> bool:
 
 
 def absent(context: LintContext, entry: Given, name: str) -> bool:
-    """Whether the deck gives no value, or zero; of a line that could not be read whole nothing is said."""
+    """Whether the deck gives no value, or zero; False for a line that could not be read whole."""
     value = entry.value(name)
     place = entry.place(name)
     line = place._replace(path=place.path[:-1])

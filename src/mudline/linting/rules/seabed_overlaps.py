@@ -30,11 +30,11 @@ SBD025 = Code("SBD025", "law-without-effect", Severity.WARNING)
 def overlapping_sets(context: LintContext) -> Iterator[Problem]:
     """Elements are given seabed properties twice.
 
-    The later definition in the file holds, and is taken whole: nothing of the earlier one remains. A set that refines
-    a larger one given before it is the usual way to write a deck and is not told. Told is a definition that takes all
-    elements of an earlier one, which then counts for nothing, as SET=ALL behind the other sets does; and sets of which
-    each has elements that the other one has not. For curves of *EMBEDMENT no order is documented: there any overlap of
-    two different curves is a warning. Put the larger set first, or give each element one definition.
+    The later definition in the file overrides the earlier one as a whole: nothing of that remains. A set that refines a
+    larger one given before it is the usual way to write a deck and is not reported. Reported are a definition that
+    overrides an earlier one for all its elements, as SET=ALL after the other sets does, and sets of which each has
+    elements that the other one lacks. For curves of *EMBEDMENT no order is documented: there any overlap of two
+    different curves is a warning. Put the larger set first, or give each element one definition.
 
     Example:
          $MODEL
@@ -76,14 +76,14 @@ def _own_grants(context: LintContext, family: str) -> list[Grant]:
 
 @rule(SBD025)
 def law_without_effect(context: LintContext) -> Iterator[Problem]:
-    """A seabed value is given that no element gets.
+    """A seabed definition applies to no element.
 
-    Several later definitions together hold for all elements of the set; or a legacy surface is followed by another one;
-    or the set is made of subsets without any element. Whoever changes the value will see no change in the results.
-    Remove it, or put it where it counts. One later definition that takes all elements of an earlier one is reported as
-    SBD008, a set with nothing in it as REF010, and legacy beside new keywords as SBD016. The stiffness of a legacy
-    surface may stand beside curves for every element, and a value may be replaced by a keyword of mudline, as Flexcom
-    still reads it.
+    Several later definitions together override it for all elements of the set; or a legacy surface is followed by
+    another one; or the set is made of subsets without any element. Changing such a value has no effect on the results.
+    Remove it, or correct the sets. A single later definition that overrides an earlier one for all its elements is
+    reported as SBD008, a set with nothing in it as REF010, and legacy beside new keywords as SBD016. Not reported are
+    the stiffness of a legacy surface beside curves for every element, and values that an extension keyword replaces, as
+    Flexcom still reads them.
 
     Example:
          $MODEL
@@ -125,7 +125,7 @@ def _unused_properties(context: LintContext) -> Iterator[Problem]:
     if not any(id(grant) in idle for grant in new):
         return
     reported = {earlier for earlier, _ in _properties(scene, new)} if len(new) > 1 else set()
-    empty = {problem.where for problem in context.told(REF010)}
+    empty = {problem.where for problem in context.problems_of(REF010)}
     for index, grant in enumerate(new):
         set_ = grant.set_
         if id(grant) not in idle or grant.unknown or set_.open or index in reported:
@@ -133,27 +133,30 @@ def _unused_properties(context: LintContext) -> Iterator[Problem]:
         place = grant.where._replace(path=(*grant.where.path[:2], "set"))
         if set_.elements.size:
             message = (
-                f"no element gets this definition, as later ones hold for all elements of SET={shown(set_.name)}: "
+                f"this definition applies to no element, as later ones override it for all of SET={shown(set_.name)}: "
                 "remove it, or correct the sets"
             )
             yield Problem(SBD025, message, where=place)
         elif set_.where not in empty:
             message = (
-                f"no element gets this definition, as no subset of SET={shown(set_.name)} has any: correct the set"
+                f"this definition applies to no element, as no subset of SET={shown(set_.name)} has any: correct "
+                "the set"
             )
             yield Problem(SBD025, message, where=place)
 
 
 def _unused_surfaces(context: LintContext) -> Iterator[Problem]:
-    """Legacy surfaces that a later one replaces, unless SBD002 speaks of two types."""
+    """Legacy surfaces that a later one replaces, unless SBD002 reports two types."""
     found = surfaces(context.scene.deck) if len(context.scene.laws.types) == 1 else []
     for where, surface in found[:-1]:
-        message = f"no element gets these values, as a later *{surface.keyword} replaces them: remove one of the two"
+        message = (
+            f"these values apply to no element, as a later *{surface.keyword} overrides them: remove one of the two"
+        )
         yield Problem(SBD025, message, where=where._replace(path=("properties",)))
 
 
 class _Overlap(NamedTuple):
-    """Places of two sets in their list, and the elements (indices) of the earlier one that the later one takes."""
+    """Places of two sets in their list, and the elements (indices) of the earlier one that the later one overrides."""
 
     earlier: int
     later: int
@@ -186,14 +189,14 @@ def _properties(scene: Scene, grants: list[Grant]) -> Iterator[tuple[int, Proble
         place = where._replace(path=(*where.path[:2], "set"))
         if _within(one, other, len(scene.element_ids)):
             message = (
-                f"{_called(one, other)} counts for nothing: this later definition takes all its elements; "
+                f"{_called(one, other)} is overridden by this one for all its elements: "
                 "put the larger set first, or remove one"
             )
             yield earlier, Problem(SBD008, message, where=place)
         elif not _within(other, one, len(scene.element_ids)) and not _alike(scene, grants[earlier], grants[later]):
             message = (
-                f"this definition holds for {_counted(scene, elements)} of SET={shown(one.name)} too, whose earlier "
-                "one counts for nothing there; give each element one definition"
+                f"this definition overrides the earlier one of SET={shown(one.name)} for "
+                f"{_counted(scene, elements)}: give each element one definition"
             )
             yield earlier, Problem(SBD008, message, where=place)
 
@@ -244,6 +247,6 @@ def _embedment(scene: Scene, grants: list[Grant]) -> Iterator[Problem]:
         which = _counted(scene, held) if held.size else "elements"
         message = (
             f"*EMBEDMENT gives another curve for {which}, of SET={shown(grants[earlier].set_.name)}: the later one is "
-            "taken, which is not documented (inferred); give each element one curve"
+            "used, which is not documented (inferred); give each element one curve"
         )
         yield Problem(SBD008, message, None, Severity.WARNING, other.title)

@@ -33,10 +33,11 @@ _IN_PLANE = (1, 2)
 
 
 def depths(scene: Scene) -> Floats:
-    """Depths (n,) of the deck's coordinates normal to the bed, negative above it; NaN where they are not known.
+    """Depths (n,) of the deck's coordinates normal to the seabed, negative above it; NaN where they are not known.
 
-    Of a polyline and of a surface it is a lower bound: no point of the bed is nearer. A surface is triangulated between
-    its points, so it lies nowhere below the lowest of them. A cubic profile may lie anywhere between its points.
+    Of a polyline and of a surface it is a lower bound: no point of the seabed is nearer. A surface is triangulated
+    between its points, so it lies nowhere below the lowest of them. A cubic profile may lie anywhere between its
+    points.
     """
     floor = scene.floor
     x, y, z = scene.coordinates.T
@@ -59,7 +60,7 @@ def depths(scene: Scene) -> Floats:
 
 
 def _is_bed(scene: Scene) -> bool:
-    """Whether slopes are below 90 degrees, and the deck describes one bed; other rules tell where not."""
+    """Whether slopes are below 90 degrees, and the deck describes one seabed; other rules report where it does not."""
     floor = scene.floor
     if floor.kind is FloorKind.PLANES and "SEABED PROFILE" in scene.deck.keywords():
         return False
@@ -67,7 +68,7 @@ def _is_bed(scene: Scene) -> bool:
 
 
 def steepness(scene: Scene) -> Floats:
-    """Slopes (n,) of the bed under the nodes as a tangent, without sign: of a profile; of a slope everywhere the same.
+    """Slopes (n,) of the seabed under the nodes as a tangent, without sign: of a profile, or of a uniform slope.
 
     NaN where they are not known.
     """
@@ -86,7 +87,7 @@ def steepness(scene: Scene) -> Floats:
 
 
 def _along(direction: float, y: Floats, z: Floats) -> Floats:
-    """The horizontal coordinate in which a bed that is the same across it rises or falls."""
+    """The horizontal coordinate in which a seabed that is the same across it rises or falls."""
     turned = np.radians(direction)
     along: Floats = y * np.cos(turned) + z * np.sin(turned)
     return along
@@ -123,12 +124,12 @@ def _below_planes(floor: Floor, x: Floats, y: Floats, z: Floats) -> Floats:
 
 @rule(SBD006)
 def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
-    """Nothing carries elements of the model vertically.
+    """Nothing supports elements of the model vertically.
 
-    Either the block of *SEABED PROPERTIES that holds for the elements gives no stiffness: a block is taken whole, and
-    does not inherit the STIFFNESS= of an earlier one. Or the elements lie at or below the bed (X = 0) in the deck's
-    coordinates, and no law holds for them. A static run may then have no unique solution. Give STIFFNESS=, or put the
-    elements into a set that has it.
+    Either the block of *SEABED PROPERTIES that applies to the elements gives no stiffness: a block overrides an earlier
+    one as a whole, and does not inherit its STIFFNESS=. Or the elements lie at or below the seabed (X = 0) in the
+    deck's coordinates, and no law applies to them. A static run may then have no unique solution. Give STIFFNESS=, or
+    put the elements into a set that has it.
 
     Example:
          $MODEL
@@ -158,8 +159,8 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
         return
     if any(map(is_superseded, reading.unread)) or "SEABED CONTACT" in scene.deck.keywords():
         return  # a law that was not read may hold
-    if any(context.told(SBD004)):
-        return  # that there is no stiffness has been told
+    if any(context.problems_of(SBD004)):
+        return  # that there is no stiffness is reported there
     free = scene.law == LawKind.NONE
     yield from _blocks(scene, np.flatnonzero(free & (scene.laws.covered >= 0)))
     yield from _lying(scene, np.flatnonzero(free & (scene.laws.covered < 0)))
@@ -179,12 +180,14 @@ def _blocks(scene: Scene, elements: Indices) -> Iterator[Problem]:
         if legacy_open or last_open > index or hidden:
             continue
         which = _which(scene, elements[first], count, "gets", "get")
-        message = f"{which} no stiffness from this block, which is taken whole: give STIFFNESS= here too"
+        message = (
+            f"{which} no stiffness from this block, which overrides earlier ones as a whole: give STIFFNESS= here too"
+        )
         yield Problem(SBD006, message, where=where)
 
 
 def _lying(scene: Scene, elements: Indices) -> Iterator[Problem]:
-    """Elements at or below a flat bed without any law; without any seabed in the deck only those below count."""
+    """Elements at or below a flat seabed without any law; without any seabed in the deck only those below count."""
     if not elements.size:
         return
     uncertain = scene.laws.uncertain or "SEABED PROPERTIES" in scene.context.unread
@@ -197,7 +200,7 @@ def _lying(scene: Scene, elements: Indices) -> Iterator[Problem]:
     if lying.size:
         where = "at or below" if seabed else "below"
         which = _which(scene, lying[0], lying.size, "lies", "lie")
-        message = f"{which} {where} the bed (X = 0) and no seabed law holds: give STIFFNESS= to a set of them"
+        message = f"{which} {where} the seabed (X = 0) and no seabed law applies: give STIFFNESS= to a set of them"
         yield Problem(SBD006, message, where=scene.table.numbered.where(int(lying[0])))
 
 
@@ -218,11 +221,12 @@ def _which(scene: Scene, first: int, count: int, one: str, many: str) -> str:
 
 @rule(SBD022)
 def deep_node(context: LintContext) -> Iterator[Problem]:
-    """Nodes lie more than five diameters below the bed.
+    """Nodes lie more than five diameters below the seabed.
 
-    Pipes on the seabed sink by a fraction of their diameter. So deep a node usually has the wrong datum: elevations
-    count from the mudline at X = 0, upwards, and not from the sea surface. Correct the coordinates. Of a bed in three
-    dimensions only its lowest point is taken; cubic and compiled profiles, and models with soil curves, are left out.
+    Pipes on the seabed sink by a fraction of their diameter. So deep a node usually has the wrong datum: elevations are
+    measured upwards from the mudline at X = 0, and not from the sea surface. Correct the coordinates. Of a
+    three-dimensional seabed only its lowest point is used; cubic and compiled profiles, and models with soil curves,
+    are left out.
 
     Example:
          $MODEL
@@ -260,18 +264,18 @@ def deep_node(context: LintContext) -> Iterator[Problem]:
         deep = np.flatnonzero((limit > 0.0) & (depth > limit))
     if deep.size:
         what = f"{deep.size} nodes (first: {scene.node_ids[deep[0]]})"
-        message = f"{what} lie more than 5 diameters below the bed: correct the datum of X"
+        message = f"{what} lie more than 5 diameters below the seabed: correct the datum of X"
         yield Problem(SBD022, message, where=scene.nodes.where(int(deep[0])))
 
 
 @rule(SBD021)
 def one_constrained_dof(context: LintContext) -> Iterator[Problem]:
-    """Only one of the degrees of freedom 1 and 2 is constrained at a node on a sloping rigid bed.
+    """Only one of the degrees of freedom 1 and 2 is constrained at a node on a sloping rigid seabed.
 
-    Such a bed holds its nodes along its own normal, which lies between the directions 1 and 2. A node with a constraint
+    Such a seabed holds its nodes along its normal, which lies between the directions 1 and 2. A node with a constraint
     in one of the two only is held in both by the program: it can no longer slide down the slope, and the reaction there
-    is larger than the deck seems to say. Constrain both, or none. Told are nodes that lie on the bed or below it, or
-    less than a diameter above it.
+    is larger than the deck suggests. Constrain both, or none. Reported are nodes on the seabed or below it, or less
+    than a diameter above it.
 
     Example:
          $MODEL
@@ -305,23 +309,23 @@ def one_constrained_dof(context: LintContext) -> Iterator[Problem]:
     for _, dof, nodes in held:
         given[dof - 1, nodes] = True
     alone = (given[0] != given[1]) & _on_slope(scene)
-    told = 0
+    reported = 0
     for where, dof, nodes in held:
         found = nodes[alone[nodes]]
-        if found.size and told < MOST_TOLD:
-            told += 1
+        if found.size and reported < MOST_TOLD:
+            reported += 1
             which = f"node {scene.node_ids[found[0]]}"
             if found.size > 1:
                 which = f"{found.size} nodes (first: {scene.node_ids[found[0]]})"
             message = (
-                f"of degrees of freedom 1 and 2 only {dof} is constrained at {which} on a sloping rigid bed, and both "
-                "are held there: give both, or remove this one"
+                f"of degrees of freedom 1 and 2 only {dof} is constrained at {which} on a sloping rigid seabed, and "
+                "both are held there: give both, or remove this one"
             )
             yield Problem(SBD021, message, where=where)
 
 
 def _on_slope(scene: Scene) -> Mask:
-    """Nodes at a bed that is not level, as far as the diameter of their elements says."""
+    """Nodes within a diameter of a seabed that is not level."""
     reach = np.zeros(len(scene.node_ids))
     ends = scene.element_nodes
     known = (ends >= 0).all(axis=1) & (scene.diameter > 0.0)
@@ -355,7 +359,7 @@ def _single(scene: Scene, entry: FixedNode, where: Where) -> Iterator[tuple[Wher
 def _range(scene: Scene, entry: FixedRange, where: Where) -> Iterator[tuple[Where, int, Indices]]:
     """Nodes of a GEN=: of three values the last one is the degree of freedom, of five the fourth.
 
-    Four values are told two ways; they are taken as increment and degree of freedom.
+    Four values can be read in two ways; they are read as increment and degree of freedom.
     """
     values = entry.generate
     if values.third is None:

@@ -44,11 +44,17 @@ STB003 = Code("STB003", "stiff-jump", Severity.WARNING)
 _SMALLEST_PART, _LARGEST_PART = 0.01, 0.99
 
 _CONSEQUENCES = (
-    (1.0, "Newmark, HHT and generalised-alpha may throw it back up to 11 % too fast"),
-    (CRITICAL_OMEGA_DT["central-difference"], "Newmark, HHT and generalised-alpha may throw it back far too fast"),
+    (1.0, "with Newmark, HHT and generalised-alpha the rebound may be up to 11 % too fast"),
+    (
+        CRITICAL_OMEGA_DT["central-difference"],
+        "with Newmark, HHT and generalised-alpha the rebound may be far too fast",
+    ),
     (
         math.inf,
-        "Newmark, HHT and generalised-alpha may throw it back up to three times too fast, central difference fails",
+        (
+            "with Newmark, HHT and generalised-alpha the rebound may be up to three times too fast, "
+            "central difference fails"
+        ),
     ),
 )
 """What happens to a landing pipe, up to a product of frequency and step."""
@@ -58,13 +64,13 @@ FARTHEST = 1.0e4
 
 @rule(STB001)
 def suction_snap(context: LintContext) -> Iterator[Problem]:
-    """Suction falls while the pipe goes on rising: the seabed lets go of it.
+    """The suction force decreases while the pipe keeps rising.
 
-    From the second corner of the trapezoid to breakout, the suction falls with slope F_max / ((1 - xc2) Delta_B). This
-    is a negative stiffness. A static or quasi-static solution is unique only where the stiffness of the pipe itself,
-    per unit length, is greater; elsewhere the pipe snaps off the bed, and the solver with it. The number is that of the
-    velocity of REGULARISATION=, and of the element that needs most. Know it, give smaller steps to the lift-off, or
-    take a linear SUCTION=.
+    From the second corner of the trapezoid to breakout, the suction decreases with slope F_max / ((1 - xc2) Delta_B).
+    This is a negative stiffness. A static or quasi-static solution is unique only where the stiffness of the pipe
+    itself, per unit length, is greater; elsewhere the pipe snaps off the seabed, and the solver may not converge. The
+    message gives the stiffness at the velocity of REGULARISATION=, for the element that needs most. Use smaller steps
+    at lift-off, or a linear SUCTION=.
 
     Example:
          $MODEL
@@ -119,12 +125,12 @@ def _release(law: SuctionLaw) -> Floats:
 def coarse_time_step(context: LintContext) -> Iterator[Problem]:
     """The fixed time step is coarse for the stiffest contact.
 
-    A pipe on the seabed swings with omega, the root of stiffness over mass, both per unit length. Implicit schemes that
-    are called unconditionally stable are so for linear systems: contact that opens and closes gives energy to the pipe
-    when omega times the step is large, within 3 % of its speed at 0.5 and far more above; explicit schemes fail above
-    2. Only backward Euler never does. The stiffness of *SEABED UNLOADING counts where it is the larger one. The mass is
-    that of the section without added water, and the third value of *TIME is read as the step (inferred). Give the step
-    that the message names.
+    A pipe on the seabed oscillates with omega, the root of stiffness over mass, both per unit length. Implicit schemes
+    that are called unconditionally stable are so for linear systems: contact that opens and closes adds energy to the
+    pipe when omega times the step is large; the rebound velocity is at most 3 % too high at 0.5, and far more above.
+    Explicit schemes fail above 2. Only backward Euler never adds energy. The stiffness of *SEABED UNLOADING is used
+    where it is larger. The mass is that of the section without added water, and the third value of *TIME is read as the
+    step (inferred). Give the step that the message names.
 
     Example:
          $MODEL
@@ -205,9 +211,9 @@ def stiff_jump(context: LintContext) -> Iterator[Problem]:
     """The stiffness of the seabed jumps by a factor of more than 10 000.
 
     It does so where two segments of a curve meet, flat ones left out, or where an element on a curve has a neighbour on
-    a linear bed that is so much stiffer, or softer, than every segment. The solver loses digits over such a jump, and
-    the pipe bends over the edge as over a knife. Mostly an exponent is wrong. Correct the point or the stiffness; real
-    rock beside mud needs a transition.
+    a linear seabed that is so much stiffer, or softer, than every segment. The solver loses digits at such a jump, and
+    the pipe bends sharply at the edge. Usually an exponent is wrong. Correct the point or the stiffness; real rock
+    beside mud needs a transition.
 
     Example:
          $MODEL
@@ -242,15 +248,15 @@ def _inside(entry: SceneCurve, ratios: Floats, slopes: Floats) -> Iterator[Probl
         point = int(np.flatnonzero(entry.points[:, 0] == ratios[steep[at + 1]])[0])
         message = (
             f"the slope goes from {before[at]:.6g} to {behind[at]:.6g} here, over {FARTHEST:g} times: correct the "
-            "point, or put a transition between"
+            "point, or add a transition"
         )
         yield Problem(STB003, message, where=entry.point(point))
 
 
 def _beside(scene: Scene) -> Iterator[Problem]:
-    """Jumps between an element on a curve and its neighbour on a linear bed, one for each pair of laws."""
+    """Jumps between an element on a curve and its neighbour on a linear seabed, one for each pair of laws."""
     grants = scene.laws.grants
-    told: set[tuple[int, int]] = set()
+    reported: set[tuple[int, int]] = set()
     slopes = [*map(_extremes, scene.laws.curves), (math.nan, math.nan)]
     if _near(scene, slopes):
         return
@@ -263,20 +269,20 @@ def _beside(scene: Scene) -> Iterator[Problem]:
         far = (stiffness / FARTHEST > steepest) | ((stiffness > 0.0) & (softest / FARTHEST > stiffness))
     for at in np.flatnonzero(far).tolist():
         pair = (int(scene.laws.of_element[linear[at]]), int(scene.laws.of_element[curved[at]]))
-        if pair in told or len(told) >= MOST_TOLD:
+        if pair in reported or len(reported) >= MOST_TOLD:
             continue
-        told.add(pair)
+        reported.add(pair)
         message = (
             f"the linear stiffness {stiffness[at]:.6g} of element {scene.element_ids[linear[at]]} is over "
             f"{FARTHEST:g} times away from that of curve {shown(scene.laws.curves[curve_of[pair[1]]].name)} at its "
-            f"neighbour {scene.element_ids[curved[at]]}, {softest[at]:.6g} to {steepest[at]:.6g}: correct it, or put a "
-            "transition between"
+            f"neighbour {scene.element_ids[curved[at]]}, {softest[at]:.6g} to {steepest[at]:.6g}: correct it, or "
+            "add a transition"
         )
         yield Problem(STB003, message, where=grants[pair[0]].where)
 
 
 def _near(scene: Scene, extremes: Sequence[tuple[float, float]]) -> bool:
-    """Whether no linear stiffness is far from the slopes of any curve, on whatever diameter it stands."""
+    """Whether no linear stiffness is far from the slopes of any curve, for any diameter."""
     linear = [grant.stiffness for grant in scene.laws.grants if grant.stiffness > 0.0]
     slopes = [(softest, steepest) for softest, steepest in extremes if softest > 0.0]
     thickest = float(np.fmax.reduce(scene.diameter, initial=0.0))
@@ -296,7 +302,7 @@ def _extremes(entry: SceneCurve) -> tuple[float, float]:
 
 
 def _neighbours(scene: Scene) -> tuple[Indices, Indices]:
-    """Pairs of elements that meet at a node: one on a linear bed, one on a curve."""
+    """Pairs of elements that meet at a node: one on a linear seabed, one on a curve."""
     law = scene.law
     if not ((law == LawKind.LINEAR).any() and (law == LawKind.CURVE).any()):
         nothing: Indices = np.zeros(0, dtype=np.intp)

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
-from dataclasses import replace
-from itertools import islice
+from collections.abc import Iterator
 from typing import NamedTuple
 
 from mudline.deck.reading import TextOrigin
@@ -13,9 +11,8 @@ from mudline.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.keywords import catalogue
 from mudline.keywords.reader import ReadBlock, all_keys
 from mudline.linting.context import LintContext
-from mudline.linting.rule import rule
+from mudline.linting.rule import first_reported, rule
 from mudline.linting.suppression import STY010, suppressions
-from mudline.scene.context import MOST_TOLD
 from mudline.syntax.fields import first_key, trimmed
 from mudline.syntax.tree import Kind, Leaf, canonical_name
 
@@ -88,20 +85,12 @@ def line_around(source: str, offset: int) -> Span:
     return Span(source.rfind("\n", 0, offset) + 1, len(source) if end < 0 else end)
 
 
-def first_told(problems: Iterable[Problem]) -> Iterator[Problem]:
-    """As many findings as are told one by one; the next says that there are more."""
-    found = iter(problems)
-    yield from islice(found, MOST_TOLD)
-    for further in islice(found, 1):
-        yield replace(further, message=f"and more of the same: the first {MOST_TOLD} are listed", repair=None)
-
-
 @rule(STY002)
 def lower_case_comment(context: LintContext) -> Iterator[Problem]:
-    """A comment begins with a small c.
+    """A comment begins with a lower-case c.
 
-    The mark of a comment is a capital C in column 1. A small one is read as such here, but a program that goes by the
-    letter takes the line for data. Write a capital C.
+    The mark of a comment is a capital C in column 1. A lower-case c is accepted here, but stricter programs read the
+    line as data. Write a capital C.
 
     Example:
          $MODEL
@@ -115,7 +104,7 @@ def lower_case_comment(context: LintContext) -> Iterator[Problem]:
     if context.text:
         source = context.text.source.unified
         if "\nc" in source or source.startswith("c"):
-            yield from first_told(_lower_case(context.text))
+            yield from first_reported(_lower_case(context.text))
 
 
 def _lower_case(text: TextOrigin) -> Iterator[Problem]:
@@ -125,15 +114,15 @@ def _lower_case(text: TextOrigin) -> Iterator[Problem]:
         if leaf.kind is Kind.COMMENT and source[start] == "c" and not kept:
             mark = Span(start, start + 1)
             repair = Repair("safe", "write a capital C", ((mark, "C"),))
-            yield Problem(STY002, "the comment begins with a small c: write a capital C", mark, repair=repair)
+            yield Problem(STY002, "the comment begins with a lower-case c: write a capital C", mark, repair=repair)
 
 
 @rule(STY008)
 def key_like_comment(context: LintContext) -> Iterator[Problem]:
     """A setting such as CURVE= begins in column 1, where a C makes a comment.
 
-    It is read as data here, since its keyword knows the setting. Programs that take any line with a C in column 1 for a
-    comment drop it without a word, and with it the name of a curve or a whole group of values. Put a blank in front.
+    It is read as data here, since its keyword knows the setting. Programs that read any line with a C in column 1 as a
+    comment skip it without a warning, and with it the name of a curve or a whole group of values. Put a space in front.
 
     Example:
          $MODEL
@@ -150,7 +139,7 @@ def key_like_comment(context: LintContext) -> Iterator[Problem]:
     Finds: 3:1
     """
     if context.text and _KEY_LIKE.search(context.text.source.unified):
-        yield from first_told(_key_like(context.text))
+        yield from first_reported(_key_like(context.text))
 
 
 def _key_like(text: TextOrigin) -> Iterator[Problem]:
@@ -159,8 +148,8 @@ def _key_like(text: TextOrigin) -> Iterator[Problem]:
         start = leaf.span.start
         if read is not None and source[start] in "Cc" and is_setting(source, leaf, read):
             key = first_key(source, leaf.span)
-            message = f"{key}= begins with C in column 1, a comment to other programs: put a blank before it"
-            repair = Repair("safe", "put a blank before it", ((Span(start, start), " "),))
+            message = f"{key}= begins with C in column 1, a comment to other programs: put a space before it"
+            repair = Repair("safe", "put a space before it", ((Span(start, start), " "),))
             yield Problem(STY008, message, Span(start, source.index("=", start) + 1), repair=repair)
 
 
@@ -168,9 +157,9 @@ def _key_like(text: TextOrigin) -> Iterator[Problem]:
 def indented_comment(context: LintContext) -> Iterator[Problem]:
     """A line that looks like a comment is indented, and so it is data.
 
-    Only a C in column 1 makes a comment; the manual says nothing else of any other (inferred). With a blank before it
-    the line is read as values of its keyword, as the name of a set for instance, or cannot be read. If it is a comment,
-    remove the blanks. Lines of blocks that are kept as they are do not count.
+    Only a C in column 1 makes a comment; the manual mentions no other (inferred). With a space before it the line is
+    read as values of its keyword, as the name of a set for instance, or cannot be read. If it is a comment, remove the
+    spaces. Lines of blocks that are passed through unchanged are not checked.
 
     Example:
          $MODEL
@@ -184,7 +173,7 @@ def indented_comment(context: LintContext) -> Iterator[Problem]:
     if context.text:
         source = context.text.source.unified
         if _COMMENT_BELOW.search(source) or _INDENTED_COMMENT.match(source):
-            yield from first_told(_indented_comments(context.text))
+            yield from first_reported(_indented_comments(context.text))
 
 
 def _indented_comments(text: TextOrigin) -> Iterator[Problem]:
@@ -201,8 +190,8 @@ def _indented_comments(text: TextOrigin) -> Iterator[Problem]:
 def indented_keyword(context: LintContext) -> Iterator[Problem]:
     """A keyword or a section does not begin in column 1.
 
-    Blanks before the `*` or the `$` are read over here, but a program that looks for the mark in column 1 takes the
-    line for data, and the block for a part of the one above. Remove the blanks.
+    Spaces before the `*` or the `$` are ignored here, but a program that expects the mark in column 1 reads the line as
+    data of the block above. Remove the spaces.
 
     Example:
          $MODEL
@@ -215,7 +204,7 @@ def indented_keyword(context: LintContext) -> Iterator[Problem]:
     if context.text:
         source = context.text.source.unified
         if _HEAD_BELOW.search(source) or _INDENTED_HEAD.match(source):
-            yield from first_told(_indented_heads(context.text))
+            yield from first_reported(_indented_heads(context.text))
 
 
 def _indented_heads(text: TextOrigin) -> Iterator[Problem]:
@@ -225,7 +214,7 @@ def _indented_heads(text: TextOrigin) -> Iterator[Problem]:
             mark = source[head.start]
             what = "section" if mark == "$" else "keyword"
             message = f"the {what} is indented: put its {mark} in column 1"
-            repair = Repair("safe", "remove what stands before it", ((Span(start, head.start), ""),))
+            repair = Repair("safe", "remove the indentation", ((Span(start, head.start), ""),))
             yield Problem(STY005, message, head, repair=repair)
 
 
@@ -233,8 +222,8 @@ def _indented_heads(text: TextOrigin) -> Iterator[Problem]:
 def keyword_case(context: LintContext) -> Iterator[Problem]:
     """The name of a keyword or a section is not in upper case.
 
-    Case does not count here. Manuals and other decks have these names in upper case, though, and who searches many
-    decks for a keyword finds it only there. Write it in upper case.
+    Case is ignored here. Manuals and other decks write these names in upper case, though, and a search of many decks
+    for a keyword may miss others. Write it in upper case.
 
     Example:
          $MODEL
@@ -247,7 +236,7 @@ def keyword_case(context: LintContext) -> Iterator[Problem]:
     if context.text:
         source = context.text.source.unified
         if _SMALL_BELOW.search(source) or _SMALL_HEAD.match(source):
-            yield from first_told(_small(context.text))
+            yield from first_reported(_small(context.text))
 
 
 def _small(text: TextOrigin) -> Iterator[Problem]:
@@ -257,16 +246,17 @@ def _small(text: TextOrigin) -> Iterator[Problem]:
         if _SMALL.search(written) and _known(written):
             what = "section" if written[0] == "$" else "keyword"
             repair = Repair("safe", "write it in upper case", ((head, written.translate(_UPPER)),))
-            yield Problem(STY006, f"the {what} is not in upper case: write it so", head, repair=repair)
+            message = f"the {what} is not in upper case: write it in upper case"
+            yield Problem(STY006, message, head, repair=repair)
 
 
 def _known(head: str) -> bool:
-    """Whether a head names a known section or keyword: what stands behind a name may be a remark."""
+    """Whether a head names a known section or keyword: what follows a name may be a remark."""
     return canonical_name(head) in (catalogue.SECTIONS if head[0] == "$" else catalogue.keywords())
 
 
 def _heads(text: TextOrigin) -> Iterator[tuple[int, Span]]:
-    """The start of every line that begins a section or a keyword, and its text without blanks around it."""
+    """The start of every line that begins a section or a keyword, and its text without surrounding white space."""
     source = text.source.unified
     for section in (text.tree.preamble, *text.tree.sections):
         for head in (section.head, *(block.head for block in section.blocks)):
@@ -276,11 +266,11 @@ def _heads(text: TextOrigin) -> Iterator[tuple[int, Span]]:
 
 @rule(STY010)
 def unused_suppression(context: LintContext) -> Iterator[Problem]:
-    """A suppression comment that suppresses nothing.
+    """A suppression comment suppresses nothing.
 
     It was written for a finding that is no longer there, or names no rule; the next fault of that kind would be hidden
-    without anybody having looked at it. Only rules that run are judged: with `--ignore CRV005` a comment for CRV005 is
-    not unused. The fix removes the code, or the comment when it names nothing else.
+    before anyone has seen it. Only rules that run are judged: with `--ignore CRV005` a comment for CRV005 is not
+    unused. The fix removes the code, or the comment when it names nothing else.
 
     Example:
          $MODEL

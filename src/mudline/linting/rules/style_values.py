@@ -11,8 +11,8 @@ from mudline.keywords.model import Part, layout
 from mudline.keywords.places import Path
 from mudline.keywords.reader import ReadBlock
 from mudline.linting.context import LintContext
-from mudline.linting.rule import rule
-from mudline.linting.rules.style_lines import data_leaves, first_of_lines, first_told, line_around, placed_leaves
+from mudline.linting.rule import first_reported, rule
+from mudline.linting.rules.style_lines import data_leaves, first_of_lines, line_around, placed_leaves
 from mudline.syntax.fields import Group, read_line, trimmed
 from mudline.syntax.rows import blank_separated, row_fields
 from mudline.syntax.tree import Kind, Leaf
@@ -45,11 +45,11 @@ _TO_E = str.maketrans("dD", "eE")
 
 @rule(STY001)
 def tab_character(context: LintContext) -> Iterator[Problem]:
-    """A line with data holds a TAB.
+    """A data line contains a TAB.
 
-    Programs differ in what they make of it: some take it for one blank, some for as many as an editor shows, some for
-    a character of a name or stop. Write blanks. The fix puts as many as reach the next column that 8 divides, and none
-    at the end of a line; where a TAB stands inside a name or an equation, it is left to you.
+    Programs treat it differently: as one space, as the spaces that an editor shows, as a character of a name, or as an
+    error. Write spaces. The fix fills up to the next multiple of 8 columns, and removes TABs at the end of a line; a
+    TAB inside a name or an equation is left to you.
 
     Example:
          $MODEL
@@ -66,7 +66,7 @@ def tab_character(context: LintContext) -> Iterator[Problem]:
     Finds: 4:6
     """  # noqa: D301 - a TAB that an editor cannot take away
     if context.text and "\t" in context.text.source.unified:
-        yield from first_told(_tabs(context.text))
+        yield from first_reported(_tabs(context.text))
 
 
 def _tabs(text: TextOrigin) -> Iterator[Problem]:
@@ -75,12 +75,12 @@ def _tabs(text: TextOrigin) -> Iterator[Problem]:
         for match in first_of_lines(_TABS, source, leaf.span):
             line = line_around(source, match.start())
             yield Problem(
-                STY001, "a TAB in a data line: write blanks", Span(*match.span()), repair=_spread(source, line, read)
+                STY001, "a TAB in a data line: write spaces", Span(*match.span()), repair=_spread(source, line, read)
             )
 
 
 def _spread(source: str, line: Span, read: ReadBlock) -> Repair | None:
-    """Blanks for the tabs of a line, nothing for those at its end; None where one stands inside a value."""
+    """Spaces for the tabs of a line, nothing for those at its end; None where one is inside a value."""
     groups = read_line(source, line, slashes=type(read.model).slashes).groups
     if any(_holds_tab(source, group) for group in groups):
         return None
@@ -89,7 +89,7 @@ def _spread(source: str, line: Span, read: ReadBlock) -> Repair | None:
     first, last = body.index("\t"), body.rindex("\t") + 1
     start, end = min(first, inked), last if last <= inked else len(body)
     new = body[: min(last, inked)].expandtabs(_TAB_WIDTH)[start:]
-    message = "put blanks in its place" if new else "remove it"
+    message = "replace it by spaces" if new else "remove it"
     return Repair("safe", message, ((Span(line.start + start, line.start + end), new),))
 
 
@@ -103,10 +103,10 @@ def _holds_tab(source: str, group: Group) -> bool:
 
 @rule(STY004)
 def blank_separated_row(context: LintContext) -> Iterator[Problem]:
-    """The numbers of a row are parted by blanks alone.
+    """The numbers of a row are separated only by spaces.
 
-    They are read as if commas stood between them, but the language parts fields by commas, and a field that is left
-    empty cannot be seen among blanks. Put the commas.
+    They are read as if there were commas between them, but the language separates fields by commas, and an empty field
+    cannot be seen among spaces. Use commas.
 
     Example:
          $MODEL
@@ -125,7 +125,7 @@ def blank_separated_row(context: LintContext) -> Iterator[Problem]:
     if context.text:
         source = context.text.source.unified
         if _GATE.search(source) or _BEHIND_KEY.search(source):
-            yield from first_told(_without_commas(context.text))
+            yield from first_reported(_without_commas(context.text))
 
 
 def _without_commas(text: TextOrigin) -> Iterator[Problem]:
@@ -139,12 +139,12 @@ def _without_commas(text: TextOrigin) -> Iterator[Problem]:
             written = source[slice(*row)]
             if blank_separated(written):
                 repair = Repair("safe", "put commas between the numbers", ((row, _GAP.sub(",", written)),))
-                message = "the numbers are parted by blanks alone: put commas between them"
+                message = "the numbers are separated only by spaces: put commas between them"
                 yield Problem(STY004, message, row, repair=repair)
 
 
 def _rows(source: str, leaf: Leaf, values: set[Span]) -> Iterator[Span]:
-    """The lines of a run, or what stands behind a KEY=, of numbers and blanks only; what is one value is a name."""
+    """The lines of a run, or what follows a KEY=, of numbers and spaces only; what is one value is a name."""
     if leaf.kind is Kind.RUN:
         yield from (trimmed(source, *match.span()) for match in first_of_lines(_BLANK_SEPARATED, source, leaf.span))
     elif match := _BEHIND_KEY.search(source, *leaf.span):
@@ -155,10 +155,10 @@ def _rows(source: str, leaf: Leaf, values: set[Span]) -> Iterator[Span]:
 
 @rule(STY007, off=True)
 def trailing_blank(context: LintContext) -> Iterator[Problem]:
-    """A line ends with blanks.
+    """A line ends with spaces or TABs.
 
-    Nobody sees them, and each one that an editor takes away is a changed line in the history of the deck. Remove them.
-    Lines of blocks that are kept as they are do not count. This rule is off unless it is selected.
+    They are invisible, and an editor that removes them changes lines in the history of the deck. Remove them. Lines of
+    blocks that are passed through unchanged are not checked. This rule is off unless it is selected.
 
     Example:
          $MODEL
@@ -171,7 +171,7 @@ def trailing_blank(context: LintContext) -> Iterator[Problem]:
     if context.text:
         source = context.text.source.unified
         if any(ending in source for ending in _ENDINGS) or source.endswith((" ", "\t")):
-            yield from first_told(_trailing(context.text))
+            yield from first_reported(_trailing(context.text))
 
 
 def _trailing(text: TextOrigin) -> Iterator[Problem]:
@@ -179,8 +179,8 @@ def _trailing(text: TextOrigin) -> Iterator[Problem]:
     for span in sorted(_own_lines(text)):
         for match in first_of_lines(_TRAILING, source, span):
             blanks = Span(*match.span())
-            repair = Repair("safe", "remove the blanks", ((blanks, ""),))
-            yield Problem(STY007, "blanks at the end of the line: remove them", blanks, repair=repair)
+            repair = Repair("safe", "remove them", ((blanks, ""),))
+            yield Problem(STY007, "spaces or TABs at the end of the line: remove them", blanks, repair=repair)
 
 
 def _own_lines(text: TextOrigin) -> Iterator[Span]:
@@ -196,8 +196,8 @@ def _own_lines(text: TextOrigin) -> Iterator[Span]:
 def fortran_exponent(context: LintContext) -> Iterator[Problem]:
     """A number has the exponent D of Fortran's double precision.
 
-    It is read as E here, but the language knows E alone, and a reader in another programming language stops at the D or
-    reads the number without its exponent. Write E. A name such as `2D4` is none of this.
+    It is read as E here, but the language has only E, and other programs stop at the D or read the number without its
+    exponent. Write E. A name such as `2D4` is not reported.
 
     Example:
          $MODEL
@@ -210,7 +210,7 @@ def fortran_exponent(context: LintContext) -> Iterator[Problem]:
     Finds: 5:12
     """
     if context.text and any(gate.search(context.text.source.unified) for gate in _GATES):
-        yield from first_told(_exponents(context.text))
+        yield from first_reported(_exponents(context.text))
 
 
 def _exponents(text: TextOrigin) -> Iterator[Problem]:
@@ -233,7 +233,7 @@ def _problem(source: str, found: list[Span]) -> Problem:
 
 
 class _Numbers:
-    """Tells the numbers of a block from its names; what is known of the block asked for last is kept."""
+    """Tells the numbers of a block from its names; what is known of the last block is remembered."""
 
     def __init__(self) -> None:
         self.read: ReadBlock | None = None
@@ -262,7 +262,7 @@ def _is_number(part: Part, path: Path) -> bool:
 
 
 def _inner(at: object, step: str | int) -> object:
-    """What stands at one step of a path; None where reading found nothing."""
+    """What is at one step of a path; None where reading found nothing."""
     if isinstance(at, list) and isinstance(step, int):
         return at[step] if step < len(at) else None
     if not isinstance(at, Part):

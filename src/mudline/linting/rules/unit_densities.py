@@ -102,7 +102,7 @@ LIGHTEST_STEEL = 7000.0
 WIDEST_PIPE = 2.5
 """m: wider steel is a hull, whose density may be anything."""
 SHALLOWEST = 5.0
-"""A number below it is no water depth in metres or feet that took the place of a density."""
+"""A number below it is not a water depth in metres or feet that was written as the density."""
 STEEL_TO_WATER = Range(7.0, 8.4)
 """Density of steel to that of water, fresh or salt."""
 
@@ -142,7 +142,7 @@ def water_density(scene: Scene) -> float:
 def readable_sections(context: LintContext) -> Iterator[tuple[Where, GeometricSet]]:
     """The entries of *GEOMETRIC SETS with their places, but for those in whose lines SYN015 found decimal commas."""
     text = context.text
-    commas = {text.place(problem).line for problem in context.told(SYN015)} if text else set()
+    commas = {text.place(problem).line for problem in context.problems_of(SYN015)} if text else set()
     for where, entry in section_entries(context.scene.deck):
         line = where._replace(path=(*where.path, format_of(entry)))
         if not commas or not text or text.place(Problem(SYN015, "", where=line)).line not in commas:

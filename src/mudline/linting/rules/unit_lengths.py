@@ -184,7 +184,7 @@ def _diameters(context: LintContext) -> Iterator[Problem]:
 
 
 def _mobilisation(context: LintContext) -> Iterator[Problem]:
-    """Mobilisation lengths against the widest pipe that they hold for, but for those that SBD013 speaks of."""
+    """Mobilisation lengths against the widest pipe that they hold for, but for those that SBD013 reports."""
     scene = context.scene
     bed = scene.bed
     if not any(length > 0.0 for values in bed.values for length in values.mobilisation):
@@ -219,7 +219,7 @@ def _curves(context: LintContext) -> Iterator[Problem]:
 
 
 def _in_lengths(scene: Scene) -> Iterator[tuple[SceneCurve, float]]:
-    """Curves of which every ratio is a round number of diameters and most are no round numbers; with the diameter.
+    """Curves of which every ratio is a round number of diameters and most are not round numbers; with the diameter.
 
     All elements on the curve must have one diameter.
     """
@@ -240,7 +240,7 @@ def _in_lengths(scene: Scene) -> Iterator[tuple[SceneCurve, float]]:
 
 
 def _may_be_in_lengths(curve: SceneCurve) -> bool:
-    """Whether most ratios of a curve are no round numbers, and CRV010 has nothing to say of them."""
+    """Whether most ratios of a curve are not round numbers, and CRV010 reports none of them."""
     ratios = _ratios(curve)
     if not curve.usable or len(ratios) < FEWEST_POINTS or ratios.max() > LARGEST_RATIO:
         return False
@@ -272,7 +272,7 @@ def _elements(context: LintContext) -> Iterator[Problem]:
 def _longest_of_neighbours(scene: Scene) -> Iterator[tuple[int, float]]:
     """Index of each element that is over 25 times as long as any neighbour, at both ends, and how many times it is.
 
-    All must be of one section, so that a tether or a rigid link beside a finely meshed pipe does not count.
+    All must be of one section, so that a tether or a rigid link beside a finely meshed pipe is not reported.
     """
     ends, length = scene.element_nodes, scene.length
     shortest = length.min(where=length > 0.0, initial=np.inf)
@@ -298,7 +298,7 @@ def _longest_of_neighbours(scene: Scene) -> Iterator[tuple[int, float]]:
 
 
 def _ocean(context: LintContext) -> Iterator[Problem]:
-    """The water depth against the heights of nodes, unless all of them lie above the sea, which GEO005 speaks of."""
+    """The water depth against the heights of nodes, unless all of them lie above the sea, which GEO005 reports."""
     scene = context.scene
     oceans = [(where, number(block, "depth")) for where, block in scene.deck.blocks("OCEAN")]
     if not oceans or not len(scene.node_ids):

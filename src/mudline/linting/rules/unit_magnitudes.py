@@ -35,7 +35,7 @@ _LENGTHS = {"metric": "m/s2", "imperial": "ft/s2"}
 
 
 class _Least(NamedTuple):
-    """What carries a pipe at least, in a system of units: less is a value in `thousands`."""
+    """The least that supports a pipe, in a system of units: less is a value in `thousands`."""
 
     stiffness: float
     force: float
@@ -51,7 +51,7 @@ LEAST = {
     "metric": _Least(100.0, 10.0, 100.0, "N/m", "metre", "Pa", "kN", "kPa"),
     "imperial": _Least(2.0, 0.7, 2.0, "lbf/ft", "foot", "lbf/ft2", "kip", "kip/ft2"),
 }
-"""Of user units nothing is known."""
+"""Nothing is known of user units."""
 NARROWEST = {"metric": 0.1, "imperial": 0.328}
 """Diameter of a pipe below which the least force falls with the diameter."""
 ROUGHEST = 2.0
@@ -63,7 +63,7 @@ def gravity_mismatch(context: LintContext) -> Iterator[Problem]:
 
     The suffix says in which units a deck is: .keyxm in metres and newtons, gravity 9.81; .keyxi in feet and pounds,
     gravity 32.2. A deck with the gravity of the other system was saved under the wrong suffix, or only half of it was
-    converted. Correct the gravity, or give the file its suffix. More than 2 % away is told.
+    converted. Correct the gravity, or give the file its suffix. A difference above 2 % is reported.
 
     Example:
          $MODEL
@@ -96,7 +96,7 @@ def suspicious_magnitude(context: LintContext) -> Iterator[Problem]:
     """A force or stiffness of the seabed looks as if it were in kilonewtons or kips.
 
     Metric decks are in metres and newtons, imperial ones in feet and pounds (lbf). A seabed of less than 100 N/m for
-    each metre (2 lbf/ft for each foot), or a curve that nowhere reaches 10 N/m (0.7 lbf/ft), carries no pipe, and a
+    each metre (2 lbf/ft for each foot), or a curve that nowhere reaches 10 N/m (0.7 lbf/ft), supports no pipe, and a
     cohesion of less than 100 Pa (2 lbf/ft2) is that of a fluid. Such a value is usually written in other units. Write
     it in newtons or pounds. For cables thinner than 0.1 m the least force of a curve falls with their diameter. A
     stiffness or a cohesion of 0 is accepted.
@@ -156,9 +156,9 @@ def _fluid(scene: Scene, least: _Least) -> Iterator[Problem]:
 def large_friction(context: LintContext) -> Iterator[Problem]:
     """A friction coefficient is above 2.
 
-    Pipes on soil have coefficients of 0.2 to 1, seldom a little more. Above 2 a stiffness or a mobilisation length
-    stands in the field as a rule: the fields of FRICTION= have another order than those of *ELASTIC SURFACE, which
-    begin with the stiffness. Correct the field.
+    Pipes on soil have coefficients of 0.2 to 1, seldom a little more. Above 2 the field usually holds a stiffness or a
+    mobilisation length: the fields of FRICTION= have another order than those of *ELASTIC SURFACE, which begin with the
+    stiffness. Correct the field.
 
     Example:
          $MODEL
