@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
-from mudline.deck import json_form, yaml_form
+from mudline.deck.forms import json, yaml
 from mudline.deck.loading import load_bytes, load_path
 from mudline.deck.model import Deck
 from mudline.diagnostics import Diagnostic
@@ -59,7 +59,7 @@ def from_json(text: str | bytes) -> Deck:
     Raises:
         DeckError: the text is no JSON, has a key twice, or breaks the schema.
     """
-    return json_form.read(text, "<json>") if isinstance(text, bytes) else json_form.from_json(text)
+    return json.read(text, "<json>") if isinstance(text, bytes) else json.from_json(text)
 
 
 def from_yaml(text: str | bytes) -> Deck:
@@ -68,7 +68,7 @@ def from_yaml(text: str | bytes) -> Deck:
     Raises:
         DeckError: the text is no YAML, has a key twice or an alias, or breaks the schema.
     """
-    return yaml_form.read(text, "<yaml>") if isinstance(text, bytes) else yaml_form.from_yaml(text)
+    return yaml.read(text, "<yaml>") if isinstance(text, bytes) else yaml.from_yaml(text)
 
 
 def lint(

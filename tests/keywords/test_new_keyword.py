@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from mudline.comparison.comparing import compare
-from mudline.deck.json_form import from_json, to_json
-from mudline.deck.keyword_form import to_keyword
+from mudline.deck.forms.json import from_json, to_json
+from mudline.deck.forms.keyword import to_keyword
 from mudline.deck.loading import load_bytes
 from mudline.deck.schema import json_schema
 from mudline.keywords import catalogue, grammar, library

@@ -10,9 +10,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mudline.deck.json_form import to_json
+from mudline.deck.forms.json import to_json
+from mudline.deck.forms.yaml import to_yaml
 from mudline.deck.loading import load_bytes
-from mudline.deck.yaml_form import to_yaml
 from mudline.diagnostics import Diagnostic, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.engine import lint_bytes, lint_context, lint_deck

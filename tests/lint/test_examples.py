@@ -11,9 +11,9 @@ import pytest
 
 from mudline.codes import all_codes
 from mudline.codes.lines import SYN001
-from mudline.deck.json_form import to_json
+from mudline.deck.forms.json import to_json
+from mudline.deck.forms.yaml import to_yaml
 from mudline.deck.loading import load_bytes
-from mudline.deck.yaml_form import to_yaml
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.engine import LintSettings, lint_bytes

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mudline.deck.json_form import to_json
+from mudline.deck.forms.json import to_json
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import Problem
 from mudline.linting.context import LintContext

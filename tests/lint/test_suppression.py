@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mudline.deck.json_form import to_json
+from mudline.deck.forms.json import to_json
+from mudline.deck.forms.yaml import to_yaml
 from mudline.deck.loading import load_bytes
-from mudline.deck.yaml_form import to_yaml
 from mudline.linting.engine import Fixing, LintSettings, lint_bytes
 from mudline.linting.fixing import fix_bytes
 from mudline.linting.registry import rules, select

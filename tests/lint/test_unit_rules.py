@@ -6,7 +6,7 @@ import json
 
 import pytest
 
-from mudline.deck.json_form import to_json
+from mudline.deck.forms.json import to_json
 from mudline.deck.loading import load_bytes
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import select

@@ -7,10 +7,10 @@ import re
 import pytest
 from hypothesis import given, settings
 
-from mudline.deck.json_form import to_json
+from mudline.deck.forms.json import to_json
+from mudline.deck.forms.yaml import to_yaml
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import Deck
-from mudline.deck.yaml_form import to_yaml
 from mudline.linting.engine import lint_deck
 from mudline.linting.registry import rules
 from mudline.migration.migrating import Migration, legacy_blocks, migrate

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -252,3 +254,25 @@ def test_a_form_and_units_can_be_given() -> None:
     deck = load_bytes(text.encode(), "<stdin>", form="json", units="imperial")
     assert deck.units == "imperial"
     assert load_bytes(b"\xef\xbb\xbf" + text.encode(), "a.yaml", form="json").units == "metric"
+
+
+def test_a_form_is_one_module(tmp_path: Path) -> None:
+    """A module in the folder of forms is read and written by suffix, and an option of `convert`."""
+    (tmp_path / "upper.py").write_text(
+        "from mudline.deck.forms import keyword\n"
+        "from mudline.deck.reading import read_source\n"
+        "from mudline.syntax.source import Source\n"
+        "def write(deck):\n    return keyword.write(deck).upper()\n"
+        "def read(data, file):\n    return read_source(Source.from_bytes(data, file))\n",
+        encoding="utf-8",
+    )
+    (tmp_path / "a.keyxm").write_text("$MODEL\n*OCEAN\n 500.0, 1025.0, 9.81\nC deep\n", encoding="utf-8")
+    program = (
+        "import sys; from mudline.deck import forms; forms.__path__.append('.')\n"
+        "from mudline.cli.main import run\n"
+        "first = run(['convert', 'a.keyxm', '-o', 'b.upper'])\n"
+        "sys.exit(first or run(['convert', 'b.upper', '--to', 'upper']))\n"
+    )
+    done = subprocess.run([sys.executable, "-c", program], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "mudline: a.keyxm -> b.upper\n")
+    assert done.stdout == "$MODEL\n*OCEAN\n 500.0, 1025.0, 9.81\nC DEEP\n"

@@ -11,7 +11,7 @@ import pytest
 from jsonschema import Draft202012Validator
 
 from mudline.deck.document import FORMAT
-from mudline.deck.keyword_form import to_keyword
+from mudline.deck.forms.keyword import to_keyword
 from mudline.deck.loading import dump, load_bytes
 from mudline.deck.schema import json_schema
 from mudline.diagnostics import DeckError

@@ -1,24 +1,28 @@
-"""A file in any of the three forms to a deck."""
+"""A file in any form to a deck, and the forms that there are."""
 
 from __future__ import annotations
 
 from importlib import import_module
 from pathlib import Path, PurePath
+from pkgutil import iter_modules
 from types import ModuleType
 from typing import cast
 
+from mudline.deck import forms
 from mudline.deck.model import Deck
 from mudline.deck.reading import read_source
 from mudline.keywords.reader import BlockReader, read_block
 from mudline.syntax.source import Source
 
-FORMS = ("keyword", "json", "yaml")
-_SUFFIXES = {".json": "json", ".yaml": "yaml", ".yml": "yaml"}
+KEYWORD = "keyword"
+FORMS = tuple(sorted((found.name for found in iter_modules(forms.__path__)), key=lambda name: (name != KEYWORD, name)))
+"""The modules of `mudline.deck.forms`, found without importing one; "keyword" is the first."""
+_SUFFIXES = {f".{form}": form for form in FORMS if form != KEYWORD} | {".yml": "yaml"}
 
 
 def form_of(name: str) -> str:
-    """The form that a file name's suffix tells: "json", "yaml", else "keyword"."""
-    return _SUFFIXES.get(PurePath(name).suffix.lower(), "keyword")
+    """Return the form that the suffix of a file name means, which is its name, else "keyword"."""
+    return _SUFFIXES.get(PurePath(name).suffix.lower(), KEYWORD)
 
 
 def load_path(path: Path, name: str | None = None, *, form: str | None = None, units: str | None = None) -> Deck:
@@ -41,7 +45,7 @@ def load_bytes(
     a keyword text.
     """
     form = form or form_of(name)
-    if form == "keyword":
+    if form == KEYWORD:
         deck = read_source(Source.from_bytes(data, name), units=units, read=read)
     else:
         deck = cast("Deck", _form(form).read(data, name))
@@ -57,4 +61,4 @@ def dump(deck: Deck, form: str) -> str:
 
 def _form(form: str) -> ModuleType:
     """The module of a form, imported when a file has it: keyword decks need neither JSON nor YAML."""
-    return import_module(f"mudline.deck.{form}_form")
+    return import_module(f"{forms.__name__}.{form}")

@@ -134,13 +134,13 @@ class Deck:
 
     def to_json(self) -> str:
         """Return the deck as JSON text; nothing but layout is lost."""
-        from mudline.deck.json_form import to_json  # noqa: PLC0415 - the module of a form is loaded where it is used
+        from mudline.deck.forms.json import to_json  # noqa: PLC0415 - the module of a form is loaded where it is used
 
         return to_json(self.alone)
 
     def to_yaml(self) -> str:
         """Return the deck as YAML 1.2 text; nothing but layout is lost."""
-        from mudline.deck.yaml_form import to_yaml  # noqa: PLC0415 - as in to_json
+        from mudline.deck.forms.yaml import to_yaml  # noqa: PLC0415 - as in to_json
 
         return to_yaml(self.alone)
 
@@ -150,7 +150,7 @@ class Deck:
         Raises:
             DeckError: a name, comment or raw line cannot stand in a keyword file.
         """
-        from mudline.deck.keyword_form import to_keyword  # noqa: PLC0415 - as in to_json
+        from mudline.deck.forms.keyword import to_keyword  # noqa: PLC0415 - as in to_json
 
         return to_keyword(self.alone)
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from mudline.codes import MIG001
-from mudline.deck.keyword_form import to_keyword
+from mudline.deck.forms.keyword import to_keyword
 from mudline.deck.loading import dump, form_of, load_path
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.reading import TextOrigin, read_source

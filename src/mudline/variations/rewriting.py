@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, cast
 
-from mudline.deck.keyword_form import to_keyword
+from mudline.deck.forms.keyword import to_keyword
 from mudline.deck.loading import dump, form_of
 from mudline.deck.model import Deck
 from mudline.deck.parameters import Parameters, folded, list_items

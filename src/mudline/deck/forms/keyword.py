@@ -1,0 +1,188 @@
+"""A deck to keyword text, and a check that it can be read back from it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any, TypeVar
+
+import numpy as np
+
+from mudline.codes import DOC002
+from mudline.deck.faults import DocumentPath, document_path, path_text, shown
+from mudline.deck.model import Deck, Opaque, Section
+from mudline.deck.reading import read_source
+from mudline.diagnostics import DeckError, Problem, Where
+from mudline.keywords.model import Block, Comment, Part, layout
+from mudline.keywords.table import Table
+from mudline.keywords.writer import block_lines
+from mudline.syntax.source import Source
+
+
+def to_keyword(deck: Deck) -> str:
+    """The deck as keyword text with LF line ends; blank lines and the spelling of numbers are not carried.
+
+    Raises DeckError for a deck that keyword text cannot say: a name with a comma, a second curve of the set ALL.
+    """
+    _require_survival(deck)
+    return _text(deck)
+
+
+def _require_survival(deck: Deck) -> None:
+    """Write the deck with shortened tables and read it again: all must be there, comments in their order too."""
+    light = sampled(deck)
+    text = _text(light)
+    again = read_source(Source.from_bytes(text.encode(errors="replace"), deck.source), units=deck.units)
+    if change := first_difference(light, again):
+        where, reason = change
+        message = f"{path_text(document_path(where))} cannot be said in keyword text: {reason}"
+        raise DeckError(deck.diagnose([Problem(DOC002, message, where=where)]))
+    if text != (other := _text(again)):
+        lines = zip(text.split("\n"), other.split("\n"), strict=False)
+        one, two = next(pair for pair in lines if pair[0] != pair[1])
+        message = f"the line {shown(one)} cannot be said in keyword text: {shown(two)} would be read there"
+        raise DeckError(deck.diagnose([Problem(DOC002, message)]))
+
+
+def write(deck: Deck) -> str:
+    """What `dump` calls."""
+    return to_keyword(deck)
+
+
+def _text(deck: Deck) -> str:
+    return "\n".join([*_lines(deck), ""])
+
+
+def _lines(deck: Deck) -> Iterator[str]:
+    yield from deck.preamble
+    comments = _Comments(deck.comments)
+    for index, section in enumerate(deck.sections):
+        yield from comments.before(index)
+        yield f"${section.name}"
+        yield from _section(section)
+    yield from comments.rest()
+
+
+def _section(section: Section) -> Iterator[str]:
+    yield from section.lines
+    comments = _Comments(section.comments)
+    for index, block in enumerate(section.blocks):
+        yield from comments.before(index)
+        if isinstance(block, Opaque):
+            yield f"*{block.keyword}"
+            yield from block.lines
+        else:
+            yield from block_lines(block)
+    yield from comments.rest()
+
+
+class _Comments:
+    """Comments in their order, given out as the items that they precede come by."""
+
+    def __init__(self, comments: list[Comment]) -> None:
+        self.waiting = sorted(comments, key=lambda comment: comment.before)[::-1]
+
+    def before(self, index: int) -> Iterator[str]:
+        """The lines before an item."""
+        while self.waiting and self.waiting[-1].before <= index:
+            yield f"C{self.waiting.pop().text}"
+
+    def rest(self) -> Iterator[str]:
+        """The lines behind the last item."""
+        yield from (f"C{comment.text}" for comment in reversed(self.waiting))
+
+
+_P = TypeVar("_P", bound=Part)
+_FEW = 20
+"""Rows of a table that are tried, beside one for every length and every word in it: numbers are safe."""
+
+_NOTHING = object()
+
+
+def sampled(deck: Deck) -> Deck:
+    """The deck with few rows in its tables, enough to see whether they survive."""
+    sections = [replace(section, blocks=[_sample(block) for block in section.blocks]) for section in deck.sections]
+    return replace(deck, sections=sections)
+
+
+def first_difference(deck: Deck, again: Deck) -> tuple[Where, str] | None:
+    """The first value of a deck that is another one in what was read from its text, and what it was read as."""
+    if again.preamble != deck.preamble:
+        return _described(Where(), ("preamble",), deck.preamble, again.preamble)
+    for index, section in enumerate(deck.sections):
+        if index == len(again.sections) or again.sections[index].name != section.name:
+            return Where(index, -1, ("name",)), f"{shown(section.name)} would not be read as this section"
+        if change := _section_difference(section, again.sections[index], index):
+            return change
+    if len(again.sections) > len(deck.sections):
+        return Where(len(deck.sections) - 1), f"a line would be read as ${again.sections[-1].name}"
+    return None
+
+
+def _section_difference(section: Section, again: Section, index: int) -> tuple[Where, str] | None:
+    if section.lines != again.lines:
+        return _described(Where(index), ("lines",), section.lines, again.lines)
+    for number, block in enumerate(section.blocks):
+        found = again.blocks[number] if number < len(again.blocks) else None
+        if found is None or (block != found and _bare(block) != _bare(found)):
+            return _described(Where(index, number), (), _values(block), _values(found))
+    if len(again.blocks) > len(section.blocks):
+        return Where(index), f"a line of this section would be read as *{again.blocks[-1].keyword}"
+    return None
+
+
+def _sample(part: _P) -> _P:
+    changes: dict[str, Any] = {}
+    for slot in layout(type(part)).slots:
+        value = getattr(part, slot.name, None)
+        if isinstance(value, Table) and len(value) > _FEW:
+            changes[slot.name] = _some_rows(value)
+        elif slot.record and value:
+            changes[slot.name] = [_sample(record) for record in value]
+    return part.model_copy(update=changes) if changes else part
+
+
+def _some_rows(table: Table) -> Table:
+    firsts = np.unique(table.lengths, return_index=True)[1].tolist()
+    first_of = {(column, word): row for (row, column), word in reversed(table.words.items())}
+    rows = sorted({*range(_FEW), *firsts, *first_of.values()})
+    kept = {row: number for number, row in enumerate(rows)}
+    words = {(kept[row], column): word for (row, column), word in table.words.items() if row in kept}
+    return Table(table.values[rows], table.lengths[rows], words)
+
+
+def _bare(part: _P) -> _P:
+    """A part without its comments, which may find another place."""
+    changes: dict[str, Any] = {"comments": []} if getattr(part, "comments", None) else {}
+    for slot in layout(type(part)).slots:
+        value = getattr(part, slot.name, None)
+        if slot.record and value:
+            changes[slot.name] = [_bare(record) for record in value]
+    return part.model_copy(update=changes) if changes else part
+
+
+def _values(block: Block | Opaque | None) -> object:
+    return _NOTHING if block is None else _bare(block).model_dump()
+
+
+def _described(where: Where, path: DocumentPath, wanted: object, found: object) -> tuple[Where, str]:
+    """The first difference between two values, in words."""
+    inner, one, other = _difference(wanted, found)
+    read = "nothing" if other is _NOTHING or other is None else shown(other)
+    given = "nothing" if one is _NOTHING or one is None else shown(one)
+    return where._replace(path=(*path, *inner)), f"{given} would be read as {read}"
+
+
+def _difference(one: object, other: object) -> tuple[DocumentPath, object, object]:
+    pairs: dict[str | int, tuple[object, object]] = {}
+    if isinstance(one, dict) and isinstance(other, dict):
+        pairs = {key: (one.get(key, _NOTHING), other.get(key, _NOTHING)) for key in one | other}
+    elif isinstance(one, list) and isinstance(other, list):
+        size = max(len(one), len(other))
+        padded = ([*given, *[_NOTHING] * (size - len(given))] for given in (one, other))
+        pairs = dict(enumerate(zip(*padded, strict=True)))
+    for key, (left, right) in pairs.items():
+        if left != right:
+            path, *values = _difference(left, right)
+            return (key, *path), values[0], values[1]
+    return (), one, other
