@@ -1,4 +1,4 @@
-"""The forms for GitHub and GitLab, read back as the documents of the two say they are read."""
+"""The formats for GitHub and GitLab, also read back as the documents of the two say they are read."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from mudline.diagnostics import Severity
 from mudline.linting.output.formats import form
 from mudline.linting.output.visible import visible
 from mudline.linting.registry import rules
@@ -18,6 +19,61 @@ from tests.cli.runner import run
 from tests.lint.outputs import finding
 
 TEXTS = st.text(st.characters(codec="utf-8"), min_size=1, max_size=20)
+
+
+def test_a_command_escapes_what_would_end_a_property_or_the_line() -> None:
+    (line,) = form("github", [], "")([finding(file="a,b:c%.keyxm", message="50% of\r\nall: x,y")])
+    head = "::warning file=a%2Cb%3Ac%25.keyxm,line=3,endLine=3,col=2,endColumn=5,title=LEG001 superseded-keyword"
+    assert line == f"{head}::50%25 of\ufffd\ufffdall: x,y\n"
+
+
+def test_columns_are_told_within_one_line_only() -> None:
+    (line,) = form("github", [], "")([finding(end_line=5)])
+    assert "line=3,endLine=5,title=" in line
+    (line,) = form("github", [], "")([finding(end_column=2)])
+    assert "col=2,endColumn=2," in line
+
+
+@pytest.mark.parametrize(("severity", "word"), [("error", "error"), ("warning", "warning"), ("info", "notice")])
+def test_severities(severity: str, word: str) -> None:
+    (line,) = form("github", [], "")([finding(severity=Severity(severity))])
+    assert line.startswith(f"::{word} ")
+
+
+def test_an_issue_has_what_the_report_asks_for() -> None:
+    (issue,) = json.loads("".join(form("gitlab", [], "")([finding(file="./a.keyxm", message="wrong")])))
+    assert len(issue.pop("fingerprint")) == 64
+    assert issue == {
+        "description": "LEG001 wrong",
+        "check_name": "superseded-keyword",
+        "severity": "minor",
+        "location": {"path": "a.keyxm", "lines": {"begin": 3, "end": 3}},
+    }
+
+
+def test_paths_are_from_the_folder_of_the_job(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    given = [f"{tmp_path.as_posix()}/decks/a.keyxm", "./decks/a.keyxm", "../a.keyxm", f"{tmp_path.as_posix()}x.keyxm"]
+    issues = json.loads("".join(form("gitlab", [], "")(finding(file=file) for file in given)))
+    paths = [issue["location"]["path"] for issue in issues]
+    assert paths == ["decks/a.keyxm", "decks/a.keyxm", "../a.keyxm", given[3]]
+    (alone,) = json.loads("".join(form("gitlab", [], "")([finding(file="decks/a.keyxm")])))
+    assert issues[0]["fingerprint"] == alone["fingerprint"]
+
+
+def test_fingerprints_stay_when_lines_move_and_are_unique() -> None:
+    def prints(*lines: int) -> list[str]:
+        return [
+            issue["fingerprint"]
+            for issue in json.loads("".join(form("gitlab", [], "")(finding(line=line) for line in lines)))
+        ]
+
+    assert prints(3, 9) == prints(4, 17)
+    assert len(set(prints(3, 9, 9))) == 3
+
+
+def test_nothing_is_an_empty_array() -> None:
+    assert "".join(form("gitlab", [], "")([])) == "[]\n"
 
 
 def heard(line: str) -> tuple[str, dict[str, str], str]:
