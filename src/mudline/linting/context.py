@@ -24,7 +24,9 @@ MOST_POINTS = 64
 """Points of a curve that are looked at one by one; longer curves are left to the rules."""
 
 LARGEST_RATIO = 5.0
+"""Diameters of embedment; a larger ratio is a length or a percentage."""
 STEEPEST = 100.0
+"""Ratio of two slopes of a curve."""
 
 
 @dataclass

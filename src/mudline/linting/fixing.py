@@ -75,7 +75,7 @@ class _Run:
             if passes == MOST_PASSES or self.tries <= 0:
                 self.stopped = True
                 break
-            made, after = self._sound(state, problems)
+            made, after = self._accepted(state, problems)
             if after is None:
                 self.refused |= {_key(problem) for problem in problems}
                 continue
@@ -114,14 +114,14 @@ class _Run:
             return _disjoint(cleared)
         return _disjoint([problem for problem in wanted if _repair(problem).applicability == "safe"] or wanted)
 
-    def _sound(self, state: FixState, problems: list[Problem]) -> tuple[list[Problem], FixState | None]:
+    def _accepted(self, state: FixState, problems: list[Problem]) -> tuple[list[Problem], FixState | None]:
         """Those of the problems whose repairs make nothing worse, and the deck after them; None if there are none."""
         after = self._try(state, problems)
         if after is not None or len(problems) == 1:
             return problems, after
         half = len(problems) // 2
-        one, first = self._sound(state, problems[:half])
-        two, second = self._sound(state, problems[half:])
+        one, first = self._accepted(state, problems[:half])
+        two, second = self._accepted(state, problems[half:])
         if first is None or second is None:
             return (two, second) if first is None else (one, first)
         both = self._try(state, one + two)
@@ -160,10 +160,10 @@ def _disjoint(problems: list[Problem]) -> list[Problem]:
 
 def _free(span: Span, taken: list[Span]) -> bool:
     at = bisect_left(taken, span)
-    return not any(_meet(span, other) for other in islice(taken, max(at - 1, 0), at + 1))
+    return not any(_overlap(span, other) for other in islice(taken, max(at - 1, 0), at + 1))
 
 
-def _meet(one: Span, other: Span) -> bool:
+def _overlap(one: Span, other: Span) -> bool:
     """Whether two edits want the same characters; an insertion meets what begins or ends at its place."""
     if one.start == one.end or other.start == other.end:
         return one.start <= other.end and other.start <= one.end

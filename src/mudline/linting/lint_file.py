@@ -35,7 +35,9 @@ def lint_one(name: str, data: bytes, settings: LintSettings, folder: Path | None
     result = _fixed(name, data, settings, folder)
     content = data if result.changed is None else result.changed
     found = lint_bytes(content, name, settings.rules, units=settings.units, folder=folder, dialect=settings.dialect)
-    return FileReport(name, _weighed(found, settings), _weighed(result.fixed, settings), result.changed, result.note)
+    return FileReport(
+        name, _with_severities(found, settings), _with_severities(result.fixed, settings), result.changed, result.note
+    )
 
 
 def _fixed(name: str, data: bytes, settings: LintSettings, folder: Path | None) -> Fixed:
@@ -44,7 +46,9 @@ def _fixed(name: str, data: bytes, settings: LintSettings, folder: Path | None) 
     return fix_bytes(data, name, settings, folder)
 
 
-def _weighed(found: list[Diagnostic] | tuple[Diagnostic, ...], settings: LintSettings) -> tuple[Diagnostic, ...]:
+def _with_severities(
+    found: list[Diagnostic] | tuple[Diagnostic, ...], settings: LintSettings
+) -> tuple[Diagnostic, ...]:
     """The findings with the severities that the settings give them."""
     given = settings.severities
     return tuple(replace(one, severity=given[one.code]) if one.code in given else one for one in found)

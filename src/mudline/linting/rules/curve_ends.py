@@ -9,7 +9,7 @@ import numpy as np
 from mudline.curves import ForceCurve, QueryError
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.text import shown
-from mudline.linting.context import LintContext
+from mudline.linting.context import STEEPEST, LintContext
 from mudline.linting.rule import rule
 from mudline.scene.floor import FloorKind
 from mudline.scene.force_curves import SceneCurve
@@ -22,8 +22,6 @@ CRV014 = Code("CRV014", "beyond-curve", Severity.INFO)
 
 _SMALL = 0.01
 """Part of the largest force of a curve that counts as none."""
-
-STEEP = 100.0
 
 
 def _at_zero(curve: ForceCurve) -> float:
@@ -150,11 +148,11 @@ def steep_extrapolation(context: LintContext) -> Iterator[Problem]:
         if entry.curve is None or not entry.whole or entry.curve.slopes[-1] == 0.0:
             continue
         slopes = np.abs(entry.curve.slopes[entry.curve.slopes != 0.0])
-        if len(slopes) > 1 and slopes[-1] / STEEP > slopes[-2]:
+        if len(slopes) > 1 and slopes[-1] / STEEPEST > slopes[-2]:
             last, before = entry.curve.slopes[-1], slopes[-2]
             message = (
-                f"the last slope, {last:.6g}, is over {STEEP:g} times as steep as the one before, {before:.6g}, and it "
-                "holds at every greater depth: correct the point, or remove it"
+                f"the last slope, {last:.6g}, is over {STEEPEST:g} times as steep as the one before, {before:.6g}, and "
+                "it holds at every greater depth: correct the point, or remove it"
             )
             yield Problem(CRV008, message, where=entry.point(_deepest(entry)))
 

@@ -11,7 +11,7 @@ import numpy as np
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.keywords.text import shown
-from mudline.linting.context import LintContext
+from mudline.linting.context import LARGEST_RATIO, LintContext
 from mudline.linting.rule import rule
 from mudline.scene.context import MOST_TOLD
 from mudline.scene.force_curves import SceneCurve, clashes_and_repeats
@@ -26,7 +26,6 @@ CRV006 = Code("CRV006", "negative-ratio", Severity.WARNING)
 CRV009 = Code("CRV009", "swapped-columns", Severity.WARNING)
 CRV010 = Code("CRV010", "ratio-range", Severity.WARNING)
 
-LARGEST_RATIO = 5.0
 _LIKE_A_FORCE = 10.0
 _LIKE_A_RATIO = 1.0
 

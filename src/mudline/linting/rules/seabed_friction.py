@@ -259,7 +259,7 @@ def short_mobilisation(context: LintContext) -> Iterator[Problem]:
     """
     scene = context.scene
     bed = scene.bed
-    if not any(length > 0.0 for given in bed.values for length in given.mobilisation):
+    if not any(length > 0.0 for values in bed.values for length in values.mobilisation):
         return
     lengths, friction = bed.column("mobilisation"), bed.column("friction")
     friction[bed.column("lateral") > 0.0, 1] = 0.0  # a lateral spring replaces it
@@ -307,17 +307,19 @@ def given(context: LintContext) -> list[Given]:
 
 
 def _found(context: LintContext) -> list[Given]:
-    return list(_each(context))
-
-
-def _each(context: LintContext) -> Iterator[Given]:
-    deck = context.scene.deck
-    for where, surface in surfaces(deck):
-        place = where._replace(path=("properties",))
-        yield Given(getattr(surface, "properties", None), place, surface.facts.seabed_type, legacy=True)
+    found = [
+        Given(
+            getattr(surface, "properties", None),
+            where._replace(path=("properties",)),
+            surface.facts.seabed_type,
+            legacy=True,
+        )
+        for where, surface in surfaces(context.scene.deck)
+    ]
     for where, properties, type_ in typed_blocks(context.scene.context):
         for index, entry in enumerate(properties.sets):
-            yield Given(entry, where._replace(path=("sets", index)), type_, legacy=False)
+            found.append(Given(entry, where._replace(path=("sets", index)), type_, legacy=False))
+    return found
 
 
 def positive(value: float | None) -> bool:

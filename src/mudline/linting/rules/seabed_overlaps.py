@@ -15,6 +15,7 @@ from mudline.keywords.model import Record
 from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
 from mudline.linting.rule import rule
+from mudline.linting.rules.seabed_position import first_of
 from mudline.scene.context import MOST_TOLD
 from mudline.scene.laws import Grant
 from mudline.scene.model import Scene
@@ -220,8 +221,7 @@ def _called(earlier: NamedSet, later: NamedSet) -> str:
 
 
 def _counted(scene: Scene, elements: Indices) -> str:
-    first = scene.element_ids[elements.min()]
-    return f"element {first}" if elements.size == 1 else f"{elements.size} elements (first: {first})"
+    return first_of("element", scene.element_ids[elements.min()], elements.size)
 
 
 def _alike(scene: Scene, one: Grant, other: Grant) -> bool:

@@ -179,7 +179,7 @@ def _blocks(scene: Scene, elements: Indices) -> Iterator[Problem]:
         hidden = grants[index].unknown or scene.context.lost_behind(where, "SEABED PROPERTIES")
         if legacy_open or last_open > index or hidden:
             continue
-        which = _which(scene, elements[first], count, "gets", "get")
+        which = f"{first_of('element', scene.element_ids[elements[first]], count)} get{'s' * (count == 1)}"
         message = (
             f"{which} no stiffness from this block, which overrides earlier ones as a whole: give STIFFNESS= here too"
         )
@@ -199,7 +199,7 @@ def _lying(scene: Scene, elements: Indices) -> Iterator[Problem]:
     lying = np.concatenate([part[lies(_depths(scene, part), 0.0)] for part in parts])
     if lying.size:
         where = "at or below" if seabed else "below"
-        which = _which(scene, lying[0], lying.size, "lies", "lie")
+        which = f"{first_of('element', scene.element_ids[lying[0]], lying.size)} lie{'s' * (lying.size == 1)}"
         message = f"{which} {where} the seabed (X = 0) and no seabed law applies: give STIFFNESS= to a set of them"
         yield Problem(SBD006, message, where=scene.table.numbered.where(int(lying[0])))
 
@@ -214,9 +214,9 @@ def _depths(scene: Scene, elements: Indices) -> Floats:
     return depths
 
 
-def _which(scene: Scene, first: int, count: int, one: str, many: str) -> str:
-    number = scene.element_ids[first]
-    return f"element {number} {one}" if count == 1 else f"{count} elements (first: {number}) {many}"
+def first_of(thing: str, first: int, count: int) -> str:
+    """Some elements or nodes in words, by the number of the first and how many they are."""
+    return f"{thing} {first}" if count == 1 else f"{count} {thing}s (first: {first})"
 
 
 @rule(SBD022)
@@ -263,8 +263,8 @@ def deep_node(context: LintContext) -> Iterator[Problem]:
             np.maximum.at(limit, ends[known, side], _DEEPEST * scene.diameter[known])
         deep = np.flatnonzero((limit > 0.0) & (depth > limit))
     if deep.size:
-        what = f"{deep.size} nodes (first: {scene.node_ids[deep[0]]})"
-        message = f"{what} lie more than 5 diameters below the seabed: correct the datum of X"
+        which = f"{first_of('node', scene.node_ids[deep[0]], deep.size)} lie{'s' * (deep.size == 1)}"
+        message = f"{which} more than 5 diameters below the seabed: correct the datum of X"
         yield Problem(SBD022, message, where=scene.nodes.where(int(deep[0])))
 
 
@@ -314,9 +314,7 @@ def one_constrained_dof(context: LintContext) -> Iterator[Problem]:
         found = nodes[alone[nodes]]
         if found.size and reported < MOST_TOLD:
             reported += 1
-            which = f"node {scene.node_ids[found[0]]}"
-            if found.size > 1:
-                which = f"{found.size} nodes (first: {scene.node_ids[found[0]]})"
+            which = first_of("node", scene.node_ids[found[0]], found.size)
             message = (
                 f"of degrees of freedom 1 and 2 only {dof} is constrained at {which} on a sloping rigid seabed, and "
                 "both are held there: give both, or remove this one"

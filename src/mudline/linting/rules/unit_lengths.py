@@ -10,9 +10,8 @@ import numpy as np
 
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.model import Part
-from mudline.linting.context import LintContext
+from mudline.linting.context import LARGEST_RATIO, LintContext
 from mudline.linting.rule import rule
-from mudline.linting.rules.curve_shape import LARGEST_RATIO
 from mudline.linting.rules.seabed_friction import given
 from mudline.linting.rules.seabed_position import depths
 from mudline.linting.rules.unit_densities import (
