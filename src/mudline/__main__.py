@@ -7,7 +7,7 @@ import sys
 from collections.abc import Sequence
 
 from mudline import __version__
-from mudline.cli.exits import INTERRUPTED
+from mudline.cli import INTERRUPTED
 
 _COLLECTION = (50_000, 20, 50)
 """Objects between two collections, and collections between two of older ones.

@@ -79,14 +79,14 @@ def test_document_from_standard_input() -> None:
 def test_nothing_said_about_the_form(place: Place) -> None:
     outcome = run("convert", place())
     assert outcome.code == 2
-    assert "say what to write: -o OUT with a suffix, or --to" in outcome.err
+    assert "unknown format to write: give -o OUT with a suffix, or --to" in outcome.err
 
 
 @pytest.mark.parametrize("name", ["out.jsn", "out", "out.csv"])
 def test_suffix_that_tells_no_form(place: Place, folder: Path, name: str) -> None:
     outcome = run("convert", place(), "-o", name)
     assert outcome.code == 2
-    assert f"{name}: its suffix tells no form" in outcome.err
+    assert f"{name}: unknown file format" in outcome.err
     assert not (folder / name).exists()
 
 

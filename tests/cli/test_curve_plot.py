@@ -96,7 +96,7 @@ def test_no_matplotlib(place: Place, folder: Path, monkeypatch: pytest.MonkeyPat
     monkeypatch.delitem(sys.modules, "mudline.results.curve_plot", raising=False)
     outcome = run("curves", place(), "--plot", "out.png")
     assert (outcome.code, outcome.out) == (1, "")
-    assert outcome.err == "mudline: --plot needs matplotlib: pip install mudline[plot]\n"
+    assert outcome.err == "mudline: --plot needs matplotlib: pip install 'mudline[plot]'\n"
     assert not (folder / "out.png").exists()
 
 

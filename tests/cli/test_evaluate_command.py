@@ -241,7 +241,7 @@ def test_plan_needs_no_coordinates() -> None:
 def test_rigid_bed_is_told(place: Place) -> None:
     outcome = run("evaluate", place(RIGID))
     assert outcome.code == 0
-    assert "2 elements on a rigid bed: a constraint, whose reaction is not evaluated" in outcome.err
+    assert "2 elements on a rigid seabed: a constraint, whose reaction is not evaluated" in outcome.err
 
 
 @pytest.mark.parametrize("form", ["text", "json", "csv"])

@@ -145,8 +145,8 @@ def test_text_tells_states(place: Place, pulled: tuple[str, ...]) -> None:
         ["0", "0"],
     ]
     rows = run("evaluate", *pulled, "--output-format", "json").json()["steps"][2]["elements"]
-    pull = next(line.split() for line in text.splitlines() if line.startswith("pull on an element"))
-    assert [float(pull[4]), *pull[5:]] == [pytest.approx(-rows[0]["force"], rel=1e-5), "N/m", "2", "1"]
+    pull = next(line.split() for line in text.splitlines() if line.startswith("suction force of an element"))
+    assert [float(pull[5]), *pull[6:]] == [pytest.approx(-rows[0]["force"], rel=1e-5), "N/m", "2", "1"]
     single = run("evaluate", place(BOTH), "--table", "nodes").out
     assert "axial friction of nodes    stick" in single
     assert "suction of elements        compression" in single
@@ -164,7 +164,7 @@ def test_rigid_bed_restrains_nodes(place: Place) -> None:
     assert_fits(series, "evaluate")
     assert [step["restrained"] for step in series["steps"]] == [[1, 2], [1, 2], [], [], []]
     text = run("evaluate", place(RIGID)).out
-    assert "rigid bed  restrained nodes      2" in text
+    assert "rigid seabed  restrained nodes      2" in text
     assert text.splitlines()[5].split()[:4] == ["rigid", "ALL", "2", "1"]
     assert len(text.splitlines()[5].split()) == 5, "no reaction is told, as none is known"
     nodes = run("evaluate", place(RIGID), "--table", "nodes").out

@@ -191,7 +191,7 @@ def test_names_that_leave_the_folder_are_refused(place: Place, folder: Path) -> 
 def test_where_to_write_must_be_said(place: Place) -> None:
     outcome = run("expand", place(STUDY))
     assert outcome.code == 2
-    assert "say where to write: -o DIR, or look first with --dry-run" in outcome.err
+    assert "no folder to write to: give -o DIR, or --dry-run" in outcome.err
 
 
 def test_a_path_that_cannot_be_looked_at(place: Place) -> None:
@@ -208,7 +208,7 @@ def test_a_folder_that_cannot_be_made(place: Place, monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(Path, "mkdir", fail)
     outcome = run("expand", name, "-o", "out")
     assert outcome.code == 2
-    assert "out/Near: cannot be made: permission denied" in outcome.err
+    assert "out/Near: cannot be created: permission denied" in outcome.err
 
 
 def test_standard_input_and_notes() -> None:

@@ -89,7 +89,7 @@ def test_a_file_that_cannot_be_written_keeps_its_findings(place: Place, monkeypa
     def refuse(path: Path, data: bytes) -> None:
         raise PermissionError(13, "Permission denied", str(path), len(data))
 
-    monkeypatch.setattr("mudline.cli.lint_run.write_atomically", refuse)
+    monkeypatch.setattr("mudline.cli.lint_command.write_atomically", refuse)
     outcome = run("lint", place(IDLE), "--fix")
     assert outcome.code == 2
     assert outcome.err == "mudline: deck.keyxm: cannot be written: permission denied\n"
@@ -118,7 +118,7 @@ def test_a_baseline_that_cannot_be_used_is_wrong_usage(place: Place) -> None:
     assert "nowhere.json: the baseline cannot be read: no such file" in missing.err
     broken = run("lint", place(), "--baseline", place("[]", "known.json"))
     assert broken.code == 2
-    assert "this is no baseline" in broken.err
+    assert "not a baseline" in broken.err
     assert "needs --baseline" in run("lint", place(), "--write-baseline").err
 
 

@@ -67,7 +67,7 @@ def test_run_that_ends_early_ends_its_processes(decks: str, monkeypatch: pytest.
         if multiprocessing.active_children():
             raise KeyboardInterrupt
 
-    monkeypatch.setattr("mudline.cli.lint_run.Run._take", interrupt)
+    monkeypatch.setattr("mudline.cli.lint_command.Run._take", interrupt)
     assert run("lint", decks, "--jobs", "2", "--no-cache").code == 130
     assert multiprocessing.active_children() == []
 
@@ -87,7 +87,7 @@ def test_small_runs_stay_in_one_process(decks: str, monkeypatch: pytest.MonkeyPa
 def test_workers_do_what_is_done_here(place: Place) -> None:
     name = place(BAD_NUMBER)
     one = lint_jobs.Task(Input(name, name), BAD_NUMBER.encode(), LintSettings(rules()))
-    order = lint_pool._order(one)
+    order = lint_pool._order(*one.arguments)
     assert order.settings.rules == ()
     assert lint_pool.lint_orders([order]) == [one.lint()]
 

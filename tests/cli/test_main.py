@@ -68,8 +68,8 @@ def test_no_command_shows_the_help_as_an_error() -> None:
 def test_unknown_command() -> None:
     outcome = run("lnit")
     assert (outcome.code, outcome.out) == (2, "")
-    assert outcome.err.endswith("mudline: there is no command 'lnit': did you mean lint?\n")
-    assert run("frobnicate").err.endswith("mudline: there is no command 'frobnicate'\n")
+    assert outcome.err.endswith("mudline: unknown command 'lnit': did you mean lint?\n")
+    assert run("frobnicate").err.endswith("mudline: unknown command 'frobnicate'\n")
 
 
 @pytest.mark.parametrize("command", EVERY)
@@ -122,7 +122,7 @@ def test_interruption_in_this_process(monkeypatch: pytest.MonkeyPatch, place: Pl
 def test_too_little_memory(monkeypatch: pytest.MonkeyPatch, place: Place) -> None:
     monkeypatch.setattr(Path, "read_bytes", Mock(side_effect=MemoryError))
     outcome = run("lint", place())
-    assert (outcome.code, outcome.out, outcome.err) == (1, "", "mudline: there is too little memory for this\n")
+    assert (outcome.code, outcome.out, outcome.err) == (1, "", "mudline: out of memory\n")
 
 
 def test_machine_formats_are_utf_8_and_people_get_what_their_terminal_has(place: Place) -> None:

@@ -98,7 +98,7 @@ def test_a_deck_that_would_change_its_meaning_is_left_as_it_is(place: Place) -> 
     assert outcome.code == 1
     assert outcome.err == (
         "mudline: deck.keyxm: element 3: force at depth 0.1: 1.0 before, 2.0 after\n"
-        "mudline: deck.keyxm: left as it is: 1 difference between the old deck and the new one\n"
+        "mudline: deck.keyxm: left unchanged: 1 difference between the old deck and the new one\n"
     )
     assert Path(name).read_text(encoding="utf-8") == SAMPLE
 

@@ -14,8 +14,8 @@ import pytest
 from mudline.__main__ import main
 from mudline.cli import progress
 from mudline.cli.options import View
-from mudline.cli.validate_text import elided
-from mudline.cli.verdict import Total, Verdict
+from mudline.cli.printing import elided
+from mudline.cli.validate_command import Total, Verdict
 from tests.cli.conftest import Place
 from tests.cli.decks import CLEAN, ILLEGAL
 from tests.cli.runner import Outcome, Stream, assert_fits, run
@@ -222,7 +222,7 @@ def test_no_bar_in_a_short_run(decks: str, monkeypatch: pytest.MonkeyPatch) -> N
 
 def test_nobody_looks_at_a_file() -> None:
     with patch.object(sys, "stderr", Stream("utf-8", terminal=False)):
-        assert not progress.looked_at(View())
+        assert not progress.wants_bar(View())
 
 
 # -------------------------------------------------------------------------------------------------------------- table

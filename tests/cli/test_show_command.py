@@ -122,7 +122,7 @@ def test_what_a_plus_means_is_said(place: Place) -> None:
     outcome = run("show", name)
     assert "ALL          2+  20.008\n" in outcome.out
     assert "+ a block that is not read may add elements to this set\n" in outcome.out
-    assert "    kept as they are: *LINES\n" in outcome.out
+    assert "    passed through unchanged: *LINES\n" in outcome.out
     sets = run("show", name, "--output-format", "json").json()["sets"]
     assert {entry["name"]: entry["open"] for entry in sets} == {"ALL": True, "Pipe": False, "Riser": True}
 
@@ -154,7 +154,7 @@ def test_empty_deck(place: Place) -> None:
 
 def test_section_of_kept_keywords_and_empty_section(place: Place) -> None:
     text = run("show", place("$LOAD CASE\n*CURRENT\n 1\n$DATABASE\n")).out
-    assert "  $LOAD CASE\n    kept as they are: *CURRENT\n  $DATABASE\n" in text
+    assert "  $LOAD CASE\n    passed through unchanged: *CURRENT\n  $DATABASE\n" in text
 
 
 def test_long_list_of_keywords_is_folded(place: Place) -> None:
@@ -196,7 +196,7 @@ def test_elements_without_a_diameter_are_counted(place: Place) -> None:
 
 def test_repeated_keywords_are_counted(place: Place) -> None:
     text = run("show", place("$MODEL\n*NODE\n*VESSEL\n*NODE\n*VESSEL\n*OCEAN\n*VESSEL\n")).out
-    assert "  $MODEL: *NODE (2 blocks), *OCEAN\n    kept as they are: *VESSEL (3 blocks)\n" in text
+    assert "  $MODEL: *NODE (2 blocks), *OCEAN\n    passed through unchanged: *VESSEL (3 blocks)\n" in text
 
 
 def test_the_bed_and_what_it_gives(place: Place) -> None:

@@ -4,21 +4,31 @@ from __future__ import annotations
 
 import difflib
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
-from mudline.cli.lazy import printing
+from mudline.cli.options import View
 from mudline.cli.streams import emit
+from mudline.linting.output.visible import visible_lines
 
 _NO_END = "\\ No newline at end of file\n"
+_STYLES = {"+++": "bold", "---": "bold", "@@ ": "cyan", "+": "green", "-": "red"}
 
 
-def tell_changes(old: str, new: str, name: str, color: str, *, created: bool = False) -> None:
-    """Print the diff; `created` says that the file is new. A pipe gets the lines as they are, fit for a patch."""
-    lines = unified_diff(old, new, name, created=created)
-    if color == "always" or (color == "auto" and sys.stdout.isatty()):
-        printing("changes").print_diff(lines, color)
+def print_changes(old: str, new: str, name: str, view: View, *, created: bool = False) -> None:
+    """Print how a text changes; `created` means that the file is new."""
+    print_diff(unified_diff(old, new, name, created=created), view)
+
+
+def print_diff(lines: Iterable[str], view: View) -> None:
+    """Print the lines of a unified diff, coloured on a terminal. A pipe gets them unchanged, fit for a patch."""
+    if view.color == "always" or (view.color == "auto" and sys.stdout.isatty()):
+        view.printer().lines((visible_lines(line.rstrip("\r\n")), _style(line)) for line in lines)
     else:
         emit(lines)
+
+
+def _style(line: str) -> str:
+    return next((style for mark, style in _STYLES.items() if line.startswith(mark)), "")
 
 
 def unified_diff(old: str, new: str, name: str, *, created: bool = False) -> Iterator[str]:

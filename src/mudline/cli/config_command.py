@@ -10,8 +10,7 @@ from typing import Any
 
 import click
 
-from mudline.cli import options
-from mudline.cli.exits import DONE
+from mudline.cli import DONE, options
 from mudline.cli.lint_settings import Configured
 from mudline.cli.streams import emit
 from mudline.linting.configuration import KEYS, TABLES, Configuration
@@ -27,7 +26,7 @@ _DEFAULTS = {"fail-on": "warning", "dialect": "mudline"}
 @options.output_format("text", "json")
 @options.common
 def command(*, path: str, config: str | None, isolated: bool, output_format: str) -> int:
-    """Show what configuration holds for a deck, or for the decks in a directory, and where each value comes from."""
+    """Show the configuration of a deck, or of the decks in a directory, and where each value comes from."""
     inside = str(Path(path) / "-") if os.path.isdir(path) else path  # noqa: PTH112 - Path raises for a long name
     rows = list(_rows(Configured(config, isolated).of(inside)))
     if output_format == "json":

@@ -6,14 +6,10 @@ from pathlib import Path, PurePath
 
 import click
 
-from mudline.cli import options
-from mudline.cli.exits import DONE
-from mudline.cli.guard import refuses_bad_decks
-from mudline.cli.inputs import STDIN, SUFFIXES, load
+from mudline.cli import DONE, options
+from mudline.cli.inputs import STDIN, SUFFIXES, load, refuses_bad_decks
 from mudline.cli.options import View
-from mudline.cli.streams import emit
-from mudline.cli.terminal import tell
-from mudline.cli.writing import write_text
+from mudline.cli.streams import emit, notify, write_text
 from mudline.deck.loading import FORMS, dump, form_of
 from mudline.deck.sorting import sort_curves
 
@@ -21,10 +17,8 @@ from mudline.deck.sorting import sort_curves
 @click.command("convert")
 @options.deck
 @click.option("-o", "--output", metavar="OUT", help="File to write; without it, or with -, standard output.")
-@click.option("--from", "source", type=click.Choice(FORMS), help="Form of DECK, instead of what its suffix tells.")
-@click.option(
-    "--to", "target", type=click.Choice(FORMS), help="Form to write, instead of what the suffix of OUT tells."
-)
+@click.option("--from", "source", type=click.Choice(FORMS), help="Format of DECK, instead of that of its suffix.")
+@click.option("--to", "target", type=click.Choice(FORMS), help="Format to write, instead of that of the suffix of OUT.")
 @click.option("--sorted", "in_order", is_flag=True, help="Write curves with their points sorted by ratio.")
 @options.stdin_name
 @options.units
@@ -43,13 +37,13 @@ def command(
 ) -> int:
     """Convert a deck between keyword text, JSON and YAML.
 
-    Nothing is lost but blank lines and the spelling of numbers.
+    Only blank lines and the spelling of numbers are lost.
     """
     form = target or _form_of_output(output)
     read = load(deck, form=source, units=units, stdin_name=stdin_name).require()
     if in_order:
         for name in sort_curves(read):
-            tell(f"curve {name} keeps its order: a ratio in it is an equation")
+            notify(f"curve {name} keeps its order: a ratio in it is an equation")
     text = dump(read, form)
     if output is None or output == STDIN:
         emit([text])
@@ -57,15 +51,15 @@ def command(
     path = Path(output)
     write_text(path, [text])
     if not view.quiet:
-        tell(f"{read.file} -> {path.as_posix()}")
+        notify(f"{read.file} -> {path.as_posix()}")
     return DONE
 
 
 def _form_of_output(output: str | None) -> str:
     if output is None or output == STDIN:
-        raise click.UsageError("say what to write: -o OUT with a suffix, or --to")
+        raise click.UsageError("unknown format to write: give -o OUT with a suffix, or --to")
     form, suffix = form_of(output), PurePath(output).suffix.lower()
     if form == "keyword" and suffix not in SUFFIXES:
         known = ", ".join(sorted(SUFFIXES | {".json", ".yaml"}))
-        raise click.UsageError(f"{output}: its suffix tells no form (known: {known}): say --to keyword, json or yaml")
+        raise click.UsageError(f"{output}: unknown file format (known: {known}): give --to keyword, json or yaml")
     return form

@@ -4,22 +4,30 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict
+from itertools import groupby
 
 import click
+import numpy as np
 
-from mudline.cli import options
-from mudline.cli.exits import DONE, FOUND
-from mudline.cli.guard import refuses_bad_decks
-from mudline.cli.inputs import STDIN, load
-from mudline.cli.lazy import printing
+from mudline.cli import DONE, FOUND, options
+from mudline.cli.inputs import STDIN, load, refuses_bad_decks
 from mudline.cli.options import View
-from mudline.cli.streams import emit
+from mudline.cli.streams import counted, emit
 from mudline.comparison.comparing import compare
-from mudline.comparison.model import Difference
+from mudline.comparison.model import Difference, Value
+from mudline.comparison.spans import spans_of, text_of
+from mudline.linting.output.visible import visible
 from mudline.scene.build import resolve
 
 FORMAT = "mudline-diff/1"
+MOST = 20
+"""Lines of a group; the rest is counted, unless all are asked for."""
+
+_NUMBERED = ("nodes", "elements")
+_FEW = 4
+_MARKS = {"added": ("+", "green"), "removed": ("-", "red"), "changed": ("~", "yellow")}
 
 
 @click.command("diff")
@@ -31,7 +39,7 @@ FORMAT = "mudline-diff/1"
     default=0.0,
     show_default=True,
     metavar="REL",
-    help="How far two numbers may be apart, relative to the larger one.",
+    help="Largest difference of equal numbers, relative to the larger one.",
 )
 @options.output_format("text", "json")
 @options.stdin_name
@@ -48,7 +56,7 @@ def command(
     units: str | None,
     view: View,
 ) -> int:
-    """Tell what differs between the meanings of two decks, whatever their forms, layout and order.
+    """Compare two decks semantically, whatever their formats, layout and order.
 
     A and B are decks in keyword text, JSON or YAML; one of them may be - for standard input. The exit code is 0 when
     they mean the same, and 1 when they differ or one of them cannot be read.
@@ -56,13 +64,13 @@ def command(
     if before == after == STDIN:
         raise click.UsageError("only one of the decks can come from standard input")
     if not math.isfinite(tolerance):
-        raise click.UsageError("--tolerance needs a number from 0 to 1")
+        raise click.UsageError("--tolerance: expected a number from 0 to 1")
     first, second = (resolve(load(given, units=units, stdin_name=stdin_name)) for given in (before, after))
     found = compare(first, second, tolerance)
     if output_format == "json":
         emit(_json(first.deck.file, second.deck.file, tolerance, found))
     else:
-        printing("diff").print_differences(first.deck.file, second.deck.file, found, view)
+        view.printer().lines(_lines(first.deck.file, second.deck.file, found, view))
     return FOUND if found else DONE
 
 
@@ -73,3 +81,67 @@ def _json(before: str, after: str, tolerance: float, found: list[Difference]) ->
     lines = (json.dumps(asdict(one), ensure_ascii=False, allow_nan=False) for one in found)
     body = "".join(f"{',' if i else ''}\n  {line}" for i, line in enumerate(lines))
     return [start, ',\n "differences": [', body, "\n ]\n}\n" if found else "]\n}\n"]
+
+
+def _lines(before: str, after: str, found: Sequence[Difference], view: View) -> Iterator[str | tuple[str, str]]:
+    """The differences by group, then how many there are: lines, with their styles if they have any."""
+    if found and not view.quiet:
+        yield visible(f"--- {before}"), "bold"
+        yield visible(f"+++ {after}"), "bold"
+    for group, members in groupby(found, key=lambda one: one.group):
+        differences = list(members)
+        yield visible(group), "cyan"
+        if group in _NUMBERED and not view.verbose:
+            runs, differences = _runs(group, differences)
+            yield from runs
+        most = len(differences) if view.verbose else MOST
+        for one in differences[:most]:
+            mark, style = _MARKS[one.kind]
+            yield f"  {mark} {visible(_described(one))}", style
+        if len(differences) > most:
+            yield f"  and {len(differences) - most} more (-v shows all)"
+    if not view.quiet:
+        yield counted(len(found), "difference") if found else "no difference"
+
+
+def _runs(group: str, differences: Sequence[Difference]) -> tuple[list[tuple[str, str]], list[Difference]]:
+    """Nodes or elements that only one deck has, as ranges of numbers where they are many; and the other differences."""
+    lines: list[tuple[str, str]] = []
+    left = list(differences)
+    for kind in ("removed", "added"):
+        numbers = [number for one in differences if one.kind == kind and (number := _number(one)) is not None]
+        if len(numbers) >= _FEW:
+            mark, style = _MARKS[kind]
+            ranges = text_of(spans_of(np.array(numbers, dtype=np.int64)))
+            lines.append((f"  {mark} {ranges}: {len(numbers)} {group}", style))
+            left = [one for one in left if one.kind != kind or _number(one) is None]
+    return lines, left
+
+
+def _number(one: Difference) -> int | None:
+    """The number of a node or an element; None for one with a label."""
+    last = one.where.rpartition("/")[2]
+    return int(last) if last.lstrip("-").isdecimal() else None
+
+
+def _described(one: Difference) -> str:
+    path = one.where.removeprefix(f"{one.group}/")
+    if one.kind == "changed":
+        values = f": {_value(one.before)} -> {_value(one.after)}"
+    else:
+        value = one.after if one.kind == "added" else one.before
+        values = "" if value is None else f": {_value(value)}"
+    return path + values + _places(one)
+
+
+def _places(one: Difference) -> str:
+    lines = [f"{side}{line}" for side, line in (("-", one.before_line), ("+", one.after_line)) if line is not None]
+    return f"  (line {' '.join(lines)})" if lines else ""
+
+
+def _value(value: Value) -> str:
+    if isinstance(value, list):
+        return "(" + ", ".join(map(_value, value)) + ")"
+    if value is None:
+        return "none"
+    return repr(value) if isinstance(value, float) else str(value)

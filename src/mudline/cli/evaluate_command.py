@@ -1,47 +1,56 @@
-"""`mudline evaluate`."""
+"""`mudline evaluate`: options, the files read besides the deck, the run, and notes about its results."""
 
 from __future__ import annotations
 
-import json
+from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
+from dataclasses import replace
+from math import isfinite
 from pathlib import Path
-from typing import cast
+from typing import TypeVar, cast
 
 import click
+import numpy as np
 
-from mudline.cli import options
-from mudline.cli.evaluate_files import read_against, read_elements, read_positions_of
-from mudline.cli.evaluate_notes import SlowSuction, tell_before, tell_behind
+from mudline.cli import DONE, FOUND, options
 from mudline.cli.evaluate_outputs import (
     PICTURES,
-    Several,
+    ResultConsumer,
     Sink,
-    Taker,
+    beside,
     draw,
     files,
     form_of,
     has_library,
     printed,
+    result_file,
     result_forms,
     run,
+    together,
 )
-from mudline.cli.exits import DONE, FOUND
-from mudline.cli.guard import refuses_bad_decks
-from mudline.cli.inputs import load
-from mudline.cli.lazy import printing
+from mudline.cli.evaluate_text import print_comparison, print_evaluation, print_plan
+from mudline.cli.inputs import load, refuses_bad_decks
 from mudline.cli.options import View
-from mudline.cli.streams import emit
+from mudline.cli.streams import counted, emit, emit_json, notify, reason
+from mudline.contact import LawKind
 from mudline.results.against import Comparison
 from mudline.results.columns import ElementTable, NodeTable
 from mudline.results.csv_lines import csv_lines
 from mudline.results.digest import Digest
-from mudline.results.evaluation import Evaluation, Prepared, Tension, evaluate_scene, prepare
+from mudline.results.evaluation import Evaluation, Part, Prepared, Tension, evaluate_scene, prepare
 from mudline.results.formats import CsvForm, JsonForm, plan_rows
 from mudline.results.plot_data import PlotData
+from mudline.results.reference import read_reference
 from mudline.scene.build import resolve
+from mudline.scene.external import read_external
+from mudline.scene.model import Scene
+from mudline.scene.positions import Positions, read_positions
 
 MOST_ROWS = 40
 """Lines of a table on the terminal, unless more is asked for."""
+
+_MOST_NAMED = 10
+_Read = TypeVar("_Read")
 
 
 @click.command("evaluate")
@@ -64,7 +73,7 @@ MOST_ROWS = 40
     help="Write the results; CSV and Parquet write the nodes to OUT-nodes beside it.",
 )
 @click.option("--plot", "picture", metavar="FILE.png|svg", help="Draw the results (needs the extra mudline[plot]).")
-@click.option("--plan", "plan_only", is_flag=True, help="Tell what the scene needs and what was left out, and why.")
+@click.option("--plan", "plan_only", is_flag=True, help="Print what the deck needs and what is left out, and why.")
 @click.option(
     "--table",
     type=click.Choice(["elements", "nodes"]),
@@ -94,40 +103,41 @@ def command(
     units: str | None,
     view: View,
 ) -> int:
-    """Contact forces and stiffnesses of a deck, at its own coordinates or at positions from a file.
+    """Evaluate contact forces and stiffnesses of a deck, at its own coordinates or at positions from a file.
 
-    Forces are per unit length, in the deck's units; reactions are the total force of the bed on a node.
+    Forces are per unit length, in the deck's units; reactions are the total force of the seabed on a node.
     """
     for needed in (form_of(output, result_forms()), form_of(picture, PICTURES)):
         if needed and not has_library(needed):
             return FOUND
     loaded = load(deck, units=units, stdin_name=stdin_name)
     pull = cast("Tension", tension)
-    scene = resolve(loaded, read_elements(elements) if elements else None).require_evaluable(pull)
-    given = read_positions_of(positions, scene, time_step) if positions else None
+    scene = resolve(loaded, _read(elements, read_external) if elements else None).require_evaluable(pull)
+    given = _positions(positions, scene, time_step) if positions else None
     if plan_only:
         _plan(prepare(scene, given, pull), output_format, view)
         return DONE
     evaluation = evaluate_scene(scene, given, pull)
-    comparison = Comparison(evaluation, read_against(against, evaluation)) if against else None
+    reference = _read(against, lambda file: read_reference(file, evaluation)) if against else None
+    comparison = None if reference is None else Comparison(evaluation, reference)
     if not view.quiet:
-        tell_before(evaluation, comparison)
+        _notify_before(evaluation, comparison)
     drawing = PlotData(evaluation) if picture else None
     shown = "" if output else output_format
     digest = Digest(evaluation, None if view.verbose else MOST_ROWS) if shown == "text" else None
-    slow = SlowSuction()
-    takers: list[Taker] = [taker for taker in (comparison, drawing, digest, slow) if taker is not None]
+    slow = _SlowSuction()
+    consumers: list[ResultConsumer] = [one for one in (comparison, drawing, digest, slow) if one is not None]
     with _sink(evaluation, comparison, output, shown, table, view) as sink:
-        run(evaluation, [*takers, sink], view, bar=shown in {"", "text"})
+        run(evaluation, [*consumers, sink], view, bar=shown in {"", "text"})
         sink.finish({} if comparison is None else {"against": comparison.summary()})
     if picture and drawing is not None:
         draw(drawing, Path(picture), view)
     if not view.quiet:
-        tell_behind(evaluation, slow, Path(output) if output else None)
+        _notify_after(evaluation, slow, Path(output) if output else None)
     if digest is not None:
-        printing("evaluate").print_evaluation(digest, table, view)
+        print_evaluation(digest, table, view)
     if comparison is not None and output_format == "text":
-        printing("against").print_comparison(comparison, view)
+        print_comparison(comparison, view)
     return DONE
 
 
@@ -142,14 +152,97 @@ def _sink(
         return nullcontext(printed(JsonForm(evaluation, elements)))
     if shown == "csv":
         return nullcontext(printed(CsvForm(evaluation, elements if table == "elements" else NodeTable(evaluation))))
-    return nullcontext(Several())
+    return nullcontext(together([]))
 
 
 def _plan(prepared: Prepared, form: str, view: View) -> None:
     rows = plan_rows(prepared.model.plan)
     if form == "json":
-        emit([json.dumps({"units": prepared.scene.units, "plan": rows}, indent=1, ensure_ascii=False), "\n"])
+        emit_json({"units": prepared.scene.units, "plan": rows})
     elif form == "csv":
         emit(csv_lines([("stage", "active", "why"), *(row.values() for row in rows)]))
     else:
-        printing("evaluate").print_plan(prepared.model.plan, view)
+        print_plan(prepared.model.plan, view)
+
+
+def _positions(path: str, scene: Scene, time_step: float | None) -> Positions:
+    """Positions of a scene's nodes; with `time_step` those without times get them."""
+    positions = _read(path, lambda file: read_positions(file, scene.nodes))
+    if time_step is None:
+        return positions
+    if not (isfinite(time_step) and time_step > 0.0):
+        raise click.UsageError(f"--time-step is {time_step!r}: it must be greater than 0")
+    if positions.time is None or positions.timed:
+        what = "has times of its own" if positions.timed and positions.time is not None else "is one state"
+        raise click.UsageError(f"--time-step is for positions without times: {path} {what}")
+    return replace(positions, time=positions.time * time_step, timed=True)
+
+
+def _read(path: str, read: Callable[[Path], _Read]) -> _Read:
+    try:
+        return read(Path(path))
+    except OSError as error:
+        raise click.ClickException(f"{path}: {reason(error)}") from error
+
+
+def _notify_before(evaluation: Evaluation, comparison: Comparison | None) -> None:
+    """Report what is left out, and what is guessed."""
+    missing = len(evaluation.present) - len(evaluation.nodes)
+    if missing:
+        notify(f"no positions for {counted(missing, 'node')}: {counted(evaluation.skipped, 'element')} left out")
+    if evaluation.lengths_from_positions:
+        notify(f"the length of {counted(evaluation.lengths_from_positions, 'element')} comes from the first positions")
+    if rigid := int((evaluation.scene.law == LawKind.RIGID).sum()):
+        notify(f"{counted(rigid, 'element')} on a rigid seabed: a constraint, whose reaction is not evaluated")
+    for stage, why in evaluation.model.input.left_out.items():
+        notify(f"{stage}: {why}")
+    if comparison is not None:
+        _notify_unmatched(comparison)
+
+
+class _SlowSuction:
+    """Counts the steps at which suction is pulled at velocities below REGULARISATION."""
+
+    def __init__(self) -> None:
+        self.steps = 0
+        self.element: int | None = None
+
+    def take(self, part: Part) -> None:
+        """Look at some steps."""
+        slow = part.result.regularised
+        if slow is None or not slow.any():
+            return
+        self.steps += int(slow.any(axis=1).sum())
+        if self.element is None:
+            self.element = int(np.argwhere(slow)[0, 1])
+
+
+def _notify_after(evaluation: Evaluation, slow: _SlowSuction, written: Path | None) -> None:
+    """Report where suction is less than its power law gives, and which files were written."""
+    if slow.element is not None:
+        number = int(evaluation.scene.element_ids[slow.element])
+        when = f"at {slow.steps} of {counted(evaluation.steps, 'step')}, element {number} first"
+        notify(f"suction is pulled slower than REGULARISATION {when}: the force there is less than alpha v^n")
+    if written is None:
+        return
+    if result_file(written.suffix.lower().removeprefix(".")).BESIDE:
+        notify(f"nodes -> {beside(written).as_posix()}")
+    notify(f"{evaluation.scene.deck.file} -> {written.as_posix()}")
+
+
+def _notify_unmatched(comparison: Comparison) -> None:
+    """Report what is in one of the results only."""
+    file = comparison.reference.file
+    for numbers, thing, where in (
+        (comparison.reference.unknown.tolist(), "element", f"of {file} not in the deck"),
+        (comparison.missing.tolist(), "evaluated element", f"not in {file}"),
+        (comparison.reference.lost_times.tolist(), "time", f"of {file} not evaluated"),
+        (comparison.reference.missing_times.tolist(), "evaluated time", f"not in {file}"),
+    ):
+        if numbers:
+            notify(f"{counted(len(numbers), thing)} {where}: {_named(numbers)}")
+
+
+def _named(numbers: Sequence[float]) -> str:
+    more = f" and {len(numbers) - _MOST_NAMED} more" if len(numbers) > _MOST_NAMED else ""
+    return ", ".join(map(repr, numbers[:_MOST_NAMED])) + more

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, ExitStack, contextmanager
+from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 from pkgutil import iter_modules
@@ -12,12 +13,9 @@ from typing import BinaryIO, Protocol, cast
 import click
 
 from mudline.cli import result_files
-from mudline.cli.lazy import drawing
 from mudline.cli.options import View
-from mudline.cli.progress import Progress, looked_at
-from mudline.cli.streams import emit, encoded
-from mudline.cli.terminal import tell
-from mudline.cli.writing import writing
+from mudline.cli.progress import Progress, wants_bar
+from mudline.cli.streams import emit, encoded, notify, notify_missing, writing
 from mudline.linting.output.visible import visible
 from mudline.results.columns import ElementTable
 from mudline.results.evaluation import Evaluation, Part
@@ -26,22 +24,26 @@ from mudline.results.plot_data import PlotData
 
 PICTURES = ("png", "svg")
 
+_PLOT = "mudline.results.evaluation_plot"
+_EXTRAS = {"parquet": ("pyarrow", "parquet"), "png": ("matplotlib", "plot"), "svg": ("matplotlib", "plot")}
+"""By form: the library that draws or writes it, and the extra that brings it."""
+
 More = Mapping[str, object]
-"""What is known only behind the last step, by its key in JSON."""
+"""What is known only after the last step, by its key in JSON."""
 
 
-class Taker(Protocol):
-    """Takes the results of a few steps after the other."""
+class ResultConsumer(Protocol):
+    """Takes the results of a few steps at a time."""
 
     def take(self, part: Part) -> None:
-        """Some steps."""
+        """Take some steps."""
 
 
-class Sink(Taker, Protocol):
+class Sink(ResultConsumer, Protocol):
     """A file or standard output."""
 
     def finish(self, more: More) -> None:
-        """What stands behind the last step."""
+        """Write what comes after the last step."""
 
 
 class ResultFile(Protocol):
@@ -59,39 +61,31 @@ class ResultFile(Protocol):
         """Return what takes the results and writes them into one or two files of `folder`."""
 
 
+@dataclass(frozen=True, slots=True)
 class Written:
-    """Text, written as it is spelled by `write`."""
+    """Output by two functions: for some steps, and for what comes after the last step."""
 
-    def __init__(self, form: TextForm, write: Callable[[Iterator[str]], None]) -> None:
-        self._form, self._write = form, write
-
-    def take(self, part: Part) -> None:
-        """Write some steps."""
-        self._write(self._form.body(part))
-
-    def finish(self, more: More) -> None:
-        """Write the end."""
-        self._write(self._form.tail(more))
+    take: Callable[[Part], None]
+    finish: Callable[[More], None] = lambda _: None
 
 
-class Several:
-    """Two tables, each in a file of its own."""
+def as_text(form: TextForm, write: Callable[[Iterator[str]], None]) -> Written:
+    """Text, in pieces that `write` gets."""
+    return Written(lambda part: write(form.body(part)), lambda more: write(form.tail(more)))
 
-    def __init__(self, *takers: Taker) -> None:
-        self._takers = takers
 
-    def take(self, part: Part) -> None:
-        """Write some steps of each."""
-        for taker in self._takers:
-            taker.take(part)
+def together(consumers: Sequence[ResultConsumer]) -> Written:
+    """Several tables, or none; a table has nothing after the last step."""
 
-    def finish(self, more: More) -> None:
-        """A table has no place for more."""
-        del more
+    def take(part: Part) -> None:
+        for consumer in consumers:
+            consumer.take(part)
+
+    return Written(take)
 
 
 def form_of(output: str | None, known: Sequence[str]) -> str:
-    """The form of a file by its suffix, "" for no file; raises click.UsageError."""
+    """The form of a file by its suffix, "" without a file; raises click.UsageError."""
     if output is None:
         return ""
     form = Path(output).suffix.lower().removeprefix(".")
@@ -107,24 +101,23 @@ def beside(path: Path) -> Path:
 
 
 def has_library(form: str) -> bool:
-    """Whether the library for a form of files is there; says what to do if not."""
+    """Whether the library for a form of files is installed; reports it if not."""
     if form not in _EXTRAS:
         return True
     try:
-        drawing("evaluation") if form in PICTURES else result_file(form)
+        import_module(_PLOT) if form in PICTURES else result_file(form)
     except ImportError:
-        library, extra = _EXTRAS[form]
-        tell(f".{form} needs {library}: pip install 'mudline[{extra}]'")
+        notify_missing(f".{form}", *_EXTRAS[form])
         return False
     return True
 
 
 def draw(data: PlotData, path: Path, view: View) -> None:
-    """Draw what was gathered."""
+    """Draw the results that were collected."""
     with writing(path) as stream:
-        drawing("evaluation").draw(data, path.suffix.lower().removeprefix("."), stream, visible)
+        import_module(_PLOT).draw(data, path.suffix.lower().removeprefix("."), stream, visible)
     if not view.quiet:
-        tell(f"plot -> {path.as_posix()}")
+        notify(f"plot -> {path.as_posix()}")
 
 
 def result_forms() -> list[str]:
@@ -137,18 +130,14 @@ def result_file(form: str) -> ResultFile:
     return cast("ResultFile", import_module(f"{result_files.__name__}.{form}"))
 
 
-_EXTRAS = {"parquet": ("pyarrow", "parquet"), "png": ("matplotlib", "plot"), "svg": ("matplotlib", "plot")}
-"""By form: what draws or writes it, and the extra that brings it."""
-
-
 def printed(form: TextForm) -> Sink:
     """Standard output."""
-    return Written(form, emit)
+    return as_text(form, emit)
 
 
 @contextmanager
 def files(evaluation: Evaluation, elements: ElementTable, path: Path, view: View) -> Iterator[Sink]:
-    """The file of an evaluation by its suffix, or two files; they are there when all is written, or not at all."""
+    """The file of an evaluation by its suffix, or two files; they exist when all is written, or not at all."""
     form = result_file(path.suffix.lower().removeprefix("."))
     with ExitStack() as stack:
         streams = [stack.enter_context(writing(one)) for one in (path, *([beside(path)] if form.BESIDE else []))]
@@ -160,11 +149,11 @@ def text_into(stream: BinaryIO) -> Callable[[Iterator[str]], None]:
     return lambda pieces: stream.writelines(map(encoded, pieces))
 
 
-def run(evaluation: Evaluation, takers: Sequence[Taker], view: View, *, bar: bool) -> None:
-    """Evaluate a few steps at a time and hand them on, with a bar while somebody looks on."""
-    with Progress(evaluation.steps, view, shown=bar and looked_at(view)) as progress:
+def run(evaluation: Evaluation, consumers: Sequence[ResultConsumer], view: View, *, bar: bool) -> None:
+    """Evaluate a few steps at a time and pass them on, with a bar on a terminal."""
+    with Progress(evaluation.steps, view, shown=bar and wants_bar(view)) as progress:
         for part in evaluation.parts():
-            for taker in takers:
-                taker.take(part)
+            for consumer in consumers:
+                consumer.take(part)
             for _ in range(part.count):
                 progress.advance()

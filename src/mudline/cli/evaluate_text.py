@@ -1,35 +1,42 @@
-"""An evaluation for people: totals by law, then the elements or nodes in contact."""
+"""An evaluation for people: totals by law, what is in contact, summaries of steps, the plan, a comparison."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING, Any
 
-from rich.console import Console
+import numpy as np
 
-from mudline.cli.console import console
-from mudline.cli.evaluate_rows import LEFT, Cells, touching_elements, touching_nodes
 from mudline.cli.options import View
-from mudline.cli.tables import print_table
 from mudline.contact import Plan
-from mudline.results.columns import SLIDING, STATES
+from mudline.results.against import Comparison
+from mudline.results.columns import SLIDING, STATES, ElementTable
 from mudline.results.digest import Digest
 from mudline.results.evaluation import Evaluation, Part
 from mudline.results.numbers import shown
 from mudline.results.totals import Total, counts, reaction, totals
 from mudline.results.units import UnitNames, headed, unit_names
+from mudline.scene.numbering import Floats, Indices
+
+if TYPE_CHECKING:
+    from mudline.cli.printing import Cell, Printer
+
+Cells = tuple[str, ...]
+_LEFT = ("law", "state", "axial", "lateral")
+"""Columns of text."""
 
 
 def print_plan(plan: Plan, view: View) -> None:
-    """The stages, active or not, and why."""
+    """Print the stages, active or not, and why."""
     rows = [(stage.stage, "yes" if stage.active else "no", stage.why) for stage in plan]
     columns = ("stage", "active", "why")
-    print_table(console(view.color), f"Plan, {plan.steps}", columns, rows, left=columns)
+    view.printer().table(f"Plan, {plan.steps}", columns, rows, left=columns)
 
 
 def print_evaluation(digest: Digest, which: str, view: View) -> None:
-    """One state: totals and rows. Time steps: a line each, rows are for files."""
-    printer = console(view.color)
+    """Print totals and rows of one state; of time steps a line each, as rows are for files."""
+    printer = view.printer()
     if digest.evaluation.time is not None:
         _print_steps(printer, digest)
         return
@@ -37,15 +44,15 @@ def print_evaluation(digest: Digest, which: str, view: View) -> None:
         return
     _print_totals(printer, digest.evaluation, digest.first)
     _print_states(printer, digest.evaluation, digest.first)
-    rows = touching_elements if which == "elements" else touching_nodes
+    rows = _touching_elements if which == "elements" else _touching_nodes
     columns, cells = rows(digest.evaluation, digest.first)
-    told = list(cells if view.verbose else _joined(cells))
-    if not told:
-        printer.print(f"No {which} in contact", highlight=False)
+    lines = list(cells if view.verbose else _joined(cells))
+    if not lines:
+        printer.line(f"No {which} in contact")
         return
-    left = len(told) - len(told[: digest.most])
+    left = len(lines) - len(lines[: digest.most])
     note = f"{left} more lines: -v shows all, -o writes all" if left else ""
-    print_table(printer, f"{which.capitalize()} in contact", columns, told[: digest.most], left=LEFT, note=note)
+    printer.table(f"{which.capitalize()} in contact", columns, lines[: digest.most], left=_LEFT, note=note)
 
 
 def _joined(rows: Iterable[Cells]) -> Iterator[Cells]:
@@ -66,82 +73,71 @@ def _span(first: int, last: int) -> str:
     return str(first) if first == last else f"{first} to {last}"
 
 
-def _print_totals(printer: Console, evaluation: Evaluation, part: Part) -> None:
+def _print_totals(printer: Printer, evaluation: Evaluation, part: Part) -> None:
     names = unit_names(evaluation.scene.units)
     found = totals(evaluation, part)
-    rows: list[Cells] = [
-        (each.law, each.set_name, str(each.elements), str(each.touching), _depth(each), shown(each.reaction))
-        for each in found
+    rows: list[tuple[Cell, ...]] = [
+        (each.law, each.set_name, each.elements, each.touching, _depth(each), each.reaction) for each in found
     ]
     if len(found) > 1 or any(each.law == "nodal" for each in found):
         sums = (sum(each.elements for each in found), sum(each.touching for each in found))
         deepest = max((each for each in found if each.deepest is not None), key=_by_depth, default=found[0])
-        total = shown(reaction(evaluation, part.result.step(0)))
-        rows.append(("total", "", *map(str, sums), _depth(deepest), total))
+        rows.append(("total", "", *sums, _depth(deepest), reaction(evaluation, part.result.step(0))))
     depth, force = headed("largest\ndepth", names.length), headed("total\nreaction", names.force)
     columns = ("law", "set", "elements", "in\ncontact", depth, force)
-    print_table(printer, _title(evaluation), columns, rows, left=("law", "set"))
+    printer.table(_title(evaluation), columns, rows, left=("law", "set"))
 
 
 def _by_depth(total: Total) -> float:
     return -math.inf if total.deepest is None else total.deepest
 
 
-def _depth(total: Total) -> str:
+def _depth(total: Total) -> float | None:
     """The largest depth, where anything is in contact."""
-    return shown(total.deepest) if total.touching else ""
+    return total.deepest if total.touching else None
 
 
-def _print_states(printer: Console, evaluation: Evaluation, part: Part) -> None:
+def _print_states(printer: Printer, evaluation: Evaluation, part: Part) -> None:
     """How many elements and nodes are in each state, where a law has states."""
     result = part.result.step(0)
-    rows: list[Cells] = []
+    rows: list[tuple[Cell, ...]] = []
     if result.state is not None:
         found = counts(result.state[evaluation.elements], STATES)
-        rows += [("suction of elements", name, str(count)) for name, count in found]
+        rows += [("suction of elements", name, count) for name, count in found]
     if result.friction_state is not None:
         for axis, direction in enumerate(("axial", "lateral")):
             found = counts(result.friction_state[evaluation.nodes, axis], SLIDING)
-            rows += [(f"{direction} friction of nodes", name, str(count)) for name, count in found]
+            rows += [(f"{direction} friction of nodes", name, count) for name, count in found]
     if result.restrained is not None:
-        rows.append(("rigid bed", "restrained nodes", str(int(result.restrained.sum()))))
+        rows.append(("rigid seabed", "restrained nodes", int(result.restrained.sum())))
     if rows:
-        print_table(printer, "States", ("law", "state", "count"), rows, left=("law", "state"))
+        printer.table("States", ("law", "state", "count"), rows, left=("law", "state"))
 
 
-def _print_steps(printer: Console, digest: Digest) -> None:
+def _print_steps(printer: Printer, digest: Digest) -> None:
     evaluation, found = digest.evaluation, digest.steps
     names = unit_names(evaluation.scene.units)
-    sucked, slipping = (any(getattr(each, name) is not None for each in found) for name in ("sucked", "slipping"))
     rows = [
-        (
-            shown(each.time),
-            str(each.touching),
-            *("" if number is None else str(number) for number in (each.first, each.last)),
-            shown(each.deepest),
-            shown(each.reaction),
-            *([str(each.sucked)] if sucked else []),
-            *([str(each.slipping)] if slipping else []),
-        )
+        (each.time, each.touching, each.first, each.last, each.deepest, each.reaction, each.sucked, each.slipping)
         for each in found
     ]
     depth, force = headed("largest\ndepth", names.length), headed("total\nreaction", names.force)
-    columns = (_time(names), "in\ncontact", "first\nelement", "last\nelement", depth, force)
-    more = (*(["suction\nor hold"] if sucked else []), *(["nodes\nslipping"] if slipping else []))
+    more = ("suction\nor hold", "nodes\nslipping")
+    columns = (_time(names), "in\ncontact", "first\nelement", "last\nelement", depth, force, *more)
     left = evaluation.steps - len(found)
     note = f"{left} more steps: -v shows all, -o writes all" if left else ""
-    print_table(printer, f"{_title(evaluation)}, {evaluation.steps} steps", (*columns, *more), rows, note=note)
+    printer.table(f"{_title(evaluation)}, {evaluation.steps} steps", columns, rows, optional=more, note=note)
     _print_peaks(printer, digest)
 
 
-def _print_peaks(printer: Console, digest: Digest) -> None:
+def _print_peaks(printer: Printer, digest: Digest) -> None:
     """The largest of all steps, also of those that are not listed."""
     evaluation, times = digest.evaluation, digest.evaluation.time
     names = unit_names(evaluation.scene.units)
     units = {
         "reaction": ("total reaction", names.force),
         "force": ("force of an element", names.line_force),
-        "pull": ("pull on an element", names.line_force),
+        "pull": ("suction force of an element", names.line_force),
         "touching": ("elements in contact", ""),
         "deepest": ("depth", names.length),
     }
@@ -149,10 +145,9 @@ def _print_peaks(printer: Console, digest: Digest) -> None:
     for key, (what, unit) in units.items():
         peak = digest.peaks.found.get(key)
         if peak is not None and times is not None and not (key in {"force", "pull"} and peak.value == 0.0):
-            element = "" if peak.element is None else str(peak.element)
-            rows.append((what, shown(peak.value), unit, shown(float(times[peak.step])), element))
+            rows.append((what, peak.value, unit, float(times[peak.step]), peak.element))
     columns = ("largest", "value", "unit", _time(names), "element")
-    print_table(printer, "Over all steps", columns, rows, left=("largest", "unit"))
+    printer.table("Over all steps", columns, rows, left=("largest", "unit"))
 
 
 def _time(names: UnitNames) -> str:
@@ -162,3 +157,86 @@ def _time(names: UnitNames) -> str:
 def _title(evaluation: Evaluation) -> str:
     deck = evaluation.scene.deck
     return f"Contact of {deck.source or deck.file} ({deck.units} units)"
+
+
+# ----------------------------------------------------------------------------------------------- rows of one state
+
+
+def _touching_elements(evaluation: Evaluation, part: Part) -> tuple[Cells, Iterator[Cells]]:
+    """Elements in contact, or with a force above the seabed, at the first step of a part."""
+    names = unit_names(evaluation.scene.units)
+    columns: Cells = (
+        "element",
+        "law",
+        headed("depth", names.length),
+        "ratio",
+        headed("force", names.line_force),
+        headed("stiffness", names.stiffness),
+        headed("length", names.length),
+    )
+    result, chosen = part.result.step(0), evaluation.elements
+    held = np.flatnonzero(result.contact[chosen] | (np.nan_to_num(result.force[chosen]) != 0.0))
+    index = chosen[held]
+    law = next(column for column in ElementTable(evaluation).columns(part) if column.name == "law")
+    cells = [
+        [str(number) for number in evaluation.scene.element_ids[index].tolist()],
+        [law.names[code] or "" for code in law.cut(0, 1)[0, held].tolist()],
+        *(_numbers(column, index) for column in (result.depth, result.ratio, result.force, result.stiffness)),
+        _numbers(evaluation.length, index),
+    ]
+    if result.state is not None:
+        columns = (*columns, "state")
+        cells.append([STATES[code] or "" for code in result.state[index].tolist()])
+    return columns, zip(*cells, strict=True)
+
+
+def _touching_nodes(evaluation: Evaluation, part: Part) -> tuple[Cells, Iterator[Cells]]:
+    """Nodes on which the seabed acts, also by restraining them, at the first step of a part."""
+    names = unit_names(evaluation.scene.units)
+    axes = (headed(f"reaction {axis}", names.force) for axis in "XYZ")
+    columns: Cells = ("node", headed("gap", names.length), *axes)
+    result = part.result.step(0)
+    acts = (result.reaction != 0.0).any(axis=1)
+    if result.restrained is not None:
+        acts |= result.restrained
+    index = evaluation.nodes[acts[evaluation.nodes]]
+    cells = [
+        [str(number) for number in evaluation.scene.node_ids[index].tolist()],
+        *(_numbers(column, index) for column in (result.gap, *result.reaction.T)),
+    ]
+    if result.friction is not None:
+        columns = (*columns, headed("axial\nforce", names.force), headed("lateral\nforce", names.force))
+        cells += [_numbers(column, index) for column in result.friction.T]
+    if result.friction_state is not None:
+        columns = (*columns, "axial", "lateral")
+        cells += [[SLIDING[code] or "" for code in column[index].tolist()] for column in result.friction_state.T]
+    return columns, zip(*cells, strict=True)
+
+
+def _numbers(column: Floats, index: Indices) -> list[str]:
+    return [shown(value) for value in column[index].tolist()]
+
+
+# ------------------------------------------------------------------------------------------------------ comparison
+
+
+def print_comparison(comparison: Comparison, view: View) -> None:
+    """Print for each column how many values were compared, the largest differences and where they are."""
+    timed = comparison.timed
+    place = ("at\nelement", "at\ntime") if timed else ("at\nelement",)
+    columns = ("column", "compared", "largest\ndifference", *place, "largest\nrelative", *place, "rms\ndifference")
+    rows = []
+    for found in comparison.differences:
+        row = found.row()
+        absolute = _cells(row["largest_difference"], "difference", timed=timed)
+        relative = _cells(row["largest_relative"], "relative", timed=timed)
+        rows.append((found.column, found.compared, *absolute, *relative, shown(found.rms, 4)))
+    view.printer().table(f"Compared with {comparison.reference.file}", columns, rows, left=("column",))
+
+
+def _cells(extreme: dict[str, Any] | None, name: str, *, timed: bool) -> tuple[Cell, ...]:
+    """Value, element and time of a largest difference; nothing where nothing was compared."""
+    if extreme is None:
+        return ("",) * (2 + timed)
+    cells = (shown(extreme[name], 4), extreme["element"])
+    return (*cells, extreme["time"]) if timed else cells

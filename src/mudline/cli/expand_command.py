@@ -2,32 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import click
 
-from mudline.cli import options
-from mudline.cli.exits import DONE
-from mudline.cli.guard import refuses_bad_decks
-from mudline.cli.inputs import STDIN, load
-from mudline.cli.lazy import printing
+from mudline.cli import DONE, options
+from mudline.cli.inputs import STDIN, load, refuses_bad_decks
 from mudline.cli.options import View
-from mudline.cli.streams import emit
-from mudline.cli.terminal import reason, tell
-from mudline.cli.writing import write_bytes, write_text
+from mudline.cli.streams import counted, emit, notify, reason, write_bytes, write_text
 from mudline.variations.files import MANIFEST, conflicts, lacking, manifest_text
 from mudline.variations.planning import plan
-from mudline.variations.rewriting import ExpansionPlan
+from mudline.variations.rewriting import ExpansionPlan, PlannedDeck
 
-_MOST_TOLD = 5
+_MOST_REPORTED = 5
+_COLUMNS = ("file", "case", "values")
 _NOT_COPIED = "{}: the deck names it and it is not copied: put it beside the new decks"
 
 
 @click.command("expand")
 @options.deck
-@click.option("-o", "--output", metavar="DIR", help="Folder for the new decks; made if it is not there.")
+@click.option("-o", "--output", metavar="DIR", help="Folder for the new decks; created if it does not exist.")
 @click.option("--dry-run", is_flag=True, help="Print what would be written, and write nothing.")
-@click.option("--force", is_flag=True, help="Overwrite files that are there already.")
+@click.option("--force", is_flag=True, help="Overwrite existing files.")
 @options.output_format("text", "json")
 @options.stdin_name
 @options.units
@@ -47,16 +44,16 @@ def command(
     """Write the decks that *VARIATION and *COMBINATIONS describe.
 
     Each new deck is the text of DECK with other values of its parameters and without the two keywords. All names are
-    checked before the first file is written, and none leaves the folder. manifest.json in it lists the decks.
+    checked before the first file is written, and none lies outside the folder. manifest.json in it lists the decks.
     """
     if output is None and not dry_run:
-        raise click.UsageError("say where to write: -o DIR, or look first with --dry-run")
+        raise click.UsageError("no folder to write to: give -o DIR, or --dry-run")
     planned = plan(load(deck, units=units, stdin_name=stdin_name))
     for note in planned.notes:
-        tell(note)
-    _tell_some([] if output is None else [_NOT_COPIED.format(name) for name in lacking(Path(output), planned)])
+        notify(note)
+    _notify_some([] if output is None else [_NOT_COPIED.format(name) for name in lacking(Path(output), planned)])
     blocked = [] if output is None else conflicts(Path(output), planned, _path(deck), force=force)
-    _tell_some(blocked)
+    _notify_some(blocked)
     if output is not None and not dry_run:
         if blocked:
             raise click.ClickException("nothing is written")
@@ -64,7 +61,7 @@ def command(
     if output_format == "json":
         emit([manifest_text(planned.source, planned.decks)])
     elif dry_run:
-        printing("expand").print_decks(planned.decks, view.color)
+        _print_decks(planned.decks, view)
     return DONE
 
 
@@ -72,23 +69,22 @@ def _path(deck: str) -> Path | None:
     return None if deck == STDIN else Path(deck)
 
 
-def _tell_some(messages: list[str]) -> None:
-    for message in messages[:_MOST_TOLD]:
-        tell(message)
-    if len(messages) > _MOST_TOLD:
-        tell(f"and {len(messages) - _MOST_TOLD} more of the same")
+def _notify_some(messages: list[str]) -> None:
+    for message in messages[:_MOST_REPORTED]:
+        notify(message)
+    if len(messages) > _MOST_REPORTED:
+        notify(f"and {len(messages) - _MOST_REPORTED} more of the same")
 
 
 def _write(planned: ExpansionPlan, folder: Path, view: View) -> None:
-    count = f"{len(planned.decks)} deck{'' if len(planned.decks) == 1 else 's'}"
     if not view.quiet:
-        tell(f"{planned.source}: {count} to write into {folder.as_posix()}")
+        notify(f"{planned.source}: {counted(len(planned.decks), 'deck')} to write into {folder.as_posix()}")
     for deck in planned.decks:
         path = folder / deck.path
         _make_folder(path.parent)
         write_bytes(path, planned.content(deck))
         if view.verbose:
-            tell(path.as_posix())
+            notify(path.as_posix())
     _make_folder(folder)
     write_text(folder / MANIFEST, [manifest_text(planned.source, planned.decks)])
 
@@ -97,4 +93,15 @@ def _make_folder(path: Path) -> None:
     try:
         path.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise click.ClickException(f"{path.as_posix()}: cannot be made: {reason(error)}") from error
+        raise click.ClickException(f"{path.as_posix()}: cannot be created: {reason(error)}") from error
+
+
+def _print_decks(decks: Sequence[PlannedDeck], view: View) -> None:
+    """Print a row for each deck: its file, its case, the values of its parameters; then how many there are."""
+    rows = [
+        [deck.path, deck.description, ", ".join(f"{name}={text}" for name, text in deck.values.items())]
+        for deck in decks
+    ]
+    printer = view.printer()
+    printer.table("Decks", _COLUMNS, rows, left=_COLUMNS, whole=("file",))
+    printer.line(counted(len(decks), "deck"))

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import sys
+from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 
 import click
 
-from mudline.cli import options
-from mudline.cli.exits import DONE, FOUND
+from mudline.cli import DONE, FOUND, options
+from mudline.cli.changes import print_diff
 from mudline.cli.inputs import Input, Inputs, collect
-from mudline.cli.lazy import printing
 from mudline.cli.options import View
-from mudline.cli.streams import emit, emit_deck
-from mudline.cli.terminal import reason, tell, tell_diagnostics
+from mudline.cli.streams import counted, emit, emit_deck, notify, notify_diagnostics, reason
 from mudline.diagnostics import DeckError
 from mudline.files import write_atomically
 from mudline.formatting.changes import unified_diff
@@ -29,10 +27,10 @@ from mudline.syntax.source import Source
 @options.stdin_name
 @options.common
 def command(*, paths: tuple[str, ...], check: bool, diff: bool, every_file: bool, stdin_name: str, view: View) -> int:
-    """Rewrite decks in canonical layout, in place: the same deck, line for line, its comments kept.
+    """Rewrite decks in canonical layout, in place: the same deck, line by line, comments included.
 
     PATHS are decks, directories (searched for *.keyx, *.keyxm, *.keyxi and *.das) or - for standard input, whose deck
-    is printed. A deck with an error is reported and left as it is.
+    is printed. A deck with an error is reported and left unchanged.
     """
     inputs = collect(paths, stdin_name, gitignore=not every_file)
     run = _Run(inputs, view, check=check, diff=diff)
@@ -41,37 +39,38 @@ def command(*, paths: tuple[str, ...], check: bool, diff: bool, every_file: bool
     return run.finish()
 
 
+@dataclass
 class _Run:
     """Formats one file after the other and counts them."""
 
-    def __init__(self, inputs: Inputs, view: View, *, check: bool, diff: bool) -> None:
-        self.inputs = inputs
-        self.view = view
-        self.check = check
-        self.diff = diff
-        self.changed = 0
-        self.unchanged = 0
-        self.failed = 0
+    inputs: Inputs
+    view: View
+    _: KW_ONLY
+    check: bool
+    diff: bool
+    changed: int = 0
+    unchanged: int = 0
+    failed: int = 0
 
     def add(self, file: Input, data: bytes) -> None:
-        """Format a file, or tell why not."""
+        """Format a file, or report why not."""
         try:
             new = formatted(data, file.name)
         except DeckError as error:
-            tell_diagnostics(error.diagnostics)
+            notify_diagnostics(error.diagnostics)
             self.failed += 1
         except FormatError as error:
-            tell(f"{file.name}: {error}")
+            notify(f"{file.name}: {error}")
             self.failed += 1
         else:
             self._deliver(file, data, new)
 
     def _deliver(self, file: Input, data: bytes, new: bytes) -> None:
-        """Write, print or name what came out."""
+        """Write, print or name the result."""
         if self.check or self.diff:
             self._count(changed=new != data)
             if new != data:
-                self._tell_change(file, data, new)
+                self._show(file, data, new)
         elif file.path is None:
             emit_deck(new)
         elif new == data:
@@ -83,16 +82,12 @@ class _Run:
         self.changed += changed
         self.unchanged += not changed
 
-    def _tell_change(self, file: Input, data: bytes, new: bytes) -> None:
+    def _show(self, file: Input, data: bytes, new: bytes) -> None:
         if self.check:
             emit([f"would reformat: {file.name}\n"])
         if self.diff:
             old, after = Source.from_bytes(data, file.name).text, Source.from_bytes(new, file.name).text
-            lines = unified_diff(old, after, file.name)
-            if self.view.color == "always" or (self.view.color == "auto" and sys.stdout.isatty()):
-                printing("changes").print_diff(lines, self.view.color)
-            else:
-                emit(lines)
+            print_diff(unified_diff(old, after, file.name), self.view)
 
     def _write(self, file: Input, path: Path, new: bytes) -> None:
         try:
@@ -103,26 +98,21 @@ class _Run:
             return
         self._count(changed=True)
         if self.view.verbose:
-            tell(f"{file.name}: reformatted")
+            notify(f"{file.name}: reformatted")
 
     def finish(self) -> int:
-        """Tell how many files there were; returns the exit code."""
-        if not self.view.quiet:
-            would = "would be " if self.check or self.diff else ""
-            told = [
-                f"{_files(count)} {word}"
-                for count, word in (
-                    (self.changed, f"{would}reformatted"),
-                    (self.unchanged, f"{would}left unchanged" if would else "left unchanged"),
-                    (self.failed, "not formatted"),
-                )
-                if count
-            ]
-            if told:
-                click.echo(", ".join(told), err=True)
-        found = self.failed or (self.changed and (self.check or self.diff))
+        """Report how many files there were; returns the exit code."""
+        would = "would be " if self.check or self.diff else ""
+        texts = [
+            f"{counted(count, 'file')} {word}"
+            for count, word in (
+                (self.changed, f"{would}reformatted"),
+                (self.unchanged, f"{would}left unchanged"),
+                (self.failed, "not formatted"),
+            )
+            if count
+        ]
+        if texts and not self.view.quiet:
+            click.echo(", ".join(texts), err=True)
+        found = self.failed or (self.changed and would)
         return max(self.inputs.code, FOUND if found else DONE)
-
-
-def _files(count: int) -> str:
-    return f"{count} file{'s' * (count != 1)}"

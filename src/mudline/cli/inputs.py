@@ -1,4 +1,4 @@
-"""The files that a command reads: paths, directories, standard input."""
+"""The decks that a command reads: files, searched directories without what a .gitignore hides, standard input."""
 
 from __future__ import annotations
 
@@ -7,18 +7,28 @@ import os
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import wraps
 from pathlib import Path, PurePath
+from typing import NamedTuple, ParamSpec
 
 import click
 
-from mudline.cli.exits import WRONG_USAGE
-from mudline.cli.searching import Search
-from mudline.cli.terminal import reason, tell
-from mudline.deck.loading import load_bytes
+from mudline.cli import FOUND, WRONG_USAGE
+from mudline.cli.streams import notify, notify_diagnostics, reason
+from mudline.deck.loading import form_of, load_bytes
 from mudline.deck.model import Deck
+from mudline.diagnostics import DeckError
+from mudline.patterns import Pattern, read_pattern
 
+GITIGNORE = ".gitignore"
 SUFFIXES = frozenset({".keyx", ".keyxm", ".keyxi", ".das"})
 STDIN = "-"
+
+_MARK = b"mudline-deck/"
+_HEAD = 4096
+"""Bytes at the beginning of a JSON or YAML file that name its format."""
+
+Parameters = ParamSpec("Parameters")
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,7 +40,7 @@ class Input:
 
     @property
     def folder(self) -> Path | None:
-        """Where files that the deck names stand; None for standard input, which names no place."""
+        """The folder of files that the deck names; None for standard input."""
         return None if self.path is None else Path(self.path).parent
 
     def read(self) -> bytes:
@@ -50,7 +60,7 @@ class Inputs:
     code: int = 0
 
     def contents(self) -> Iterator[tuple[Input, bytes]]:
-        """Each file that can be read; the others are told and set the exit code."""
+        """Each file that can be read; the others are reported and set the exit code."""
         for file in self.files:
             try:
                 data = file.read()
@@ -60,8 +70,8 @@ class Inputs:
             yield file, data
 
     def fail(self, message: str) -> None:
-        """Tell of a path that cannot be read."""
-        tell(message)
+        """Report a path that cannot be read."""
+        notify(message)
         self.code = WRONG_USAGE
 
 
@@ -85,11 +95,31 @@ def collect(
     def taken(path: PurePath) -> bool:
         return wanted(path) and os.path.isfile(path)  # noqa: PTH113 - Path raises for a name that is too long
 
-    return collect_taken(paths, stdin_name, taken, gitignore=gitignore)
+    return _collect(paths, stdin_name, taken, gitignore=gitignore)
 
 
-def collect_taken(paths: Sequence[str], stdin_name: str, taken: Wanted, *, gitignore: bool) -> Inputs:
-    """As `collect`, where `taken` also says whether a path is a file."""
+def collect_any_form(paths: Sequence[str], stdin_name: str, *, gitignore: bool) -> Inputs:
+    """As `collect`, for decks in any form: also JSON and YAML files whose beginning names the format of decks."""
+    return _collect(paths, stdin_name, _is_deck_in_any_form, gitignore=gitignore)
+
+
+def _is_deck_in_any_form(path: PurePath) -> bool:
+    """Whether a file is a deck by its suffix or its content; one that cannot be opened is taken, and reported later."""
+    if not is_deck(path) and form_of(path.name) == "keyword":
+        return False
+    file = Path(path)
+    if file.exists() and not file.is_file():
+        return False
+    if is_deck(path):
+        return True
+    try:
+        with file.open("rb") as stream:
+            return _MARK in stream.read(_HEAD)
+    except OSError:
+        return True
+
+
+def _collect(paths: Sequence[str], stdin_name: str, taken: Wanted, *, gitignore: bool) -> Inputs:
     found = Inputs()
     for given in paths:
         if os.path.isdir(given):  # noqa: PTH112 - Path raises for a name that is too long or may not be looked at
@@ -130,3 +160,100 @@ def load(given: str, *, form: str | None = None, units: str | None = None, stdin
     except OSError as error:
         raise click.ClickException(f"{given}: {reason(error)}") from error
     return load_bytes(data, file.name, form=form, units=units, folder=file.folder)
+
+
+def refuses_bad_decks(command: Callable[Parameters, int]) -> Callable[Parameters, int]:
+    """Turn the DeckError of a command into messages and exit code 1."""
+
+    @wraps(command)
+    def guarded(*args: Parameters.args, **kwargs: Parameters.kwargs) -> int:
+        try:
+            return command(*args, **kwargs)
+        except DeckError as error:
+            notify_diagnostics(error.diagnostics)
+            return FOUND
+
+    return guarded
+
+
+# ---------------------------------------------------------------------------------------------------- .gitignore
+
+
+class _Rules(NamedTuple):
+    """The patterns of a `.gitignore`, the last first.
+
+    They are for paths from its own folder: `above` stands before a path from the searched directory, or the first
+    `below` letters of it are left out.
+    """
+
+    above: str
+    below: int
+    patterns: Sequence[Pattern]
+
+    def hides(self, path: str, *, folder: bool) -> bool | None:
+        """Whether a path from the searched directory is hidden; None where no pattern says anything of it."""
+        own = self.above + path[self.below :]
+        return next((not one.negated for one in self.patterns if one.fits(own, folder=folder)), None)
+
+
+@dataclass(slots=True)
+class Search:
+    """A search of a directory and all below it; links to directories are not followed.
+
+    `unreadable` collects what cannot be looked at, `hidden` says whether a `.gitignore` hid anything. Like git, the
+    search also honours the `.gitignore` files above the directory in the same repository; like ripgrep, it honours them
+    for what lies in the directory, not for the directory itself, which was asked for.
+    """
+
+    given: str
+    gitignore: bool = True
+    unreadable: list[OSError] = field(default_factory=list)
+    hidden: bool = False
+
+    def paths(self) -> Iterator[PurePath]:
+        """The files, in no order."""
+        rules = {self.given: self._above() if self.gitignore else []}
+        for folder, folders, files in os.walk(self.given, onerror=self.unreadable.append):
+            found = rules.pop(folder)
+            if self.gitignore:
+                start = self._start(folder)
+                if GITIGNORE in files:
+                    found = [*self._read(Path(folder), "", len(start)), *found]
+                folders[:] = [
+                    name for name in folders if name != ".git" and not self._hides(found, start + name, folder=True)
+                ]
+                files[:] = [name for name in files if not self._hides(found, start + name, folder=False)]
+            rules.update((os.path.join(folder, name), found) for name in folders)  # noqa: PTH118 - as os.walk does
+            yield from (PurePath(folder, name) for name in files)
+
+    def _start(self, folder: str) -> str:
+        """What stands before the names in a folder, from the searched directory."""
+        inside = folder[len(self.given) :].replace(os.sep, "/").strip("/")
+        return f"{inside}/" if inside else ""
+
+    def _hides(self, rules: Sequence[_Rules], path: str, *, folder: bool) -> bool:
+        said = next((hides for one in rules if (hides := one.hides(path, folder=folder)) is not None), False)
+        self.hidden |= said
+        return said
+
+    def _above(self) -> list[_Rules]:
+        """The rules above the directory, the nearest first."""
+        here = Path(os.path.abspath(self.given))  # noqa: PTH100 - links stay what they are called
+        found: list[_Rules] = []
+        for folder in (here, *here.parents):
+            if folder != here:
+                found += self._read(folder, f"{here.relative_to(folder).as_posix()}/", 0)
+            if (folder / ".git").exists():
+                return found
+        return []
+
+    def _read(self, folder: Path, above: str, below: int) -> list[_Rules]:
+        """The rules of a folder, if it has any."""
+        path = folder / GITIGNORE
+        try:
+            text = os.fsdecode(path.read_bytes()) if path.is_file() else ""
+        except OSError as error:
+            self.unreadable.append(error)
+            return []
+        patterns = [pattern for line in text.split("\n") if (pattern := read_pattern(line))]
+        return [_Rules(above, below, patterns[::-1])] if patterns else []

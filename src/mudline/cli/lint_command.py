@@ -1,28 +1,32 @@
-"""`mudline lint`."""
+"""`mudline lint`: options, and the run over all files."""
 
 from __future__ import annotations
 
+from contextlib import closing
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import click
 
-from mudline.cli import options
-from mudline.cli.exits import DONE, FOUND
-from mudline.cli.inputs import collect
-from mudline.cli.lint_jobs import Effort
-from mudline.cli.lint_outputs import complete, outputs
-from mudline.cli.lint_report import Report
-from mudline.cli.lint_run import Run
+from mudline.cli import DONE, FOUND, options
+from mudline.cli.changes import print_changes
+from mudline.cli.inputs import Input, Inputs, collect
+from mudline.cli.lint_jobs import Effort, SettingsOf, lint_all
+from mudline.cli.lint_outputs import Report, complete, outputs
 from mudline.cli.lint_settings import Configured, Given, merged
 from mudline.cli.lint_watch import Watched, refuse, watched
 from mudline.cli.options import View
-from mudline.cli.terminal import reason, tell
-from mudline.cli.writing import write_text
-from mudline.diagnostics import Severity
+from mudline.cli.streams import counted, emit_deck, notify, reason, write_text
+from mudline.deck.loading import form_of
+from mudline.diagnostics import Diagnostic, Severity
+from mudline.files import write_atomically
 from mudline.linting.baseline import Baseline, BaselineError, read_baseline
 from mudline.linting.configuration import Configuration
 from mudline.linting.engine import Fixing
+from mudline.linting.lint_file import FileReport, lint_one
 from mudline.linting.output.formats import TEXT, form_names
+from mudline.linting.output.visible import visible
+from mudline.syntax.source import Source
 
 _CODES = "CODE[,CODE...]"
 
@@ -37,7 +41,7 @@ def _words(given: tuple[str, ...]) -> tuple[str, ...]:
     "--select", "chosen", multiple=True, metavar=_CODES, help="Run these rules only: codes, prefixes or slugs."
 )
 @click.option("--extend-select", "also", multiple=True, metavar=_CODES, help="Run these rules too.")
-@click.option("--ignore", "ignored", multiple=True, metavar=_CODES, help="Leave these rules out.")
+@click.option("--ignore", "ignored", multiple=True, metavar=_CODES, help="Do not run these rules.")
 @click.option(
     "--fail-on",
     type=click.Choice([severity.value for severity in (Severity.ERROR, Severity.WARNING, Severity.INFO)]),
@@ -49,18 +53,18 @@ def _words(given: tuple[str, ...]) -> tuple[str, ...]:
     multiple=True,
     metavar="FORM[=FILE]",
     shell_complete=complete,
-    help=f"Form of what is printed: {', '.join([f'{TEXT} (default)', *form_names()])}; "
-    "with =FILE written besides. Repeatable.",
+    help=f"Format of standard output: {', '.join([f'{TEXT} (default)', *form_names()])}; "
+    "=FILE writes a file too. Repeatable.",
 )
-@click.option("--fix", is_flag=True, help="Make the safe fixes, in place; the deck of - is printed.")
-@click.option("--unsafe-fixes", "unsafe", is_flag=True, help="With --fix or --diff: make the fixes that guess, too.")
-@click.option("--diff", is_flag=True, help="Print what --fix would change, and write nothing; 1 if that is anything.")
+@click.option("--fix", is_flag=True, help="Apply the safe fixes, in place; the deck of - is printed.")
+@click.option("--unsafe-fixes", "unsafe", is_flag=True, help="With --fix or --diff: also apply fixes that guess.")
+@click.option("--diff", is_flag=True, help="Print what --fix would change, and write nothing; exit with 1 if anything.")
 @click.option("--baseline", metavar="FILE", help="Hide the findings that are recorded in this file.")
 @click.option("--write-baseline", "recording", is_flag=True, help="Record all findings in the file of --baseline.")
 @click.option(
     "--dialect",
     type=click.Choice(["mudline", "flexcom"]),
-    help="The program that the decks are for (default: mudline); flexcom knows no extension keywords.",
+    help="The program that the decks are for (default: mudline); flexcom has no extension keywords.",
 )
 @click.option("--config", metavar="FILE", help="Use this configuration for all decks, not the nearest one of each.")
 @click.option("--isolated", is_flag=True, help="Use no configuration file.")
@@ -73,7 +77,7 @@ def _words(given: tuple[str, ...]) -> tuple[str, ...]:
     metavar="N",
     help="Use at most N processes, when that pays; 0 (default): one for each processor.",
 )
-@click.option("--no-cache", "uncached", is_flag=True, help="Look at every deck, and remember nothing of it.")
+@click.option("--no-cache", "uncached", is_flag=True, help="Lint every deck again, without the cache.")
 @click.option("--watch", is_flag=True, help="Lint again whenever a deck or a configuration changes, until Ctrl-C.")
 @options.every_file
 @options.stdin_name
@@ -111,32 +115,32 @@ def command(
     """
     fixing = Fixing.NONE if not (fix or diff) else Fixing.UNSAFE if unsafe else Fixing.SAFE
     given = Given(_words(chosen), _words(ignored), _words(also), fail_on, dialect, units, fixing)
-    Configured(config, isolated)  # wrong usage is told once, before anything is watched
-    merged(Configuration(), given)  # a wrong code is told whatever the files are
-    told = outputs(forms)
+    Configured(config, isolated)  # wrong usage is reported once, before anything is watched
+    merged(Configuration(), given)  # a wrong code is reported whatever the files are
+    wanted = outputs(forms)
 
     def once() -> int:
         configured = Configured(config, isolated)
         known = _baseline(baseline, recording=recording)
         inputs = collect(paths, stdin_name, configured.wanted, gitignore=not every_file)
         aside = diff or (fix and any(file.path is None for file in inputs.files))
-        report = Report(told, view, statistics=statistics, aside=aside, fixing=fixing is not Fixing.NONE)
+        report = Report(wanted, view, statistics=statistics, aside=aside, fixing=fixing is not Fixing.NONE)
         effort = Effort(jobs, not uncached)
         run = Run(inputs, lambda file: configured.settings(file, given), report, known, recording, diff, effort)
         run.go()
         if known is not None and baseline is not None:
-            _tell_baseline(known, Path(baseline), view, recording=recording)
+            _report_baseline(known, Path(baseline), view, recording=recording)
         failing = not exit_zero and (report.failing or run.differs)
         return max(inputs.code, FOUND if failing else DONE)
 
     if watch:
-        refuse({"--fix": fix, "--diff": diff, "--write-baseline": recording}, paths, told)
+        refuse({"--fix": fix, "--diff": diff, "--write-baseline": recording}, paths, wanted)
         watched(once, Watched(paths, tuple(path for path in (config, baseline) if path)), view)
     return once()
 
 
 def _baseline(given: str | None, *, recording: bool) -> Baseline | None:
-    """The known findings; none yet when they are to be recorded. Ends the command for a file that is no baseline."""
+    """The known findings; none yet when they are to be recorded. Ends the command for a file that is not a baseline."""
     if given is None:
         if recording:
             raise click.UsageError("--write-baseline needs --baseline FILE: the file to write")
@@ -149,16 +153,81 @@ def _baseline(given: str | None, *, recording: bool) -> Baseline | None:
     except OSError as error:
         raise click.ClickException(f"{given}: the baseline cannot be read: {reason(error)}") from error
     except BaselineError as error:
-        message = f"{given}: this is no baseline: {error}: write a new one with --write-baseline"
+        message = f"{given}: not a baseline: {error}: write a new one with --write-baseline"
         raise click.ClickException(message) from error
 
 
-def _tell_baseline(known: Baseline, path: Path, view: View, *, recording: bool) -> None:
-    """Write what was recorded, or tell of what is recorded and no longer there."""
+def _report_baseline(known: Baseline, path: Path, view: View, *, recording: bool) -> None:
+    """Write what was recorded, or report how much of it is no longer found."""
     if recording:
         write_text(path, [known.text()])
         if not view.quiet:
-            count = known.known.total()
-            tell(f"{path.as_posix()}: {count} finding{'s' * (count != 1)} recorded")
+            notify(f"{path.as_posix()}: {counted(known.known.total(), 'finding')} recorded")
     elif view.verbose and (gone := known.gone()):
-        tell(f"{path.as_posix()}: {gone} recorded finding{'s' * (gone != 1)} no longer there: write it again")
+        notify(f"{path.as_posix()}: {counted(gone, 'recorded finding')} no longer there: write it again")
+
+
+@dataclass
+class Run:
+    """All files: fixed decks are written or shown, known findings left out, the others reported.
+
+    With `diff` nothing is written; `differs` says afterwards that something would have been.
+    """
+
+    inputs: Inputs
+    settings_of: SettingsOf
+    report: Report
+    known: Baseline | None = None
+    recording: bool = False
+    diff: bool = False
+    effort: Effort = field(default_factory=Effort)
+    differs: bool = False
+    documents: int = 0
+
+    def go(self) -> None:
+        """Lint all files."""
+        with closing(lint_all(self.inputs, self.settings_of, self.effort)) as results:
+            for file, data, result in results:
+                self._take(file, data, result)
+        if self.documents:
+            notify(f"{counted(self.documents, 'deck')} in JSON or YAML not fixed: only keyword text is")
+        self.report.finish()
+
+    def _take(self, file: Input, data: bytes, result: FileReport) -> None:
+        settings = self.settings_of(file)
+        content = data if result.changed is None else result.changed
+        if settings.fixing is not Fixing.NONE:
+            self.documents += form_of(file.name) != "keyword"
+            if result.note:
+                notify(f"{file.name}: {result.note}")
+            if not self._deliver(file, data, content):
+                unfixed = replace(settings, fixing=Fixing.NONE)
+                content, result = data, lint_one(file.name, data, unfixed, file.folder)
+        found = self._unknown(file, content, list(result.found))
+        self.report.add(file.name, content, found, len(result.fixed), settings.fail_on)
+
+    def _unknown(self, file: Input, content: bytes, found: list[Diagnostic]) -> list[Diagnostic]:
+        """The findings that the baseline does not hold."""
+        if self.known is None:
+            return found
+        path = file.path or file.name
+        if self.recording:
+            self.known.record(found, content, path)
+        return self.known.unknown(found, content, path)
+
+    def _deliver(self, file: Input, data: bytes, content: bytes) -> bool:
+        """Show, print or write what was fixed; returns whether the fixes are made."""
+        if self.diff:
+            if content != data:
+                self.differs = True
+                old, new = (Source.from_bytes(text, file.name).text for text in (data, content))
+                print_changes(old, new, visible(file.name), self.report.view)
+        elif file.path is None:
+            emit_deck(content)
+        elif content != data:
+            try:
+                write_atomically(Path(file.path), content)
+            except OSError as error:
+                self.inputs.fail(f"{file.name}: cannot be written: {reason(error)}")
+                return False
+        return True

@@ -1,22 +1,25 @@
-"""The forms in which findings are given to programs, and where each goes."""
+"""The findings of `mudline lint`: at once for people, at the end for programs, on standard output and in files."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass, field
 from pathlib import Path
 
 import click
 
 from mudline import __version__
-from mudline.cli.writing import write_text
-from mudline.diagnostics import Diagnostic
+from mudline.cli.options import View
+from mudline.cli.streams import counted, emit, notify, write_text
+from mudline.diagnostics import Diagnostic, Severity
 from mudline.linting.output.formats import TEXT, form, form_names
+from mudline.linting.output.text import statistics_lines
+from mudline.syntax.source import Source
 
 
 @dataclass(frozen=True, slots=True)
 class Outputs:
-    """The form of standard output, and the files besides."""
+    """The format of standard output, and those of files."""
 
     form: str
     files: tuple[tuple[str, Path], ...]
@@ -28,7 +31,7 @@ class Outputs:
 
 
 def complete(_context: click.Context, _parameter: click.Parameter, incomplete: str) -> list[str]:
-    """What a shell completes behind `--output-format`."""
+    """What a shell completes after `--output-format`."""
     return [name for name in (TEXT, *form_names()) if name.startswith(incomplete)]
 
 
@@ -51,3 +54,82 @@ def outputs(given: Sequence[str]) -> Outputs:
     if len(set(printed)) > 1:
         raise click.UsageError(f"--output-format: standard output takes one form, not {', '.join(printed)}")
     return Outputs(printed[0] if printed else TEXT, tuple(files))
+
+
+@dataclass
+class Report:
+    """What a run found. `aside`: standard output carries something else, and findings go to standard error."""
+
+    outputs: Outputs
+    view: View
+    _: KW_ONLY
+    statistics: bool
+    aside: bool
+    fixing: bool
+    found: list[Diagnostic] = field(default_factory=list)
+    names: list[str] = field(default_factory=list)
+    fixed: int = 0
+    failing: bool = False
+
+    def add(self, name: str, data: bytes, found: list[Diagnostic], fixed: int, limit: Severity) -> None:
+        """Add the findings that are left in one file, whose content is `data`, and the number of those fixed."""
+        self.names.append(name)
+        self.found += found
+        self.fixed += fixed
+        self.failing = self.failing or any(one.severity.rank >= limit.rank for one in found)
+        if self._as_they_come and found:
+            self.view.printer().findings(found, Source.from_bytes(data, name))
+        if self.view.verbose:
+            notify(f"{name}: {counted(len(found), 'finding')}")
+
+    @property
+    def _as_they_come(self) -> bool:
+        return self.outputs.form == TEXT and not (self.view.quiet or self.statistics or self.aside)
+
+    def finish(self) -> None:
+        """Write and print what needs all findings."""
+        found = sorted(self.found, key=lambda diagnostic: diagnostic.sort_key)
+        self.outputs.write_files(found, self.names)
+        if self.aside:
+            self._print_aside(found)
+        elif self.statistics:
+            emit(statistics_lines(found))
+        elif self.outputs.form != TEXT:
+            emit(form(self.outputs.form, self.names, __version__)(found))
+        elif self.view.quiet:
+            emit(form("concise", self.names, __version__)(found))
+        elif self.names:
+            self._summary(found)
+
+    def _print_aside(self, found: list[Diagnostic]) -> None:
+        name = "concise" if self.outputs.form == TEXT else self.outputs.form
+        pieces = statistics_lines(found) if self.statistics else form(name, self.names, __version__)(found)
+        for piece in pieces:
+            click.echo(piece, err=True, nl=False)
+        if self.fixing and not self.view.quiet and name == "concise":
+            click.echo(self._fixed_summary(found), err=True)
+
+    def _summary(self, found: list[Diagnostic]) -> None:
+        if self.fixing and (self.fixed or found):
+            click.echo(self._fixed_summary(found))
+        elif found:
+            self.view.printer().summary(found, len(self.names))
+        else:
+            click.echo(f"No findings in {counted(len(self.names), 'file')}.")
+        if hint := fixable(found):
+            click.echo(hint)
+
+    def _fixed_summary(self, found: list[Diagnostic]) -> str:
+        total = counted(self.fixed + len(found), "finding")
+        return f"Found {total} ({self.fixed} fixed, {len(found)} remaining) in {counted(len(self.names), 'file')}."
+
+
+def fixable(found: list[Diagnostic]) -> str:
+    """How many findings have fixes of each kind, or ""."""
+    kinds = [one.fix.applicability for one in found if one.fix is not None]
+    safe, unsafe = kinds.count("safe"), kinds.count("unsafe")
+    if not kinds:
+        return ""
+    if not safe:
+        return f"{unsafe} fixable with --fix --unsafe-fixes."
+    return f"{safe} fixable with --fix" + (f", {unsafe} more with --unsafe-fixes." if unsafe else ".")

@@ -1,4 +1,4 @@
-"""Linting in other processes, which end with this one and say nothing of their own."""
+"""Linting in other processes, which end with this one and print nothing."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from types import TracebackType
-from typing import TYPE_CHECKING, NamedTuple, Self
+from typing import NamedTuple, Self
 
 import click
 
@@ -23,23 +23,23 @@ from mudline.linting.lint_file import FileReport, lint_one
 from mudline.linting.registry import rules
 from mudline.linting.rule import Rule
 
-if TYPE_CHECKING:
-    from mudline.cli.lint_jobs import Task
-
 _MOST_ON_WINDOWS = 61
 """Processes that one process can wait for there."""
+
+Arguments = tuple[str, bytes, LintSettings, Path | None]
+"""A file to lint, as the arguments of `lint_one`."""
 
 Promise = Callable[[], Sequence[FileReport]]
 """Waits for the reports of a chunk."""
 
 
 class Order(NamedTuple):
-    """A file to lint, as it is sent: `codes` stand for the rules of the settings, whose functions may not travel."""
+    """A file as it is sent: `codes` replace the rules of the settings, whose functions may not be picklable."""
 
     name: str
     data: bytes
-    folder: Path | None
     settings: LintSettings
+    folder: Path | None
     codes: tuple[str, ...]
 
 
@@ -65,22 +65,16 @@ class Pool:
                 child.kill()
         self._executor.shutdown(cancel_futures=True)
 
-    def lint(self, tasks: Sequence[Task]) -> Promise:
+    def lint(self, files: Sequence[Arguments]) -> Promise:
         """Send files to a process."""
-        if not tasks:
+        if not files:
             return tuple
-        orders = [_order(task) for task in tasks]
-        try:
-            with _deaf():
-                future = self._executor.submit(lint_orders, orders)
-        except BrokenProcessPool as error:
-            raise _lost() from error
+        with _dying_reported(), _interrupt_deferred():
+            future = self._executor.submit(lint_orders, [_order(*file) for file in files])
 
         def wait() -> Sequence[FileReport]:
-            try:
+            with _dying_reported():
                 return future.result()
-            except BrokenProcessPool as error:
-                raise _lost() from error
 
         return wait
 
@@ -95,29 +89,28 @@ def _named(codes: tuple[str, ...]) -> tuple[Rule, ...]:
     return tuple(rule for rule in rules() if rule.code.code in codes)
 
 
-def _order(task: Task) -> Order:
-    codes = tuple(rule.code.code for rule in task.settings.rules)
-    return Order(task.file.name, task.data, task.file.folder, replace(task.settings, rules=()), codes)
+def _order(name: str, data: bytes, settings: LintSettings, folder: Path | None) -> Order:
+    return Order(name, data, replace(settings, rules=()), folder, tuple(rule.code.code for rule in settings.rules))
 
 
 def _method() -> str:
-    """How processes are started: never as a copy of this one, whose threads would be lost in it."""
+    """How processes are started: never as a copy of this one, which would lack its threads."""
     return "forkserver" if sys.platform not in ("win32", "darwin") else "spawn"
 
 
 def _quiet() -> None:
-    """Ctrl-C reaches all processes of a terminal: the first one tells the others to end."""
+    """Ignore Ctrl-C, which reaches all processes of a terminal: the first one ends the others."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 @contextmanager
-def _deaf() -> Iterator[None]:
-    """Processes that are started here do not hear Ctrl-C even before they can say so; this one hears it afterwards."""
+def _interrupt_deferred() -> Iterator[None]:
+    """Block Ctrl-C, also in processes that are started here until they ignore it; this one gets it afterwards."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
-    heard: list[int] = []
-    before = signal.signal(signal.SIGINT, lambda number, _: heard.append(number))
+    received: list[int] = []
+    before = signal.signal(signal.SIGINT, lambda number, _: received.append(number))
     masked = sys.platform != "win32" and signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield
@@ -125,10 +118,15 @@ def _deaf() -> Iterator[None]:
         if sys.platform != "win32":
             signal.pthread_sigmask(signal.SIG_SETMASK, masked or ())
         signal.signal(signal.SIGINT, before)
-        if heard:
+        if received:
             signal.raise_signal(signal.SIGINT)
 
 
-def _lost() -> click.ClickException:
-    message = "a process that linted decks has ended early, as when memory runs out: lint fewer decks, or use --jobs 1"
-    return click.ClickException(message)
+@contextmanager
+def _dying_reported() -> Iterator[None]:
+    """End the command where a process has died."""
+    try:
+        yield
+    except BrokenProcessPool as error:
+        message = "a process that linted decks has ended early, perhaps out of memory: lint fewer, or use --jobs 1"
+        raise click.ClickException(message) from error

@@ -1,4 +1,4 @@
-"""What holds for each deck: the command line before the configuration file before the defaults."""
+"""The settings of each deck: the command line overrides the configuration file, which overrides the defaults."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import TypeVar
 import click
 
 from mudline.cli.inputs import Input, is_deck
-from mudline.cli.terminal import reason
+from mudline.cli.streams import reason
 from mudline.diagnostics import Severity
 from mudline.linting.configuration import Configuration, ConfigurationError, Search, read_configuration
 from mudline.linting.engine import Fixing, LintSettings
@@ -23,7 +23,7 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Given:
-    """What the command line says; None or nothing where it says nothing."""
+    """The settings of the command line; None or empty where it has none."""
 
     chosen: tuple[str, ...] = ()
     ignored: tuple[str, ...] = ()
@@ -49,14 +49,14 @@ class Configured:
             raise click.UsageError("--config and --isolated exclude each other: give one of them")
         self._fixed = Configuration() if self.isolated else None
         if self.config is not None:
-            self._fixed = _told(lambda: read_configuration(Path(str(self.config)))) or Configuration()
+            self._fixed = _read(lambda: read_configuration(Path(str(self.config)))) or Configuration()
 
     def of(self, path: str | None) -> Configuration:
-        """The configuration of a file; standard input stands in the working folder."""
+        """The configuration of a file; that of standard input is the working folder's."""
         if self._fixed is not None:
             return self._fixed
         folder = Path(os.path.abspath(path or "-")).parent  # noqa: PTH100 - links stay what they are called
-        return _told(lambda: self._search.nearest(folder))
+        return _read(lambda: self._search.nearest(folder))
 
     def wanted(self, path: PurePath) -> bool:
         """Whether a file in a searched directory is linted: `include` adds to the suffixes, `exclude` removes."""
@@ -68,7 +68,7 @@ class Configured:
         return (is_deck(path) or matches(relative, include)) and not matches(relative, exclude)
 
     def settings(self, file: Input, given: Given) -> LintSettings:
-        """What holds for a file."""
+        """The settings of a file."""
         folder = os.path.dirname(file.path or "-")  # noqa: PTH120 - asked for each of many files
         if folder in self._of_folder:
             return self._of_folder[folder]
@@ -130,7 +130,7 @@ def _codes(words: list[str]) -> frozenset[str]:
     return frozenset(rule.code.code for rule in select(words)) if words else frozenset()
 
 
-def _told(read: Callable[[], T]) -> T:
+def _read(read: Callable[[], T]) -> T:
     try:
         return read()
     except ConfigurationError as error:

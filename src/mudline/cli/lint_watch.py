@@ -12,17 +12,17 @@ from typing import NoReturn
 
 import click
 
-from mudline.cli.inputs import STDIN, is_deck
+from mudline.cli.inputs import GITIGNORE, STDIN, is_deck
 from mudline.cli.lint_outputs import Outputs
 from mudline.cli.options import View
-from mudline.cli.searching import GITIGNORE
-from mudline.cli.terminal import tell
+from mudline.cli.streams import notify
 from mudline.linting.output.formats import TEXT
 
 WAIT = 0.3
-"""Seconds between two looks; more where a look takes long, so that waiting costs little."""
+"""Seconds between two checks; more where a check takes long, so that waiting costs little."""
 
-_LOOKS = 10
+_FACTOR = 10
+"""Seconds of waiting per second of checking, at least."""
 _CONFIGURATIONS = ("mudline.toml", "pyproject.toml")
 _RULES = (*_CONFIGURATIONS, GITIGNORE)
 _PRINTED = (TEXT, "concise")
@@ -31,23 +31,23 @@ State = dict[str, tuple[int, int]]
 """When each file was changed, in nanoseconds, and its size."""
 
 
-def refuse(writing: Mapping[str, bool], paths: Sequence[str], told: Outputs) -> None:
-    """Raise click.UsageError for what cannot be done again and again."""
+def refuse(writing: Mapping[str, bool], paths: Sequence[str], printed: Outputs) -> None:
+    """Raise click.UsageError for what cannot be repeated."""
     for option, given in writing.items():
         if given:
-            raise click.UsageError(f"--watch only looks, and {option} writes or compares: give one of them")
+            raise click.UsageError(f"--watch and {option} exclude each other: give one of them")
     if STDIN in paths:
         raise click.UsageError("--watch needs files: standard input can be read once only")
-    if told.form not in _PRINTED:
+    if printed.form not in _PRINTED:
         raise click.UsageError(
-            f"--watch prints for people: {' or '.join(_PRINTED)}, not {told.form}; "
-            f"--output-format {told.form}=FILE writes a file after each change"
+            f"--watch prints {' or '.join(_PRINTED)}, not {printed.form}; "
+            f"--output-format {printed.form}=FILE writes a file after each change"
         )
 
 
 @dataclass(frozen=True)
 class Watched:
-    """What is looked at: the files and folders given, other decks beside them, configurations that may hold for them.
+    """The files and folders given, other decks beside them, and configurations that may apply to them.
 
     `others` are a configuration and a baseline that were named.
     """
@@ -56,7 +56,7 @@ class Watched:
     others: tuple[str, ...] = ()
 
     def state(self) -> State:
-        """How all files are now. What is not there, or may not be looked at, is left out."""
+        """The state of all files now. Those that are missing or unreadable are left out."""
         folders = {os.path.abspath(path if _is_folder(path) else os.path.dirname(path)) for path in self.paths}  # noqa: PTH100, PTH120 - links stay what they are called
         found: State = {}
         for path in (*self.paths, *self.others):
@@ -71,39 +71,39 @@ class Watched:
 
 
 def watched(once: Callable[[], int], files: Watched, view: View) -> NoReturn:
-    """Lint, and again after each change; ends by KeyboardInterrupt only. What ends a run is told, and waited out."""
+    """Lint, and again after each change; ends by KeyboardInterrupt only. An error that ends a run is reported."""
     while True:
         before = files.state()
         click.clear()
         try:
             once()
         except click.ClickException as error:
-            tell(error.format_message())
+            notify(error.format_message())
         if not view.quiet:
-            tell(f"{time.strftime('%H:%M:%S')}: waiting for changes; Ctrl-C ends")
+            notify(f"{time.strftime('%H:%M:%S')}: waiting for changes; Ctrl-C ends")
         wait_for_change(files, before)
 
 
 def wait_for_change(files: Watched, before: State) -> None:
-    """Return as soon as the files are no longer as they were, and have come to rest."""
+    """Return as soon as the files differ from `before`, and no longer change."""
     now = before
     while now == before:
         start = time.perf_counter()
         now = files.state()
         if now == before:
-            time.sleep(max(WAIT, _LOOKS * (time.perf_counter() - start)))
+            time.sleep(max(WAIT, _FACTOR * (time.perf_counter() - start)))
     while (later := _after(files)) != now:
         now = later
 
 
 def _after(files: Watched) -> State:
-    """How files are a moment later: editors write in several steps."""
+    """The state a moment later: editors write in several steps."""
     time.sleep(WAIT / 6)
     return files.state()
 
 
 def _files(given: str) -> Iterator[str]:
-    """The files of a folder and below; for a file, the decks beside it, which it may continue."""
+    """The files in a folder and below; for a file, the decks beside it, which it may continue."""
     if _is_folder(given):
         for folder, _, names in os.walk(given):
             yield from (os.path.join(folder, name) for name in names if is_deck(Path(name)) or name in _RULES)  # noqa: PTH118 - many files

@@ -1,4 +1,4 @@
-"""The command group: a command's file is imported when the command is run."""
+"""The command group and exit codes of faults; a command's module is imported when the command is run."""
 
 from __future__ import annotations
 
@@ -13,9 +13,8 @@ import click
 from click.shell_completion import shell_complete
 
 from mudline import __version__
-from mudline.cli import streams
-from mudline.cli.exits import CLOSED_PIPE, FOUND, WRONG_USAGE
-from mudline.cli.terminal import reason, tell
+from mudline.cli import CLOSED_PIPE, FOUND, WRONG_USAGE, streams
+from mudline.cli.streams import notify, reason
 from mudline.linting.plugins import PluginError
 from mudline.spelling import nearest
 
@@ -24,24 +23,24 @@ COMPLETION = "_MUDLINE_COMPLETE"
 
 COMMANDS = {
     "lint": "Find faults in decks.",
-    "validate": "Say of each deck whether it is legal and complete.",
-    "format": "Rewrite decks in canonical layout, or say which are not in it.",
+    "validate": "Validate decks.",
+    "format": "Rewrite decks in canonical layout, or check that they are.",
     "convert": "Convert a deck between keyword text, JSON and YAML.",
     "expand": "Write the decks that *VARIATION and *COMBINATIONS describe.",
-    "diff": "Tell what differs between the meanings of two decks.",
+    "diff": "Compare two decks semantically.",
     "migrate": "Rewrite the legacy seabed keywords as the new family.",
     "show": "Summarise a deck: sections, keywords, sets, curves, diameters.",
-    "curves": "Show the force-embedment curves that a deck really gives.",
-    "evaluate": "Contact forces and stiffnesses of a deck.",
+    "curves": "Show the force-embedment curves of a deck as they are evaluated.",
+    "evaluate": "Evaluate the contact forces and stiffnesses of a deck.",
     "study": "Measure precision, stability and cost on a deck.",
     "rules": "List the rules, or explain one.",
     "schema": "Print the JSON Schema of a deck in JSON or YAML.",
-    "config": "Show what configuration holds for a deck.",
+    "config": "Show the configuration of a deck.",
 }
 
 
 class _Commands(click.Group):
-    """Knows the names and one-line helps of the commands without importing them."""
+    """Lists names and one-line helps of the commands without importing them."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 - click's signature
         return list(COMMANDS)
@@ -56,7 +55,7 @@ class _Commands(click.Group):
         if args[0] not in COMMANDS:
             near = nearest(args[0], self.list_commands(ctx))
             hint = f": did you mean {near}?" if near else ""
-            ctx.fail(f"there is no command {args[0]!r}{hint}")
+            ctx.fail(f"unknown command {args[0]!r}{hint}")
         return super().resolve_command(ctx, args)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:  # noqa: ARG002 - click's signature
@@ -78,9 +77,9 @@ def mudline() -> None:
 def run(arguments: Sequence[str]) -> int:
     """Run a command line; returns its exit code. A closed pipe ends quietly."""
     streams.prepare()
-    asked = os.environ.get(COMPLETION)
+    completing = os.environ.get(COMPLETION)
     try:
-        code = shell_complete(mudline, {}, "mudline", COMPLETION, asked) if asked else _invoke(arguments)
+        code = shell_complete(mudline, {}, "mudline", COMPLETION, completing) if completing else _invoke(arguments)
         sys.stdout.flush()
         sys.stderr.flush()
     except OSError as error:
@@ -102,21 +101,21 @@ def _invoke(arguments: Sequence[str]) -> int:
         if isinstance(error, click.UsageError) and error.ctx is not None:
             path = error.ctx.command_path
             click.echo(f"{error.ctx.get_usage()}\nTry '{path} --help' for help.\n", err=True)
-        tell(error.format_message())
+        notify(error.format_message())
         return WRONG_USAGE
     except PluginError as error:
         for fault in error.faults:
-            tell(fault)
+            notify(fault)
         return WRONG_USAGE
     except MemoryError:
-        tell("there is too little memory for this")
+        notify("out of memory")
         return FOUND
 
 
 def _unwritable(error: OSError) -> int:
-    """Standard output is gone: read no further (Windows says EINVAL for that), or full."""
+    """Standard output is closed (EINVAL on Windows), or full."""
     closed = isinstance(error, BrokenPipeError) or (os.name == "nt" and error.errno == errno.EINVAL)
     if not closed:
-        tell(f"the output cannot be written: {reason(error)}")
+        notify(f"the output cannot be written: {reason(error)}")
     streams.drop()
     return CLOSED_PIPE if closed else WRONG_USAGE

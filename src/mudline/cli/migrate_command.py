@@ -6,14 +6,11 @@ from pathlib import Path
 
 import click
 
-from mudline.cli import options
-from mudline.cli.changes import tell_changes
-from mudline.cli.exits import DONE, FOUND
+from mudline.cli import DONE, FOUND, options
+from mudline.cli.changes import print_changes
 from mudline.cli.inputs import Input, collect
 from mudline.cli.options import View
-from mudline.cli.streams import emit_deck
-from mudline.cli.terminal import tell, tell_diagnostics
-from mudline.cli.writing import write_bytes
+from mudline.cli.streams import counted, emit_deck, notify, notify_diagnostics, write_bytes
 from mudline.deck.loading import dump, form_of, load_bytes
 from mudline.diagnostics import DeckError
 from mudline.linting.output.visible import visible
@@ -21,7 +18,7 @@ from mudline.migration.migrating import Continuations, Migration, legacy_blocks,
 from mudline.migration.verification import Verdict, verify
 from mudline.syntax.source import Source
 
-_MOST_TOLD = 20
+_MOST_REPORTED = 20
 
 
 @click.command("migrate")
@@ -32,7 +29,7 @@ _MOST_TOLD = 20
     "--verify",
     "proved",
     is_flag=True,
-    help="Evaluate the old and the new deck first, and write only when all their laws agree bit by bit.",
+    help="Evaluate the old and the new deck first, and write only when all their laws agree bitwise.",
 )
 @options.every_file
 @options.stdin_name
@@ -52,84 +49,82 @@ def command(
     """Rewrite *EMBEDMENT, *ELASTIC SURFACE and *RIGID SURFACE as the new family of seabed keywords.
 
     PATHS are decks, directories, or - for standard input, whose new text is printed. Comments stay, as does every byte
-    outside the legacy blocks. A deck that the new family cannot say is left as it is, with the reason.
+    outside the legacy blocks. A deck that the new family cannot express is left unchanged, with the reason.
     """
     inputs = collect(paths, stdin_name, gitignore=not every_file)
     if output is not None and len(inputs.files) > 1:
-        raise click.UsageError("-o takes one deck; without it decks are rewritten where they stand")
+        raise click.UsageError("-o takes one deck; without it decks are rewritten in place")
     code = DONE
     continuations = Continuations(Path(file.path) for file in inputs.files if file.path is not None)
     for file, data in inputs.contents():
-        run = _Run(file, data, output, view, continuations)
         try:
-            code = max(code, run.migrate(units, diff=diff, proved=proved))
+            run = _Run(file, data, output, view)
+            code = max(code, run.migrate(units, continuations, diff=diff, proved=proved))
         except DeckError as error:
-            tell_diagnostics(error.diagnostics)
+            notify_diagnostics(error.diagnostics)
             code = FOUND
     return max(inputs.code, code)
 
 
 class _Run:
-    """One deck."""
+    """One deck and where it is written; `target` None is standard output."""
 
-    def __init__(self, file: Input, data: bytes, output: str | None, view: View, continuations: Continuations) -> None:
-        self.file = file
-        self.continuations = continuations
-        self.data = data
-        self.target = Path(output) if output is not None else Path(file.path) if file.path is not None else None
-        self.view = view
+    def __init__(self, file: Input, data: bytes, output: str | None, view: View) -> None:
+        self.file, self.data, self.view = file, data, view
+        given = file.path if output is None else output
+        self.target = None if given is None else Path(given)
 
-    def migrate(self, units: str | None, *, diff: bool, proved: bool) -> int:
-        """Migrate the deck; returns the exit code. Raises DeckError for one that is left as it is."""
+    def migrate(self, units: str | None, continuations: Continuations, *, diff: bool, proved: bool) -> int:
+        """Migrate the deck; returns the exit code. Raises DeckError for one that is left unchanged."""
         deck = load_bytes(self.data, self.file.name, units=units, folder=self.file.folder)
         if not legacy_blocks(deck):
             self._note("no legacy seabed keyword")
             if not diff and (self.target is None or self.target != Path(self.file.path or "")):
                 self._write(self.data, {})
             return DONE
-        migration = migrate(deck, self.continuations.of(Path(self.file.path)) if self.file.path else ())
+        migration = migrate(deck, continuations.of(Path(self.file.path)) if self.file.path else ())
         if proved and not self._proved(verify(migration)):
             return FOUND
         content = self._content(migration)
         if diff:
-            self._tell_changes(content, migration)
+            self._print_changes(content, migration)
             return DONE
         return self._write(content, migration.files, _replaced(migration))
 
     def _content(self, migration: Migration) -> bytes:
-        """The new deck in the form that its file's suffix tells."""
+        """The new deck in the format of its file's suffix."""
         form = form_of(self.file.name if self.target is None else self.target.name)
         if form == form_of(self.file.name):
             return migration.content
         return dump(migration.deck, form).encode()
 
     def _proved(self, verdict: Verdict) -> bool:
-        for difference in verdict.differences[:_MOST_TOLD]:
-            tell(f"{self.file.name}: {difference.what}: {difference.text}")
+        for difference in verdict.differences[:_MOST_REPORTED]:
+            notify(f"{self.file.name}: {difference.what}: {difference.text}")
         if verdict.differences:
-            count = _many(len(verdict.differences), "difference")
-            tell(f"{self.file.name}: left as it is: {count} between the old deck and the new one")
+            count = counted(len(verdict.differences), "difference")
+            notify(f"{self.file.name}: left unchanged: {count} between the old deck and the new one")
         else:
             self._note(
-                f"verified: {_many(verdict.elements, 'element')} of {_many(verdict.kinds, 'kind')}, and "
+                f"verified: {counted(verdict.elements, 'element')} of {counted(verdict.kinds, 'kind')}, and "
                 f"{verdict.representatives} representative elements for its sets, at {verdict.positions} positions: "
                 "forces, stiffnesses, friction, lateral resistance, suction and seabed are bitwise equal"
             )
         return not verdict.differences
 
-    def _tell_changes(self, content: bytes, migration: Migration) -> None:
+    def _print_changes(self, content: bytes, migration: Migration) -> None:
         name = visible(self.file.name)
         old, new = (Source.from_bytes(data, self.file.name).text for data in (self.data, content))
-        tell_changes(old, new, name, self.view.color)
+        print_changes(old, new, name, self.view)
         for beside, data in migration.files.items():
             path = Path(self.file.name).with_name(beside).as_posix()
-            tell_changes("", data.decode(), visible(path), self.view.color, created=True)
+            print_changes("", data.decode(), visible(path), self.view, created=True)
 
     def _write(self, content: bytes, files: dict[str, bytes], replaced: str = "") -> int:
         if self.target is None:
             if files:
-                why = "its profile goes to a file of its own, and standard input has no place for one"
-                tell(f"{self.file.name}: left as it is: {why}: give the deck as a file")
+                why = "its profile needs a file of its own, and standard input has no folder"
+                notify(f"{self.file.name}: left unchanged: {why}: give the deck as a file")
                 return FOUND
             emit_deck(content)
             return DONE
@@ -143,11 +138,7 @@ class _Run:
 
     def _note(self, text: str) -> None:
         if not self.view.quiet:
-            tell(f"{self.file.name}: {text}")
-
-
-def _many(count: int, thing: str) -> str:
-    return f"{count} {thing}{'s' * (count != 1)}"
+            notify(f"{self.file.name}: {text}")
 
 
 def _replaced(migration: Migration) -> str:

@@ -6,19 +6,35 @@ import inspect
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import wraps
+from typing import TYPE_CHECKING
 
 import click
+
+if TYPE_CHECKING:
+    from mudline.cli.printing import Bar, Printer
 
 Command = Callable[..., int]
 
 
 @dataclass(frozen=True, slots=True)
 class View:
-    """How to tell things: colours ("auto", "always", "never"), less, or more."""
+    """How to print: colours ("auto", "always", "never"), less, or more. The one place where rich is loaded."""
 
     color: str = "auto"
     quiet: bool = False
     verbose: bool = False
+
+    def printer(self) -> Printer:
+        """What prints for people."""
+        from mudline.cli.printing import Printer  # noqa: PLC0415 - output for programs needs no rich
+
+        return Printer(self.color)
+
+    def bar(self, total: int) -> Bar:
+        """A bar of so many steps."""
+        from mudline.cli.printing import Bar  # noqa: PLC0415 - as above
+
+        return Bar(total, self.color)
 
 
 def common(command: Command) -> Command:
@@ -31,8 +47,8 @@ def common(command: Command) -> Command:
         return command(**given, **view)
 
     for option in (
-        click.option("-v", "--verbose", is_flag=True, help="Tell more."),
-        click.option("-q", "--quiet", is_flag=True, help="Tell the result only."),
+        click.option("-v", "--verbose", is_flag=True, help="Print more."),
+        click.option("-q", "--quiet", is_flag=True, help="Print the result only."),
         click.option(
             "--color",
             type=click.Choice(["auto", "always", "never"]),
@@ -48,18 +64,18 @@ def common(command: Command) -> Command:
 units = click.option(
     "--units",
     type=click.Choice(["metric", "imperial", "user"]),
-    help="Unit system of the deck, instead of what its suffix, *UNITS or gravity tell.",
+    help="Unit system of the deck, instead of that of its suffix, *UNITS or gravity.",
 )
 
 _files = click.Path().shell_complete
-"""What a shell completes; what is given is not checked here, so that every path is told of in the same words."""
+"""What a shell completes; paths are not checked here, so that every fault of one is worded the same way."""
 
 deck = click.argument("deck", metavar="DECK", shell_complete=_files)
 
 paths = click.argument("paths", nargs=-1, required=True, metavar="PATHS...", shell_complete=_files)
 
 every_file = click.option(
-    "--no-gitignore", "every_file", is_flag=True, help="Take from directories what a .gitignore hides, too."
+    "--no-gitignore", "every_file", is_flag=True, help="Include files of directories that a .gitignore hides."
 )
 
 stdin_name = click.option(
@@ -67,7 +83,7 @@ stdin_name = click.option(
     "stdin_name",
     default="<stdin>",
     metavar="NAME",
-    help="Name, and by its suffix the form, of what is read from standard input (-).",
+    help="Name of standard input (-) in messages; its suffix gives the format and the units.",
 )
 
 
@@ -79,5 +95,5 @@ def output_format(*formats: str) -> Callable[[Command], Command]:
         type=click.Choice(formats),
         default=formats[0],
         show_default=True,
-        help="Form of what is printed.",
+        help="Format of standard output.",
     )

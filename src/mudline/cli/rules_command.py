@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
-import json
+from collections.abc import Sequence
+from textwrap import fill, indent
 from typing import Any
 
 import click
 
-from mudline.cli import options
-from mudline.cli.exits import DONE
-from mudline.cli.lazy import printing
+from mudline.cli import DONE, options
 from mudline.cli.options import View
-from mudline.cli.streams import emit
+from mudline.cli.streams import emit_json
+from mudline.linting.output.visible import visible_lines
 from mudline.linting.plugins import origin
 from mudline.linting.registry import UnknownRule, rules, select
 from mudline.linting.rule import Rule
+
+_PAGE = 100
+"""Columns of the page of a rule."""
+_COLUMNS = ("code", "severity", "name", "finds")
 
 
 @click.command("rules")
@@ -28,11 +32,11 @@ def command(*, code: str | None, output_format: str, view: View) -> int:
     except UnknownRule as error:
         raise click.UsageError(str(error)) from error
     if output_format == "json":
-        emit([json.dumps([_object(rule) for rule in chosen], indent=1, ensure_ascii=False), "\n"])
+        emit_json([_object(rule) for rule in chosen])
     elif code and len(chosen) == 1:
-        printing("rules").print_rule(chosen[0], view.color)
+        _print_rule(chosen[0], view)
     else:
-        printing("rules").print_rules(chosen, view.color)
+        _print_rules(chosen, view)
     return DONE
 
 
@@ -47,3 +51,38 @@ def _object(rule: Rule) -> dict[str, Any]:
         "good": rule.good,
         "origin": origin(rule.code.code),
     }
+
+
+def _print_rules(rules: Sequence[Rule], view: View) -> None:
+    """Print a row for each rule: code, severity, name, what it finds."""
+    printer = view.printer()
+    rows = [(rule.code.code, rule.code.severity.value, rule.code.slug, _finds(rule)) for rule in rules]
+    styles = printer.severity_styles
+    printer.table(f"{len(rows)} rules", _COLUMNS, rows, left=_COLUMNS, whole=_COLUMNS[:3], styles=styles)
+
+
+def _finds(rule: Rule) -> str:
+    """What a rule finds, and the package that it comes from if that is another than mudline."""
+    package = origin(rule.code.code)
+    return rule.title if package == "mudline" else f"{rule.title} [{package}]"
+
+
+def _print_rule(rule: Rule, view: View) -> None:
+    """Print what a rule finds and why, with a bad and a good deck."""
+    printer = view.printer()
+    severity = rule.code.severity.value
+    style = printer.severity_styles[severity]
+    width = min(printer.width, _PAGE)
+    printer.line((rule.code.code, "bold"), f" {rule.code.slug} (", (severity, style), ")", fold=False)
+    line, column = rule.place
+    package = origin(rule.code.code)
+    bad, good = (visible_lines(indent(deck, "    ").rstrip("\n")) for deck in (rule.bad, rule.good))
+    for paragraph in (
+        *(fill(text, width) for text in (rule.title, *rule.why.split("\n\n")) if text),
+        *([] if package == "mudline" else [f"A rule of {package}."]),
+        f"Bad (found at line {line}, column {column}):",
+        bad,
+        "Good:",
+        good,
+    ):
+        printer.line(f"\n{paragraph}", fold=False)

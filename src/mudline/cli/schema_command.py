@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import json
-
 import click
 
-from mudline.cli import options
-from mudline.cli.exits import DONE
-from mudline.cli.streams import emit
+from mudline.cli import DONE, options
+from mudline.cli.streams import emit_json
 from mudline.deck.schema import json_schema
 
 
@@ -16,5 +13,5 @@ from mudline.deck.schema import json_schema
 @options.common
 def command() -> int:
     """Print the JSON Schema of a deck in JSON or YAML, as `mudline convert` writes it."""
-    emit([json.dumps(json_schema(), indent=1, ensure_ascii=False), "\n"])
+    emit_json(json_schema())
     return DONE

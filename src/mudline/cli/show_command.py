@@ -2,21 +2,27 @@
 
 from __future__ import annotations
 
-import json
 from collections import Counter
+from textwrap import wrap
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from mudline.cli import options
-from mudline.cli.exits import DONE, FOUND
-from mudline.cli.guard import refuses_bad_decks
-from mudline.cli.inputs import load
-from mudline.cli.lazy import printing
+from mudline.cli import DONE, FOUND, options
+from mudline.cli.inputs import load, refuses_bad_decks
 from mudline.cli.options import View
-from mudline.cli.streams import emit
-from mudline.cli.terminal import tell
+from mudline.cli.streams import counted, emit_json, notify
+from mudline.results.numbers import shown
 from mudline.results.summary import summarise
+from mudline.results.units import UnitNames, headed, unit_names
 from mudline.scene.build import resolve
+
+if TYPE_CHECKING:
+    from mudline.cli.printing import Printer
+
+_WIDEST = 120
+_MOST_DIAMETERS = 10
+_OPEN = "+ a block that is not read may add elements to this set"
 
 
 @click.command("show")
@@ -35,11 +41,161 @@ def command(*, deck: str, output_format: str, stdin_name: str, units: str | None
     summary = summarise(scene)
     errors = scene.errors()
     if output_format == "json":
-        emit([json.dumps(summary, indent=1, ensure_ascii=False, allow_nan=False), "\n"])
+        emit_json(summary)
     else:
-        printing("show").print_summary(summary, view)
+        _print_summary(summary, view)
     if errors:
         counts = Counter(diagnostic.file for diagnostic in scene.deck.diagnose(errors))
         for file, count in counts.items():
-            tell(f"{file} has {count} error{'s' * (count != 1)}: see mudline lint")
+            notify(f"{file} has {counted(count, 'error')}: see mudline lint")
     return FOUND if errors else DONE
+
+
+def _print_summary(summary: dict[str, Any], view: View) -> None:
+    """Print sections and keywords, then a table each of sets, curves, diameters and laws."""
+    printer = view.printer()
+    most = None if view.verbose else _MOST_DIAMETERS
+    names = unit_names(summary["units"])
+    _print_head(printer, summary, names)
+    _print_sets(printer, summary["sets"], names)
+    if summary["curves"]:
+        _print_curves(printer, summary["curves"], names)
+    if summary["diameters"]:
+        rows = [(shown(entry["diameter"]) or "none", entry["elements"]) for entry in summary["diameters"]]
+        left = len(rows) - len(rows[:most])
+        note = f"{left} more diameters: -v shows all" if left else ""
+        printer.table("External diameters", (headed("diameter", names.length), "elements"), rows[:most], note=note)
+    if summary["laws"]:
+        _print_laws(printer, summary["laws"], names)
+    if summary["bed"]:
+        _print_bed(printer, summary["bed"], names)
+    if summary["extensions"]:
+        blocks = [(f"*{row['keyword']}", row["set"], row["elements"]) for row in summary["extensions"]]
+        printer.table("Extensions", ("keyword", "set", "elements"), blocks, left=("keyword", "set"))
+    if summary["static_embedment"]:
+        _print_static(printer, summary["static_embedment"], names)
+
+
+def _print_static(printer: Printer, rows: list[dict[str, Any]], names: UnitNames) -> None:
+    columns = {
+        "set": "set",
+        "law": "law",
+        "weight": headed("weight", names.line_force),
+        "ratio": "ratio",
+        "penetration": headed("penetration", names.length),
+        "stiffness": "stiffness",
+        "extrapolated": "extrapolated",
+    }
+    cells = [[row[key] for key in columns] for row in rows]
+    text = ("set", "law", "extrapolated")
+    printer.table("Static embedment", list(columns.values()), cells, left=text, optional=text[-1:])
+
+
+def _print_head(printer: Printer, summary: dict[str, Any], names: UnitNames) -> None:
+    length = f", {shown(summary['length'])} {names.length}".rstrip() + " long" if summary["length"] is not None else ""
+    seabed = " and ".join(summary["seabed"]) or "no"
+    counts = f"{summary['nodes']} nodes, {summary['elements']} elements{length}"
+    bed = _bed(summary["floor"])
+    head = f"{summary['file']}: {summary['units']} units, {counts}, {seabed} seabed{bed}"
+    printer.line((printer.visible(head), "bold"))
+    for name in summary["continues"]:
+        _print_folded(printer, f"continues {printer.visible(name)}", "  ")
+    for section in summary["sections"]:
+        keywords = section["keywords"]
+        read = _listed(printer, [entry["keyword"] for entry in keywords if entry["read"]])
+        kept = _listed(printer, [entry["keyword"] for entry in keywords if not entry["read"]])
+        name = "$" + printer.visible(section["name"])
+        _print_folded(printer, f"{name}: {read}" if read else name, "  ")
+        if kept:
+            _print_folded(printer, f"passed through unchanged: {kept}", "    ")
+    printer.line()
+
+
+def _bed(floor: dict[str, Any]) -> str:
+    """The shape of a seabed that is not flat."""
+    turned = f", turned by {shown(floor['direction'])} degrees" if floor["direction"] else ""
+    if floor["kind"] == "flat":
+        return ""
+    if floor["kind"] == "sloping":
+        return f", sloping {shown(floor['slope'])} degrees{turned}"
+    if floor["kind"] == "planes":
+        return f", {counted(floor['planes'], 'plane')}"
+    points = f"{floor['points']} points" if floor["missing"] is None else "not known"
+    source = f" of {floor['file']}" if floor["file"] else ""
+    return f", {floor['kind']}{source}: {points}{turned}"
+
+
+def _listed(printer: Printer, keywords: list[str]) -> str:
+    """Names of keywords, each once, with the number of its blocks when there are more."""
+    counts = Counter(keywords)
+    return ", ".join(
+        f"*{printer.visible(name)}" + (f" ({count} blocks)" if count > 1 else "") for name, count in counts.items()
+    )
+
+
+def _print_folded(printer: Printer, text: str, indent: str) -> None:
+    width = min(printer.width, _WIDEST)
+    for line in wrap(text, width, initial_indent=indent, subsequent_indent="      "):
+        printer.line(line)
+
+
+def _print_sets(printer: Printer, sets: list[dict[str, Any]], names: UnitNames) -> None:
+    rows = [(entry["name"], f"{entry['elements']}{'+' * entry['open']}", entry["length"]) for entry in sets]
+    note = _OPEN if any(entry["open"] for entry in sets) else ""
+    columns = ("set", "elements", headed("length", names.length))
+    printer.table("Element sets", columns, rows, left=("set",), note=note)
+
+
+def _print_curves(printer: Printer, curves: list[dict[str, Any]], names: UnitNames) -> None:
+    columns = ("curve", "keyword", "points", "ratio", headed("force", names.line_force), "elements")
+    rows = [
+        (
+            entry["name"],
+            f"*{entry['keyword']}",
+            entry["points"],
+            _range(entry["ratios"]),
+            _range(entry["forces"]),
+            f"{entry['elements']}{'+' * entry['open']}",
+        )
+        for entry in curves
+    ]
+    printer.table("Force-embedment curves", columns, rows, left=("curve", "keyword"))
+
+
+def _range(ends: list[float] | None) -> str:
+    return "" if ends is None else f"{shown(ends[0])} to {shown(ends[1])}"
+
+
+def _print_bed(printer: Printer, bed: list[dict[str, Any]], names: UnitNames) -> None:
+    columns = (
+        "friction\ncoefficients",
+        headed("mobilisation\nlengths", names.length),
+        headed("lateral\nstiffness", names.stiffness),
+        headed("suction\nstiffness", names.stiffness),
+        headed("suction\nzone", names.length),
+    )
+    rows = [
+        (
+            row["set"],
+            row["elements"],
+            _pair(row["friction"]),
+            _pair(row["mobilisation"]),
+            row["lateral"],
+            row["suction"],
+            row["extent"],
+        )
+        for row in bed
+    ]
+    title = "Friction, lateral resistance, suction"
+    printer.table(title, ("set", "elements", *columns), rows, left=("set",), optional=columns)
+
+
+def _pair(values: list[float | None]) -> str:
+    return ", ".join(shown(value) or "-" for value in values) if values != [None, None] else ""
+
+
+def _print_laws(printer: Printer, laws: list[dict[str, Any]], names: UnitNames) -> None:
+    stiffness = headed("stiffness", names.stiffness)
+    rows = [[entry[key] for key in ("law", "set", "elements", "stiffness")] for entry in laws]
+    columns = ("law", "set", "elements", stiffness)
+    printer.table("Normal laws", columns, rows, left=("law", "set"), optional=(stiffness,))

@@ -1,16 +1,24 @@
-"""Standard output and error: people's text in the terminal's encoding, machine formats in UTF-8, a closed pipe."""
+"""Standard output and error, notes and errors for people, and files that a command writes."""
 
 from __future__ import annotations
 
 import io
+import json
 import os
 import sys
-from collections.abc import Iterable
-from contextlib import suppress
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import BinaryIO
 
-from mudline.linting.output.visible import visible_lines
+import click
+
+from mudline.diagnostics import Diagnostic
+from mudline.linting.output.visible import visible, visible_lines
 from mudline.syntax.source import Source
+
+MOST_REPORTED = 20
+"""Reasons why a deck cannot be used; the rest is counted."""
 
 
 def prepare() -> None:
@@ -24,35 +32,6 @@ def prepare() -> None:
             stream.reconfigure(errors="backslashreplace")
 
 
-def emit(pieces: Iterable[str]) -> None:
-    """Write a machine format to standard output: UTF-8 with LF line ends, whatever the terminal is set to.
-
-    On a terminal, what could act on it is replaced; a pipe or a file gets the text as it is.
-    """
-    sys.stdout.flush()
-    for piece in pieces:
-        text = visible_lines(piece) if sys.stdout.isatty() else piece
-        rest = memoryview(encoded(text))
-        while rest:  # an unbuffered stream may take less than it is given
-            rest = rest[sys.stdout.buffer.write(rest) :]
-
-
-def emit_deck(data: bytes) -> None:
-    """Write a deck to standard output, byte for byte unless that is a terminal."""
-    if sys.stdout.isatty():
-        emit([Source.from_bytes(data, "").text])
-        return
-    sys.stdout.flush()
-    rest = memoryview(data)
-    while rest:  # an unbuffered stream may take less than it is given
-        rest = rest[sys.stdout.buffer.write(rest) :]
-
-
-def encoded(text: str) -> bytes:
-    """UTF-8; half a surrogate pair, as a file name may hold, is escaped."""
-    return text.encode("utf-8", "backslashreplace")
-
-
 def drop() -> None:
     """Nobody reads any more: what is still in the buffers must not raise again when the interpreter ends."""
     nowhere = os.open(os.devnull, os.O_WRONLY)
@@ -60,3 +39,100 @@ def drop() -> None:
         with suppress(io.UnsupportedOperation):  # a stream of a program that runs the command in itself
             os.dup2(nowhere, stream.fileno())
     os.close(nowhere)
+
+
+# ------------------------------------------------------------------------------------------------- standard output
+
+
+def emit(pieces: Iterable[str]) -> None:
+    """Write a machine format to standard output: UTF-8 with LF line ends, whatever the terminal is set to.
+
+    On a terminal, what could act on it is replaced; a pipe or a file gets the text as it is.
+    """
+    terminal = sys.stdout.isatty()
+    _write(encoded(visible_lines(piece) if terminal else piece) for piece in pieces)
+
+
+def emit_json(value: object) -> None:
+    """Write a value to standard output as JSON."""
+    emit([json.dumps(value, indent=1, ensure_ascii=False, allow_nan=False), "\n"])
+
+
+def emit_deck(data: bytes) -> None:
+    """Write a deck to standard output, byte for byte unless that is a terminal."""
+    if sys.stdout.isatty():
+        emit([Source.from_bytes(data, "").text])
+    else:
+        _write([data])
+
+
+def _write(pieces: Iterable[bytes]) -> None:
+    sys.stdout.flush()
+    for piece in pieces:
+        rest = memoryview(piece)
+        while rest:  # an unbuffered stream may take less than it is given
+            rest = rest[sys.stdout.buffer.write(rest) :]
+
+
+def encoded(text: str) -> bytes:
+    """UTF-8; half a surrogate pair, as a file name may hold, is escaped."""
+    return text.encode("utf-8", "backslashreplace")
+
+
+# -------------------------------------------------------------------------------------------------- standard error
+
+
+def notify(message: str) -> None:
+    """Print a note or an error on standard error."""
+    click.echo(f"mudline: {visible_lines(message)}", err=True)
+
+
+def notify_diagnostics(diagnostics: Sequence[Diagnostic]) -> None:
+    """Print why a deck cannot be used."""
+    for found in diagnostics[:MOST_REPORTED]:
+        place = visible(f"{found.file}:{found.line}:{found.column}")
+        click.echo(f"{place}: {found.severity}: {found.code} {visible(found.message)}", err=True)
+    if len(diagnostics) > MOST_REPORTED:
+        notify(f"{len(diagnostics) - MOST_REPORTED} more errors: mudline lint shows all")
+
+
+def notify_missing(what: str, library: str, extra: str) -> None:
+    """Print which extra brings a library that is not installed."""
+    notify(f"{what} needs {library}: pip install 'mudline[{extra}]'")
+
+
+def reason(error: OSError) -> str:
+    """Why a file could not be read or written, in words."""
+    return (error.strerror or str(error)).lower()
+
+
+def counted(count: int, noun: str) -> str:
+    """A number of things, as in "1 deck" and "2 decks"."""
+    return f"{count} {noun}{'s' * (count != 1)}"
+
+
+# ----------------------------------------------------------------------------------------------------------- files
+
+
+@contextmanager
+def writing(path: Path) -> Iterator[BinaryIO]:
+    """A stream whose content becomes the file in one step; ends the command when that is not possible."""
+    from mudline.files import replacement  # noqa: PLC0415 - help and faults of usage write no file
+
+    try:
+        with replacement(path) as stream:
+            yield stream
+    except OSError as error:
+        raise click.ClickException(f"{path}: cannot be written: {reason(error)}") from error
+
+
+def write_bytes(path: Path, data: bytes) -> None:
+    """Write a file's content."""
+    with writing(path) as stream:
+        stream.write(data)
+
+
+def write_text(path: Path, pieces: Iterable[str]) -> None:
+    """Write a text in pieces, as UTF-8."""
+    with writing(path) as stream:
+        stream.writelines(encoded(piece) for piece in pieces)

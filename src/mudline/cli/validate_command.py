@@ -1,26 +1,38 @@
-"""`mudline validate`."""
+"""`mudline validate`: which decks are legal and complete, in a table, JSON or CSV. No text of a deck is kept."""
 
 from __future__ import annotations
 
+import json
 import sys
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import asdict, dataclass, fields
+from textwrap import indent
+from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
-from mudline.cli import options
-from mudline.cli.deck_files import collect_any_form
-from mudline.cli.exits import DONE, FOUND
-from mudline.cli.inputs import Input
+from mudline.cli import DONE, FOUND, options
+from mudline.cli.inputs import Input, Inputs, collect_any_form
 from mudline.cli.options import View
-from mudline.cli.progress import Progress, looked_at
-from mudline.cli.terminal import reason
-from mudline.cli.verdict import Total, Verdict
-from mudline.cli.verdict_forms import report
+from mudline.cli.progress import Progress, wants_bar
+from mudline.cli.streams import counted, emit, reason
 from mudline.deck.loading import load_bytes
-from mudline.deck.model import Deck
 from mudline.diagnostics import DeckError, Diagnostic, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.engine import problems_in
+from mudline.linting.output.finding_fields import as_object
 from mudline.linting.registry import rules
+from mudline.results.csv_lines import csv_lines
+from mudline.syntax.source import Source
+
+if TYPE_CHECKING:
+    from mudline.cli.printing import Printer
+
+_COUNTS = ("errors", "sections", "keywords", "curves", "elements")
+_VERDICT = len("verdict")
+_GAP = "  "
+_SHORTEST = 20
+"""Columns that a file name gets on the narrowest terminal."""
 
 
 @click.command("validate")
@@ -39,7 +51,7 @@ def command(
     units: str | None,
     view: View,
 ) -> int:
-    """Say of each deck whether it is legal and complete: its errors, then a table with a row per deck.
+    """Validate decks: print the errors of each, then a table with a row per deck.
 
     A deck is legal when no rule of severity error finds anything, and when it has a section at all.
 
@@ -48,23 +60,91 @@ def command(
     """
     inputs = collect_any_form(paths, stdin_name, gitignore=not every_file)
     total = Total()
-    shown = looked_at(view) and (output_format == "text" or not sys.stdout.isatty())
-    with Progress(len(inputs.files), view, shown=shown) as progress:
-        told = report(output_format, view, progress)
+    shown = wants_bar(view) and (output_format == "text" or not sys.stdout.isatty())
+    judged = _judged(inputs, units, total, Progress(len(inputs.files), view, shown=shown))
+    if output_format == "json":
+        _print_json(judged, total)
+    elif output_format == "csv":
+        emit(csv_lines([[field.name for field in fields(Verdict)]]))
+        for one in judged:
+            emit(csv_lines([asdict(one.verdict).values()]))
+    else:
+        _print_text(judged, total, view)
+    return max(inputs.code, DONE if total.legal == total.decks else FOUND)
+
+
+# -------------------------------------------------------------------------------------------------------- verdicts
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """Counts of a deck, and "legal", "illegal" or, for a file without any section, "empty"."""
+
+    file: str
+    sections: int
+    keywords: int
+    curves: int
+    elements: int
+    errors: int
+    verdict: str
+
+
+@dataclass(slots=True)
+class Total:
+    """Decks by verdict, the errors in all of them, and the files that could not be read, which are not counted."""
+
+    decks: int = 0
+    legal: int = 0
+    illegal: int = 0
+    empty: int = 0
+    errors: int = 0
+    unreadable: int = 0
+
+    def add(self, verdict: Verdict) -> None:
+        """Count one more deck."""
+        self.decks += 1
+        self.legal += verdict.verdict == "legal"
+        self.illegal += verdict.verdict == "illegal"
+        self.empty += verdict.verdict == "empty"
+        self.errors += verdict.errors
+
+    def __str__(self) -> str:
+        """The total for a reader, without counts of zero."""
+        others = [
+            f"{self.illegal} illegal" if self.illegal else "",
+            f"{self.empty} empty" if self.empty else "",
+            counted(self.errors, "error") if self.errors else "",
+            f"{counted(self.unreadable, 'file')} unreadable" if self.unreadable else "",
+        ]
+        rest = ", ".join(filter(None, others))
+        return f"{self.legal} of {counted(self.decks, 'deck')} legal" + (f": {rest}" if rest else "")
+
+
+class Judged(NamedTuple):
+    """A deck with its errors and its content, which is not kept."""
+
+    verdict: Verdict
+    found: list[Diagnostic]
+    data: bytes
+
+
+def _judged(inputs: Inputs, units: str | None, total: Total, progress: Progress) -> Iterator[Judged]:
+    """Each deck that can be read; all are counted. The bar is hidden while a deck with errors is printed."""
+    with progress:
         for file in inputs.files:
             try:
                 data = file.read()
             except OSError as error:
                 total.unreadable += 1
-                with progress.hidden():
-                    inputs.fail(f"{file.name}: {reason(error)}")
+                progress.hide()
+                inputs.fail(f"{file.name}: {reason(error)}")
             else:
                 verdict, found = _judge(data, file, units)
                 total.add(verdict)
-                told.add(verdict, found, data)
+                if found:
+                    progress.hide()
+                yield Judged(verdict, found, data)
             progress.advance()
-    told.finish(total)
-    return max(inputs.code, DONE if total.legal == total.decks else FOUND)
 
 
 def _judge(data: bytes, file: Input, units: str | None) -> tuple[Verdict, list[Diagnostic]]:
@@ -73,13 +153,64 @@ def _judge(data: bytes, file: Input, units: str | None) -> tuple[Verdict, list[D
     except DeckError as error:
         return Verdict(file.name, 0, 0, 0, 0, len(error.diagnostics), "illegal"), list(error.diagnostics)
     context = LintContext(deck)
-    problems = problems_in(context, rules())
-    found = deck.diagnose([problem for problem in problems if problem.weight is Severity.ERROR])
-    return _verdict(deck, context, len(found)), found
-
-
-def _verdict(deck: Deck, context: LintContext, errors: int) -> Verdict:
+    found = deck.diagnose([one for one in problems_in(context, rules()) if one.weight is Severity.ERROR])
     keywords = sum(len(section.blocks) for section in deck.sections)
     curves, elements = len(context.scene.laws.curves), len(context.scene.element_ids)
-    verdict = "illegal" if errors else "legal" if deck.sections else "empty"
-    return Verdict(deck.file, len(deck.sections), keywords, curves, elements, errors, verdict)
+    verdict = "illegal" if found else "legal" if deck.sections else "empty"
+    return Verdict(deck.file, len(deck.sections), keywords, curves, elements, len(found), verdict), found
+
+
+# ---------------------------------------------------------------------------------------------------------- output
+
+
+def _print_json(judged: Iterable[Judged], total: Total) -> None:
+    """Print one object; its decks are written when they are judged."""
+    mark = '{\n "decks": ['
+    for one in judged:
+        row = {**asdict(one.verdict), "findings": [as_object(each) for each in one.found]}
+        emit([mark, "\n", indent(json.dumps(row, indent=1, ensure_ascii=False), "  ")])
+        mark = ","
+    end = "\n ]" if mark == "," else f"{mark}]"
+    emit([end, ',\n "total": ', indent(json.dumps(asdict(total), indent=1), " ").lstrip(), "\n}\n"])
+
+
+def _print_text(judged: Iterable[Judged], total: Total, view: View) -> None:
+    """Print the errors of each deck at once; the table, whose widths all rows decide, at the end."""
+    verdicts = []
+    for verdict, found, data in judged:
+        verdicts.append(verdict)
+        if found and not view.quiet:
+            view.printer().findings(found, Source.from_bytes(data, verdict.file))
+    if verdicts:
+        printer = view.printer()
+        printer.write(_lines(verdicts, total, printer))
+
+
+def _lines(verdicts: Sequence[Verdict], total: Total, printer: Printer) -> Iterator[str]:
+    """A row for each deck, the file last as it may be long, and the total; on a terminal long names are shortened.
+
+    Ten thousand rows are printed at once, so lines are put together by hand.
+    """
+    cells = [[str(getattr(verdict, name)) for name in _COUNTS] for verdict in verdicts]
+    widths = [max(map(len, column)) for column in zip(_COUNTS, *cells, strict=True)]
+    before = _VERDICT + sum(widths) + len(_GAP) * (len(widths) + 1)
+    files = [printer.elided(verdict.file, max(printer.width - before, _SHORTEST)) for verdict in verdicts]
+    yield click.style("Decks", bold=True) if printer.colored else "Decks"
+    yield _row("verdict", _COUNTS, widths, "file")
+    yield printer.rule * (before + max(map(printer.columns, [*files, "file"])))
+    for verdict, counts, file in zip(verdicts, cells, files, strict=True):
+        state = _colored(verdict.verdict.ljust(_VERDICT), printer, good=verdict.verdict == "legal")
+        yield _row(state, counts, widths, file)
+    yield ""
+    yield _colored(str(total), printer, good=total.legal == total.decks and not total.unreadable)
+
+
+def _row(verdict: str, counts: Sequence[str], widths: Sequence[int], file: str) -> str:
+    numbers = _GAP.join(count.rjust(width) for count, width in zip(counts, widths, strict=True))
+    return f"{verdict}{_GAP}{numbers}{_GAP}{file}"
+
+
+def _colored(text: str, printer: Printer, *, good: bool) -> str:
+    if not printer.colored:
+        return text
+    return click.style(text, fg="green") if good else click.style(text, fg="red", bold=True)

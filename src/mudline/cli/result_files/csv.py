@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import BinaryIO
 
-from mudline.cli.evaluate_outputs import Several, Sink, Written, text_into
+from mudline.cli.evaluate_outputs import Sink, as_text, text_into, together
 from mudline.cli.options import View
 from mudline.results.columns import ElementTable, NodeTable, Table
 from mudline.results.evaluation import Evaluation
@@ -28,4 +28,4 @@ def opened(
     """What takes the results."""
     both: list[Table] = [elements, NodeTable(evaluation)]
     pairs = zip(both, streams, strict=True)
-    yield Several(*(Written(CsvForm(evaluation, table), text_into(stream)) for table, stream in pairs))
+    yield together([as_text(CsvForm(evaluation, table), text_into(stream)) for table, stream in pairs])

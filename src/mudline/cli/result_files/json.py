@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import BinaryIO
 
-from mudline.cli.evaluate_outputs import Sink, Written, text_into
+from mudline.cli.evaluate_outputs import Sink, as_text, text_into
 from mudline.cli.options import View
 from mudline.results.columns import ElementTable
 from mudline.results.evaluation import Evaluation
@@ -26,4 +26,4 @@ def opened(
     view: View,  # noqa: ARG001
 ) -> Iterator[Sink]:
     """What takes the results."""
-    yield Written(JsonForm(evaluation, elements), text_into(streams[0]))
+    yield as_text(JsonForm(evaluation, elements), text_into(streams[0]))

@@ -7,11 +7,11 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import BinaryIO
 
-from mudline.cli.evaluate_outputs import More, Sink
+from mudline.cli.evaluate_outputs import More, Sink, Written
 from mudline.cli.options import View
-from mudline.cli.progress import Progress, looked_at
+from mudline.cli.progress import Progress, wants_bar
 from mudline.results.columns import ElementTable, NodeTable
-from mudline.results.evaluation import Evaluation, Part
+from mudline.results.evaluation import Evaluation
 from mudline.results.npz_file import NpzFile
 
 SUMMARY = (
@@ -21,27 +21,15 @@ SUMMARY = (
 BESIDE = False
 
 
-class Packed:
-    """An archive, packed when all results are there."""
-
-    def __init__(self, archive: NpzFile, stream: BinaryIO, view: View) -> None:
-        self._archive, self._stream, self._view = archive, stream, view
-
-    def take(self, part: Part) -> None:
-        """Keep some steps."""
-        self._archive.take(part)
-
-    def finish(self, more: More) -> None:
-        """Pack the arrays; an archive has no place for more."""
-        del more
-        with Progress(self._archive.count, self._view, shown=looked_at(self._view)) as progress:
-            self._archive.write(self._stream, progress.advance)
-
-
 @contextmanager
 def opened(
     evaluation: Evaluation, elements: ElementTable, streams: list[BinaryIO], folder: Path, view: View
 ) -> Iterator[Sink]:
     """What takes the results; what is packed at the end lies in `folder` until then."""
+
+    def pack(_: More) -> None:
+        with Progress(archive.count, view, shown=wants_bar(view)) as progress:
+            archive.write(streams[0], progress.advance)
+
     with NpzFile(evaluation, [elements, NodeTable(evaluation)], folder) as archive:
-        yield Packed(archive, streams[0], view)
+        yield Written(archive.take, pack)

@@ -7,7 +7,7 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import BinaryIO
 
-from mudline.cli.evaluate_outputs import Several, Sink
+from mudline.cli.evaluate_outputs import Sink, together
 from mudline.cli.options import View
 from mudline.results.columns import ElementTable, NodeTable, Table
 from mudline.results.evaluation import Evaluation
@@ -29,4 +29,4 @@ def opened(
     both: list[Table] = [elements, NodeTable(evaluation)]
     pairs = zip(both, streams, strict=True)
     with ExitStack() as tables:
-        yield Several(*(tables.enter_context(ParquetFile(evaluation, table, stream)) for table, stream in pairs))
+        yield together([tables.enter_context(ParquetFile(evaluation, table, stream)) for table, stream in pairs])

@@ -1,0 +1,249 @@
+"""Texts for people on standard output, in colours, and the bar of a long run: the one module here that imports rich."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import zip_longest
+from types import MappingProxyType
+from typing import ClassVar, NamedTuple
+
+from rich.cells import cell_len, set_cell_size
+from rich.console import Console
+from rich.text import Text
+
+from mudline.diagnostics import Diagnostic
+from mudline.linting.output.text import STYLES, Screen, findings, summary
+from mudline.linting.output.visible import visible
+from mudline.results.numbers import shown
+from mudline.syntax.source import Source
+
+EXCERPT_WIDTH = 120
+"""Columns of a source line that are shown where no terminal sets a limit."""
+
+_WIDE = 10_000
+_GAP = "  "
+_UNSTYLED: Mapping[str, str] = MappingProxyType({})
+_NARROWEST = 12
+"""Columns of text are not folded below this width."""
+
+Part = str | tuple[str, str]
+"""A piece of a line: a text, or a text and its style."""
+Cell = str | int | float | None
+
+
+class _Console(Console):
+    def on_broken_pipe(self) -> None:
+        """Leave to the command what it means that nobody reads any more."""
+        raise BrokenPipeError
+
+
+class Printer:
+    """Prints on standard output. Text of a deck stays plain text, and nothing is cut where no terminal is."""
+
+    severity_styles: ClassVar[Mapping[str, str]] = MappingProxyType({key.value: style for key, style in STYLES.items()})
+
+    def __init__(self, color: str) -> None:
+        """`color` is "auto", "always" or "never"."""
+        terminal = sys.stdout.isatty()
+        plain = color == "never" or (color == "auto" and (not terminal or bool(os.environ.get("NO_COLOR"))))
+        self._console = _Console(
+            file=sys.stdout,
+            force_terminal=True if color == "always" else None,
+            color_system=None if plain else "standard" if color == "always" else "auto",
+            no_color=plain,
+            width=None if terminal else _WIDE,
+            markup=False,
+            highlight=False,
+            emoji=False,
+            soft_wrap=True,
+        )
+        self.width = self._console.width
+        self.encoding = self._console.encoding
+        self.colored = self._console.color_system is not None and not self._console.legacy_windows
+        self.rule = "\u2500" if self.encoding.startswith("utf") else "-"
+        """A piece of a horizontal line."""
+
+    def visible(self, text: str) -> str:
+        """Text of a deck as this terminal can show it."""
+        return visible(text, self.encoding)
+
+    def line(self, *parts: Part, fold: bool = True) -> None:
+        """Print a line; on a terminal a long one is folded between words."""
+        self._console.print(Text.assemble(*parts), soft_wrap=not fold)
+
+    def lines(self, texts: Iterable[Part | Text]) -> None:
+        """Print lines; where there is no terminal and no colour, in the quick way."""
+        lines = (text if isinstance(text, Text) else Text.assemble(text) for text in texts)
+        if self._console.is_terminal or self._console.color_system is not None:
+            for line in lines:
+                self._console.print(line, soft_wrap=False)
+        else:
+            self._console.file.writelines(f"{line.plain}\n" for line in lines)
+
+    def write(self, lines: Iterable[str]) -> None:
+        """Print many lines that are ready for this terminal, colours included."""
+        self._console.file.writelines(f"{line}\n" for line in lines)
+
+    def elided(self, text: str, width: int) -> str:
+        """Text of a deck in so many columns at most, without its middle where it is longer."""
+        return elided(self.visible(text), width, self.encoding)
+
+    def columns(self, text: str) -> int:
+        """The number of columns that a text takes."""
+        return cell_len(text)
+
+    def findings(self, found: list[Diagnostic], source: Source) -> None:
+        """Print the findings of one file, each with its source line."""
+        self.lines(findings(found, source, Screen(min(self.width, EXCERPT_WIDTH), self.encoding)))
+
+    def summary(self, found: list[Diagnostic], files: int) -> None:
+        """Print how many findings there are in so many files."""
+        self._console.print(summary(found, files))
+
+    def table(
+        self,
+        title: str,
+        columns: Sequence[str],
+        rows: Iterable[Sequence[Cell]],
+        *,
+        left: Sequence[str] = (),
+        optional: Sequence[str] = (),
+        note: str = "",
+        styles: Mapping[str, str] = _UNSTYLED,
+        whole: Sequence[str] = (),
+    ) -> None:
+        """Print cells under their headings, with a blank line behind. None is an empty cell.
+
+        Numbers are aligned right, the columns named in `left` left; only these are folded on a narrow terminal, those
+        named in `whole` not even then: rather than cutting a number, a table is wider than the screen. Columns named in
+        `optional` are left out where they are empty. A heading may have several lines. `note` comes below the table;
+        `styles` gives cells that hold just these words a style.
+        """
+        cells = [[self.visible(_text(cell)) for cell in row] for row in rows]
+        filled = [i for i, name in enumerate(columns) if name not in optional or any(row[i] for row in cells)]
+        if len(filled) < len(columns):
+            columns, cells = [columns[i] for i in filled], [[row[i] for i in filled] for row in cells]
+        heads = [name.split("\n") for name in columns]
+        widths = [max(map(cell_len, column)) for column in zip(*_filled(heads), *cells, strict=True)]
+        folds = [name in left and name not in whole for name in columns]
+        layout = _Layout(_fitted(widths, folds, self.width), [name in left for name in columns])
+        width = sum(layout.widths) + len(_GAP) * (len(columns) - 1)
+        self.line((self.visible(title), "bold"))
+        for names in _filled(heads):
+            self.line(layout.line(names), fold=False)
+        self.line((self.rule * width, "dim"), fold=False)
+        lines = (line for row in cells for line in layout.lines(row, self._console))
+        if styles:
+            for line in lines:
+                self._console.print(layout.styled(line, styles))
+        elif cells:
+            self._console.out("\n".join(map(layout.line, lines)), highlight=False)
+        if note:
+            self.line((self.visible(note), "dim"))
+        self._console.print()
+
+
+def _text(cell: Cell) -> str:
+    return cell if isinstance(cell, str) else str(cell) if isinstance(cell, int) else shown(cell)
+
+
+class _Layout(NamedTuple):
+    """Widths of the columns, and which of them are aligned left."""
+
+    widths: list[int]
+    to_left: list[bool]
+
+    def lines(self, row: list[str], printer: Console) -> Iterable[Sequence[str]]:
+        """A row as one line of cells, or several where a text is folded."""
+        if all(cell_len(cell) <= width for cell, width in zip(row, self.widths, strict=True)):
+            return [row]
+        folded = [
+            [part.plain.rstrip() for part in Text(cell).wrap(printer, width)]
+            for cell, width in zip(row, self.widths, strict=True)
+        ]
+        return zip_longest(*folded, fillvalue="")
+
+    def line(self, cells: Sequence[str]) -> str:
+        """Cells side by side, without trailing spaces."""
+        return _GAP.join(self._padded(cells)).rstrip()
+
+    def styled(self, cells: Sequence[str], styles: Mapping[str, str]) -> Text:
+        """The same with the cells that have a style."""
+        text = Text()
+        for cell, padded in zip(cells, self._padded(cells), strict=True):
+            text.append(_GAP if text else "").append(padded, styles.get(cell))
+        text.rstrip()
+        return text
+
+    def _padded(self, cells: Sequence[str]) -> Iterator[str]:
+        for cell, width, left in zip(cells, self.widths, self.to_left, strict=True):
+            blanks = " " * (width - cell_len(cell))
+            yield cell + blanks if left else blanks + cell
+
+
+def _filled(heads: list[list[str]]) -> list[tuple[str, ...]]:
+    """The lines of the headings, aligned at the bottom."""
+    depth = max(len(head) for head in heads)
+    return list(zip(*([""] * (depth - len(head)) + head for head in heads), strict=True))
+
+
+def _fitted(widths: list[int], folds: list[bool], available: int) -> list[int]:
+    """Take from the widest column of text until the table fits or all of them are narrow."""
+    fitted = list(widths)
+    while sum(fitted) + len(_GAP) * (len(fitted) - 1) > available:
+        widest = max((width for width, text in zip(fitted, folds, strict=True) if text), default=0)
+        if widest <= _NARROWEST:
+            return fitted
+        column = next(i for i, text in enumerate(folds) if text and fitted[i] == widest)
+        fitted[column] -= 1
+    return fitted
+
+
+def elided(text: str, width: int, encoding: str = "utf-8") -> str:
+    """The text in so many columns, without its middle; more of the end is kept, where names differ."""
+    if (len(text) <= width and text.isascii()) or cell_len(text) <= width:
+        return text
+    mark = "\u2026" if encoding.startswith("utf") else "..."
+    kept = width - len(mark)
+    end = text[len(text) - kept + kept // 3 :]
+    while cell_len(end) > kept - kept // 3:
+        end = end[1:]
+    return f"{set_cell_size(text, kept // 3).rstrip()}{mark}{end}"
+
+
+class Bar:
+    """A bar on one line of standard error, drawn without a thread; it leaves nothing behind."""
+
+    def __init__(self, total: int, color: str) -> None:
+        from rich.progress import (  # noqa: PLC0415 - large, and a bar is rare
+            BarColumn,
+            MofNCompleteColumn,
+            Progress,
+            TimeRemainingColumn,
+        )
+
+        plain = color == "never" or bool(os.environ.get("NO_COLOR"))
+        self._progress = Progress(
+            BarColumn(bar_width=None),
+            MofNCompleteColumn(),
+            TimeRemainingColumn(compact=True),
+            console=Console(file=sys.stderr, force_interactive=True, no_color=plain),
+            auto_refresh=False,
+            transient=True,
+            expand=True,
+            redirect_stdout=False,
+            redirect_stderr=False,
+        )
+        self._task = self._progress.add_task("", total=total)
+
+    def draw(self, done: int) -> None:
+        """Show so many steps as done."""
+        self._progress.update(self._task, completed=done)
+        self._progress.start()
+        self._progress.refresh()
+
+    def erase(self) -> None:
+        """Leave an empty line where the bar was."""
+        self._progress.stop()
