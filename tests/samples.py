@@ -11,8 +11,7 @@ from mudline.deck.loading import load_path
 from mudline.deck.model import Deck
 from mudline.keywords.library.geometric_sets import FlexibleSection, GeometricSets, RigidSection
 from mudline.keywords.library.ocean import Ocean
-from mudline.scene.build import resolve
-from mudline.scene.model import Scene
+from mudline.scene.model import Scene, resolve
 
 SAMPLES = Path(__file__).parents[1] / "samples"
 

@@ -11,8 +11,8 @@ import pytest
 from mudline.deck.loading import load_bytes
 from mudline.deck.parameters import Parameters
 from mudline.keywords.library.geometric_sets import FlexibleSection, GeometricSets
-from mudline.scene.build import resolve
-from mudline.scene.external import read_external
+from mudline.scene.external_elements import read_external
+from mudline.scene.model import resolve
 from mudline.scene.positions import read_positions
 from tests.samples import SAMPLES, Evaluated, evaluated, penetration, sample, submerged_weight
 

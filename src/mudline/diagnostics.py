@@ -48,6 +48,10 @@ class Where(NamedTuple):
     block: int = -1
     path: tuple[str | int, ...] = ()
 
+    def inside(self, *steps: str | int) -> Where:
+        """The place that steps lead to from this one."""
+        return Where(self.section, self.block, (*self.path, *steps))
+
 
 class Blocks(StrEnum):
     """Whether a finding keeps a deck from being evaluated. What a configuration makes of its severity is no matter."""

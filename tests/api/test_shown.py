@@ -18,7 +18,7 @@ from mudline.contact.seabed import SlopingSeabed
 from mudline.deck.loading import load_bytes
 from mudline.keywords.model import Comment
 from mudline.results.evaluation import evaluate_scene
-from mudline.scene.build import resolve
+from mudline.scene.model import resolve
 from mudline.short_repr import LONGEST, brief, cut, listed, short_repr
 from tests.cli.decks import BAD_NUMBER, CLEAN, ILLEGAL
 from tests.processes import TIMEOUT

@@ -71,7 +71,7 @@ def test_keywords_that_a_deck_lacks_are_not_loaded(place: Place) -> None:
 
 def test_schema_needs_no_scene() -> None:
     names = modules("schema")
-    assert not names & {"rich", "matplotlib", "mudline.scene.build", "mudline.contact"}
+    assert not names & {"rich", "matplotlib", "mudline.scene.model", "mudline.contact"}
 
 
 @pytest.mark.parametrize("form", ["json", "csv"])
@@ -92,7 +92,7 @@ def test_law_that_no_element_has_is_not_loaded(place: Place) -> None:
 @pytest.mark.parametrize("form", ["json", "keyword"])
 def test_conversion_needs_no_scene(place: Place, form: str) -> None:
     names = modules("convert", place(), "--to", form)
-    assert not names & {"rich", "mudline.scene.build", "mudline.contact"}
+    assert not names & {"rich", "mudline.scene.model", "mudline.contact"}
 
 
 def test_curves_draw_only_when_asked_to(place: Place) -> None:

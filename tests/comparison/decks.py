@@ -8,7 +8,7 @@ from typing import TypeVar
 from mudline.comparison.comparing import compare
 from mudline.comparison.model import Difference
 from mudline.deck.loading import load_bytes
-from mudline.scene.build import resolve
+from mudline.scene.model import resolve
 
 T = TypeVar("T")
 

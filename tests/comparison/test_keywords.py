@@ -9,7 +9,7 @@ import pytest
 from mudline.comparison.comparing import compare
 from mudline.comparison.model import Difference
 from mudline.deck.loading import load_path
-from mudline.scene.build import resolve
+from mudline.scene.model import resolve
 from tests.comparison.decks import deck, differences, told
 
 FRICTION = "*SEABED FRICTION\n SET=Pipe\n COEFFICIENTS=0.3, 0.6\n STIFFNESS=2e4\n"

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from mudline.comparison.comparing import compare
 from mudline.deck.loading import dump, load_bytes, load_path
-from mudline.scene.build import resolve
+from mudline.scene.model import resolve
 from tests.comparison.decks import deck, differences
 
 SAMPLES = Path(__file__).parents[2] / "samples"

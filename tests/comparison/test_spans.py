@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from mudline.comparison.comparing import compare
 from mudline.comparison.spans import NO_SPANS, Spans, spans_of, spans_of_run, text_of, union
 from mudline.deck.loading import load_bytes
-from mudline.scene.build import resolve
+from mudline.scene.model import resolve
 
 NUMBERS = st.lists(st.integers(-30, 30))
 Run = tuple[int, int, int]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from mudline.cli.evaluate_outputs import result_file, result_forms
+from mudline.cli.result_files import result_file, result_forms
 from mudline.linting.output.formats import TEXT, TEXT_SUMMARY, form_module, form_names
 
 _ROOT = Path(__file__).parents[2]

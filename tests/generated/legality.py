@@ -23,7 +23,7 @@ from mudline.linting.context import LintContext
 from mudline.linting.engine import problems_in
 from mudline.linting.registry import rules
 from mudline.results.evaluation import evaluate_scene
-from mudline.scene.build import resolve
+from mudline.scene.model import resolve
 
 if TYPE_CHECKING:
     from _typeshed import SupportsLenAndGetItem

@@ -13,7 +13,7 @@ from mudline.linting.context import LintContext
 from mudline.linting.engine import LintSettings, lint_bytes, problems_in
 from mudline.linting.lint_file import lint_one
 from mudline.linting.registry import rules
-from mudline.scene.build import resolve
+from mudline.scene.model import resolve
 from tests.generated.decks import document
 from tests.generated.legality import deck, outcome
 from tests.generated.lines import Values

@@ -17,7 +17,7 @@ from mudline.keywords import catalogue, grammar, library
 from mudline.keywords.likeness import meant_keyword
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import rules
-from mudline.scene.build import resolve
+from mudline.scene.model import resolve
 from tests.docs.keyword_index import keyword_index
 from tests.docs.keyword_page import keyword_page
 from tests.scene.decks import CLAY, PIPE, STEEL

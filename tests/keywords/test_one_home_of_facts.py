@@ -17,7 +17,10 @@ from mudline.keywords.model import set_slots
 ROOT = Path(mudline.__file__).parent
 
 ASKING = frozenset(
-    {"blocks", "supplier", "astray", "missing", "tell_missing", "lost_behind", "get", "add", "setdefault"}
+    {
+        *("blocks", "possible_definition", "misplaced", "missing", "report_missing", "has_unread_line_after"),
+        *("get", "add", "setdefault"),
+    }
 )
 CONSTANTS = frozenset({"KEYWORD", "_KEYWORD"})
 
@@ -27,9 +30,8 @@ EXCEPTIONS = {
     "migration/refusals.py": "the blocks that a bed, or a deck that continues another, has instead",
     "migration/rewriting.py": "writes these blocks",
     "results/summary.py": "says which of two blocks a curve came from",
-    "scene/checks/ranges.py": "leaves the geometry of a trench to EXT003, which has words of its own for it",
+    "scene/checks/fields.py": "leaves the geometry of a trench to EXT003, which has words of its own for it",
     "scene/context.py": "a lost line of lines defines a set, as it names one",
-    "scene/line_checks.py": "asks for the block of the groups that another one names",
     "variations/names.py": "asks whether the blocks that it reads may stand elsewhere",
 }
 """Modules that name keywords in another way, and why."""

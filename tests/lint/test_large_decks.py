@@ -13,7 +13,7 @@ from mudline.linting.context import LintContext
 from mudline.linting.engine import problems_in
 from mudline.linting.registry import rules
 from mudline.scene import numbering
-from mudline.scene.build import resolve
+from mudline.scene.model import resolve
 from mudline.scene.numbering import blocks_of, constant, identity, looked_up, one_index
 
 COUNT = 400_000
@@ -83,10 +83,10 @@ def test_numbers_in_many_orders(monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setattr(numbering, "_FEW_RUNS", runs)
         for _ in range(20):
             ids = chosen.permutation(40)[:20]
-            gathered = numbering.Gathered()
+            gathered = numbering.Definitions()
             for part in np.array_split(ids, 3):
                 gathered.add(numbering.Batch(part, part[:, np.newaxis].astype(np.float64), Where()))
-            numbered = gathered.settle(1)
+            numbered = gathered.resolve(1)
             asked = np.arange(-1, 41)
             expected = [ids.tolist().index(number) if number in ids else -1 for number in asked.tolist()]
             assert numbered.indices(asked).tolist() == expected

@@ -16,7 +16,7 @@ from mudline.linting.engine import Fixing, LintSettings, lint_bytes
 from mudline.linting.fixing import Fixed, fix_bytes
 from mudline.linting.registry import select
 from mudline.linting.rule import first_reported
-from mudline.scene.context import MOST_TOLD
+from mudline.scene.context import MOST_REPORTED
 from tests.growth import FOURFOLD, TWOFOLD, call_growth, growth
 from tests.lint.findings import CLAY, CURVES, found, messages
 
@@ -305,6 +305,6 @@ def test_of_many_findings_the_first_are_told_and_a_long_table_is_quick() -> None
     assert call_growth(exponents, short, long) == 1.0
     assert growth(exponents, short, long) < 2.5  # 4 where each finding looks at the whole table
     told = exponents(long)
-    assert len(told) == MOST_TOLD + 1
+    assert len(told) == MOST_REPORTED + 1
     assert "and more" in told[-1]
     assert list(first_reported([])) == []

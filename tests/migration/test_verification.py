@@ -9,7 +9,7 @@ import pytest
 from mudline.deck.loading import load_bytes
 from mudline.migration.migrating import Migration, migrate
 from mudline.migration.verification import verify
-from mudline.scene.build import resolve
+from mudline.scene.model import resolve
 from tests.migration.decks import PIPE, deck_of
 from tests.migration.test_migrating import MIGRATED, SAMPLE
 

@@ -13,8 +13,7 @@ from mudline.diagnostics import DeckError
 from mudline.results.evaluation import Evaluation, Tension, evaluate_scene, prepare
 from mudline.results.formats import plan_rows
 from mudline.results.totals import StepTotal, Total
-from mudline.scene.build import resolve
-from mudline.scene.model import Scene
+from mudline.scene.model import Scene, resolve
 from mudline.scene.positions import Positions
 from tests.cli.decks import CLEAN, ILLEGAL, PULLING
 from tests.results.written import arrays_of, csv_of, csv_pieces, json_of, json_pieces, steps_of, totals_of

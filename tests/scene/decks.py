@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import Diagnostic
-from mudline.scene.build import resolve
-from mudline.scene.model import Scene
+from mudline.scene.model import Scene, resolve
 
 Finding = tuple[str, str, int, int]
 """Severity letter, code, line and column."""
@@ -45,12 +44,12 @@ def diagnostics(scene: Scene) -> list[Diagnostic]:
     return scene.deck.diagnose(scene.problems)
 
 
-def told(text: str) -> list[Finding]:
+def reported(text: str) -> list[Finding]:
     """What resolving a deck tells, without what reading it tells."""
     return [(d.severity.value[0].upper(), d.code, d.line, d.column) for d in diagnostics(scene_of(text))]
 
 
-def all_told(text: str) -> list[Finding]:
+def all_reported(text: str) -> list[Finding]:
     """What reading and resolving a deck tell."""
     scene = scene_of(text)
     found = scene.deck.diagnose([*scene.deck.problems, *scene.problems])

@@ -7,7 +7,7 @@ from typing import Any, cast
 
 import pytest
 
-from mudline.scene.by_name import ByName
+from mudline.scene.resolved import ByName
 from mudline.short_repr import UnknownNameError
 from tests.scene.decks import scene_of
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mudline.scene.numbering import MOST_GENERATED
-from tests.scene.decks import all_told, ends_of, messages, scene_of, told
+from tests.scene.decks import all_reported, ends_of, messages, reported, scene_of
 
 NODES = "$MODEL\n*NODE\n 1, 0, 0\n 21, 0, 200\n GEN=1, 21\n"
 NODES_END = NODES.count("\n")
@@ -44,77 +44,77 @@ def test_nodes_may_stand_behind_the_elements() -> None:
 def test_an_undefined_node_is_told_at_its_field() -> None:
     text = ELEMENT + " 1, 1, 2\n 2, 2, 30\n 3, 31, 32\n"
     line = NODES_END + 3
-    assert told(text) == [("E", "REF006", line, 8), ("E", "REF006", line + 1, 5), ("E", "REF006", line + 1, 9)]
+    assert reported(text) == [("E", "REF006", line, 8), ("E", "REF006", line + 1, 5), ("E", "REF006", line + 1, 9)]
     assert ends_of(scene_of(text)) == {1: [1, 2], 2: [2, 0], 3: [0, 0]}
     assert messages(text)[0] == "element 2 ends at node 30, which is not defined: define it"
 
 
 def test_a_generator_that_runs_beyond_the_nodes_is_told_once() -> None:
     text = ELEMENT + " 1, 1, 2\n GEN=1, 25\n"
-    assert told(text) == [("E", "REF006", NODES_END + 3, 2)]
+    assert reported(text) == [("E", "REF006", NODES_END + 3, 2)]
     assert len(ends_of(scene_of(text))) == 25
 
 
 def test_two_generators_are_told_each() -> None:
     text = ELEMENT + " 1, 1, 2\n GEN=1, 25\n 101, 1, 2\n GEN=101, 25\n"
-    assert told(text) == [("E", "REF006", NODES_END + 3, 2), ("E", "REF006", NODES_END + 5, 2)]
+    assert reported(text) == [("E", "REF006", NODES_END + 3, 2), ("E", "REF006", NODES_END + 5, 2)]
 
 
 def test_the_later_definition_holds() -> None:
     text = ELEMENT + " 1, 1, 2\n 1, 3, 4\n"
     assert ends_of(scene_of(text)) == {1: [3, 4]}
-    assert told(text) == [("E", "REF007", NODES_END + 3, 2)]
+    assert reported(text) == [("E", "REF007", NODES_END + 3, 2)]
 
 
 def test_an_overridden_row_is_not_looked_at() -> None:
     text = ELEMENT + " 1, 1, 99\n 1, 3, 4\n"
-    assert told(text) == [("E", "REF007", NODES_END + 3, 2)]
+    assert reported(text) == [("E", "REF007", NODES_END + 3, 2)]
 
 
 def test_a_master_must_be_defined_before() -> None:
     text = ELEMENT + " GEN=1, 3\n 1, 1, 2\n"
-    assert told(text) == [("E", "REF005", NODES_END + 2, 6)]
+    assert reported(text) == [("E", "REF005", NODES_END + 2, 6)]
     assert ends_of(scene_of(text)) == {2: [0, 0], 3: [0, 0], 1: [1, 2]}
 
 
 @pytest.mark.parametrize("line", ["GEN=1, 0", "GEN=1, -3", "GEN=1, 3, 0", "GEN=1, 3, -1"])
 def test_generators_of_nothing(line: str) -> None:
     text = ELEMENT + f" 1, 1, 2\n {line}\n"
-    assert told(text) == [("E", "REF010", NODES_END + 3, 2)]
+    assert reported(text) == [("E", "REF010", NODES_END + 3, 2)]
     assert ends_of(scene_of(text)) == {1: [1, 2]}
 
 
 @pytest.mark.parametrize("line", [f"GEN=1, {MOST_GENERATED + 2}", "GEN=1, 3, 9007199254740991"])
 def test_a_slip_of_a_digit_does_not_fill_the_memory(line: str) -> None:
-    assert told(ELEMENT + f" 1, 1, 2\n {line}\n") == [("E", "REF010", NODES_END + 3, 2)]
+    assert reported(ELEMENT + f" 1, 1, 2\n {line}\n") == [("E", "REF010", NODES_END + 3, 2)]
 
 
 def test_a_generator_that_is_refused_makes_what_it_may_have_defined_a_warning() -> None:
     text = ELEMENT + " 5, 1, 2\n GEN=5, 0\n*ELEMENT SETS\n SET=a\n 4, 6\n"
-    found = told(text)
+    found = reported(text)
     assert found[1:] == [("E", "REF005", NODES_END + 6, 2), ("W", "REF005", NODES_END + 6, 5)]
     assert "a GEN= of *ELEMENT that could not be used may define it" in messages(text)[2]
 
 
 def test_labels_name_nothing_without_lines() -> None:
     text = ELEMENT + " 1, {Seabed End}, 2\n"
-    assert told(text) == [("E", "REF006", NODES_END + 2, 5)]
+    assert reported(text) == [("E", "REF006", NODES_END + 2, 5)]
     assert ends_of(scene_of(text)) == {1: [0, 2]}
 
 
 def test_labels_may_name_nodes_of_lines() -> None:
     text = NODES + "*LINES\n LINE=Riser\n*ELEMENT\n 1, {Seabed End}, 2\n 2, 2, 77\n"
-    assert told(text) == [("W", "REF006", NODES_END + 5, 8)]
+    assert reported(text) == [("W", "REF006", NODES_END + 5, 8)]
 
 
 def test_a_label_whose_braces_were_forgotten_is_told_once() -> None:
-    assert all_told(ELEMENT + " 1, Seabed, 2\n") == [("W", "SYN016", NODES_END + 2, 5)]
+    assert all_reported(ELEMENT + " 1, Seabed, 2\n") == [("W", "SYN016", NODES_END + 2, 5)]
 
 
 def test_rows_that_could_not_be_read_lead_to_nothing_more() -> None:
     text = ELEMENT + " 1, 1, 2\n x, 2, 3\n 3, 3, 4-\n"
     scene = scene_of(text)
-    assert all_told(text) == [("E", "SYN002", NODES_END + 3, 2), ("E", "SYN002", NODES_END + 4, 8)]
+    assert all_reported(text) == [("E", "SYN002", NODES_END + 3, 2), ("E", "SYN002", NODES_END + 4, 8)]
     assert ends_of(scene) == {1: [1, 2], 3: [3, 0]}
     assert np.isnan(scene.length[1])
     assert [scene.table.numbered.where(index).path[-1] for index in (0, 1)] == [0, 2]
@@ -122,7 +122,7 @@ def test_rows_that_could_not_be_read_lead_to_nothing_more() -> None:
 
 def test_an_element_that_was_not_read_may_be_the_one_that_a_set_lists() -> None:
     text = ELEMENT + " 1, 1, 2\n 2x, 2, 3\n*ELEMENT SETS\n SET=a\n 1, 2\n GEN=1, 3\n"
-    assert told(text) == [("W", "REF005", NODES_END + 6, 5)]
+    assert reported(text) == [("W", "REF005", NODES_END + 6, 5)]
 
 
 def test_a_pattern_of_which_a_value_is_not_known_makes_nothing() -> None:

@@ -21,8 +21,7 @@ from mudline.keywords.values import Equation
 from mudline.linting.context import LintContext
 from mudline.linting.engine import problems_in
 from mudline.linting.registry import rules
-from mudline.scene.build import resolve
-from mudline.scene.model import Scene
+from mudline.scene.model import Scene, resolve
 from tests.generated.legality import NAME
 from tests.generated.legality import deck as random_deck
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.scene.decks import CLAY, PIPE, STEEL, all_told, messages, scene_of, told
+from tests.scene.decks import CLAY, PIPE, STEEL, all_reported, messages, reported, scene_of
 
 RESTART = "$LOAD CASE\n*RESTART\n LAST=static\n"
 
@@ -24,7 +24,7 @@ RESTART = "$LOAD CASE\n*RESTART\n LAST=static\n"
 @pytest.mark.parametrize("name", ["SCR", "Top", "upper", "COATED PIPE"])
 def test_names_of_lines_are_sets(lines: str, name: str) -> None:
     text = f"$MODEL\n{lines}*SEABED PROPERTIES\n TYPE=ELASTIC\n SET={name}\n STIFFNESS=1\n"
-    assert told(text) == []
+    assert reported(text) == []
     assert scene_of(text).laws.uncertain
 
 
@@ -45,7 +45,7 @@ def test_a_set_of_the_deck_goes_before_one_of_a_line() -> None:
 )
 def test_a_missing_set_is_a_warning_where_something_unread_may_define_it(before: str, supplier: str) -> None:
     text = PIPE + before + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=b\n STIFFNESS=1\n"
-    assert [(severity, code) for severity, code, _, _ in told(text)] == [("W", "REF001")]
+    assert [(severity, code) for severity, code, _, _ in reported(text)] == [("W", "REF001")]
     assert messages(text)[0].endswith(supplier)
 
 
@@ -56,18 +56,18 @@ def test_keywords_astray_may_define_it() -> None:
     wrong = "$LOAD CASE\n*ELEMENT SETS\n SET=b\n 1\n" + PIPE + seabed
     assert messages(wrong)[0].endswith("the *ELEMENT SETS in $LOAD CASE, where it does not belong, may define it")
     right = "$CLEAR\n*ELEMENT SETS\n 1, 2\n" + PIPE + seabed
-    assert told(right)[0][:2] == ("E", "REF001")
+    assert reported(right)[0][:2] == ("E", "REF001")
 
 
 def test_lines_define_no_curves() -> None:
     text = PIPE + "*LINES\n LINE=SCR\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=SCR\n STIFFNESS=Clay\n"
-    assert [(severity, code) for severity, code, _, _ in told(text)] == [("E", "REF002")]
+    assert [(severity, code) for severity, code, _, _ in reported(text)] == [("E", "REF002")]
 
 
 def test_a_deck_that_continues_another_needs_no_model() -> None:
-    assert told(RESTART) == []
+    assert reported(RESTART) == []
     model = "$MODEL\n*ELEMENT SETS\n SET=a\n 1, 2\n SUBSET=b\n*EMBEDMENT\n SET=c\n 0, 0\n 1, 1\n"
-    found = told(RESTART + model)
+    found = reported(RESTART + model)
     assert {severity for severity, _, _, _ in found} == {"W"}
     assert [code for _, code, _, _ in found] == ["REF005", "REF008", "SBD005", "REF001"]
 
@@ -93,21 +93,21 @@ def test_all_is_open_where_elements_are_not_shown() -> None:
 )
 def test_a_law_that_could_not_be_read_is_unknown(line: str, expected: list[str]) -> None:
     text = PIPE + f"*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n {line}\n"
-    assert [code for _, code, _, _ in all_told(text)] == expected
-    grant = scene_of(text).laws.grants[0]
+    assert [code for _, code, _, _ in all_reported(text)] == expected
+    grant = scene_of(text).laws.set_laws[0]
     assert grant.unknown
 
 
 def test_a_law_beside_a_bad_friction_is_known() -> None:
     text = PIPE + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=5\n FRICTION=O.3\n"
-    assert not scene_of(text).laws.grants[0].unknown
+    assert not scene_of(text).laws.set_laws[0].unknown
 
 
 def test_a_lost_line_of_one_set_leaves_the_others_known() -> None:
     text = PIPE + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFNESS=5\n SET=ALL\n LATERAL=0\n"
-    assert [grant.unknown for grant in scene_of(text).laws.grants] == [True, False]
+    assert [grant.unknown for grant in scene_of(text).laws.set_laws] == [True, False]
     last = PIPE + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n LATERAL=0\n SET=ALL\n STIFNESS=5\n$MODES\n"
-    assert [grant.unknown for grant in scene_of(last).laws.grants] == [False, True]
+    assert [grant.unknown for grant in scene_of(last).laws.set_laws] == [False, True]
 
 
 @pytest.mark.parametrize("type_", ["ELASTC", "", "RIGID, ELASTIC"])
@@ -120,14 +120,14 @@ def test_a_type_that_could_not_be_read_is_told_once(type_: str) -> None:
 
 def test_a_bad_type_does_not_take_over_the_one_before() -> None:
     text = PIPE + "*SEABED PROPERTIES\n TYPE=RIGID\n*SEABED PROPERTIES\n TYPE=ELASTC\n SET=ALL\n LATERAL=5\n"
-    assert [code for _, code, _, _ in all_told(text)] == ["SYN005"]
+    assert [code for _, code, _, _ in all_reported(text)] == ["SYN005"]
 
 
 def test_a_curve_that_could_not_be_made_makes_its_law_unknown() -> None:
     text = PIPE + STEEL + CLAY.replace(" 0.5, 4000.0\n", "") + "*SEABED PROPERTIES\n TYPE=ELASTIC\n"
     scene = scene_of(text + " SET=ALL\n STIFFNESS=clay\n")
     assert [problem.code.code for problem in scene.problems] == ["CRV001"]
-    assert scene.laws.grants[0].unknown
+    assert scene.laws.set_laws[0].unknown
 
 
 def test_a_set_that_could_not_be_read_gives_its_law_to_nothing() -> None:
@@ -161,5 +161,5 @@ def test_a_very_long_name_gets_no_suggestion() -> None:
 
 def test_elements_out_of_sight_are_told_once_for_a_list() -> None:
     text = "$MODEL\n*LINES\n LINE=SCR\n*ELEMENT SETS\n SET=a\n 1, 2, 3\n 4\n GEN=5, 9\n"
-    assert told(text) == [("W", "REF005", 6, 2), ("W", "REF005", 7, 2)]
+    assert reported(text) == [("W", "REF005", 6, 2), ("W", "REF005", 7, 2)]
     assert messages(text)[0].startswith("3 elements of this list (first: 1) are not defined; *LINES")

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mudline.scene.force_curves import clashes_and_repeats
-from tests.scene.decks import all_told, messages, scene_of, told
+from tests.scene.decks import all_reported, messages, reported, scene_of
 
 STIFFNESS = "$MODEL\n*SEABED STIFFNESS\n"
 
@@ -41,14 +41,14 @@ def test_points_are_evaluated() -> None:
 
 
 def test_a_curve_of_too_few_points_is_told_at_its_line() -> None:
-    assert told(STIFFNESS + " CURVE=a\n CURVE=b\n 1, 1\n") == [("E", "CRV001", 3, 2), ("E", "CRV001", 4, 2)]
-    assert told(STIFFNESS + " CURVE=b\n 1, 1\n 1, 1\n") == [("E", "CRV001", 3, 2)]
+    assert reported(STIFFNESS + " CURVE=a\n CURVE=b\n 1, 1\n") == [("E", "CRV001", 3, 2), ("E", "CRV001", 4, 2)]
+    assert reported(STIFFNESS + " CURVE=b\n 1, 1\n 1, 1\n") == [("E", "CRV001", 3, 2)]
     assert "curve 'a' has no point" in messages(STIFFNESS + " CURVE=a\n")[0]
 
 
 def test_two_forces_at_one_ratio_are_told_at_the_later_point() -> None:
     text = STIFFNESS + " CURVE=a\n 0, 0\n 1, 5\n 0, 1\n 1, 5\n 1, 6\n 1, 7\n"
-    assert told(text) == [("E", "CRV003", line, 2) for line in (6, 8, 9)]
+    assert reported(text) == [("E", "CRV003", line, 2) for line in (6, 8, 9)]
     entry = scene_of(text).laws.curves[0]
     assert entry.curve is not None
     assert entry.curve.forces.tolist() == [0, 5]
@@ -57,13 +57,13 @@ def test_two_forces_at_one_ratio_are_told_at_the_later_point() -> None:
 
 def test_slopes_beyond_a_double_are_told_at_the_later_point() -> None:
     text = STIFFNESS + " CURVE=a\n 0, 0\n 1.0E-4, 1.0E305\n 1, 1\n"
-    assert told(text) == [("E", "CRV011", 5, 2)]
+    assert reported(text) == [("E", "CRV011", 5, 2)]
     assert "points 1 and 2" in messages(text)[0]
 
 
 def test_a_fault_behind_points_left_out_counts_no_points() -> None:
     text = STIFFNESS + " CURVE=a\n 0, 0\n 0, 1\n 1.0E-4, 1.0E305\n"
-    assert told(text) == [("E", "CRV003", 5, 2), ("E", "CRV011", 6, 2)]
+    assert reported(text) == [("E", "CRV003", 5, 2), ("E", "CRV011", 6, 2)]
     assert "points" not in messages(text)[1]
 
 
@@ -78,13 +78,13 @@ def test_a_curve_with_a_row_that_could_not_be_read_is_not_used_and_not_told_agai
 
 def test_places_skip_rows_that_could_not_be_read() -> None:
     text = STIFFNESS + " CURVE=a\n x, 0\n 0, 0\n 1, 5\n 1, 6\n"
-    assert all_told(text) == [("E", "SYN002", 4, 2), ("E", "CRV003", 7, 2)]
+    assert all_reported(text) == [("E", "SYN002", 4, 2), ("E", "CRV003", 7, 2)]
 
 
 def test_a_curve_without_a_readable_name_is_no_curve_but_may_be_the_one_that_is_missing() -> None:
     text = STIFFNESS + " CURVE=\n 0, 0\n 1, 1\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=a\n"
     assert scene_of(text).curves == {}
-    assert told(text) == [("W", "REF002", 9, 12)]
+    assert reported(text) == [("W", "REF002", 9, 12)]
 
 
 def test_points_of_embedment_under_a_set_that_could_not_be_read_hold_for_nothing() -> None:

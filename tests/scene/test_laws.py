@@ -8,7 +8,7 @@ import pytest
 
 from mudline.contact.input import LawKind
 from mudline.scene.model import Scene
-from tests.scene.decks import CLAY, PIPE, STEEL, messages, scene_of, told
+from tests.scene.decks import CLAY, PIPE, STEEL, messages, reported, scene_of
 
 BASE = PIPE + STEEL + "*ELEMENT SETS\n SET=a\n GEN=1, 5\n SET=b\n GEN=4, 8\n"
 NEW = BASE + CLAY + "*SEABED PROPERTIES\n TYPE=ELASTIC\n"
@@ -22,7 +22,7 @@ def laws(text: str) -> str:
 
 
 def stiffnesses(scene: Scene) -> list[float | None]:
-    grants = [scene.grant(index) for index in range(len(scene.element_ids))]
+    grants = [scene.set_law(index) for index in range(len(scene.element_ids))]
     return [None if grant is None or math.isnan(grant.stiffness) else grant.stiffness for grant in grants]
 
 
@@ -52,7 +52,7 @@ def test_a_block_whose_law_cannot_be_known_takes_that_of_the_surface_away() -> N
 def test_blocks_of_several_keywords_follow_each_other() -> None:
     text = NEW + " SET=ALL\n STIFFNESS=1\n*OCEAN\n 9\n*SEABED PROPERTIES\n SET=b\n STIFFNESS=Clay\n"
     assert laws(text) == "lllcccccll"
-    assert told(text) == []
+    assert reported(text) == []
 
 
 def test_names_of_curves_have_no_case() -> None:
@@ -62,7 +62,7 @@ def test_names_of_curves_have_no_case() -> None:
 
 def test_of_two_curves_of_a_name_the_later_is_taken() -> None:
     scene = scene_of(NEW + " SET=a\n STIFFNESS=clay\n*SEABED STIFFNESS\n CURVE=clay\n 0, 0\n 1, 7\n")
-    grant = scene.grant(0)
+    grant = scene.set_law(0)
     assert grant is not None
     assert scene.laws.curves[grant.curve].points.tolist() == [[0, 0], [1, 7]]
 
@@ -88,25 +88,25 @@ def test_lines_before_any_set_hold_for_all() -> None:
 def test_a_rigid_bed(extra: str) -> None:
     text = BASE + "*SEABED PROPERTIES\n TYPE=RIGID\n SET=a\n FRICTION=0.3\n" + extra
     assert laws(text) == "rrrrr-----"
-    assert told(text) == []
+    assert reported(text) == []
 
 
 @pytest.mark.parametrize(("line", "severity"), [("Clay", "E"), ("100", "W")])
 def test_a_stiffness_on_a_rigid_bed(line: str, severity: str) -> None:
     text = BASE + CLAY + f"*SEABED PROPERTIES\n TYPE=RIGID\n SET=a\n STIFFNESS={line}\n"
-    assert told(text) == [(severity, "SBD001", LINE + 1, 12)]
+    assert reported(text) == [(severity, "SBD001", LINE + 1, 12)]
 
 
 @pytest.mark.parametrize("line", ["LATERAL=100", "SUCTION=100, 0.2"])
 def test_what_only_an_elastic_bed_has(line: str) -> None:
     text = BASE + CLAY + f"*SEABED PROPERTIES\n TYPE=RIGID\n*SEABED PROPERTIES\n SET=a\n {line}\n"
-    assert [(severity, code) for severity, code, _, _ in told(text)] == [("W", "SBD001")]
-    assert told(text)[0][2] == LINE + 2
+    assert [(severity, code) for severity, code, _, _ in reported(text)] == [("W", "SBD001")]
+    assert reported(text)[0][2] == LINE + 2
 
 
 def test_an_undefined_curve_is_told_at_its_field_and_is_no_linear_law() -> None:
     text = NEW + " SET=a\n STIFFNESS=Caly\n"
-    assert told(text) == [("E", "REF002", LINE + 1, 12)]
+    assert reported(text) == [("E", "REF002", LINE + 1, 12)]
     assert messages(text)[0].startswith("curve 'Caly' is not defined (did you mean Clay?)")
     scene = scene_of(text)
     assert scene.law_names[:6] == ["curve"] * 5 + ["none"]
@@ -115,7 +115,7 @@ def test_an_undefined_curve_is_told_at_its_field_and_is_no_linear_law() -> None:
 def test_an_undefined_set_gives_nothing_to_anything() -> None:
     text = NEW + " SET=ALL\n STIFFNESS=1\n SET=c\n STIFFNESS=Clay\n"
     assert laws(text) == "l" * 10
-    assert told(text) == [("E", "REF001", LINE + 2, 6)]
+    assert reported(text) == [("E", "REF001", LINE + 2, 6)]
     assert scene_of(text).laws.uncertain
 
 
@@ -165,7 +165,7 @@ def test_without_a_seabed_there_is_no_law() -> None:
     scene = scene_of(BASE)
     assert scene.law_names == ["none"] * 10
     assert scene.law_sets == [None] * 10
-    assert scene.grant(3) is None
+    assert scene.set_law(3) is None
 
 
 # ----------------------------------------------------------------------------------------------------------- checks
@@ -182,49 +182,49 @@ def test_without_a_seabed_there_is_no_law() -> None:
     ],
 )
 def test_two_types_are_told_at_the_first_line_that_contradicts(lines: str, line: int, column: int) -> None:
-    assert told(BASE + lines) == [("E", "SBD002", BASE.count("\n") + line, column)]
+    assert reported(BASE + lines) == [("E", "SBD002", BASE.count("\n") + line, column)]
 
 
 def test_two_types_in_two_model_sections_are_a_warning_because_that_is_inferred() -> None:
     text = "$MODEL\n*RIGID SURFACE\n 0.3\n$LOAD CASE\n*TIME\n$MODEL\n*ELASTIC SURFACE\n 1\n"
-    assert told(text) == [("W", "SBD002", 7, 1)]
+    assert reported(text) == [("W", "SBD002", 7, 1)]
 
 
 def test_one_type_twice_is_fine() -> None:
-    assert told(BASE + "*SEABED PROPERTIES\n TYPE=ELASTIC\n*SEABED PROPERTIES\n TYPE=ELASTIC\n") == []
+    assert reported(BASE + "*SEABED PROPERTIES\n TYPE=ELASTIC\n*SEABED PROPERTIES\n TYPE=ELASTIC\n") == []
 
 
 def test_an_elastic_surface_without_stiffness_needs_embedment() -> None:
     text = BASE + "*ELASTIC SURFACE\n , 0.3, 0.4\n"
-    assert told(text) == [("E", "SBD004", BASE.count("\n") + 1, 1)]
-    assert told(text + embedment("a")) == []
-    assert told("$LOAD CASE\n*RESTART\n LAST=x\n" + text) == [("W", "SBD004", BASE.count("\n") + 4, 1)]
+    assert reported(text) == [("E", "SBD004", BASE.count("\n") + 1, 1)]
+    assert reported(text + embedment("a")) == []
+    assert reported("$LOAD CASE\n*RESTART\n LAST=x\n" + text) == [("W", "SBD004", BASE.count("\n") + 4, 1)]
 
 
 @pytest.mark.parametrize("row", ["5O000, 0.3", "=[nothing], 0.3", "-1, 0.3"])
 def test_a_stiffness_that_could_not_be_read_is_not_missing(row: str) -> None:
     scene = scene_of(BASE + f"*ELASTIC SURFACE\n {row}\n")
     assert "SBD004" not in [problem.code.code for problem in scene.problems]
-    grant = scene.grant(0)
+    grant = scene.set_law(0)
     assert grant is not None
     assert grant.unknown
 
 
 def test_embedment_whose_lines_could_not_be_read_is_there() -> None:
-    assert told(BASE + "*ELASTIC SURFACE\n , 0.3\n*EMBEDMENT\n SEET=a\n") == []
+    assert reported(BASE + "*ELASTIC SURFACE\n , 0.3\n*EMBEDMENT\n SEET=a\n") == []
 
 
 def test_embedment_on_a_rigid_bed_is_told_once_for_a_block() -> None:
     text = BASE + "*RIGID SURFACE\n 0.3\n" + embedment("a", "b") + embedment("ALL")
     line = BASE.count("\n") + 4
-    assert told(text) == [("E", "SBD005", line, 2), ("E", "SBD005", line + 7, 2)]
+    assert reported(text) == [("E", "SBD005", line, 2), ("E", "SBD005", line + 7, 2)]
 
 
 def test_embedment_without_an_elastic_bed() -> None:
     text = BASE + embedment("a")
-    assert told(text) == [("E", "SBD005", BASE.count("\n") + 2, 2)]
-    assert told(text + "*SEABED PROPERTIES\n SET=a\n") == [("E", "SBD003", text.count("\n") + 1, 1)]
-    assert told(text + "*SEABED PROPERTES\n SET=a\n") == []
+    assert reported(text) == [("E", "SBD005", BASE.count("\n") + 2, 2)]
+    assert reported(text + "*SEABED PROPERTIES\n SET=a\n") == [("E", "SBD003", text.count("\n") + 1, 1)]
+    assert reported(text + "*SEABED PROPERTES\n SET=a\n") == []
 
 
 # -------------------------------------------------------------------------------------------------------- diameters
@@ -234,7 +234,7 @@ def test_missing_diameters_are_told_once_for_each_place_that_gives_a_curve() -> 
     steel = STEEL.replace("SET=ALL", "SET=a")
     text = PIPE + steel + "*ELEMENT SETS\n SET=a\n GEN=1, 5\n SET=b\n GEN=4, 8\n" + CLAY
     text += "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=Clay\n SET=b\n STIFFNESS=clay\n"
-    assert told(text) == [("E", "SBD009", LINE + 1, 12), ("E", "SBD009", LINE + 3, 12)]
+    assert reported(text) == [("E", "SBD009", LINE + 1, 12), ("E", "SBD009", LINE + 3, 12)]
     assert [message.split(" have ")[0] for message in messages(text)] == [
         "2 elements (first: 9)",
         "3 elements (first: 6)",
@@ -242,24 +242,24 @@ def test_missing_diameters_are_told_once_for_each_place_that_gives_a_curve() -> 
 
 
 def test_a_linear_law_needs_no_diameter() -> None:
-    assert told(PIPE + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=1\n") == []
+    assert reported(PIPE + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=1\n") == []
 
 
 def test_a_stiffness_of_the_nodes_needs_no_diameter_whatever_curve_it_replaces() -> None:
     text = PIPE + "*ELEMENT SETS\n SET=a\n GEN=1, 5\n" + CLAY
     text += "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=Clay\n"
     nodal = "*SEABED CONTACT\n SET={}\n NODAL STIFFNESS=5000\n"
-    assert told(text + nodal.format("ALL")) == []
+    assert reported(text + nodal.format("ALL")) == []
     assert [message.split(" have ")[0] for message in messages(text + nodal.format("a"))] == ["5 elements (first: 6)"]
 
 
 def test_a_drag_diameter_of_0_is_no_diameter() -> None:
     text = PIPE + "*GEOMETRIC SETS\n SET=ALL\n ,,,, 1, 1, 0, 0.0, 0.3\n" + CLAY
     text += "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=Clay\n"
-    assert [(severity, code) for severity, code, _, _ in told(text)] == [("E", "SBD009")]
+    assert [(severity, code) for severity, code, _, _ in reported(text)] == [("E", "SBD009")]
 
 
 def test_a_section_of_a_set_of_lines_may_be_that_of_any_element() -> None:
     text = PIPE + "*LINES\n LINE=Riser\n" + STEEL.replace("ALL", "riser") + CLAY
     text += "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=Clay\n"
-    assert [(severity, code) for severity, code, _, _ in told(text)] == [("W", "SBD009")]
+    assert [(severity, code) for severity, code, _, _ in reported(text)] == [("W", "SBD009")]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mudline.scene.numbering import MOST_GENERATED
-from tests.scene.decks import all_told, messages, nodes_of, scene_of, told
+from tests.scene.decks import all_reported, messages, nodes_of, reported, scene_of
 
 NODE = "$MODEL\n*NODE\n"
 
@@ -53,25 +53,25 @@ def test_blocks_and_sections_add_up() -> None:
 def test_the_later_definition_holds_and_is_told_at_its_row() -> None:
     text = NODE + " 1, 0, 0\n 2, 0, 1\n 1, 0, 9\n"
     assert nodes_of(scene_of(text)) == {1: [0, 9, 0], 2: [0, 1, 0]}
-    assert told(text) == [("E", "REF007", 5, 2)]
+    assert reported(text) == [("E", "REF007", 5, 2)]
 
 
 def test_a_generator_that_defines_nodes_again_is_told_once() -> None:
     text = NODE + " 1, 0, 0\n 2, 7, 7\n 3, 7, 7\n 5, 0, 4\n GEN=1, 5\n"
     assert nodes_of(scene_of(text))[2] == [0, 1, 0]
-    assert told(text) == [("E", "REF007", 7, 2)]
+    assert reported(text) == [("E", "REF007", 7, 2)]
     assert messages(text)[0].startswith("2 nodes (first: 2) are defined twice")
 
 
 def test_a_row_after_a_generator_holds() -> None:
     text = NODE + " 1, 0, 0\n 5, 0, 4\n GEN=1, 5\n 3, -2, 2\n"
     assert nodes_of(scene_of(text))[3] == [-2, 2, 0]
-    assert told(text) == [("E", "REF007", 6, 2)]
+    assert reported(text) == [("E", "REF007", 6, 2)]
 
 
 def test_twice_in_two_model_sections_is_a_warning_because_that_is_inferred() -> None:
     text = NODE + " 1, 0, 0\n$LOAD CASE\n*TIME\n" + NODE + " 1, 0, 2\n"
-    assert told(text) == [("W", "REF007", 8, 2)]
+    assert reported(text) == [("W", "REF007", 8, 2)]
     assert "inferred" in messages(text)[0]
 
 
@@ -79,20 +79,20 @@ def test_twice_in_two_model_sections_is_a_warning_because_that_is_inferred() -> 
 def test_generators_that_lead_nowhere(line: str) -> None:
     text = NODE + f" 1, 0, 0\n 5, 0, 4\n {line}\n"
     assert scene_of(text).node_ids.tolist() == [1, 5]
-    assert told(text) == [("E", "REF010", 5, 2)]
+    assert reported(text) == [("E", "REF010", 5, 2)]
 
 
 def test_a_slip_of_a_digit_does_not_fill_the_memory() -> None:
     text = NODE + f" 1, 0, 0\n {MOST_GENERATED * 3}, 0, 4\n GEN=1, {MOST_GENERATED * 3}\n"
-    assert told(text) == [("E", "REF010", 5, 2)]
+    assert reported(text) == [("E", "REF010", 5, 2)]
     assert f"more than {MOST_GENERATED}" in messages(text)[0]
 
 
 def test_the_limit_holds_for_all_generators_together(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mudline.scene.nodes.MOST_GENERATED", 10)
+    monkeypatch.setattr("mudline.scene.mesh.MOST_GENERATED", 10)
     ends = " 1, 0, 0\n 11, 0, 1\n 13, 0, 2\n 15, 0, 3\n"
     text = NODE + ends + " GEN=1, 11\n GEN=11, 13\n GEN=13, 15\n"
-    assert told(text) == [("E", "REF010", 9, 2)]
+    assert reported(text) == [("E", "REF010", 9, 2)]
 
 
 def test_ends_that_nothing_defines_are_told_each_and_the_nodes_still_have_numbers() -> None:
@@ -100,13 +100,13 @@ def test_ends_that_nothing_defines_are_told_each_and_the_nodes_still_have_number
     scene = scene_of(text)
     assert scene.node_ids.tolist() == [1, 2, 3, 4, 8]
     assert np.isnan(scene.coordinates[1:]).all()
-    assert told(text) == [("E", "REF006", 4, 9), ("E", "REF006", 5, 6), ("E", "REF006", 5, 9)]
+    assert reported(text) == [("E", "REF006", 4, 9), ("E", "REF006", 5, 6), ("E", "REF006", 5, 9)]
 
 
 def test_ends_that_are_defined_later_are_taken_with_a_warning() -> None:
     text = NODE + " 1, 0, 0\n GEN=1, 5\n 5, 0, 4\n"
     assert nodes_of(scene_of(text))[2] == [0, 1, 0]
-    assert told(text) == [("W", "REF006", 4, 2)]
+    assert reported(text) == [("W", "REF006", 4, 2)]
     assert "inferred" in messages(text)[0]
 
 
@@ -116,7 +116,7 @@ def test_a_row_with_a_bad_field_still_defines_its_number() -> None:
     assert scene.node_ids.tolist() == [1, 2, 3]
     assert np.isnan(scene.coordinates[1, 0])
     assert np.isnan(scene.length).all()
-    assert all_told(text) == [("E", "SYN002", 4, 5)]
+    assert all_reported(text) == [("E", "SYN002", 4, 5)]
 
 
 @pytest.mark.parametrize("number", ["1.5", "1E300", "9007199254740994"])
@@ -128,7 +128,7 @@ def test_a_number_that_is_not_whole_defines_nothing(number: str) -> None:
 
 def test_rows_keep_their_places_behind_one_without_a_number() -> None:
     text = NODE + " 1, 0, 0\n x, 0, 0\n 1, 0, 3\n"
-    assert all_told(text) == [("E", "SYN002", 4, 2), ("E", "REF007", 5, 2)]
+    assert all_reported(text) == [("E", "SYN002", 4, 2), ("E", "REF007", 5, 2)]
 
 
 def test_equations_give_coordinates_and_numbers() -> None:

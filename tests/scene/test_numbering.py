@@ -7,14 +7,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.diagnostics import Where
-from mudline.scene.numbering import Batch, Gathered, whole_numbers
+from mudline.scene.numbering import Batch, Definitions, whole_numbers
 
 _BATCHES = st.lists(st.lists(st.integers(-5, 40), max_size=12), max_size=8)
 
 
-def gathered(batches: list[list[int]]) -> Gathered:
+def gathered(batches: list[list[int]]) -> Definitions:
     """Definitions whose value is their row among all of them."""
-    found = Gathered()
+    found = Definitions()
     row = 0
     for index, ids in enumerate(batches):
         values = np.arange(row, row + len(ids), dtype=np.float64)[:, np.newaxis]
@@ -27,7 +27,7 @@ def gathered(batches: list[list[int]]) -> Gathered:
 def test_settled_definitions_are_those_of_a_dictionary(batches: list[list[int]]) -> None:
     flat = [number for ids in batches for number in ids]
     held = {number: row for row, number in enumerate(flat)}
-    settled = gathered(batches).settle(1)
+    settled = gathered(batches).resolve(1)
     assert settled.ids.tolist() == list(dict.fromkeys(flat))
     assert settled.values[:, 0].tolist() == [held[number] for number in settled.ids.tolist()]
     assert settled.rows.tolist() == [held[number] for number in settled.ids.tolist()]
@@ -41,7 +41,7 @@ def test_settled_definitions_are_those_of_a_dictionary(batches: list[list[int]])
 
 @given(_BATCHES, st.lists(st.integers(-7, 45)))
 def test_indices_are_positions_or_minus_one(batches: list[list[int]], wanted: list[int]) -> None:
-    settled = gathered(batches).settle(1)
+    settled = gathered(batches).resolve(1)
     ids = settled.ids.tolist()
     expected = [ids.index(number) if number in ids else -1 for number in wanted]
     assert settled.indices(np.array(wanted, dtype=np.int64)).tolist() == expected
@@ -49,7 +49,7 @@ def test_indices_are_positions_or_minus_one(batches: list[list[int]], wanted: li
 
 @given(_BATCHES, st.integers(-7, 45), st.integers(0, 50), st.integers(1, 9))
 def test_a_range_holds_the_indices_of_its_numbers(batches: list[list[int]], start: int, span: int, step: int) -> None:
-    settled = gathered(batches).settle(1)
+    settled = gathered(batches).resolve(1)
     wanted = set(range(start, start + span + 1, step))
     expected = [index for index, number in enumerate(settled.ids.tolist()) if number in wanted]
     assert settled.between(start, start + span, step).tolist() == expected
@@ -57,7 +57,7 @@ def test_a_range_holds_the_indices_of_its_numbers(batches: list[list[int]], star
 
 @given(_BATCHES)
 def test_found_is_the_definition_that_holds_so_far(batches: list[list[int]]) -> None:
-    found = Gathered()
+    found = Definitions()
     held: dict[int, float] = {}
     row = 0
     for ids in batches:
@@ -74,7 +74,7 @@ def test_found_is_the_definition_that_holds_so_far(batches: list[list[int]]) -> 
 
 def test_large_and_small_batches_are_found_alike() -> None:
     """More rows than a dictionary takes go into a sorted table, which later ones override."""
-    found = Gathered()
+    found = Definitions()
     found.add(Batch(np.arange(20_000), np.arange(20_000.0)[:, np.newaxis], Where()))
     assert found.find(19_999) == [19_999.0]
     assert found.find(20_000) is None

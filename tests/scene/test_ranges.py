@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.scene.decks import messages, told
+from tests.scene.decks import messages, reported
 
 
 @pytest.mark.parametrize(
@@ -19,7 +19,7 @@ from tests.scene.decks import messages, told
 )
 def test_values_of_rows(lines: str, column: int, message: str) -> None:
     text = f"$MODEL\n{lines}\n"
-    assert told(text) == [("E", "SBD010", 3, column)]
+    assert reported(text) == [("E", "SBD010", 3, column)]
     assert message in messages(text)[0]
 
 
@@ -56,12 +56,12 @@ def test_a_field_is_named_once(keyword: str, line: str, names: list[str]) -> Non
 )
 def test_values_of_settings(line: str, column: int) -> None:
     text = f"$MODEL\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n {line}\n"
-    assert told(text) == [("E", "SBD010", 5, column)]
+    assert reported(text) == [("E", "SBD010", 5, column)]
 
 
 def test_values_of_sections_are_named_by_their_symbol() -> None:
     text = "$MODEL\n*GEOMETRIC SETS\n OPTION=RIGID\n SET=ALL\n 1, 1, 0.0, -0.2, 7850\n"
-    assert told(text) == [("E", "SBD010", 5, 8), ("E", "SBD010", 5, 13)]
+    assert reported(text) == [("E", "SBD010", 5, 8), ("E", "SBD010", 5, 13)]
     assert messages(text) == [
         "external diameter Do is 0.0: it must be greater than 0",
         "internal diameter Di is -0.2: it must not be less than 0",
@@ -72,23 +72,23 @@ def test_values_of_sections_are_named_by_their_symbol() -> None:
 
 def test_the_value_of_an_equation_is_looked_at() -> None:
     text = "$PREPROCESSOR\n*PARAMETERS\n k, -5\n$MODEL\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS==[k]\n"
-    assert told(text) == [("E", "SBD010", 8, 12)]
+    assert reported(text) == [("E", "SBD010", 8, 12)]
 
 
 def test_an_equation_without_a_value_is_told_once() -> None:
     text = "$MODEL\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS==[k]\n"
-    assert told(text) == [("E", "REF013", 5, 12)]
+    assert reported(text) == [("E", "REF013", 5, 12)]
 
 
 def test_other_sections_are_not_looked_at() -> None:
-    assert told("$PREPROCESSOR\n*PARAMETERS\n k, -5\n$ANALYSIS\n*UNITS\n UNITS=METRIC\n") == []
+    assert reported("$PREPROCESSOR\n*PARAMETERS\n k, -5\n$ANALYSIS\n*UNITS\n UNITS=METRIC\n") == []
 
 
 def test_the_floor_of_cyclic_loading_is_a_share() -> None:
     deck = "$MODEL\n*SEABED SUCTION\n SET=ALL\n CYCLIC={}\n COHESION=5000\n*ELASTIC SURFACE\n 5000\n"
-    assert told(deck.format("0.9, 1.0")) == told(deck.format("1.5, 0.0")) == []
-    assert told(deck.format("0.9, 1.01")) == [("E", "SBD010", 4, 14)]
-    assert told(deck.format("-0.9, -0.01")) == [("E", "SBD010", 4, 9), ("E", "SBD010", 4, 15)]
+    assert reported(deck.format("0.9, 1.0")) == reported(deck.format("1.5, 0.0")) == []
+    assert reported(deck.format("0.9, 1.01")) == [("E", "SBD010", 4, 14)]
+    assert reported(deck.format("-0.9, -0.01")) == [("E", "SBD010", 4, 9), ("E", "SBD010", 4, 15)]
     assert messages(deck.format("0.9, 2")) == [
         "share of the first largest force below which the cycles do not lower it is 2.0: it must not be more than 1"
     ]
@@ -99,8 +99,8 @@ def test_values_of_a_table() -> None:
         "$PREPROCESSOR\n*PARAMETERS\n p, -7\n$MODEL\n*SEABED TRENCH\n SET=ALL\n GEOMETRY=1, 2, 3\n PEAK=TABLE\n{}"
         "*ELASTIC SURFACE\n 5000\n"
     )
-    assert told(deck.format(" 0, 0\n 1, 5\n")) == []
-    assert told(deck.format(" 0, -1\n 1, 5\n 2, =[p]\n")) == [("E", "SBD010", 9, 5), ("E", "SBD010", 11, 5)]
+    assert reported(deck.format(" 0, 0\n 1, 5\n")) == []
+    assert reported(deck.format(" 0, -1\n 1, 5\n 2, =[p]\n")) == [("E", "SBD010", 9, 5), ("E", "SBD010", 11, 5)]
     assert messages(deck.format(" 0, 0\n 1, =[p]\n")) == [
         "lateral resistance per unit length there is -7.0: it must not be less than 0"
     ]

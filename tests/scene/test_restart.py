@@ -16,10 +16,9 @@ from mudline.deck.model import Deck
 from mudline.diagnostics import DeckError
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import rules, select
-from mudline.scene import base_files
-from mudline.scene.build import resolve
+from mudline.scene import restart
 from mudline.scene.continued import ContinuedDeck
-from mudline.scene.model import Scene
+from mudline.scene.model import Scene, resolve
 from tests.lint.findings import CLAY, CURVES, PIPE, PROPERTIES
 from tests.samples import sample
 
@@ -123,7 +122,7 @@ def test_a_profile_is_looked_for_beside_the_deck_that_names_it(folder: Path) -> 
     (folder / "base" / "bed.txt").write_text("0, -1\n10, -2\n")
     (folder / "base" / "static.keyxm").write_text(STATIC + "*SEABED PROFILE\n TYPE=2D\n FILE=bed.txt\n")
     found = scene(folder, RESTART.format("base\\static"))
-    assert found.floor.points.tolist() == [[0.0, -1.0], [10.0, -2.0]]
+    assert found.seabed.points.tolist() == [[0.0, -1.0], [10.0, -2.0]]
 
 
 # ------------------------------------------------------------------------------------------------------ which file
@@ -253,14 +252,14 @@ def test_a_very_long_chain_ends(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("content", "reason"),
     [
-        (b"", "has no section: it is no deck"),
-        (b"\x00\x01\x02" * 50, "has no section: it is no deck"),
+        (b"", "has no section: it is not a deck"),
+        (b"\x00\x01\x02" * 50, "has no section: it is not a deck"),
         (b"x" * 5000, "has more than 0 million bytes"),
     ],
 )
 def test_a_file_that_is_no_deck(folder: Path, content: bytes, reason: str) -> None:
     (folder / "static.keyxm").write_bytes(content)
-    with patch.object(base_files, "LARGEST_FILE", 4000):
+    with patch.object(restart, "LARGEST_FILE", 4000):
         (line,) = lint(folder, DYNAMIC, "REF015")
     assert line.startswith("3:7 warning REF015 the deck that LAST= continues is not read: ")
     assert reason in line
@@ -275,7 +274,7 @@ def test_documents_that_hold_no_deck(folder: Path) -> None:
 
 def test_a_file_that_may_not_be_read(folder: Path) -> None:
     (folder / "dynamic.keyxm").write_text(DYNAMIC)
-    with patch.object(base_files, "load_path", side_effect=PermissionError(13, "Permission denied")):
+    with patch.object(restart, "load_path", side_effect=PermissionError(13, "Permission denied")):
         found = resolve(load_path(folder / "dynamic.keyxm"))
     (problem,) = found.problems
     assert problem.message.startswith("the deck that LAST= continues is not read: ")
@@ -340,7 +339,7 @@ def test_whatever_the_decks_hold_findings_lie_in_the_deck_itself(base: list[str]
 
 
 def test_a_deck_before_is_read_once_until_it_changes(folder: Path) -> None:
-    with patch.object(base_files, "load_path", wraps=load_path) as reading:
+    with patch.object(restart, "load_path", wraps=load_path) as reading:
         for number in range(20):
             assert len(scene(folder, name=f"dynamic{number}.keyxm").element_ids) == 10
         assert reading.call_count == 1
@@ -350,12 +349,13 @@ def test_a_deck_before_is_read_once_until_it_changes(folder: Path) -> None:
 
 
 def test_few_decks_are_kept(tmp_path: Path) -> None:
-    with patch.object(base_files, "_KEPT", base_files._Kept()) as kept, patch.object(base_files, "_MOST_KEPT", 3):
+    kept: dict[str, object] = {}
+    with patch.object(restart, "_CACHE", kept), patch.object(restart, "_MOST_KEPT", 3):
         for number in range(6):
             (tmp_path / f"static{number}.keyxm").write_text(STATIC)
             scene(tmp_path, RESTART.format(f"static{number}"))
-        assert [Path(key).stem for key in kept.decks] == ["static3", "static4", "static5"]
-        with patch.object(base_files, "_LARGEST_KEPT", 10):
+        assert [Path(key).stem for key in kept] == ["static3", "static4", "static5"]
+        with patch.object(restart, "_LARGEST_KEPT", 10):
             (tmp_path / "static6.keyxm").write_text(STATIC)
             scene(tmp_path, RESTART.format("static6"))
-        assert [Path(key).stem for key in kept.decks] == ["static6"]
+        assert [Path(key).stem for key in kept] == ["static6"]

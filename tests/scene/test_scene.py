@@ -10,7 +10,7 @@ from mudline.contact import ContactModel
 from mudline.contact.input import LawKind
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError
-from mudline.scene.build import resolve
+from mudline.scene.model import resolve
 from tests.scene.decks import CLAY, PIPE, STEEL, scene_of
 
 FULL = PIPE + STEEL + CLAY + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=Clay\n"
@@ -176,7 +176,7 @@ def test_what_is_not_evaluated_is_said_by_stage() -> None:
         " FRICTION=0.3, 0.4, 0.1, 0.1, 5, 2\n LATERAL=5\n SUCTION=5\n"
     )
     assert found == {
-        "suction": "SUCTION= without an extent of its zone holds nothing: 10 elements",
+        "suction": "SUCTION= without an extent of its zone has no effect: 10 elements",
         "friction": (
             "11 nodes with a mobilisation length, Kt = mu N / length (inferred); "
             "LATERAL= replaces the transverse coefficient; "
@@ -195,4 +195,4 @@ def test_legacy_surfaces_are_evaluated_the_same_way() -> None:
     profile = PIPE + "*RIGID SURFACE\n 0.3\n 0, 0\n 10, 1\n"
     plan = scene_of(profile).contact().plan
     assert plan["floor"].why.startswith("straight lines through 2 points")
-    assert plan["friction"].why == "none on a rigid bed, whose reaction is that of a constraint: 10 elements"
+    assert plan["friction"].why == "none on a rigid seabed, whose reaction is that of a constraint: 10 elements"

@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from tests.scene.decks import PIPE, all_told, scene_of, told
+from tests.scene.decks import PIPE, all_reported, reported, scene_of
 
 SETS = PIPE + "*ELEMENT SETS\n SET=a\n GEN=1, 5\n SET=b\n GEN=4, 8\n"
 GEOMETRY = SETS + "*GEOMETRIC SETS\n"
@@ -74,7 +74,7 @@ def test_equations_give_diameters() -> None:
 
 def test_a_set_that_is_not_defined_is_told_at_its_name() -> None:
     text = GEOMETRY + " OPTION=MOORING\n SET=c\n 1, 1, 0.1\n"
-    assert told(text) == [("E", "REF001", GEOMETRY.count("\n") + 2, 6)]
+    assert reported(text) == [("E", "REF001", GEOMETRY.count("\n") + 2, 6)]
 
 
 @pytest.mark.parametrize("field", ["-0.3", "0.0"])
@@ -101,6 +101,6 @@ def test_a_diameter_out_of_range_is_told_once(field: str) -> None:
 )
 def test_a_section_that_could_not_be_read_leads_to_no_missing_diameter(lines: str) -> None:
     curve = "*SEABED STIFFNESS\n CURVE=c\n 0, 0\n 1, 1\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=c\n"
-    codes = [code for _, code, _, _ in all_told(GEOMETRY + lines + curve)]
+    codes = [code for _, code, _, _ in all_reported(GEOMETRY + lines + curve)]
     assert codes
     assert "SBD009" not in codes

@@ -9,7 +9,7 @@ import pytest
 from mudline.results.static_embedment import static_embedment
 from tests.scene.contact_decks import METRIC, deck
 from tests.scene.decks import scene_of
-from tests.scene.test_contact_parts import CURVE, LINEAR, WEIGHT
+from tests.scene.test_contact_input import CURVE, LINEAR, WEIGHT
 
 
 def rows(seabed: str) -> list[dict[str, Any]]:

@@ -135,9 +135,9 @@ def test_what_no_trench_can_be_is_refused_at_its_line(trench: str, line: int, co
     text = deck(METRIC, bed(METRIC, trench))
     with pytest.raises(DeckError) as caught:
         scene_of(text).contact()
-    (told,) = caught.value.diagnostics
-    assert (told.code, told.line) == (code, text.count("\n") - trench.count("\n") - 1 + line)
-    assert told.message.startswith(message)
+    (reported,) = caught.value.diagnostics
+    assert (reported.code, reported.line) == (code, text.count("\n") - trench.count("\n") - 1 + line)
+    assert reported.message.startswith(message)
 
 
 def test_a_wall_is_free_to_lock_where_nothing_rubs() -> None:

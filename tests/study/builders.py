@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from mudline.deck.loading import load_bytes
-from mudline.scene.build import resolve
-from mudline.scene.model import Scene
+from mudline.scene.model import Scene, resolve
 
 
 def scene_of(text: str, name: str = "deck.keyxm", units: str | None = None) -> Scene:

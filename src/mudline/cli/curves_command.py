@@ -16,8 +16,7 @@ from mudline.results.csv_lines import csv_lines
 from mudline.results.curves import curve_rows, diameters, point_table, static_table, used_curves, value_table
 from mudline.results.numbers import shown
 from mudline.results.units import UnitNames, headed, unit_names
-from mudline.scene.build import resolve
-from mudline.scene.model import Scene
+from mudline.scene.model import Scene, resolve
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer

@@ -19,7 +19,7 @@ from mudline.comparison.comparing import compare
 from mudline.comparison.model import Difference, Value
 from mudline.comparison.spans import spans_of, text_of
 from mudline.linting.output.visible import visible
-from mudline.scene.build import resolve
+from mudline.scene.model import resolve
 
 FORMAT = "mudline-diff/1"
 MOST = 20

@@ -15,22 +15,18 @@ import numpy as np
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.evaluate_outputs import (
     PICTURES,
-    ResultConsumer,
-    Sink,
     beside,
     draw,
     files,
     form_of,
     has_library,
     printed,
-    result_file,
-    result_forms,
     run,
-    together,
 )
 from mudline.cli.evaluate_text import print_comparison, print_evaluation, print_plan
 from mudline.cli.inputs import load, refuses_bad_decks
 from mudline.cli.options import View
+from mudline.cli.result_files import ResultConsumer, Sink, result_file, result_forms, together
 from mudline.cli.streams import counted, emit, emit_json, notify, reason
 from mudline.contact import LawKind
 from mudline.results.against import Comparison
@@ -41,9 +37,8 @@ from mudline.results.evaluation import Evaluation, Part, Prepared, Tension, eval
 from mudline.results.formats import CsvForm, JsonForm, plan_rows
 from mudline.results.plot_data import PlotData
 from mudline.results.reference import read_reference
-from mudline.scene.build import resolve
-from mudline.scene.external import read_external
-from mudline.scene.model import Scene
+from mudline.scene.external_elements import read_external
+from mudline.scene.model import Scene, resolve
 from mudline.scene.positions import Positions, read_positions
 
 MOST_ROWS = 40

@@ -2,23 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import AbstractContextManager, ExitStack, contextmanager
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager
 from importlib import import_module
 from pathlib import Path
-from pkgutil import iter_modules
-from typing import BinaryIO, Protocol, cast
 
 import click
 
-from mudline.cli import result_files
 from mudline.cli.options import View
 from mudline.cli.progress import Progress, wants_bar
-from mudline.cli.streams import emit, encoded, notify, notify_missing, writing
+from mudline.cli.result_files import ResultConsumer, Sink, as_text, result_file
+from mudline.cli.streams import emit, notify, notify_missing, writing
 from mudline.linting.output.visible import visible
 from mudline.results.columns import ElementTable
-from mudline.results.evaluation import Evaluation, Part
+from mudline.results.evaluation import Evaluation
 from mudline.results.formats import TextForm
 from mudline.results.plot_data import PlotData
 
@@ -27,61 +24,6 @@ PICTURES = ("png", "svg")
 _PLOT = "mudline.results.evaluation_plot"
 _EXTRAS = {"parquet": ("pyarrow", "parquet"), "png": ("matplotlib", "plot"), "svg": ("matplotlib", "plot")}
 """By form: the library that draws or writes it, and the extra that brings it."""
-
-More = Mapping[str, object]
-"""What is known only after the last step, by its key in JSON."""
-
-
-class ResultConsumer(Protocol):
-    """Takes the results of a few steps at a time."""
-
-    def take(self, part: Part) -> None:
-        """Take some steps."""
-
-
-class Sink(ResultConsumer, Protocol):
-    """A file or standard output."""
-
-    def finish(self, more: More) -> None:
-        """Write what comes after the last step."""
-
-
-class ResultFile(Protocol):
-    """The module of a form of result files.
-
-    `SUMMARY` says in the documentation what is in it; where it is `BESIDE`, the nodes go to a second file.
-    """
-
-    SUMMARY: str
-    BESIDE: bool
-
-    def opened(
-        self, evaluation: Evaluation, elements: ElementTable, streams: list[BinaryIO], folder: Path, view: View
-    ) -> AbstractContextManager[Sink]:
-        """Return what takes the results and writes them into one or two files of `folder`."""
-
-
-@dataclass(frozen=True, slots=True)
-class Written:
-    """Output by two functions: for some steps, and for what comes after the last step."""
-
-    take: Callable[[Part], None]
-    finish: Callable[[More], None] = lambda _: None
-
-
-def as_text(form: TextForm, write: Callable[[Iterator[str]], None]) -> Written:
-    """Text, in pieces that `write` gets."""
-    return Written(lambda part: write(form.body(part)), lambda more: write(form.tail(more)))
-
-
-def together(consumers: Sequence[ResultConsumer]) -> Written:
-    """Several tables, or none; a table has nothing after the last step."""
-
-    def take(part: Part) -> None:
-        for consumer in consumers:
-            consumer.take(part)
-
-    return Written(take)
 
 
 def form_of(output: str | None, known: Sequence[str]) -> str:
@@ -120,16 +62,6 @@ def draw(data: PlotData, path: Path, view: View) -> None:
         notify(f"plot -> {path.as_posix()}")
 
 
-def result_forms() -> list[str]:
-    """Return the forms of result files, found without importing one."""
-    return sorted(found.name for found in iter_modules(result_files.__path__))
-
-
-def result_file(form: str) -> ResultFile:
-    """Return the module of a form of result files; raises ImportError without the library that it needs."""
-    return cast("ResultFile", import_module(f"{result_files.__name__}.{form}"))
-
-
 def printed(form: TextForm) -> Sink:
     """Standard output."""
     return as_text(form, emit)
@@ -142,11 +74,6 @@ def files(evaluation: Evaluation, elements: ElementTable, path: Path, view: View
     with ExitStack() as stack:
         streams = [stack.enter_context(writing(one)) for one in (path, *([beside(path)] if form.BESIDE else []))]
         yield stack.enter_context(form.opened(evaluation, elements, streams, path.parent, view))
-
-
-def text_into(stream: BinaryIO) -> Callable[[Iterator[str]], None]:
-    """Return what writes pieces of text into a file."""
-    return lambda pieces: stream.writelines(map(encoded, pieces))
 
 
 def run(evaluation: Evaluation, consumers: Sequence[ResultConsumer], view: View, *, bar: bool) -> None:

@@ -15,7 +15,7 @@ from mudline.cli.streams import counted, emit_json, notify
 from mudline.results.numbers import shown
 from mudline.results.summary import summarise
 from mudline.results.units import UnitNames, headed, unit_names
-from mudline.scene.build import resolve
+from mudline.scene.model import resolve
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer

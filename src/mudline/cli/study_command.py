@@ -14,8 +14,7 @@ from mudline.cli.options import View
 from mudline.cli.streams import counted, emit, notify, notify_missing, reason
 from mudline.results.numbers import shown
 from mudline.results.units import headed
-from mudline.scene.build import resolve
-from mudline.scene.model import Scene
+from mudline.scene.model import Scene, resolve
 from mudline.study.report import Cell, StudyError, StudyOptions, StudyReport, StudyTable, silent
 
 if TYPE_CHECKING:

@@ -12,8 +12,8 @@ from mudline.comparison.model import Difference, Tolerance
 from mudline.comparison.named import curves, parameters, sets
 from mudline.comparison.numbered import elements, nodes
 from mudline.comparison.side import Side
-from mudline.scene.floor import Floor
 from mudline.scene.model import Scene
+from mudline.scene.seabed import SeabedShape
 
 
 def compare(before: Scene, after: Scene, tolerance: float = 0.0) -> list[Difference]:
@@ -43,7 +43,7 @@ def _differences(one: Side, other: Side, tolerance: Tolerance) -> Iterator[Diffe
 
 def _floor(one: Side, other: Side, tolerance: Tolerance) -> Iterator[Difference]:
     """The points of the bed that files hold; what the deck itself says of it is among its blocks."""
-    old, new = one.scene.floor, other.scene.floor
+    old, new = one.scene.seabed, other.scene.seabed
     same = old.points.shape == new.points.shape and bool(tolerance.arrays(_sorted(old), _sorted(new)).all())
     if not same and (old.file or new.file):
         lines = one.line(old.where), other.line(new.where)
@@ -51,5 +51,5 @@ def _floor(one: Side, other: Side, tolerance: Tolerance) -> Iterator[Difference]
         yield Difference("changed", "seabed", "seabed/points", *counts, *lines)
 
 
-def _sorted(floor: Floor) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
+def _sorted(floor: SeabedShape) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
     return floor.points[np.lexsort(floor.points.T[::-1])] if len(floor.points) else floor.points

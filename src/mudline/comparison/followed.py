@@ -17,7 +17,7 @@ from mudline.comparison.spans import spans_of, text_of
 from mudline.contact.input import LawKind
 from mudline.diagnostics import Where
 from mudline.keywords.model import Record
-from mudline.scene.laws import Grant
+from mudline.scene.laws import SetLaw
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Indices
 
@@ -74,11 +74,11 @@ def _entry(found: _Followed, index: int) -> _Values:
 def _laws(side: Side) -> _Followed:
     laws = side.scene.laws
     return _Followed(
-        [_law(side.scene, grant) for grant in laws.grants], [g.where for g in laws.grants], laws.of_element
+        [_law(side.scene, grant) for grant in laws.set_laws], [g.where for g in laws.set_laws], laws.of_element
     )
 
 
-def _law(scene: Scene, grant: Grant) -> _Values:
+def _law(scene: Scene, grant: SetLaw) -> _Values:
     if grant.kind is LawKind.LINEAR:
         return {"": "linear", "stiffness": plain(grant.stiffness)}
     return {} if grant.kind is LawKind.NONE else {"": scene.law_name(grant)}
@@ -101,7 +101,7 @@ def _sections(side: Side) -> _Followed:
 
 
 def _bed(side: Side) -> _Followed:
-    bed = side.scene.bed
+    bed = side.scene.resistance
     return _Followed([_numbers(entry._asdict()) for entry in bed.values], bed.places, bed.of_element)
 
 

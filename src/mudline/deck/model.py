@@ -160,7 +160,7 @@ class Deck:
         Raises:
             DeckError: the deck has errors on which a result depends.
         """
-        from mudline.scene.build import resolve  # noqa: PLC0415 - the one way up: a deck that is read knows no physics
+        from mudline.scene.model import resolve  # noqa: PLC0415 - the one way up: a deck that is read knows no physics
 
         return resolve(self.alone).require()
 

@@ -11,11 +11,10 @@ from typing import TypeVar, cast
 from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Blocks, Code, Problem
-from mudline.scene.build import resolve
-from mudline.scene.context import MOST_TOLD
+from mudline.scene.context import MOST_REPORTED
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.laws import LawTable
-from mudline.scene.model import Scene
+from mudline.scene.model import Scene, resolve
 from mudline.variations.names import misspelt_keywords, misspelt_sections, undefined_parameters, undefined_variations
 
 T = TypeVar("T")
@@ -76,7 +75,7 @@ class LintContext:
 def _of_variations(deck: Deck) -> Iterator[Problem]:
     """Undefined names in variations: they are faults of the varied decks, and not of this one."""
     for find in (undefined_parameters, undefined_variations, misspelt_keywords, misspelt_sections):
-        for problem in islice(find(deck), MOST_TOLD):
+        for problem in islice(find(deck), MOST_REPORTED):
             yield replace(problem, blocks=Blocks.NEVER)
 
 

@@ -10,7 +10,7 @@ from mudline.linting import plugins
 from mudline.linting import rules as rules_package
 from mudline.linting.rule import RULES, Noticed, Rule, add, described_by
 from mudline.resources import modules_of
-from mudline.scene.checks.running import all_checks
+from mudline.scene.checks.declaring import all_checks
 from mudline.spelling import nearest
 
 

@@ -19,8 +19,7 @@ from mudline.keywords.catalogue import is_superseded, supersedes
 from mudline.keywords.model import Record
 from mudline.migration.refusals import refusals, superseded_blocks
 from mudline.migration.rewriting import Rewriting, rewrite
-from mudline.scene.build import resolve
-from mudline.scene.model import Scene
+from mudline.scene.model import Scene, resolve
 from mudline.scene.restart import decks_before
 from mudline.syntax.edits import edited_bytes
 from mudline.syntax.source import Source

@@ -14,13 +14,11 @@ from mudline.contact.model import ContactModel
 from mudline.curves import ForceCurve
 from mudline.deck.parameters import folded
 from mudline.migration.migrating import Migration
-from mudline.scene.bed import BedValues
-from mudline.scene.build import resolve
-from mudline.scene.external import ExternalElements
-from mudline.scene.floor import Floor
-from mudline.scene.model import Scene
+from mudline.scene.external_elements import ExternalElements
+from mudline.scene.laws import ResistanceValues
+from mudline.scene.model import Scene, resolve
 from mudline.scene.numbering import Floats, Indices
-from mudline.scene.profile_file import parse_profile
+from mudline.scene.seabed import SeabedShape, parse_profile
 
 
 class Difference(NamedTuple):
@@ -55,7 +53,7 @@ def verify(migration: Migration) -> Verdict:
     the same block wins for elements that the deck does not show, those of `*LINES`.
     """
     before, after = migration.before, migration.after
-    differences = [*_seabed_shapes(before.floor, after.floor, migration.files)]
+    differences = [*_seabed_shapes(before.seabed, after.seabed, migration.files)]
     kinds, positions, found = _compare(before, after, {})
     differences += found
     probes = ProbeElements(_sets(before))
@@ -67,14 +65,14 @@ def verify(migration: Migration) -> Verdict:
 def _sets(scene: Scene) -> list[str]:
     """The sets that laws name, each once, in the order of the last block that names it."""
     last: dict[str, str] = {}
-    for grant in scene.laws.grants:
+    for grant in scene.laws.set_laws:
         if grant.set_ is not scene.set_table.everything:
             last.pop(folded(grant.set_.name), None)
             last[folded(grant.set_.name)] = grant.set_.name
     return list(last.values())
 
 
-def _seabed_shapes(before: Floor, after: Floor, files: Mapping[str, bytes]) -> Iterator[Difference]:
+def _seabed_shapes(before: SeabedShape, after: SeabedShape, files: Mapping[str, bytes]) -> Iterator[Difference]:
     """The seabed, where it differs; the file of a profile has not been written yet and is among `files`."""
     if after.file in files:
         after = replace(after, points=parse_profile(files[after.file], after.file, 2), missing="", file="")
@@ -103,7 +101,7 @@ def _one_of_each_kind(before: Scene, after: Scene) -> Indices:
     columns = [
         column
         for scene in (before, after)
-        for column in (scene.laws.of_element, scene.bed.of_element, scene.diameter.view(np.int64))
+        for column in (scene.laws.of_element, scene.resistance.of_element, scene.diameter.view(np.int64))
     ]
     _, first = np.unique(np.column_stack(columns), axis=0, return_index=True)
     return np.sort(first)
@@ -118,10 +116,10 @@ def _laws(before: Scene, after: Scene, chosen: Indices) -> Iterator[tuple[int, s
 
 def _values(before: Scene, after: Scene, chosen: Indices) -> Iterator[tuple[int, str]]:
     """Friction, lateral resistance and suction: a coefficient, resistance or suction that is not given is 0."""
-    for name in BedValues._fields:
+    for name in ResistanceValues._fields:
         if name == "characteristic":  # checked before: those in force are the default, which the new family has as well
             continue
-        one, other = (np.asarray(scene.bed.column(name)[chosen], dtype=np.float64) for scene in (before, after))
+        one, other = (np.asarray(scene.resistance.column(name)[chosen], dtype=np.float64) for scene in (before, after))
         if name in ("friction", "lateral", "suction"):
             one, other = (np.where(np.isnan(values), 0.0, values) for values in (one, other))
         same = _same_bits(one, other).reshape(len(chosen), -1).all(axis=1)

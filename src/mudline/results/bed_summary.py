@@ -5,17 +5,17 @@ from __future__ import annotations
 from typing import Any
 
 from mudline.results.numbers import finite
-from mudline.scene.floor import Floor, FloorKind
 from mudline.scene.model import Scene
+from mudline.scene.seabed import SeabedKind, SeabedShape
 
 _PAIRS = ("friction", "mobilisation")
 _SINGLE = ("lateral", "suction", "extent")
 
 
-def floor_summary(floor: Floor) -> dict[str, Any]:
+def floor_summary(floor: SeabedShape) -> dict[str, Any]:
     """The shape of the bed; null for what its kind has not."""
-    slope = floor.kind is FloorKind.SLOPING
-    from_points = floor.kind in (FloorKind.PROFILE, FloorKind.SURFACE)
+    slope = floor.kind is SeabedKind.SLOPING
+    from_points = floor.kind in (SeabedKind.PROFILE, SeabedKind.SURFACE)
     return {
         "kind": floor.kind.value,
         "slope": finite(floor.slope) if slope else None,
@@ -35,13 +35,13 @@ def bed_summary(scene: Scene) -> list[dict[str, Any]]:
     are left out.
     """
     rows = []
-    for index, (values, where) in enumerate(zip(scene.bed.values, scene.bed.places, strict=True)):
+    for index, (values, where) in enumerate(zip(scene.resistance.values, scene.resistance.places, strict=True)):
         pairs = {name: [finite(value) for value in getattr(values, name)] for name in _PAIRS}
         single = {name: finite(getattr(values, name)) for name in _SINGLE}
         if any(value is not None for value in (*single.values(), *(one for pair in pairs.values() for one in pair))):
             entry: Any = scene.deck.sections[where.section].blocks[where.block]
             name = (entry.sets[where.path[1]].set_name or "ALL") if where.path[0] == "sets" else "ALL"
-            rows.append({"set": name, "elements": int((scene.bed.of_element == index).sum()), **pairs, **single})
+            rows.append({"set": name, "elements": int((scene.resistance.of_element == index).sum()), **pairs, **single})
     return rows
 
 

@@ -32,7 +32,7 @@ def used_curves(scene: Scene) -> list[tuple[int, SceneCurve, ForceCurve]]:
 
 def diameters(scene: Scene, curve: int) -> list[float]:
     """The different external diameters of the elements that follow a curve."""
-    follows = np.array([grant.curve == curve for grant in scene.laws.grants] + [False])[scene.laws.of_element]
+    follows = np.array([grant.curve == curve for grant in scene.laws.set_laws] + [False])[scene.laws.of_element]
     found = scene.diameter[follows]
     return [float(value) for value in np.unique(found[~np.isnan(found)])]
 

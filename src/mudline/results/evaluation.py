@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from mudline.codes import RUN001
 from mudline.contact import ContactModel, ContactResult, ElementError, PositionError
 from mudline.diagnostics import DeckError, Problem, Where
-from mudline.scene.elements import distances
+from mudline.scene.mesh import distances
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices, Mask
 from mudline.scene.positions import Positions
@@ -172,7 +172,7 @@ def _told(scene: Scene) -> Iterator[None]:
 
 
 def _require_elements(scene: Scene) -> None:
-    definers = scene.set_table.context.definers
+    definers = scene.set_table.context.external_definers
     hint = f": *{definers[0]} may make them, and is not read; give them with --elements" if definers else ""
     if not len(scene.element_ids):
         raise _refusal(scene, f"the deck has no elements to evaluate{hint}")

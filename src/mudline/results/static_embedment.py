@@ -9,12 +9,10 @@ import numpy as np
 from mudline.contact.input import LawAssignment, LawKind
 from mudline.contact.laws.linear import penetration_under, smoothed_reaction
 from mudline.results.numbers import finite
-from mudline.scene.contact_parts.nodal import nodal_springs
-from mudline.scene.contact_parts.picking import summed
-from mudline.scene.contact_parts.smoothing import element_smoothing
-from mudline.scene.model import LawArrays, Scene
-from mudline.scene.numbering import Floats, Indices
-from mudline.scene.section_weight import submerged_weight
+from mudline.scene.assignments import element_smoothing, nodal_springs
+from mudline.scene.model import Scene
+from mudline.scene.numbering import Floats, Indices, summed
+from mudline.scene.resolved import LawArrays
 
 _SIDES = {-1: "below", 0: None, 1: "above"}
 _MOST = 100
@@ -37,7 +35,7 @@ def static_embedment(scene: Scene) -> list[dict[str, Any]]:
     Of a curve that does so at several ratios it is the smallest that is not negative. For nodal laws there is a row for
     the node that carries least and one for the node that carries most; `stiffness` is then Kn, force per length.
     """
-    weight = submerged_weight(scene)
+    weight = scene.submerged_weight
     known = np.flatnonzero((weight > 0.0) & np.isin(scene.law, (LawKind.CURVE, LawKind.LINEAR)))
     arrays, zones = scene.law_arrays(), _Zones.of_elements(scene)
     rows = [_of_element(scene, arrays, zones, case) for case in _cases(scene, weight, zones, known)]

@@ -38,7 +38,7 @@ def summarise(scene: Scene) -> dict[str, Any]:
         "diameters": _diameters(scene),
         "laws": _laws(scene),
         "seabed": sorted(name.lower() for name in scene.laws.types),
-        "floor": floor_summary(scene.floor),
+        "floor": floor_summary(scene.seabed),
         "bed": bed_summary(scene),
         "extensions": extension_summary(scene),
         "static_embedment": static_embedment(scene),
@@ -68,7 +68,7 @@ def _sets(scene: Scene) -> list[dict[str, Any]]:
 def _curves(scene: Scene) -> list[dict[str, Any]]:
     rows = []
     for index, entry in enumerate(scene.laws.curves):
-        follows = np.array([grant.curve == index for grant in scene.laws.grants] + [False])[scene.laws.of_element]
+        follows = np.array([grant.curve == index for grant in scene.laws.set_laws] + [False])[scene.laws.of_element]
         curve = entry.curve
         rows.append(
             {
@@ -78,7 +78,7 @@ def _curves(scene: Scene) -> list[dict[str, Any]]:
                 "ratios": None if curve is None else [float(curve.ratios[0]), float(curve.ratios[-1])],
                 "forces": None if curve is None else [float(curve.forces.min()), float(curve.forces.max())],
                 "elements": int(follows.sum()),
-                "open": any(grant.curve == index and grant.set_.open for grant in scene.laws.grants),
+                "open": any(grant.curve == index and grant.set_.open for grant in scene.laws.set_laws),
             }
         )
     return rows
@@ -97,7 +97,7 @@ def _diameters(scene: Scene) -> list[dict[str, Any]]:
 def _laws(scene: Scene) -> list[dict[str, Any]]:
     """Laws with the number of their elements; linear ones by stiffness."""
     rows: list[dict[str, Any]] = []
-    for index, grant in enumerate(scene.laws.grants):
+    for index, grant in enumerate(scene.laws.set_laws):
         count = int((scene.laws.of_element == index).sum())
         if count:
             law = scene.law_name(grant)

@@ -21,16 +21,22 @@ from mudline.keywords import catalogue
 from mudline.keywords.likeness import meant_in, meant_keyword
 from mudline.keywords.model import ListRow
 from mudline.scene.continued import ContinuedDeck
-from mudline.scene.harvest import definers, harvested_labels, harvested_sets, is_laid, may_define
 from mudline.scene.numbering import LARGEST
+from mudline.scene.opaque_names import (
+    definition_by,
+    external_definers,
+    is_read_definer,
+    opaque_labels,
+    opaque_set_names,
+)
 from mudline.short_repr import short_repr
 from mudline.spelling import Effort, nearest
 from mudline.syntax.tree import canonical_name, mark_of
 
-MOST_TOLD = 1000
-"""Findings of one code told one by one; the rest is left out."""
+MOST_REPORTED = 1000
+"""Findings of one code that are reported; the rest is left out."""
 
-MORE = f"and more of the same: the first {MOST_TOLD} are listed"
+MORE = f"and more of the same: the first {MOST_REPORTED} are listed"
 """The message of the finding behind them."""
 
 
@@ -47,7 +53,7 @@ class Context:
     problems: list[Problem] = field(default_factory=list)
     unread: set[str] = field(default_factory=set)
     doubtful: dict[str, list[tuple[int, int]]] = field(default_factory=dict)
-    _told: dict[str, int] = field(default_factory=dict)
+    _reported: dict[str, int] = field(default_factory=dict)
     _placeless: set[tuple[int, int]] = field(default_factory=set)
     _effort: Effort = field(default_factory=Effort)
 
@@ -59,35 +65,35 @@ class Context:
                 if self.deck.origin.lost(i, j):
                     self.unread.add(block.keyword)
 
-    def tell(self, code: Code, message: str, where: Where, severity: Severity | None = None) -> None:
+    def report(self, code: Code, message: str, where: Where, severity: Severity | None = None) -> None:
         """Note a problem."""
         self.note(Problem(code, message, None, severity, where))
 
     def note(self, problem: Problem) -> None:
         """Note a problem, if there are not very many of its code already."""
         code = problem.code.code
-        count = self._told[code] = self._told.get(code, 0) + 1
-        if count <= MOST_TOLD:
+        count = self._reported[code] = self._reported.get(code, 0) + 1
+        if count <= MOST_REPORTED:
             self.problems.append(problem)
-        elif count == MOST_TOLD + 1:
+        elif count == MOST_REPORTED + 1:
             self.problems.append(replace(problem, message=MORE))
 
-    def tell_missing(self, code: Code, message: str, where: Where, keyword: str, number: int | None = None) -> None:
+    def report_missing(self, code: Code, message: str, where: Where, keyword: str, number: int | None = None) -> None:
         """Note a name or number that nothing defines."""
-        if self._told.get(code.code, 0) <= MOST_TOLD:
+        if self._reported.get(code.code, 0) <= MOST_REPORTED:
             self.note(self.missing(code, message, where, keyword, number))
 
     def missing(self, code: Code, message: str, where: Where, keyword: str, number: int | None = None) -> Problem:
         """A name or number that nothing defines: an error, or a warning where something unread could define it."""
-        if supplier := self.supplier(keyword, number):
-            return Problem(code, f"{message}; {supplier}", None, Severity.WARNING, where)
+        if source := self.possible_definition(keyword, number):
+            return Problem(code, f"{message}; {source}", None, Severity.WARNING, where)
         return Problem(code, message, where=where)
 
-    def supplier(self, keyword: str, number: int | None = None) -> str:
+    def possible_definition(self, keyword: str, number: int | None = None) -> str:
         """What could define a thing of a keyword that is missing, in words, or ""; `number` None stands for any."""
-        if keyword == "ELEMENT SETS" and (lost := catalogue.in_order(filter(is_laid, self.unread))):
+        if keyword == "ELEMENT SETS" and (lost := catalogue.in_order(filter(is_read_definer, self.unread))):
             return f"a line of *{lost[0]} that could not be used may define it"
-        if words := next(filter(None, (may_define(definer, keyword) for definer in self.definers)), ""):
+        if words := next(filter(None, (definition_by(definer, keyword) for definer in self.external_definers)), ""):
             return words
         if self.restart:
             return "the deck that *RESTART continues may define it"
@@ -95,38 +101,40 @@ class Context:
             return f"a line of *{keyword} that could not be used may define it"
         if any(number is None or low <= number <= high for low, high in self.doubtful.get(keyword, ())):
             return f"a GEN= of *{keyword} that could not be used may define it"
-        place = self.astray(keyword)
+        place = self.misplaced(keyword)
         return f"{place} may define it" if place else ""
 
-    def astray(self, keyword: str) -> str:
+    def misplaced(self, keyword: str) -> str:
         """A keyword that stands where it is not read, or is misspelt, in words; "" when there is none."""
-        return self._astray.get(keyword, "")
+        return self._misplaced.get(keyword, "")
 
     @property
-    def astray_keywords(self) -> list[str]:
+    def misplaced_keywords(self) -> list[str]:
         """Keywords that stand where they are not read, or are misspelt."""
-        return list(self._astray)
+        return list(self._misplaced)
 
     def near(self, word: str, known: Collection[str]) -> str:
         """The name among `known`, all of them folded, that is spelt nearly as `word`, or ""."""
         return nearest(folded(word), known, self._effort)
 
-    def disturbed(self, where: Where) -> bool:
+    def has_read_errors(self, where: Where) -> bool:
         """Whether something at this place, or a line below it, could not be used."""
         if self.deck.origin.damaged(where):
             return True
         if where.section >= len(self.deck.own_sections):  # of a deck that is continued: what it lost is in no line here
             return self.deck.origin.lost(where.section, where.block) > 0
-        if not self._lost_lines:
+        if not self._unread_lines:
             return False
         lines = self._lines(where)
-        return bisect_left(self._lost_lines, lines.start) < bisect_left(self._lost_lines, lines.stop)
+        return bisect_left(self._unread_lines, lines.start) < bisect_left(self._unread_lines, lines.stop)
 
     def _lines(self, where: Where) -> range:
         """The lines from a place to the next item of its list, or to the next block."""
         *outer, last = where.path or ("",)
         following = Where(where.section, where.block + 1)
-        if isinstance(last, int) and last + 1 < len(self._items(where._replace(path=tuple(outer)))):
+        if isinstance(last, int) and last + 1 < len(
+            cast("list[object]", self.as_written(where._replace(path=tuple(outer))))
+        ):
             following = where._replace(path=(*outer, last + 1))
         elif following.block == len(self.deck.sections[where.section].blocks):
             following = Where(where.section + 1)
@@ -134,25 +142,24 @@ class Context:
         return range(self._line(where), end)
 
     def _line(self, where: Where) -> int:
-        return self.deck.origin.place(Problem(SYN001, "", where=where)).line
+        return self._position(Problem(SYN001, "", where=where))[0]
 
     @cached_property
-    def _lost_lines(self) -> list[int]:
+    def _unread_lines(self) -> list[int]:
         """Lines that could not be used at all."""
-        problems = [problem for problem in self.deck.problems if problem.code in (SYN001, SYN004)]
-        return sorted(self.deck.origin.place(problem).line for problem in problems)
+        return sorted(self._position(problem)[0] for problem in self.deck.problems if problem.code in (SYN001, SYN004))
 
-    def lost_behind(self, where: Where, keyword: str) -> bool:
+    def has_unread_line_after(self, where: Where, keyword: str) -> bool:
         """Whether a line of a keyword that stands behind a place could not be used."""
         line = self._line(where)
         own = (block for block, _ in self.deck.blocks(keyword) if block.section < len(self.deck.own_sections))
         blocks = (self._lines(block) for block in own)
-        return any(lost > line and lost in lines for lines in blocks for lost in self._lost_lines)
+        return any(lost > line and lost in lines for lines in blocks for lost in self._unread_lines)
 
     def lacks_value(self, where: Where, key: str) -> bool:
         """Whether the setting `key` of a record was written without a value that could be read."""
         origin = self.deck.origin
-        return origin.damaged(where) and origin.written(where._replace(path=(*where.path, key)))
+        return origin.damaged(where) and origin.written(where.inside(key))
 
     def generator(self, given: ListRow, where: Where) -> tuple[int, int, int] | None:
         """The three values of a GEN=, the last one 1 unless given; None when one of them is not known."""
@@ -170,9 +177,6 @@ class Context:
             before is not None and (now is None or (isinstance(now, float) and isnan(now))) for now, before in fields
         )
 
-    def _items(self, where: Where) -> list[object]:
-        return cast("list[object]", self.as_written(where))
-
     def as_written(self, where: Where) -> object:
         """A part of the deck before its equations were evaluated."""
         found: Any = self.written.sections[where.section].blocks[where.block]
@@ -180,35 +184,34 @@ class Context:
             found = found[step] if isinstance(step, int) else getattr(found, step)
         return cast("object", found)
 
-    def doubted(self, where: Where) -> bool:
-        """Whether the label at this place was guessed from a word without braces, which has been told."""
-        return self._line_and_column(where) in self._guessed_labels
+    def is_guessed_label(self, where: Where) -> bool:
+        """Whether the label at this place was guessed from a word without braces, which is reported."""
+        return self._position(Problem(SYN016, "", where=where)) in self._guessed_labels
 
     def cannot_place(self, where: Where) -> None:
         """Note that an element ends at the label at this place, and that no node with that label is known."""
-        self._placeless.add(self._line_and_column(where))
+        self._placeless.add(self._position(Problem(SYN016, "", where=where)))
 
     def of_deck(self) -> list[Problem]:
         """What reading the deck noticed; guessed labels that elements end at keep it from being evaluated."""
         if not self._placeless:
             return self.deck.problems
         return [
-            replace(problem, blocks=Blocks.ALWAYS) if self._is_placeless(problem) else problem
+            replace(problem, blocks=Blocks.ALWAYS)
+            if problem.code is SYN016 and self._position(problem) in self._placeless
+            else problem
             for problem in self.deck.problems
         ]
 
-    def _is_placeless(self, problem: Problem) -> bool:
+    def _position(self, problem: Problem) -> tuple[int, int]:
+        """Line and column of a problem."""
         place = self.deck.origin.place(problem)
-        return problem.code is SYN016 and (place.line, place.column) in self._placeless
-
-    def _line_and_column(self, where: Where) -> tuple[int, int]:
-        place = self.deck.origin.place(Problem(SYN016, "", where=where))
         return place.line, place.column
 
     @cached_property
-    def definers(self) -> list[str]:
+    def external_definers(self) -> list[str]:
         """Keywords of the model that make nodes, elements or sets which the deck does not show."""
-        return definers(self.deck)
+        return external_definers(self.deck)
 
     @cached_property
     def restart(self) -> bool:
@@ -219,11 +222,10 @@ class Context:
 
     @cached_property
     def _guessed_labels(self) -> set[tuple[int, int]]:
-        problems = [problem for problem in self.deck.problems if problem.code is SYN016]
-        return {(place.line, place.column) for place in map(self.deck.origin.place, problems)}
+        return {self._position(problem) for problem in self.deck.problems if problem.code is SYN016}
 
     @cached_property
-    def _astray(self) -> dict[str, str]:
+    def _misplaced(self) -> dict[str, str]:
         """Keywords that stand where they are not read: outside any section, in a wrong one, or misspelt.
 
         Each with the first of its places, in words.
@@ -248,11 +250,11 @@ class Context:
                 yield name, f"the *{keyword} in ${section}, where it does not belong,"
 
     @cached_property
-    def harvested(self) -> dict[str, str]:
+    def opaque_set_names(self) -> dict[str, str]:
         """Names of the element sets that lines make, by their folded form."""
-        return harvested_sets(self.deck)
+        return opaque_set_names(self.deck)
 
     @cached_property
     def labels(self) -> dict[str, str]:
         """What may be labels of nodes that lines make, by their folded form."""
-        return harvested_labels(self.deck)
+        return opaque_labels(self.deck)

@@ -41,7 +41,7 @@ class BaseProblem(Problem):
     __repr__ = short_repr
 
 
-def lent(problem: Problem, deck: Deck) -> BaseProblem:
+def as_base_problem(problem: Problem, deck: Deck) -> BaseProblem:
     """A problem of a deck that is continued."""
     return BaseProblem(
         code=problem.code,
@@ -56,23 +56,23 @@ def lent(problem: Problem, deck: Deck) -> BaseProblem:
 
 @dataclass(frozen=True)
 class ContinuedOrigin:
-    """Tells where values stand, each in its own file; the sections from number `own` on are those of `borrowed`."""
+    """Where values stand, each in its own file; the sections from number `own` on are those of `base_sections`."""
 
     origin: Origin
     own: int
-    borrowed: Sequence[tuple[Deck, int]]
+    base_sections: Sequence[tuple[Deck, int]]
 
     __repr__ = short_repr
 
-    def lender(self, where: Where) -> tuple[Deck, Where] | None:
+    def base_of(self, where: Where) -> tuple[Deck, Where] | None:
         """The deck that a value was taken from, and its place there; None for one of the deck itself."""
         if where.section < self.own:
             return None
-        deck, number = self.borrowed[where.section - self.own]
+        deck, number = self.base_sections[where.section - self.own]
         return deck, where._replace(section=number)
 
     def _at(self, where: Where) -> tuple[Origin, Where]:
-        found = self.lender(where)
+        found = self.base_of(where)
         return (found[0].origin, found[1]) if found else (self.origin, where)
 
     def place(self, problem: Problem) -> Range:
@@ -140,7 +140,7 @@ class ContinuedDeck(Deck):
 
     def folder_of(self, where: Where) -> Path | None:
         """Where the files are looked for that the deck names at a place."""
-        found = self._lender(where)
+        found = self._base_of(where)
         return found[0].folder if found else self.folder
 
     def diagnose(self, problems: Sequence[Problem]) -> list[Diagnostic]:
@@ -150,13 +150,13 @@ class ContinuedDeck(Deck):
     def _located(self, problem: Problem) -> Diagnostic:
         if isinstance(problem, BaseProblem) and problem.deck is not None:
             return problem.deck.diagnose([problem])[0]
-        found = self._lender(problem.where) if problem.where else None
+        found = self._base_of(problem.where) if problem.where else None
         if found is None:
             return super().diagnose([problem])[0]
         return found[0].diagnose([replace(problem, where=found[1])])[0]
 
-    def _lender(self, where: Where) -> tuple[Deck, Where] | None:
-        return self.origin.lender(where) if isinstance(self.origin, ContinuedOrigin) else None
+    def _base_of(self, where: Where) -> tuple[Deck, Where] | None:
+        return self.origin.base_of(where) if isinstance(self.origin, ContinuedOrigin) else None
 
 
 def continuation(deck: Deck, bases: Sequence[Base], *, incomplete: bool) -> ContinuedDeck:
@@ -171,7 +171,7 @@ def continuation(deck: Deck, bases: Sequence[Base], *, incomplete: bool) -> Cont
         sections=[*deck.sections, *(section for _, _, section in far_first)],
         comments=deck.comments,
         problems=deck.problems,
-        origin=ContinuedOrigin(deck.origin, len(deck.sections), [(lent, number) for lent, number, _ in far_first]),
+        origin=ContinuedOrigin(deck.origin, len(deck.sections), [(base, number) for base, number, _ in far_first]),
         folder=deck.folder,
         bases=tuple(bases),
         incomplete=incomplete,

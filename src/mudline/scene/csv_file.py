@@ -166,7 +166,7 @@ def _rows(file: str, text: str) -> Iterator[tuple[list[str], int]]:
         for row in reader:
             yield row, reader.line_num
     except csv.Error as error:
-        raise data_error(file, f"no CSV: {error}", max(1, reader.line_num)) from error
+        raise data_error(file, f"not a CSV file: {error}", max(1, reader.line_num)) from error
 
 
 def finite(file: str, name: str, array: NDArray[np.floating]) -> Floats:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, cast
 
@@ -11,7 +13,8 @@ from mudline.diagnostics import Where
 from mudline.keywords import catalogue
 from mudline.keywords.model import set_slots
 from mudline.scene.context import Context
-from mudline.scene.numbering import Indices, Mask
+from mudline.scene.deck_values import number
+from mudline.scene.numbering import Floats, Indices, Mask, picked
 from mudline.scene.sets import NamedSet, Sets, later_wins
 from mudline.short_repr import short_repr
 
@@ -29,6 +32,17 @@ class Extension:
     of_element: Indices
 
     __repr__ = short_repr
+
+    def values(self, at: Indices, *names: str, default: float = math.nan) -> Floats:
+        """A number of the block of each index, `default` where the block does not give it, NaN for -1.
+
+        `names` lead to it: a field, or a field of a record and a field in it.
+        """
+        *outer, name = names
+        parts: Iterable[object] = self.entries
+        for step in outer:
+            parts = [getattr(part, step, None) for part in parts]
+        return picked((number(part, name, default) for part in parts), at)
 
 
 def read_extensions(context: Context, sets: Sets, count: int) -> dict[str, Extension]:
@@ -57,7 +71,7 @@ def _read(context: Context, sets: Sets, keyword: str, count: int) -> Extension:
         for listed, named in set_slots(type(cast("Block", block))):
             for index, entry in enumerate(getattr(block, listed.name)):
                 entries.append(entry)
-                places.append(where._replace(path=(listed.json, index)))
+                places.append(where.inside(listed.json, index))
                 holders.append(_holder(context, sets, getattr(entry, named.name)))
     return Extension(entries, places, holders, later_wins(holders, count))
 

@@ -11,7 +11,7 @@ from mudline.codes.curves import CRV001, CRV003, CRV011
 from mudline.diagnostics import Where
 from mudline.keywords.table import Table
 from mudline.keywords.text import shown
-from mudline.scene.context import MOST_TOLD, Context
+from mudline.scene.context import MOST_REPORTED, Context
 from mudline.scene.numbering import Floats, Indices, Mask
 from mudline.short_repr import short_repr
 
@@ -46,7 +46,7 @@ class SceneCurve:
 
     def point(self, index: int) -> Where:
         """Where a point of `points` stands."""
-        return self.where._replace(path=(*self.where.path, "points", int(self.rows[index])))
+        return self.where.inside("points", int(self.rows[index]))
 
     @property
     def usable(self) -> bool:
@@ -56,13 +56,13 @@ class SceneCurve:
     @property
     def title(self) -> Where:
         """Where its name stands: the value of CURVE= or SET=."""
-        return self.where._replace(path=(*self.where.path, "set" if self.embedment else "name"))
+        return self.where.inside("set" if self.embedment else "name")
 
 
 def read_curves(context: Context) -> tuple[list[SceneCurve], list[SceneCurve]]:
     """The curves of `*SEABED STIFFNESS` and those of `*EMBEDMENT`, in the order of the file."""
     named = [
-        _curve(context, entry.name, entry.points, where._replace(path=("curves", index)), embedment=False)
+        _curve(context, entry.name, entry.points, where.inside("curves", index), embedment=False)
         for where, block in context.deck.blocks("SEABED STIFFNESS")
         for index, entry in enumerate(cast("SeabedStiffness", block).curves)
     ]
@@ -70,7 +70,7 @@ def read_curves(context: Context) -> tuple[list[SceneCurve], list[SceneCurve]]:
         _curve(context, set_name(context, entry.set_name, place), entry.points, place, embedment=True)
         for where, block in context.deck.blocks("EMBEDMENT")
         for index, entry in enumerate(cast("Embedment", block).curves)
-        for place in (where._replace(path=("curves", index)),)
+        for place in (where.inside("curves", index),)
     ]
     return named, by_set
 
@@ -89,13 +89,13 @@ def _curve(context: Context, name: str | None, table: Table, where: Where, *, em
     rows = np.flatnonzero(~np.isnan(points).any(axis=1) & (table.lengths == 2))
     points = points[rows]
     clashing, _ = clashes_and_repeats(points)
-    unread = len(rows) < len(table) or context.disturbed(where)
+    unread = len(rows) < len(table) or context.has_read_errors(where)
     whole = not unread and not clashing.size
     found = SceneCurve(name or "", points, rows, where, None, whole, embedment, name is not None)
-    for index in clashing[: MOST_TOLD + 1].tolist():
+    for index in clashing[: MOST_REPORTED + 1].tolist():
         ratio, force = points[index].tolist()
         message = f"a second force at ratio {ratio!r} ({force!r}): the slope there would be infinite; remove one"
-        context.tell(CRV003, message, found.point(index))
+        context.report(CRV003, message, found.point(index))
     keep = np.arange(len(points))
     if clashing.size:
         keep = np.setdiff1d(keep, clashing, assume_unique=True)
@@ -106,11 +106,11 @@ def _curve(context: Context, name: str | None, table: Table, where: Where, *, em
     except CurveError as error:
         if error.index >= 0:  # the message counts points, which holds only when none is left out
             fault = str(error) if len(keep) == len(table) else "the slope to this point cannot be held by a float64"
-            context.tell(_CODES[error.code], f"{fault}: correct the point", found.point(int(keep[error.index])))
+            context.report(_CODES[error.code], f"{fault}: correct the point", found.point(int(keep[error.index])))
         elif whole:
             has = "one distinct point" if len(points) else "no point"
             message = f"curve {shown(found.name)} has {has}: it needs at least two"
-            context.tell(CRV001, message, where)
+            context.report(CRV001, message, where)
         return found
     return replace(found, curve=curve)
 

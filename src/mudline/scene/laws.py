@@ -1,10 +1,10 @@
-"""Which normal law each element gets: both families, the later definition wins."""
+"""The normal law and the resistance of each element: both families, the later definition wins."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
@@ -12,24 +12,28 @@ from mudline.contact.input import LawKind
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Where
 from mudline.scene.context import Context
+from mudline.scene.deck_values import number, surfaces
 from mudline.scene.force_curves import SceneCurve, set_name
-from mudline.scene.numbering import Indices, looked_up
+from mudline.scene.numbering import Floats, Indices, looked_up, one_index
 from mudline.scene.sets import NamedSet, Sets, later_wins
 from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:
     from mudline.keywords.library.elastic_surface import ElasticSurface
     from mudline.keywords.library.seabed_properties import SeabedProperties, SeabedSet
+    from mudline.keywords.model import Part
+
 
 NOTHING = -1
+_UNKNOWN = float("nan")
 
 
 @dataclass(frozen=True, slots=True)
-class Grant:
+class SetLaw:
     """What one place of the deck gives to a set of elements; a set that is not known is open and holds none.
 
     `family` is "legacy" or "new"; `curve` an index in the table's curves. `unknown` marks a law that could not be read
-    or found: enough has been said of it.
+    or found, which is reported.
     """
 
     kind: LawKind
@@ -45,15 +49,15 @@ class Grant:
 
 @dataclass(slots=True)
 class LawTable:
-    """The grants as they were found, legacy ones first, and the one that each element follows (m,), -1 for none.
+    """The set_laws as they were found, legacy ones first, and the one that each element follows (m,), -1 for none.
 
-    `covered` (m,) is the last grant of the new family that holds an element, also one without stiffness. `curves` are
+    `covered` (m,) is the last set_law of the new family that holds an element, also one without stiffness. `curves` are
     the named ones, then those of `*EMBEDMENT`; `referenced` the folded names that a STIFFNESS= gives. `types` has the
     places that say "RIGID" or "ELASTIC".
     """
 
     curves: list[SceneCurve]
-    grants: list[Grant] = field(default_factory=list)
+    set_laws: list[SetLaw] = field(default_factory=list)
     of_element: Indices = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
     covered: Indices = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
     referenced: set[str] = field(default_factory=set)
@@ -64,11 +68,11 @@ class LawTable:
     @property
     def uncertain(self) -> bool:
         """Whether some law belongs to elements that the deck does not show: any element may have it."""
-        return any(grant.set_.open for grant in self.grants)
+        return any(set_law.set_.open for set_law in self.set_laws)
 
     def followers(self, curve: int) -> Indices:
         """Indices of the elements on a curve."""
-        on_curve = np.array([*(grant.curve == curve for grant in self.grants), False])
+        on_curve = np.array([*(set_law.curve == curve for set_law in self.set_laws), False])
         return np.flatnonzero(on_curve[self.of_element])
 
 
@@ -78,11 +82,11 @@ def read_laws(context: Context, sets: Sets, named: list[SceneCurve], by_set: lis
     surfaces = [*_rigid_surface(context, sets, laws), *_elastic_surface(context, sets, laws)]
     legacy = [*surfaces, *_embedment(sets, laws, len(named))]
     new = list(_properties(context, sets, laws, named))
-    laws.grants = legacy + new
-    laws.of_element = later_wins([grant.set_ for grant in legacy], count)
-    wins = later_wins([grant.set_ for grant in new], count)
-    laws.covered = looked_up(np.array([*range(len(legacy), len(laws.grants)), NOTHING], dtype=np.intp), wins)
-    gives = np.array([*(grant.kind is not LawKind.NONE or grant.unknown for grant in laws.grants), False])
+    laws.set_laws = legacy + new
+    laws.of_element = later_wins([set_law.set_ for set_law in legacy], count)
+    wins = later_wins([set_law.set_ for set_law in new], count)
+    laws.covered = looked_up(np.array([*range(len(legacy), len(laws.set_laws)), NOTHING], dtype=np.intp), wins)
+    gives = np.array([*(set_law.kind is not LawKind.NONE or set_law.unknown for set_law in laws.set_laws), False])
     replaced = looked_up(gives, laws.covered)
     if replaced.all():
         laws.of_element = laws.covered
@@ -91,37 +95,31 @@ def read_laws(context: Context, sets: Sets, named: list[SceneCurve], by_set: lis
     return laws
 
 
-def _rigid_surface(context: Context, sets: Sets, laws: LawTable) -> Iterator[Grant]:
+def _rigid_surface(context: Context, sets: Sets, laws: LawTable) -> Iterator[SetLaw]:
     for where, _ in context.deck.blocks("RIGID SURFACE"):
         laws.types.setdefault("RIGID", []).append(where)
-        yield Grant(LawKind.RIGID, sets.everything, where, "legacy")
+        yield SetLaw(LawKind.RIGID, sets.everything, where, "legacy")
 
 
-def _elastic_surface(context: Context, sets: Sets, laws: LawTable) -> Iterator[Grant]:
+def _elastic_surface(context: Context, sets: Sets, laws: LawTable) -> Iterator[SetLaw]:
     """The linear stiffness that holds where no curve of `*EMBEDMENT` does, in whatever order they stand."""
     for where, block in context.deck.blocks("ELASTIC SURFACE"):
         laws.types.setdefault("ELASTIC", []).append(where)
-        place = where._replace(path=("properties",))
+        place = where.inside("properties")
         stiffness = getattr(cast("ElasticSurface", block).properties, "stiffness", None)
-        field_ = place._replace(path=("properties", "stiffness"))
+        field_ = place.inside("stiffness")
         if stiffness is not None:
             value = float(cast("float", stiffness))
-            yield Grant(LawKind.LINEAR, sets.everything, field_, "legacy", value, unknown=not value >= 0)
-        elif context.disturbed(place):
-            yield Grant(LawKind.LINEAR, sets.everything, field_, "legacy", unknown=True)
+            yield SetLaw(LawKind.LINEAR, sets.everything, field_, "legacy", value, unknown=not value >= 0)
+        elif context.has_read_errors(place):
+            yield SetLaw(LawKind.LINEAR, sets.everything, field_, "legacy", unknown=True)
 
 
-def _embedment(sets: Sets, laws: LawTable, first: int) -> Iterator[Grant]:
+def _embedment(sets: Sets, laws: LawTable, first: int) -> Iterator[SetLaw]:
     for index, curve in enumerate(laws.curves[first:], first):
         found = sets.find(curve.name) if curve.named else None
-        yield Grant(
-            LawKind.CURVE,
-            found or _unknown(curve.name),
-            curve.where,
-            "legacy",
-            curve=index,
-            unknown=not curve.usable,
-        )
+        holder = found or _unknown(curve.name)
+        yield SetLaw(LawKind.CURVE, holder, curve.where, "legacy", curve=index, unknown=not curve.usable)
 
 
 def _unknown(name: str | None) -> NamedSet:
@@ -137,40 +135,127 @@ def typed_blocks(context: Context) -> Iterator[tuple[Where, SeabedProperties, st
         yield where, properties, type_
 
 
-def _properties(context: Context, sets: Sets, laws: LawTable, named: list[SceneCurve]) -> Iterator[Grant]:
+def _properties(context: Context, sets: Sets, laws: LawTable, named: list[SceneCurve]) -> Iterator[SetLaw]:
     curves = {folded(curve.name): index for index, curve in enumerate(named) if curve.named}
     for where, properties, type_ in typed_blocks(context):
         if properties.type_ is not None and type_ is not None:
-            laws.types.setdefault(properties.type_, []).append(where._replace(path=("type",)))
-        reading = _Reading(context, laws, curves, type_)
+            laws.types.setdefault(properties.type_, []).append(where.inside("type"))
         for index, entry in enumerate(properties.sets):
-            place = where._replace(path=("sets", index))
+            place = where.inside("sets", index)
             name = set_name(context, entry.set_name, place)
-            found = None if name is None else sets.find(name)
-            yield reading.grant(entry, place, found or _unknown(name))
+            holder = (None if name is None else sets.find(name)) or _unknown(name)
+            unread = context.has_read_errors(place)
+            stiffness, written = entry.stiffness, place.inside("stiffness")
+            if isinstance(stiffness, str):
+                curve = curves.get(folded(stiffness), NOTHING)
+                unknown = unread or curve == NOTHING or not named[curve].usable
+                yield SetLaw(LawKind.CURVE, holder, written, "new", curve=curve, unknown=unknown)
+            elif type_ == "RIGID":  # on a rigid seabed a stiffness has no effect
+                yield SetLaw(LawKind.RIGID, holder, place, "new")
+            elif stiffness is None:
+                yield SetLaw(LawKind.NONE, holder, place, "new", unknown=unread or type_ is None)
+            else:
+                value = float(stiffness)
+                yield SetLaw(LawKind.LINEAR, holder, written, "new", value, unknown=unread or not value >= 0)
+
+
+class ResistanceValues(NamedTuple):
+    """The values of one place of the deck, NaN for what it does not give.
+
+    Friction coefficients, mobilisation lengths, largest characteristic lengths and friction stiffnesses are those of
+    the longitudinal, then of the transverse direction.
+    """
+
+    friction: tuple[float, float] = (_UNKNOWN, _UNKNOWN)
+    mobilisation: tuple[float, float] = (_UNKNOWN, _UNKNOWN)
+    characteristic: tuple[float, float] = (_UNKNOWN, _UNKNOWN)
+    constant: float = _UNKNOWN
+    friction_stiffness: tuple[float, float] = (_UNKNOWN, _UNKNOWN)
+    lateral: float = _UNKNOWN
+    suction: float = _UNKNOWN
+    extent: float = _UNKNOWN
+
+    def __repr__(self) -> str:
+        return short_repr(self)
+
+
+_NO_VALUES = ResistanceValues()
 
 
 @dataclass(frozen=True, slots=True)
-class _Reading:
-    """What is needed to understand a STIFFNESS=."""
+class SeabedResistance:
+    """The values of elements (m,) or (m, 2), NaN where the deck gives none, in the deck's units.
 
-    context: Context
-    laws: LawTable
-    curves: dict[str, int]
-    type_: str | None
+    `values` and `places` list what the deck gives and where; `of_element` (m,) is the index of each element in them,
+    -1 for elements without any.
+    """
 
-    def grant(self, entry: SeabedSet, where: Where, found: NamedSet) -> Grant:
-        """The law of a set. On a rigid bed a stiffness counts for nothing."""
-        place = where._replace(path=(*where.path, "stiffness"))
-        stiffness = entry.stiffness
-        unread = self.context.disturbed(where)
-        if isinstance(stiffness, str):
-            index = self.curves.get(folded(stiffness), NOTHING)
-            unknown = unread or index == NOTHING or not self.laws.curves[index].usable
-            return Grant(LawKind.CURVE, found, place, "new", curve=index, unknown=unknown)
-        if self.type_ == "RIGID":
-            return Grant(LawKind.RIGID, found, where, "new")
-        if stiffness is None:
-            return Grant(LawKind.NONE, found, where, "new", unknown=unread or self.type_ is None)
-        value = float(stiffness)
-        return Grant(LawKind.LINEAR, found, place, "new", value, unknown=unread or not value >= 0)
+    values: Sequence[ResistanceValues]
+    places: Sequence[Where]
+    of_element: Indices
+
+    __repr__ = short_repr
+
+    def column(self, name: str) -> Floats:
+        """One of the fields of `ResistanceValues` for all elements: (m,), or (m, 2) for those of two directions."""
+        table = np.array([getattr(entry, name) for entry in (*self.values, _NO_VALUES)], dtype=np.float64)
+        found: Floats = table[self.of_element]
+        return found
+
+
+def read_resistance(context: Context, laws: LawTable) -> SeabedResistance:
+    """The last block of `*SEABED PROPERTIES` that holds an element, taken whole; else the legacy surface."""
+    surfaces = list(_of_surfaces(context))
+    values = [entry for _, entry in surfaces]
+    places = [where for where, _ in surfaces]
+    position_of = np.full(len(laws.set_laws) + 1, len(surfaces) - 1, dtype=np.intp)
+    for index in _present(laws.covered):
+        where = laws.set_laws[index].where
+        block = cast("SeabedProperties", context.deck.sections[where.section].blocks[where.block])
+        position = cast("int", where.path[1])
+        position_of[index] = len(values)
+        values.append(_of_set(block.sets[position]))
+        places.append(where._replace(path=("sets", position)))
+    return SeabedResistance(values, places, looked_up(position_of, laws.covered))
+
+
+def _present(covered: Indices) -> list[int]:
+    """The indices that there are, without -1, in ascending order."""
+    index = one_index(covered)
+    if index is not None:
+        return [index] * (index >= 0)
+    found: list[int] = np.flatnonzero(np.bincount(covered[covered >= 0])).tolist()
+    return found
+
+
+def _two(part: Part | None, name: str) -> tuple[float, float]:
+    return number(part, f"longitudinal{name}"), number(part, f"transverse{name}")
+
+
+def _of_set(entry: SeabedSet) -> ResistanceValues:
+    return ResistanceValues(
+        friction=_two(entry.friction, ""),
+        mobilisation=_two(entry.friction, "_mobilisation"),
+        constant=number(entry.friction, "constant"),
+        friction_stiffness=_two(entry.friction, "_stiffness"),
+        lateral=number(entry, "lateral"),
+        suction=number(entry.suction, "stiffness"),
+        extent=number(entry.suction, "extent"),
+    )
+
+
+def _of_surfaces(context: Context) -> Iterator[tuple[Where, ResistanceValues]]:
+    for where, surface in surfaces(context.deck):
+        properties = surface.properties
+        yield (
+            where.inside("properties"),
+            ResistanceValues(
+                friction=_two(properties, ""),
+                mobilisation=_two(properties, "_mobilisation"),
+                characteristic=_two(properties, "_length"),
+                constant=number(properties, "constant"),
+                lateral=number(properties, "lateral"),
+                suction=number(properties, "suction_stiffness"),
+                extent=number(properties, "suction_extent"),
+            ),
+        )

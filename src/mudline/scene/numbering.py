@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import weakref
 from bisect import bisect_right
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import TypeVar
@@ -96,11 +96,11 @@ class Batch:
         if not self.table:
             return self.where
         row = index if self.rows is None else int(self.rows[index])
-        return self.where._replace(path=(*self.where.path, self.table, row))
+        return self.where.inside(self.table, row)
 
 
 @dataclass(slots=True)
-class Gathered:
+class Definitions:
     """Definitions in the order of the file, numbered through as rows."""
 
     batches: list[Batch] = field(default_factory=list)
@@ -148,7 +148,7 @@ class Gathered:
         self._ids = ids[self._rows]
         self._recent = {}
 
-    def settle(self, width: int) -> Numbered:
+    def resolve(self, width: int) -> Numbered:
         """The definitions that hold, in the order in which their numbers first appear, and those given twice.
 
         `width` is the number of values of a definition.
@@ -256,3 +256,38 @@ def _all_different(ids: Ids) -> bool:
         return True
     ordered = np.sort(ids)
     return bool((ordered[1:] != ordered[:-1]).all())
+
+
+def picked(values: Iterable[float], index: Indices) -> Floats:
+    """The value of each index; NaN for -1."""
+    found: Floats = np.array([*values, np.nan], dtype=np.float64)[index]
+    return found
+
+
+def marked(flags: Iterable[bool], index: Indices) -> Mask:
+    """The flag of each index; False for -1."""
+    found: Mask = np.array([*flags, False], dtype=np.bool_)[index]
+    return found
+
+
+def at_nodes(of_element: Indices, element_nodes: Indices, nodes: int) -> Indices:
+    """For each node the last block, by the order of the file, that one of its elements follows; -1 for none."""
+    found = np.full(nodes, -1, dtype=np.intp)
+    for end in element_nodes.T:
+        np.maximum.at(found, end, of_element)
+    return found
+
+
+def summed(values: Floats, element_nodes: Indices, nodes: int) -> Floats:
+    """The sum of the values (m,) of each node's elements."""
+    total = np.zeros(nodes)
+    for end in element_nodes.T:
+        np.add.at(total, end, values)
+    return total
+
+
+def touched(elements: Mask, element_nodes: Indices, nodes: int) -> Mask:
+    """The nodes of which an element is marked."""
+    found = np.zeros(nodes, dtype=np.bool_)
+    found[element_nodes[elements].ravel()] = True
+    return found

@@ -1,22 +1,46 @@
-"""Positions of nodes from a file: one state or a time series."""
+"""Positions of nodes from a CSV, NPY or NPZ file: one state or a time series."""
 
 from __future__ import annotations
 
+import tokenize
+import warnings
+import zipfile
+import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mudline.diagnostics import DeckError
-from mudline.scene.array_file import Series, load_npy, load_npz
-from mudline.scene.csv_file import NumericTable, data_error, read_numeric_csv
+from mudline.scene.csv_file import NumericTable, data_error, finite, read_numeric_csv, whole_numbers
 from mudline.scene.numbering import Floats, Ids, Indices, Mask, Numbered
 from mudline.short_repr import short_repr
 
 _AXES = ("x", "y", "z")
 _VELOCITIES = ("vx", "vy", "vz")
 _MOST_NAMED = 10
+
+Reals = NDArray[np.floating]
+
+_ARRAYS = frozenset({"positions", "node", "time", "velocities"})
+_UNREADABLE = (
+    # damaged bytes meet the checks of numpy, of zipfile and of the parser of the header
+    ValueError,
+    EOFError,
+    KeyError,
+    MemoryError,
+    NotImplementedError,
+    OverflowError,
+    RuntimeError,
+    SyntaxError,
+    tokenize.TokenError,
+    zipfile.BadZipFile,
+    zlib.error,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,28 +72,12 @@ def read_positions(path: Path, nodes: Numbered) -> Positions:
     Raises OSError, or DeckError for a file with faults: nodes that the deck lacks, numbers that are none, steps with
     different nodes.
     """
-    suffix = path.suffix.lower()
+    file, suffix = path.as_posix(), path.suffix.lower()
     if suffix == ".npy":
-        return _from_series(path, load_npy(path, len(nodes)), nodes)
+        return _from_arrays(file, {"positions": _load_npy(path)}, nodes)
     if suffix == ".npz":
-        return _from_series(path, load_npz(path, len(nodes)), nodes)
+        return _from_arrays(file, _load_npz(path), nodes)
     return _from_csv(path, nodes)
-
-
-def _from_series(path: Path, series: Series, nodes: Numbered) -> Positions:
-    """Rows in the order of the deck's nodes, or in that of the file's own list of nodes."""
-    if series.nodes is None:
-        everywhere = np.ones(len(nodes), dtype=bool)
-        return Positions(series.values, everywhere, series.time, series.velocities, series.timed)
-    where = nodes.indices(series.nodes)
-    if (where < 0).any():
-        raise _unknown(path.as_posix(), series.nodes[where < 0])
-    present = np.zeros(len(nodes), dtype=bool)
-    present[where] = True
-    if int(present.sum()) != len(where):
-        raise data_error(path.as_posix(), "a node stands twice in the array node")
-    moving = None if series.velocities is None else _spread(series.velocities, where, len(nodes))
-    return Positions(_spread(series.values, where, len(nodes)), present, series.time, moving, series.timed)
 
 
 def _spread(values: NDArray[np.floating], where: Indices, count: int) -> NDArray[np.floating]:
@@ -111,8 +119,8 @@ def _complete(table: NumericTable, ids: Ids, step: Indices, times: Floats) -> No
         raise table.fault(row, f"node {ids[row]} is given twice{_at(times, int(step[row]))}")
     if len(cells) < len(times) * len(given):
         gaps = np.flatnonzero(ordered != np.arange(len(ordered)))
-        lost, lacking = divmod(int(gaps[0]) if gaps.size else len(ordered), len(given))
-        raise data_error(table.file, f"node {given[lacking]} is missing{_at(times, lost)}")
+        at_step, lacking = divmod(int(gaps[0]) if gaps.size else len(ordered), len(given))
+        raise data_error(table.file, f"node {given[lacking]} is missing{_at(times, at_step)}")
 
 
 def _at(times: Floats, step: int) -> str:
@@ -135,3 +143,93 @@ def _unknown(file: str, ids: Ids, line: int = 1) -> DeckError:
     more = f" and {len(numbers) - _MOST_NAMED} more" if len(numbers) > _MOST_NAMED else ""
     noun, verb = ("node", "is") if len(numbers) == 1 else ("nodes", "are")
     return data_error(file, f"{noun} {named}{more} {verb} not defined in the deck", line)
+
+
+def _load_npy(path: Path) -> Reals:
+    """An array, memory-mapped. Raises OSError, or DeckError for anything else."""
+    file = path.as_posix()
+    try:
+        with _from_old_python():
+            values = np.lib.format.open_memmap(path, mode="r")
+    except _UNREADABLE as error:
+        raise data_error(file, f"not an NPY array: {error}") from error
+    return _real(file, "positions", values)
+
+
+def _load_npz(path: Path) -> dict[str, Reals]:
+    """An archive with `positions` and, if wanted, `node`, `time` and `velocities`. Raises OSError, DeckError."""
+    file = path.as_posix()
+    with path.open("rb") as stream:
+        try:
+            with _from_old_python(), zipfile.ZipFile(stream) as archive:
+                names = [name.removesuffix(".npy") for name in archive.namelist()]
+                _check_names(file, names)
+                return {name: _real(file, name, _member(archive, name)) for name in names}
+        except DeckError:
+            raise
+        except (*_UNREADABLE, OSError) as error:
+            raise data_error(file, f"not an NPZ archive: {error}") from error
+
+
+@contextmanager
+def _from_old_python() -> Iterator[None]:
+    """Without the warning of numpy that Python 2 spelled the header, which the file's reader cannot help."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)
+        yield
+
+
+def _check_names(file: str, names: list[str]) -> None:
+    if "positions" not in names:
+        raise data_error(file, f"no array named positions, only {', '.join(names) or 'nothing'}")
+    if unknown := sorted(set(names) - _ARRAYS):
+        raise data_error(file, f"unknown arrays: {', '.join(unknown)}; expected {', '.join(sorted(_ARRAYS))}")
+
+
+def _member(archive: zipfile.ZipFile, name: str) -> NDArray[np.generic]:
+    with archive.open(f"{name}.npy") as stream:
+        return cast("NDArray[np.generic]", np.lib.format.read_array(stream, allow_pickle=False))
+
+
+def _from_arrays(file: str, arrays: dict[str, Reals], nodes: Numbered) -> Positions:
+    """Arrays (steps, nodes, 3) or (nodes, 3) in the order of the deck's nodes, or in that of the array `node`."""
+    ids = whole_numbers(file, "node", finite(file, "node", arrays["node"])) if "node" in arrays else None
+    given = arrays["positions"]
+    expected = len(nodes) if ids is None else len(ids)
+    values = given[np.newaxis] if given.ndim == 2 else given
+    if values.ndim != 3 or values.shape[1:] != (expected, 3):
+        raise _wrong_shape(file, "positions", given, f"(steps, {expected}, 3) or ({expected}, 3)")
+    if not len(values):
+        raise data_error(file, "positions holds no time step")
+    velocities = arrays.get("velocities")
+    if velocities is not None:
+        if velocities.shape != given.shape:
+            raise _wrong_shape(file, "velocities", velocities, str(given.shape))
+        velocities = velocities.reshape(values.shape)
+    if "time" in arrays:
+        time: Floats | None = finite(file, "time", arrays["time"])
+    else:
+        time = None if given.ndim == 2 else np.arange(len(values), dtype=np.float64)
+    if time is not None and len(time) != len(values):
+        raise _wrong_shape(file, "time", arrays["time"], f"({len(values)},)")
+    present = np.full(len(nodes), ids is None)
+    if ids is not None:
+        where = nodes.indices(ids)
+        if (where < 0).any():
+            raise _unknown(file, ids[where < 0])
+        present[where] = True
+        if int(present.sum()) != len(where):
+            raise data_error(file, "a node is listed twice in the array node")
+        values = _spread(values, where, len(nodes))
+        velocities = None if velocities is None else _spread(velocities, where, len(nodes))
+    return Positions(values, present, time, velocities, "time" in arrays)
+
+
+def _wrong_shape(file: str, name: str, found: Reals, expected: str) -> DeckError:
+    return data_error(file, f"{name} has the shape {found.shape}, expected {expected}")
+
+
+def _real(file: str, name: str, array: NDArray[np.generic]) -> Reals:
+    if array.dtype.kind not in "fiu":
+        raise data_error(file, f"{name} holds {array.dtype}, expected numbers")
+    return cast("Reals", array if array.dtype.kind == "f" else array.astype(np.float64))

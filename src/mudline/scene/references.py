@@ -1,17 +1,43 @@
-"""Names of sets and curves that fields give, against those of the deck; which fields do is declared with them."""
+"""Names, labels and numbers that fields give, against those that the deck defines."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+import re
+from collections.abc import Iterable, Iterator
+from itertools import chain
+from typing import TYPE_CHECKING, cast
 
+import numpy as np
+
+from mudline.codes.fields import SYN003
+from mudline.codes.lines import SYN001
+from mudline.codes.references import REF001, REF005, REF006, REF010
+from mudline.codes.words import SYN005
 from mudline.deck.model import Deck
 from mudline.deck.parameters import folded
-from mudline.diagnostics import Where
+from mudline.diagnostics import Code, Severity, Where
 from mudline.keywords.kept import Names
 from mudline.keywords.model import Block, names_given
-from mudline.scene.context import Context
+from mudline.keywords.text import shown
+from mudline.keywords.values import Label
+from mudline.scene.context import MOST_REPORTED, Context
 from mudline.scene.laws import LawTable
+from mudline.scene.numbering import Numbered
+from mudline.scene.opaque_names import bare, makes_labels
 from mudline.scene.sets import Sets
+
+if TYPE_CHECKING:
+    from mudline.keywords.library.boundary import Boundary, FixedRange, FixedValues
+    from mudline.keywords.library.element import ElementRows, Elements
+    from mudline.keywords.library.element_sets import ElementSets
+    from mudline.keywords.library.line_path_sections import LinePathSections
+    from mudline.keywords.library.line_section_groups import LineSectionGroups
+    from mudline.keywords.library.p_y import LateralSoil
+
+_MOST_FREEDOMS = 6
+_MARKS = re.compile(r"[0-9]+|\b\w{1,2}\b")
+"""Numbers and words of one or two letters: they distinguish things of a kind."""
 
 
 def check_references(context: Context, sets: Sets, laws: LawTable, *, with_soil: bool) -> None:
@@ -29,3 +55,181 @@ def given_names(deck: Deck, what: Names) -> Iterator[tuple[type[Block], Where, s
             if isinstance(block, Block):
                 for path, name in names_given(block, what):
                     yield type(block), Where(i, j, path), name
+
+
+def check_soil(context: Context, nodes: Numbered) -> None:
+    """Every NODE= of soil springs against the nodes of the deck."""
+    named = (
+        (getattr(curve, "node", None), where.inside("sets", i, "curves", j, "node"))
+        for where, block in context.deck.blocks_that(lambda declared: declared.facts.soil_springs)
+        for i, springs in enumerate(cast("LateralSoil", block).sets)
+        for j, curve in enumerate(springs.curves)
+    )
+    _check_nodes(context, nodes, named)
+
+
+def _check_nodes(context: Context, nodes: Numbered, named: Iterable[tuple[object, Where]]) -> None:
+    """Report the nodes, numbers or labels, that the deck lacks; anything else could not be read and is skipped."""
+    numbers: list[int] = []
+    places: list[Where] = []
+    shown_nodes = _shows_nodes(context, nodes)
+    for node, where in named:
+        if isinstance(node, Label):
+            check_label(context, REF006, node, where)
+            if shown_nodes and not context.external_definers and not context.is_guessed_label(where):
+                message = f"node {shown(node)} is a label, and nothing in this deck makes labelled nodes: give a number"
+                context.report_missing(REF006, message, where, "NODE")
+        elif isinstance(node, int):
+            numbers.append(node)
+            places.append(where)
+    missing = np.flatnonzero(nodes.indices(np.array(numbers, dtype=np.int64)) < 0)
+    for index in missing[: MOST_REPORTED + 1].tolist() if shown_nodes else ():
+        message = f"node {numbers[index]} is not defined: define it in *NODE, or correct the number"
+        context.report_missing(REF006, message, places[index], "NODE", numbers[index])
+
+
+def _shows_nodes(context: Context, nodes: Numbered) -> bool:
+    """Whether the deck shows nodes at all: one without any has its model somewhere else."""
+    return len(nodes) > 0 or "NODE" in context.deck.keywords()
+
+
+def check_boundaries(context: Context, nodes: Numbered) -> None:
+    """Every line of `*BOUNDARY` against the nodes of the deck and the six degrees of freedom."""
+    named: list[tuple[object, Where]] = []
+    for where, block in context.deck.blocks("BOUNDARY", "LOAD CASE"):
+        types = cast("Boundary", block).types
+        if not types and not context.deck.origin.lost(where.section, where.block):
+            message = "*BOUNDARY is empty: give TYPE= and nodes below it, or remove it"
+            context.report(SYN001, message, where, Severity.WARNING)
+        for i, held in enumerate(types):
+            for j, entry in enumerate(held.entries):
+                place = where.inside("types", i, "entries", j)
+                if hasattr(entry, "generate"):
+                    _check_range(context, nodes, cast("FixedRange", entry), place.inside("generate"))
+                else:
+                    named.append((entry.node, place.inside("node")))
+                    _check_freedom(context, entry.dof, place.inside("dof"))
+    _check_nodes(context, nodes, named)
+
+
+def _check_range(context: Context, nodes: Numbered, entry: FixedRange, where: Where) -> None:
+    """The nodes of a GEN=, without building them, and their degree of freedom."""
+    values = cast("FixedValues | None", entry.generate)
+    if values is None or context.deck.origin.damaged(where) or context.without_value(values, where):
+        return
+    at, step = _freedom_and_step(values)
+    freedom = (values.third, values.fourth)[at - 2]
+    if freedom is None:
+        message = "this GEN= has no degree of freedom: write start, end [, increment], dof [, displacement]"
+        context.report(SYN003, message, where)
+    else:
+        _check_freedom(context, freedom, where.inside(at))
+    start, end = values.start, values.end
+    if not (isinstance(start, int) and isinstance(end, int) and isinstance(step, int)):
+        return
+    written = f"GEN= holds the nodes from {start} to {end} in steps of {step}"
+    if end < start or step < 1:
+        why = "the increment must be at least 1" if step < 1 else "the end must not come before the start"
+        context.report(REF010, f"{written}: there are none, {why}", where, Severity.ERROR)
+        return
+    found = len(nodes.between(start, end, step)) if len(nodes) else 0
+    wanted = (end - start) // step + 1
+    if found < wanted and _shows_nodes(context, nodes) and not context.possible_definition("NODE"):
+        message = f"{written}: {wanted - found} of these {wanted} are not defined; correct it, or define them"
+        context.report(REF006, message, where, Severity.WARNING if found else None)
+
+
+def _check_freedom(context: Context, given: object, where: Where) -> None:
+    if _is_no_freedom(given):
+        expected = "expected 1 (vertical), 2 or 3 (horizontal), or 4 to 6 (rotations)"
+        context.report(SYN005, f"{given} is not a degree of freedom: {expected}", where)
+
+
+def _freedom_and_step(values: FixedValues) -> tuple[int, object]:
+    """Which value of a GEN= is the degree of freedom, counted from 0, and the increment.
+
+    Of four values the third is taken for it only where the fourth cannot be one.
+    """
+    third, fourth = values.third, values.fourth
+    if values.fifth is None and (
+        fourth is None or (third is not None and _is_no_freedom(fourth) and not _is_no_freedom(third))
+    ):
+        return 2, 1
+    return 3, 1 if third is None else third
+
+
+def _is_no_freedom(freedom: object) -> bool:
+    """Whether a value is not a degree of freedom; one that could not be read may be one. Equations give 6.0 for 6."""
+    known = isinstance(freedom, int | float) and not math.isnan(freedom)
+    return known and freedom not in range(1, _MOST_FREEDOMS + 1)
+
+
+def check_lines(context: Context) -> None:
+    """The lines and groups that `*LINE PATH SECTIONS` names, and the labels of elements and sets: warnings at most."""
+    blocks = (cast("LineSectionGroups", block) for _, block in context.deck.blocks("LINE SECTION GROUPS"))
+    groups = {folded(bare(group.name)): group.name for block in blocks for group in block.groups if group.name}
+    for where, block in context.deck.blocks("LINE PATH SECTIONS"):
+        for index, path in enumerate(cast("LinePathSections", block).paths):
+            place = where.inside("paths", index)
+            if path.line and "LINE PATHS" in context.external_definers:
+                what = ("LINE=", "line", "*LINE PATHS")
+                _check_name(context, what, path.line, place.inside("line"), context.labels)
+            for number, section in enumerate(path.sections):
+                if section.repeat:
+                    what = ("REPEAT=", "group", "*LINE SECTION GROUPS")
+                    _check_name(context, what, section.repeat, place.inside("sections", number, "repeat"), groups)
+    for code, label, where in chain(_of_elements(context), _of_sets(context)) if context.external_definers else ():
+        check_label(context, code, label, where)
+
+
+def check_label(context: Context, code: Code, label: str, where: Where) -> None:
+    """Report a label that no line names but that is spelt nearly as one that a line does, as a warning.
+
+    Other labels are not reported: lines are not read, and may make labels in ways that are not known.
+    """
+    name = bare(label)
+    if not context.external_definers or folded(name) in context.labels:
+        return
+    near = context.near(name, context.labels)
+    if near and _is_slip(folded(name), near) and not context.is_guessed_label(where):
+        makers = " or ".join(f"*{keyword}" for keyword in context.external_definers if makes_labels(keyword))
+        message = f"label {shown(label)} is not in {makers} (did you mean {{{context.labels[near]}}}?)"
+        context.report(code, f"{message}: correct it", where, Severity.WARNING)
+
+
+def _is_slip(name: str, near: str) -> bool:
+    """Whether one of two names that are spelt nearly alike is a slip of the pen: {End 2} is none of {End 1}."""
+    return _MARKS.findall(name) == _MARKS.findall(near)
+
+
+def _check_name(context: Context, what: tuple[str, str, str], name: str, where: Where, known: dict[str, str]) -> None:
+    """A name, given by a KEY for a thing that a keyword defines; `known` has the names by their folded form."""
+    key, thing, keyword = what
+    if folded(bare(name)) in known:
+        return
+    near = context.near(name, known)
+    hint = f" (did you mean {known[near]}?)" if near else ""
+    message = f"{key} names no {thing}: {shown(name)} is not defined{hint}; define it in {keyword}"
+    source = context.possible_definition(keyword[1:])
+    context.report(REF001, f"{message}; {source}" if source else message, where, Severity.WARNING)
+
+
+def _of_elements(context: Context) -> Iterator[tuple[Code, str, Where]]:
+    """Labels of nodes."""
+    for where, block in context.deck.blocks("ELEMENT"):
+        for index, entry in enumerate(cast("Elements", block).entries):
+            if hasattr(entry, "elements"):
+                for (row, column), word in cast("ElementRows", entry).elements.words.items():
+                    if isinstance(word, Label):
+                        yield REF006, word, where.inside("entries", index, "elements", row, column)
+
+
+def _of_sets(context: Context) -> Iterator[tuple[Code, str, Where]]:
+    """Labels of elements."""
+    for where, block in context.deck.blocks("ELEMENT SETS"):
+        for index, entry in enumerate(cast("ElementSets", block).sets):
+            for number, member in enumerate(entry.members):
+                for at, element in enumerate(getattr(member, "elements", None) or ()):
+                    if isinstance(element, Label):
+                        path = ("sets", index, "members", number, "elements", at)
+                        yield REF005, element, where._replace(path=path)

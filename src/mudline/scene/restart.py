@@ -1,38 +1,54 @@
-"""`*RESTART`: the decks that a deck continues, found beside it and read."""
+"""`*RESTART`: the decks that a deck continues, found beside it and read once for all decks that continue them."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
-from pathlib import Path
+from functools import lru_cache
+from itertools import islice
+from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 from mudline.codes.references import REF015
+from mudline.deck.evaluation import evaluated
+from mudline.deck.loading import load_path
 from mudline.deck.model import Deck
 from mudline.deck.parameters import Parameters
-from mudline.diagnostics import Problem, Where
+from mudline.diagnostics import DeckError, Problem, Where
 from mudline.keywords.text import shown
-from mudline.scene.base_files import BaseError, read_base
-from mudline.scene.continued import Base, continuation, lent
-from mudline.scene.deck_search import find_deck, tried
+from mudline.scene.continued import Base, as_base_problem, continuation
+from mudline.scene.deck_values import LARGEST_FILE, file_name, find_file
 
 if TYPE_CHECKING:
     from mudline.keywords.library.restart import Restart
 
+
 MOST_FOLLOWED = 20
 """Decks in a chain; a longer one is not followed to its beginning."""
 
-_MEND = "correct the name, or put the deck there"
+_SUFFIXES = (".keyxm", ".keyxi", ".keyx", ".das")
+_MOST_LISTED = 20_000
+"""Files of a folder that are looked through for a name in another case."""
+
+_MOST_KEPT = 32
+_LARGEST_KEPT = 100_000_000
+"""Bytes of all the files that are kept."""
+
+_Version = tuple[int, int]
+"""When a file was changed last, and how long it is."""
+
+_ADVICE = "correct the name, or put the deck there"
 
 
 class _Chain(NamedTuple):
     """The decks before a deck, the nearest first; `fault` says why the first of all was not reached, and "" if it was.
 
-    `told` says that the deck itself has to be told of the fault: it is about its own LAST=, or leads back to it.
+    `is_own` says that the fault is that of the deck itself: it is about its own LAST=, or leads back to it.
     """
 
     bases: list[Base]
     fault: str = ""
-    told: bool = False
+    is_own: bool = False
 
 
 def continued(deck: Deck) -> tuple[Deck, list[Problem]]:
@@ -49,12 +65,12 @@ def continued(deck: Deck) -> tuple[Deck, list[Problem]]:
             problems.append(Problem(REF015, _missing(deck, name), where=where))
     where, _ = names[-1]
     chain = _follow(deck)
-    if chain.told:
+    if chain.is_own:
         problems.append(Problem(REF015, chain.fault, where=where))
     if not chain.bases:
         return deck, problems
     for base in chain.bases:
-        problems += (lent(problem, base.deck) for problem in base.errors)
+        problems += (as_base_problem(problem, base.deck) for problem in base.errors)
     return continuation(deck, chain.bases, incomplete=bool(chain.fault)), problems
 
 
@@ -71,7 +87,7 @@ def _names(deck: Deck) -> Iterator[tuple[Where, str]]:
     for where, block in blocks:
         if block.last:
             name = parameters.filled(block.last) if parameters else block.last
-            yield where._replace(path=("last",)), name
+            yield where.inside("last"), name
 
 
 def _follow(deck: Deck) -> _Chain:
@@ -86,17 +102,17 @@ def _follow(deck: Deck) -> _Chain:
             return _Chain(bases, f"the *RESTART of {trail[-1]} could not be read")
         path = find_deck(current, name)
         if path is None:
-            return _Chain(bases, _missing(current, name), told=not bases)
+            return _Chain(bases, _missing(current, name), is_own=not bases)
         if _identity(path) in seen:
             back = " -> ".join([*trail, path.name])
             message = f"LAST= leads back to a deck that is open already ({back}): choose the deck of the run before"
-            return _Chain(bases, message, told=path.name == trail[0])
+            return _Chain(bases, message, is_own=path.name == trail[0])
         if len(bases) == MOST_FOLLOWED:
             return _Chain(bases, f"more than {MOST_FOLLOWED} decks continue each other")
         try:
             base = read_base(path)
         except BaseError as reason:
-            return _Chain(bases, f"the deck that LAST= continues is not read: {reason}; {_MEND}", told=not bases)
+            return _Chain(bases, f"the deck that LAST= continues is not read: {reason}; {_ADVICE}", is_own=not bases)
         seen.add(_identity(path))
         trail.append(path.name)
         bases.append(base)
@@ -106,8 +122,8 @@ def _follow(deck: Deck) -> _Chain:
 
 def _missing(deck: Deck, name: str) -> str:
     folder = deck.folder.as_posix() if deck.folder else ""
-    names = tried(deck, name)
-    return f"the deck {shown(names[0])} is not there (looked in {folder} for {', '.join(names)}): {_MEND}"
+    names = candidate_names(deck, name)
+    return f"the deck {shown(names[0])} is not there (looked in {folder} for {', '.join(names)}): {_ADVICE}"
 
 
 def _identity(path: Path) -> Path:
@@ -116,3 +132,83 @@ def _identity(path: Path) -> Path:
         return path.resolve()
     except (OSError, RuntimeError, ValueError):  # a loop of links, a name that no file has
         return path
+
+
+class BaseError(ValueError):
+    """A file that cannot be continued; the text says why."""
+
+
+_CACHE: dict[str, tuple[_Version, Base]] = {}
+"""The decks that were read last, by file."""
+
+
+def read_base(path: Path) -> Base:
+    """The deck of a file in any form, its model evaluated; kept until the file changes. Raises BaseError."""
+    try:
+        stat = path.stat()
+        version = (stat.st_mtime_ns, stat.st_size)
+        key = str(path.absolute())
+        if stat.st_size > LARGEST_FILE:
+            raise BaseError(f"{path.as_posix()} has more than {LARGEST_FILE // 10**6} million bytes")
+        found = _CACHE.get(key)
+        if found and found[0] == version:
+            return found[1]
+        base = _read_base(path)
+    except OSError as error:
+        raise BaseError(f"{path.as_posix()}: {error.strerror or error}") from error
+    _CACHE.pop(key, None)
+    _CACHE[key] = (version, base)
+    while len(_CACHE) > 1 and (len(_CACHE) > _MOST_KEPT or _kept_bytes() > _LARGEST_KEPT):
+        del _CACHE[next(iter(_CACHE))]
+    return base
+
+
+def _kept_bytes() -> int:
+    return sum(size for (_, size), _ in _CACHE.values())
+
+
+def _read_base(path: Path) -> Base:
+    try:
+        deck = load_path(path)
+    except DeckError as error:
+        raise BaseError(f"{error.diagnostics[0]}") from error
+    if not deck.sections:
+        raise BaseError(f"{path.as_posix()} has no section: it is not a deck")
+    ready, problems = evaluated(deck)
+    model = {number: section for number, section in enumerate(ready.sections) if section.name == "MODEL"}
+    return Base(deck, model, (*deck.problems, *problems))
+
+
+def candidate_names(deck: Deck, written: str) -> list[str]:
+    """The names that a LAST= may stand for: as written, then with the deck's own suffix, then with the others."""
+    name = file_name(written)
+    own = PurePath(deck.file).suffix
+    return list(dict.fromkeys([name, *(name + suffix for suffix in (own, *_SUFFIXES))]))
+
+
+def find_deck(deck: Deck, written: str) -> Path | None:
+    """The file that a LAST= of a deck names; of names that differ in case only, the first in sorted order."""
+    names = candidate_names(deck, written)
+    exact = (find_file(deck.folder, name) for name in names)
+    return next((path for path in exact if path is not None), None) or _in_other_case(deck.folder, names)
+
+
+def _in_other_case(folder: Path | None, names: list[str]) -> Path | None:
+    if folder is None:
+        return None
+    inner = PurePath(names[0]).parent
+    try:
+        listed = _listed(str(folder / inner), (folder / inner).stat().st_mtime_ns)
+    except (OSError, ValueError):
+        return None
+    known = (listed.get(PurePath(name).name.casefold()) for name in names)
+    found = (find_file(folder, (inner / name).as_posix()) for name in known if name is not None)
+    return next((path for path in found if path is not None), None)
+
+
+@lru_cache(maxsize=4)
+def _listed(folder: str, _changed: int) -> dict[str, str]:
+    """The files of a folder by their names without case; listed once for all decks until the folder changes."""
+    with os.scandir(folder) as entries:
+        names = sorted(islice((each.name for each in entries), _MOST_LISTED), reverse=True)
+    return {name.casefold(): name for name in names}

@@ -1,29 +1,34 @@
-"""Section properties: which `*GEOMETRIC SETS` entry an element has, and its external diameter."""
+"""Sections: which `*GEOMETRIC SETS` entry an element has; its external diameter, mass and submerged weight."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
+from mudline.deck.model import Deck
 from mudline.diagnostics import Where
 from mudline.scene.context import Context
-from mudline.scene.external import ExternalElements
-from mudline.scene.numbering import Floats, Indices, Mask, Numbered, looked_up
+from mudline.scene.deck_values import DEFAULT_DENSITY, DEFAULT_GRAVITY, number
+from mudline.scene.numbering import Floats, Indices, Mask, Numbered, looked_up, picked
 from mudline.scene.sets import NamedSet, Sets, later_wins
 from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:
     from mudline.keywords.library.geometric_sets import GeometricSet, GeometricSets
+    from mudline.keywords.model import Part
+    from mudline.scene.external_elements import ExternalElements
+
+_FORMATS = ("flexible", "rigid", "mooring", "truss")
 
 
 @dataclass(frozen=True, slots=True)
 class Section:
     """An entry of `*GEOMETRIC SETS`. `diameter` is NaN where there is none, or none that can be used.
 
-    `source` is "Do" or "Dd"; `faulty` says that the diameter could not be read or is out of range, which has been told.
+    `source` is "Do" or "Dd"; `faulty` says that the diameter could not be read or is out of range, which is reported.
     """
 
     name: str
@@ -31,6 +36,9 @@ class Section:
     source: str
     where: Where
     faulty: bool
+    entry: GeometricSet
+
+    __repr__ = short_repr
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +67,7 @@ def read_sections(
     holders: list[NamedSet | None] = []
     for where, block in context.deck.blocks("GEOMETRIC SETS"):
         for index, entry in enumerate(cast("GeometricSets", block).sets):
-            place = where._replace(path=("sets", index))
+            place = where.inside("sets", index)
             name = cast("str | None", entry.set_name)
             holders.append(None if name is None else sets.find(name))
             sections.append(_section(context, entry, place))
@@ -80,8 +88,69 @@ def read_sections(
 def _section(context: Context, entry: GeometricSet, where: Where) -> Section:
     source, value = entry.diameter
     diameter = float(value) if isinstance(value, int | float) else math.nan
-    option = next((name for name in ("flexible", "rigid", "mooring", "truss") if getattr(entry, name) is not None), "")
-    unread = context.disturbed(where) or context.disturbed(where._replace(path=(*where.path, option)))
+    unread = context.has_read_errors(where) or context.has_read_errors(where.inside(format_of(entry)))
     bad = diameter < 0 or math.isnan(diameter) or (source == "Do" and diameter == 0)
     name = str(entry.set_name or "")
-    return Section(name, diameter if diameter > 0 else math.nan, source, where, unread or bad)
+    return Section(name, diameter if diameter > 0 else math.nan, source, where, unread or bad, entry)
+
+
+def format_of(entry: GeometricSet) -> str:
+    """The format of the property line, "" without one."""
+    return next((name for name in _FORMATS if getattr(entry, name) is not None), "")
+
+
+class Surroundings(NamedTuple):
+    """Density of the water and gravity, in the deck's units; NaN where they are not known."""
+
+    density: float
+    gravity: float
+
+
+def surroundings(deck: Deck) -> Surroundings:
+    """Those of the last `*OCEAN`, whose defaults are known in metric and imperial units; NaN without one."""
+    oceans = [block for _, block in deck.blocks("OCEAN")]
+    if not oceans:
+        return Surroundings(math.nan, math.nan)
+    return Surroundings(
+        number(oceans[-1], "density", DEFAULT_DENSITY.get(deck.units, math.nan)),
+        number(oceans[-1], "gravity", DEFAULT_GRAVITY.get(deck.units, math.nan)),
+    )
+
+
+def mass_per_length(table: SectionTable) -> Floats:
+    """Mass per length (m,), in the deck's units; NaN where it is not known, or not above 0."""
+    mass = picked((_mass(section.entry) for section in table.sections), table.of_element)
+    return np.where(mass > 0.0, mass, np.nan)
+
+
+def submerged_weight(table: SectionTable, around: Surroundings) -> Floats:
+    """Weight less buoyancy per length (m,), in the deck's units; NaN where it is not known or overflows.
+
+    Contents do not count. Elements whose diameter comes from a file of elements have the weight of their section, if
+    they have one.
+    """
+    entries = (section.entry for section in table.sections)
+    weights = ((_mass(entry) - around.density * _displaced(entry)) * around.gravity for entry in entries)
+    found = picked(weights, table.of_element)
+    return np.where(np.isfinite(found), found, np.nan)
+
+
+def _mass(entry: GeometricSet) -> float:
+    """Mass per length of a section, NaN where it is not known."""
+    return number(entry.section, "mass") if entry.rigid is None else _wall(entry.rigid)
+
+
+def _displaced(entry: GeometricSet) -> float:
+    """Area of the water that a section displaces, NaN where it is not known."""
+    buoyancy = number(entry.section, "db")
+    if math.isnan(buoyancy) and entry.flexible is None:
+        buoyancy = number(entry.section, "do")
+    return math.pi / 4 * buoyancy * buoyancy
+
+
+def _wall(section: Part) -> float:
+    area = number(section, "area")
+    if math.isnan(area):
+        outer, inner = number(section, "do"), number(section, "di")
+        area = math.pi / 4 * (outer * outer - inner * inner)
+    return area * number(section, "density")

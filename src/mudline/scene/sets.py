@@ -15,9 +15,8 @@ from mudline.diagnostics import Severity, Where
 from mudline.keywords.remarks import advice_on
 from mudline.keywords.text import shown
 from mudline.scene.context import Context
-from mudline.scene.external import ExternalElements
-from mudline.scene.harvest import bare
 from mudline.scene.numbering import Ids, Indices, Numbered, constant, identity
+from mudline.scene.opaque_names import bare
 from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:
@@ -29,6 +28,7 @@ if TYPE_CHECKING:
         SetList,
         SetSubset,
     )
+    from mudline.scene.external_elements import ExternalElements
 
 ALL = "all"
 _NOTHING = np.zeros(0, dtype=np.intp)
@@ -70,17 +70,17 @@ class Sets:
         return self.named[ALL]
 
     def find(self, name: str) -> NamedSet | None:
-        """The set that a SET= names; None when there is no such set, which `check` tells of."""
+        """The set that a SET= names; None when there is no such set, which `check` reports."""
         return self.named.get(folded(bare(name)))
 
     def check(self, name: str, where: Where) -> None:
-        """Tell of a name at a place that is the name of no set."""
+        """Report a name at a place that is the name of no set."""
         if self.find(name) is None:
             near = self.context.near(name, self.named)
             hint = f" (did you mean {self.named[near].name}?)" if near else ""
             advice = advice_on(name) or "define it in *ELEMENT SETS"
             message = f"set {shown(name)} is not defined{hint}: {advice}"
-            self.context.tell_missing(REF001, message, where, "ELEMENT SETS")
+            self.context.report_missing(REF001, message, where, "ELEMENT SETS")
 
 
 def read_sets(context: Context, elements: Numbered, external: ExternalElements | None = None) -> Sets:
@@ -106,11 +106,11 @@ class _Reader:
         named = self.sets.named
         context = self.context
         everything = identity(len(self.elements))
-        named[ALL] = NamedSet("ALL", everything, None, open=bool(context.definers or context.restart))
+        named[ALL] = NamedSet("ALL", everything, None, open=bool(context.external_definers or context.restart))
         for where, block in context.deck.blocks("ELEMENT SETS"):
             for index, entry in enumerate(cast("ElementSets", block).sets):
                 self._collect(entry, Where(where.section, where.block, ("sets", index)))
-        for key, name in context.harvested.items():
+        for key, name in context.opaque_set_names.items():
             if key not in self.definitions:
                 named.setdefault(key, NamedSet(name, _NOTHING, None, open=True))
         for key in self.definitions:
@@ -133,7 +133,7 @@ class _Reader:
         key = self._key(name)
         if key == ALL:
             message = "set ALL is predefined and holds every element: choose another name"
-            self.context.tell(REF009, message, where._replace(path=(*where.path, "name")))
+            self.context.report(REF009, message, where.inside("name"))
         else:
             self.definitions.setdefault(key, []).append((entry, where))
 
@@ -154,25 +154,25 @@ class _Reader:
                 waiting += self._needed(current, unfinished)
 
     def _needed(self, key: str, unfinished: set[str]) -> Iterator[str]:
-        """The subsets that are to be expanded before a set; those that cannot be are told."""
+        """The subsets that are to be expanded before a set; those that cannot be are reported."""
         for name, where, index in self._subsets(key):
             other = self._key(name)
             if other in unfinished:
                 message = f"set {shown(name)} contains itself: SUBSET= leads back to it; remove one of these lines"
-                self.context.tell(REF008, message, _inside(where, "members", index, "subset"))
+                self.context.report(REF008, message, where.inside("members", index, "subset"))
             elif other in self.definitions:
                 yield other
             elif other not in self.sets.named:
                 near = self.context.near(name, self._names)
                 hint = f" (did you mean {self._names[near]}?)" if near else ""
                 message = f"SUBSET= names no set: {shown(name)} is not defined{hint}; define it"
-                place = _inside(where, "members", index, "subset")
-                self.context.tell_missing(REF008, message, place, "ELEMENT SETS")
+                place = where.inside("members", index, "subset")
+                self.context.report_missing(REF008, message, place, "ELEMENT SETS")
 
     @cached_property
     def _names(self) -> dict[str, str]:
         """Every name of a set, by its folded form."""
-        return self.context.harvested | {key: entries[0][0].name for key, entries in self.definitions.items()}
+        return self.context.opaque_set_names | {key: entries[0][0].name for key, entries in self.definitions.items()}
 
     def _subsets(self, key: str) -> Iterator[tuple[str, Where, int]]:
         """The subsets of a set, each with the place of the definition that names it and its index among the members."""
@@ -190,21 +190,21 @@ class _Reader:
         unsure = False
         members = 0
         for entry, where in self.definitions[key]:
-            unsure |= self.context.disturbed(where)
+            unsure |= self.context.has_read_errors(where)
             members += len(entry.members)
             for index, member in enumerate(entry.members):
                 if member.rule == "set_subset":
                     found, whole = self._subset(cast("SetSubset", member).subset)
                 elif member.rule == "set_list":
-                    found, whole = self._listed(cast("SetList", member), _inside(where, "members", index))
+                    found, whole = self._listed(cast("SetList", member), where.inside("members", index))
                 else:
                     given = cast("SetGenerate", member).generate
-                    found, whole = self._range(given, _inside(where, "members", index))
+                    found, whole = self._range(given, where.inside("members", index))
                 parts.append(found)
                 unsure |= not whole
         self.sets.named[key] = NamedSet(first.name, _union(parts), place, unsure)
-        if not members and not unsure:  # of what is listed and does not exist, enough is said where it stands
-            self.context.tell(REF010, f"set {shown(first.name)} has no element: give it some, or remove it", place)
+        if not members and not unsure:  # of what is listed and does not exist, it is reported where it stands
+            self.context.report(REF010, f"set {shown(first.name)} has no element: give it some, or remove it", place)
 
     def _subset(self, name: str | None) -> tuple[Indices, bool]:
         found = None if name is None else self.sets.named.get(self._key(name))
@@ -216,35 +216,35 @@ class _Reader:
         numbers = np.array([member.elements[position] for position in positions], dtype=np.int64)
         indices = self.elements.indices(numbers)
         missing = np.flatnonzero(indices < 0).tolist()
-        places = [where._replace(path=(*where.path, "elements", positions[at])) for at in missing]
+        places = [where.inside("elements", positions[at]) for at in missing]
         self._missing(numbers[missing], places)
         for position, element in enumerate(member.elements):
             if isinstance(element, str):
-                self._label(element, where._replace(path=(*where.path, "elements", position)))
+                self._label(element, where.inside("elements", position))
         found = indices[indices >= 0]
         whole = len(found) == len(member.elements)
-        return _ascending(found), whole and not self.context.disturbed(where._replace(path=(*where.path, "elements")))
+        return _ascending(found), whole and not self.context.has_read_errors(where.inside("elements"))
 
     def _missing(self, numbers: Ids, places: list[Where]) -> None:
         """Elements of a list that are not defined; where they may be defined out of sight, a word for a list."""
-        if len(numbers) > 1 and (self.context.definers or self.context.restart):
+        if len(numbers) > 1 and (self.context.external_definers or self.context.restart):
             message = f"{len(numbers)} elements of this list (first: {numbers[0]}) are not defined"
-            self.context.tell_missing(REF005, message, places[0], "ELEMENT")
+            self.context.report_missing(REF005, message, places[0], "ELEMENT")
             return
         for number, place in zip(numbers.tolist(), places, strict=True):
             message = f"element {number} is not defined: define it in *ELEMENT"
-            self.context.tell_missing(REF005, message, place, "ELEMENT", number)
+            self.context.report_missing(REF005, message, place, "ELEMENT", number)
 
     def _label(self, label: str, where: Where) -> None:
-        if not self.context.definers and not self.context.doubted(where):
+        if not self.context.external_definers and not self.context.is_guessed_label(where):
             message = (
                 f"element {shown(label)} is a label, and nothing in this deck makes labelled elements: give a number"
             )
-            self.context.tell_missing(REF005, message, where, "ELEMENT")
+            self.context.report_missing(REF005, message, where, "ELEMENT")
 
     def _range(self, given: ElementRange, where: Where) -> tuple[Indices, bool]:
         """Elements of a range, without building it: it may be as long as a slip of the pen makes it."""
-        place = where._replace(path=(*where.path, "generate"))
+        place = where.inside("generate")
         numbers = self.context.generator(given, place)
         if numbers is None:
             return _NOTHING, False
@@ -252,20 +252,15 @@ class _Reader:
         written = f"GEN={start}, {end}, {step}"
         if end < start or step < 1:
             why = "the increment must be at least 1" if step < 1 else "the end must not come before the start"
-            self.context.tell(REF010, f"{written} holds nothing: {why}", place, Severity.ERROR)
+            self.context.report(REF010, f"{written} holds nothing: {why}", place, Severity.ERROR)
             return _NOTHING, False
         found = self.elements.between(start, end, step)
         wanted = (end - start) // step + 1
         lacking = wanted - len(found)
-        if lacking and not self.context.supplier("ELEMENT"):
+        if lacking and not self.context.possible_definition("ELEMENT"):
             message = f"{written}: {lacking} of its {wanted} elements are not defined: correct it, or define them"
-            self.context.tell(REF005, message, place, Severity.WARNING if len(found) else None)
+            self.context.report(REF005, message, place, Severity.WARNING if len(found) else None)
         return found, not lacking
-
-
-def _inside(where: Where, *steps: str | int) -> Where:
-    """A place further inside."""
-    return Where(where.section, where.block, (*where.path, *steps))
 
 
 def _ascending(indices: Indices) -> Indices:

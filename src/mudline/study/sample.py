@@ -6,8 +6,7 @@ All values are synthetic, made up for this purpose.
 from __future__ import annotations
 
 from mudline.deck.loading import load_bytes
-from mudline.scene.build import resolve
-from mudline.scene.model import Scene
+from mudline.scene.model import Scene, resolve
 
 NAME = "built-in-sample.keyxm"
 

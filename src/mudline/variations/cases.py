@@ -17,7 +17,7 @@ from mudline.diagnostics import Problem, Severity, Where
 from mudline.keywords import catalogue
 from mudline.keywords.text import shown, suggestion
 from mudline.keywords.values import Equation
-from mudline.scene.deck_files import find_file
+from mudline.scene.deck_values import find_file
 from mudline.syntax.source import Source
 from mudline.syntax.tree import Kind, canonical_name, parse
 from mudline.variations.names import name_key, unquoted

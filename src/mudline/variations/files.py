@@ -16,7 +16,7 @@ from mudline.deck.reading import TextOrigin
 from mudline.keywords.kept import Names
 from mudline.keywords.model import Block, names_given
 from mudline.keywords.text import shown
-from mudline.scene.deck_files import file_name, find_file
+from mudline.scene.deck_values import file_name, find_file
 from mudline.syntax.fields import read_line
 from mudline.syntax.tree import Kind, RawBlock
 from mudline.variations.names import filled

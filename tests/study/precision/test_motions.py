@@ -11,7 +11,6 @@ import pytest
 from mudline.contact import LawAssignment
 from mudline.contact.laws.suction import SuctionHistory, SuctionLaw, from_cohesion, step
 from mudline.curves import ForceCurve
-from mudline.scene.section_weight import mass_per_length, submerged_weight
 from mudline.study.precision import integration, reference
 from mudline.study.precision import pull as pull_module
 from mudline.study.precision.cases import all_cases, contacts_of, friction_of, reference_drop, suction_of
@@ -243,6 +242,6 @@ def test_curve_of_many_points_does_without_stops(monkeypatch: pytest.MonkeyPatch
 def test_mass_and_weight_of_the_sample() -> None:
     found = sample_scene()
     area = np.pi / 4 * (0.3**2 - 0.25**2)
-    assert mass_per_length(found) == pytest.approx(np.full(10, 7850 * area))
+    assert found.mass_per_length == pytest.approx(np.full(10, 7850 * area))
     weight = (7850 * area - 1025 * np.pi / 4 * 0.3**2) * 9.81
-    assert submerged_weight(found) == pytest.approx(np.full(10, weight))
+    assert found.submerged_weight == pytest.approx(np.full(10, weight))

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from mudline.scene.section_weight import surroundings
+from mudline.scene.sections import surroundings
 from mudline.study import precision
 from mudline.study.precision import backbones, integration
 from mudline.study.precision import curves as curve_study
@@ -95,7 +95,7 @@ def test_extreme_curves_end_in_reasons(point: str) -> None:
 def test_imperial_deck() -> None:
     deck = SAMPLES / "imperial-riser.keyxi"
     found = scene_of(deck.read_text(encoding="utf-8"), deck.name)
-    around = surroundings(found)
+    around = surroundings(found.deck)
     assert 32.0 < around.gravity < 32.4
     assert 1.9 < around.density < 2.1
     report = precision.run(found, StudyOptions())

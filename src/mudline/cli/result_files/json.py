@@ -7,8 +7,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import BinaryIO
 
-from mudline.cli.evaluate_outputs import Sink, as_text, text_into
 from mudline.cli.options import View
+from mudline.cli.result_files import Sink, as_text, text_into
 from mudline.results.columns import ElementTable
 from mudline.results.evaluation import Evaluation
 from mudline.results.formats import JsonForm

@@ -7,9 +7,9 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import BinaryIO
 
-from mudline.cli.evaluate_outputs import More, Sink, Written
 from mudline.cli.options import View
 from mudline.cli.progress import Progress, wants_bar
+from mudline.cli.result_files import More, Sink, Written
 from mudline.results.columns import ElementTable, NodeTable
 from mudline.results.evaluation import Evaluation
 from mudline.results.npz_file import NpzFile

@@ -7,8 +7,8 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import BinaryIO
 
-from mudline.cli.evaluate_outputs import Sink, together
 from mudline.cli.options import View
+from mudline.cli.result_files import Sink, together
 from mudline.results.columns import ElementTable, NodeTable, Table
 from mudline.results.evaluation import Evaluation
 from mudline.results.parquet_file import ParquetFile

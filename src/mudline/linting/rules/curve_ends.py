@@ -11,8 +11,8 @@ from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.text import shown
 from mudline.linting.context import STEEPEST, LintContext
 from mudline.linting.rule import rule
-from mudline.scene.floor import FloorKind
 from mudline.scene.force_curves import SceneCurve
+from mudline.scene.seabed import SeabedKind
 
 CRV007 = Code("CRV007", "force-at-zero", Severity.WARNING)
 CRV008 = Code("CRV008", "steep-extrapolation", Severity.WARNING)
@@ -224,7 +224,7 @@ def beyond_curve(context: LintContext) -> Iterator[Problem]:
     Finds: 14:2
     """
     scene = context.scene
-    if scene.floor.kind is not FloorKind.FLAT:
+    if scene.seabed.kind is not SeabedKind.FLAT:
         return
     if not any(curve.usable for curve in scene.laws.curves):
         return

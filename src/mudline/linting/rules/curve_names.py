@@ -86,9 +86,9 @@ def _chosen_elsewhere(context: LintContext) -> bool:
     )  # a continued deck adds more after them
     if any(written is not value for written, value in own):
         return True  # an equation, whose parameters may be varied
-    if any(grant.kind is LawKind.NONE and grant.unknown for grant in scene.laws.grants):
+    if any(grant.kind is LawKind.NONE and grant.unknown for grant in scene.laws.set_laws):
         return True  # a set whose STIFFNESS= could not be read
-    if scene.context.astray("SEABED PROPERTIES") or (scene.context.restart and not scene.laws.referenced):
+    if scene.context.misplaced("SEABED PROPERTIES") or (scene.context.restart and not scene.laws.referenced):
         return True
     return any(
         folded(" ".join(varied.keyword or [])) == "seabed properties"  # None in a line that could not be read

@@ -13,7 +13,7 @@ from mudline.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.keywords.text import shown
 from mudline.linting.context import LARGEST_RATIO, LintContext
 from mudline.linting.rule import rule
-from mudline.scene.context import MOST_TOLD
+from mudline.scene.context import MOST_REPORTED
 from mudline.scene.force_curves import SceneCurve, clashes_and_repeats
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices
@@ -76,7 +76,7 @@ def _exchange(text: TextOrigin, curve: SceneCurve) -> Repair | None:
     """Each row with its fields exchanged; None for a curve that could not be read whole, or is very long."""
     block = text.read.get((curve.where.section, curve.where.block))
     runs = block.places.runs.get((*curve.where.path, "points"), []) if block else []
-    if not runs or len(curve.points) > MOST_TOLD or not curve.whole:
+    if not runs or len(curve.points) > MOST_REPORTED or not curve.whole:
         return None
     source = text.source.unified
     edits: list[tuple[Span, str]] = []
@@ -183,7 +183,7 @@ def decreasing_force(context: LintContext) -> Iterator[Problem]:
     for number, curve in context.odd_curves:
         order = _distinct(curve)
         ratios, forces = curve.points[order].T
-        falling = np.flatnonzero((forces[1:] < forces[:-1]) & (ratios[1:] > 0.0))[:MOST_TOLD]
+        falling = np.flatnonzero((forces[1:] < forces[:-1]) & (ratios[1:] > 0.0))[:MOST_REPORTED]
         for segment in falling.tolist():
             first, last = ratios[segment : segment + 2].tolist()
             with np.errstate(over="ignore"):
@@ -244,7 +244,7 @@ def negative_ratio(context: LintContext) -> Iterator[Problem]:
     for _, curve in context.odd_curves:
         if _free_above(curve.points):
             continue
-        for index in np.flatnonzero(curve.points[:, 0] < 0.0)[:MOST_TOLD].tolist():
+        for index in np.flatnonzero(curve.points[:, 0] < 0.0)[:MOST_REPORTED].tolist():
             ratio = float(curve.points[index, 0])
             drawn = " (a curve drawn for the invert starts at -0.5)" if ratio == -0.5 else ""
             message = f"ratio {ratio!r} lies above the mudline, and contact begins at 0: remove or correct it{drawn}"
@@ -280,7 +280,7 @@ def repeated_point(context: LintContext) -> Iterator[Problem]:
     Finds: 6:2
     """
     for _, curve in context.odd_curves:
-        repeats = clashes_and_repeats(curve.points)[1][:MOST_TOLD].tolist()
+        repeats = clashes_and_repeats(curve.points)[1][:MOST_REPORTED].tolist()
         rows = plain_rows(context.text, curve) if context.text and repeats else None
         for index in repeats:
             ratio, force = curve.points[index].tolist()
@@ -313,7 +313,7 @@ class PlainRows:
 def plain_rows(text: TextOrigin, curve: SceneCurve) -> PlainRows | None:
     """The rows of a curve; None where they are very many or have equations, which other parameters would change."""
     block = text.read.get((curve.where.section, curve.where.block))
-    if block is None or len(curve.points) > MOST_TOLD:
+    if block is None or len(curve.points) > MOST_REPORTED:
         return None
     source = text.source.unified
     runs = block.places.runs.get((*curve.where.path, "points"), [])

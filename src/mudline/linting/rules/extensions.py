@@ -11,7 +11,7 @@ from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.catalogue import is_extension
 from mudline.linting.context import LintContext
 from mudline.linting.rule import rule
-from mudline.scene.given import number
+from mudline.scene.deck_values import number
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats
 
@@ -66,8 +66,8 @@ def soft_unloading(context: LintContext) -> Iterator[Problem]:
 
 def _steepest(scene: Scene) -> Floats:
     """Steepest slope of each element's law below the mudline, per unit of penetration; NaN where it is not known."""
-    linear = np.array([*(np.nan if grant.unknown else grant.stiffness for grant in scene.laws.grants), np.nan])
-    slopes = np.array([*(_curve_slope(scene, grant.curve) for grant in scene.laws.grants), np.nan])
+    linear = np.array([*(np.nan if grant.unknown else grant.stiffness for grant in scene.laws.set_laws), np.nan])
+    slopes = np.array([*(_curve_slope(scene, grant.curve) for grant in scene.laws.set_laws), np.nan])
     found = scene.laws.of_element
     with np.errstate(over="ignore"):
         steep: Floats = np.where(scene.law == LawKind.LINEAR, linear[found], slopes[found] / scene.diameter)

@@ -17,12 +17,11 @@ from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
 from mudline.linting.rule import rule
 from mudline.linting.rules.seabed_position import depths
-from mudline.scene.checks.sections import format_of
-from mudline.scene.context import MOST_TOLD
-from mudline.scene.given import number
+from mudline.scene.context import MOST_REPORTED
+from mudline.scene.deck_values import number
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Mask, blocks_of
-from mudline.scene.sections import Section
+from mudline.scene.sections import Section, format_of
 from mudline.scene.sets import set_key
 
 if TYPE_CHECKING:
@@ -98,7 +97,7 @@ def not_on_the_seabed(context: LintContext) -> Iterator[Problem]:
     Finds: 5:2
     """
     scene = context.scene
-    if scene.context.definers or scene.context.restart or any(map(holds_in_soil, scene.deck.keywords())):
+    if scene.context.external_definers or scene.context.restart or any(map(holds_in_soil, scene.deck.keywords())):
         return
     if (line := _line(scene)) is not None and (message := _above(line) or _along_z(line)):
         lowest = int(np.where(line.used, depths(scene), -np.inf).argmax())
@@ -198,7 +197,7 @@ def number_and_curve(context: LintContext) -> Iterator[Problem]:
 
     Finds: 5:2
     """
-    yield from islice(_given_twice(context.deck), MOST_TOLD)
+    yield from islice(_given_twice(context.deck), MOST_REPORTED)
 
 
 def _given_twice(deck: Deck) -> Iterator[Problem]:
@@ -300,7 +299,9 @@ def repeated_section(context: LintContext) -> Iterator[Problem]:
     scene = context.scene
     sections, reading = scene.section_table.sections, scene.context
     repeated = _repeated(sections)
-    hidden = scene.section_table.open or reading.definers or reading.restart or "GEOMETRIC SETS" in reading.unread
+    hidden = (
+        scene.section_table.open or reading.external_definers or reading.restart or "GEOMETRIC SETS" in reading.unread
+    )
     if not repeated or hidden or any(scene.set_table.find(section.name) is None for section in sections):
         return
     lacking = scene.section_table.of_element < 0

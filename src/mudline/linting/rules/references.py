@@ -12,7 +12,7 @@ from mudline.diagnostics import Code, Problem, Repair, Severity, Span, Where
 from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
 from mudline.linting.rule import rule
-from mudline.scene.context import MOST_TOLD
+from mudline.scene.context import MOST_REPORTED
 from mudline.scene.sets import ALL
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ def long_list(context: LintContext) -> Iterator[Problem]:
 
     Finds: 11:73
     """
-    for where, count in islice(_long(context), MOST_TOLD):
+    for where, count in islice(_long(context), MOST_REPORTED):
         message = f"{count} elements on a line: the language allows {LONGEST_LIST}; put the rest on lines of their own"
         repair = _split(context.text, where, count) if context.text else None
         yield Problem(REF012, message, where=where._replace(path=(*where.path, LONGEST_LIST)), repair=repair)
@@ -152,7 +152,7 @@ def repeated_set(context: LintContext) -> Iterator[Problem]:
 
     Finds: 14:6
     """
-    yield from islice(_repeated_sets(context), MOST_TOLD)
+    yield from islice(_repeated_sets(context), MOST_REPORTED)
 
 
 def _repeated_sets(context: LintContext) -> Iterator[Problem]:
@@ -199,7 +199,7 @@ def repeated_parameter(context: LintContext) -> Iterator[Problem]:
                 if key in known:
                     repeated.append(name)
                 known.add(key)
-            if repeated and reported < MOST_TOLD:
+            if repeated and reported < MOST_REPORTED:
                 reported += 1
                 others = f" (and {len(repeated) - 1} more of this list)" if len(repeated) > 1 else ""
                 message = (

@@ -11,10 +11,10 @@ from mudline.deck.parameters import folded
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.linting.context import LintContext
 from mudline.linting.rule import rule
+from mudline.scene.deck_values import surfaces
 from mudline.scene.extensions import Extension
 from mudline.scene.laws import typed_blocks
 from mudline.scene.sets import ALL
-from mudline.scene.surfaces import surfaces
 
 SBD007 = Code("SBD007", "lateral-and-friction", Severity.WARNING)
 SBD013 = Code("SBD013", "legacy-friction-order", Severity.WARNING)
@@ -258,7 +258,7 @@ def short_mobilisation(context: LintContext) -> Iterator[Problem]:
     Finds: 17:21
     """
     scene = context.scene
-    bed = scene.bed
+    bed = scene.resistance
     if not any(length > 0.0 for values in bed.values for length in values.mobilisation):
         return
     lengths, friction = bed.column("mobilisation"), bed.column("friction")
@@ -333,7 +333,9 @@ def absent(context: LintContext, entry: Given, name: str) -> bool:
     place = entry.place(name)
     line = place._replace(path=place.path[:-1])
     resolving = context.scene.context
-    return value == 0.0 or (value is None and not resolving.disturbed(line) and not resolving.disturbed(entry.where))
+    return value == 0.0 or (
+        value is None and not resolving.has_read_errors(line) and not resolving.has_read_errors(entry.where)
+    )
 
 
 def friction_replaced(context: LintContext, entry: Given) -> bool:
@@ -347,7 +349,7 @@ def friction_replaced(context: LintContext, entry: Given) -> bool:
     names = _names(friction)
     if ALL in names:
         return True
-    bed = context.scene.bed
+    bed = context.scene.resistance
     followers = np.zeros(0, dtype=np.intp)
     if entry.where in bed.places:
         followers = np.flatnonzero(bed.of_element == bed.places.index(entry.where))

@@ -16,12 +16,12 @@ from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
 from mudline.linting.rule import rule
 from mudline.linting.rules.seabed_position import first_of
-from mudline.scene.context import MOST_TOLD
-from mudline.scene.laws import Grant
+from mudline.scene.context import MOST_REPORTED
+from mudline.scene.deck_values import surfaces
+from mudline.scene.laws import SetLaw
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Indices, one_index
 from mudline.scene.sets import NamedSet
-from mudline.scene.surfaces import surfaces
 
 SBD008 = Code("SBD008", "overlapping-sets", Severity.INFO)
 SBD025 = Code("SBD025", "law-without-effect", Severity.WARNING)
@@ -62,16 +62,16 @@ def overlapping_sets(context: LintContext) -> Iterator[Problem]:
     """
     new = _own_grants(context, "new")
     if len(new) > 1:
-        yield from islice((problem for _, problem in _properties(context.scene, new)), MOST_TOLD)
+        yield from islice((problem for _, problem in _properties(context.scene, new)), MOST_REPORTED)
     embedment = [grant for grant in _own_grants(context, "legacy") if grant.curve >= 0]
     if len(embedment) > 1:
-        yield from islice(_embedment(context.scene, embedment), MOST_TOLD)
+        yield from islice(_embedment(context.scene, embedment), MOST_REPORTED)
 
 
-def _own_grants(context: LintContext, family: str) -> list[Grant]:
+def _own_grants(context: LintContext, family: str) -> list[SetLaw]:
     """What the deck itself gives, without the deck that it continues."""
     own = len(context.scene.deck.own_sections)
-    grants = context.scene.laws.grants
+    grants = context.scene.laws.set_laws
     return [grant for grant in grants if grant.family == family and grant.where.section < own]
 
 
@@ -112,8 +112,8 @@ def law_without_effect(context: LintContext) -> Iterator[Problem]:
     Finds: 16:6
     """
     if len(context.scene.element_ids):
-        yield from islice(_unused_properties(context), MOST_TOLD)
-    yield from islice(_unused_surfaces(context), MOST_TOLD)
+        yield from islice(_unused_properties(context), MOST_REPORTED)
+    yield from islice(_unused_surfaces(context), MOST_REPORTED)
 
 
 def _unused_properties(context: LintContext) -> Iterator[Problem]:
@@ -121,7 +121,7 @@ def _unused_properties(context: LintContext) -> Iterator[Problem]:
     scene = context.scene
     only = one_index(scene.laws.covered)
     followed = {only} if only is not None else set(np.unique(scene.laws.covered).tolist())
-    idle = {id(grant) for index, grant in enumerate(scene.laws.grants) if index not in followed}
+    idle = {id(grant) for index, grant in enumerate(scene.laws.set_laws) if index not in followed}
     new = _own_grants(context, "new")
     if not any(id(grant) in idle for grant in new):
         return
@@ -182,7 +182,7 @@ def _overlaps(sets: Sequence[NamedSet], count: int) -> Iterator[_Overlap]:
         holder[later.elements] = index
 
 
-def _properties(scene: Scene, grants: list[Grant]) -> Iterator[tuple[int, Problem]]:
+def _properties(scene: Scene, grants: list[SetLaw]) -> Iterator[tuple[int, Problem]]:
     """Overlaps that are reported, each with the place of the overridden definition in the list."""
     for earlier, later, elements in _overlaps([grant.set_ for grant in grants], len(scene.element_ids)):
         one, other = grants[earlier].set_, grants[later].set_
@@ -224,19 +224,19 @@ def _counted(scene: Scene, elements: Indices) -> str:
     return first_of("element", scene.element_ids[elements.min()], elements.size)
 
 
-def _alike(scene: Scene, one: Grant, other: Grant) -> bool:
+def _alike(scene: Scene, one: SetLaw, other: SetLaw) -> bool:
     """Whether two sets of *SEABED PROPERTIES give the same."""
     first, second = (_entry(scene, grant) for grant in (one, other))
     given = [name for name in type(first).model_fields if name != "set_name"]
     return all(getattr(first, name) == getattr(second, name) for name in given)
 
 
-def _entry(scene: Scene, grant: Grant) -> Record:
+def _entry(scene: Scene, grant: SetLaw) -> Record:
     block = scene.deck.sections[grant.where.section].blocks[grant.where.block]
     return cast("Record", getattr(block, "sets")[grant.where.path[1]])  # noqa: B009 - blocks have no common type
 
 
-def _embedment(scene: Scene, grants: list[Grant]) -> Iterator[Problem]:
+def _embedment(scene: Scene, grants: list[SetLaw]) -> Iterator[Problem]:
     """Overlaps that matter: of curves with other points, on elements that no newer keyword holds."""
     curves = scene.laws.curves
     for earlier, later, elements in _overlaps([grant.set_ for grant in grants], len(scene.element_ids)):

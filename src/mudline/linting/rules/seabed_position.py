@@ -13,10 +13,10 @@ from mudline.keywords.catalogue import holds_in_soil, is_superseded
 from mudline.linting.context import LintContext
 from mudline.linting.rule import rule
 from mudline.scene.checks.laws import SBD004
-from mudline.scene.context import MOST_TOLD
-from mudline.scene.floor import Floor, FloorKind
+from mudline.scene.context import MOST_REPORTED
 from mudline.scene.model import Scene
 from mudline.scene.numbering import LARGEST, Floats, Indices, Mask, blocks_of
+from mudline.scene.seabed import SeabedKind, SeabedShape
 
 if TYPE_CHECKING:
     from mudline.keywords.library.boundary import Boundary, FixedNode, FixedRange
@@ -39,14 +39,14 @@ def depths(scene: Scene) -> Floats:
     between its points, so it lies nowhere below the lowest of them. A cubic profile may lie anywhere between its
     points.
     """
-    floor = scene.floor
+    floor = scene.seabed
     x, y, z = scene.coordinates.T
     if not _is_bed(scene):
         return np.full(len(x), np.nan)
     with np.errstate(over="ignore", invalid="ignore"):
-        if floor.kind is FloorKind.PLANES:
+        if floor.kind is SeabedKind.PLANES:
             return _below_planes(floor, x, y, z)
-        if floor.kind in (FloorKind.FLAT, FloorKind.SLOPING):
+        if floor.kind in (SeabedKind.FLAT, SeabedKind.SLOPING):
             slope = np.radians(floor.slope)
             found = np.empty(len(x))
             for block in blocks_of(len(x)):
@@ -54,15 +54,15 @@ def depths(scene: Scene) -> Floats:
             return found
         if floor.missing or floor.points.size == 0 or floor.interpolation != "LINEAR":
             return np.full(len(x), np.nan)
-        if floor.kind is FloorKind.SURFACE:
+        if floor.kind is SeabedKind.SURFACE:
             return np.asarray(floor.points[:, 0].min() - x)
         return _below_profile(floor, x, _along(floor.direction, y, z))
 
 
 def _is_bed(scene: Scene) -> bool:
     """Whether slopes are below 90 degrees, and the deck describes one seabed; other rules report where it does not."""
-    floor = scene.floor
-    if floor.kind is FloorKind.PLANES and "SEABED PROFILE" in scene.deck.keywords():
+    floor = scene.seabed
+    if floor.kind is SeabedKind.PLANES and "SEABED PROFILE" in scene.deck.keywords():
         return False
     return all(abs(slope) < _VERTICAL for slope in (floor.slope, *(plane.slope for plane in floor.planes)))
 
@@ -72,11 +72,11 @@ def steepness(scene: Scene) -> Floats:
 
     NaN where they are not known.
     """
-    floor = scene.floor
+    floor = scene.seabed
     _, y, z = scene.coordinates.T
-    if floor.kind in (FloorKind.FLAT, FloorKind.SLOPING):
+    if floor.kind in (SeabedKind.FLAT, SeabedKind.SLOPING):
         return np.full(len(y), abs(np.tan(np.radians(floor.slope))))
-    if floor.kind is not FloorKind.PROFILE or floor.missing or floor.points.size == 0:
+    if floor.kind is not SeabedKind.PROFILE or floor.missing or floor.points.size == 0:
         return np.full(len(y), np.nan)
     points = floor.points[np.argsort(floor.points[:, 0], kind="stable")]
     slopes = np.concatenate([[0.0], _slopes(points), [0.0]])
@@ -100,14 +100,14 @@ def _slopes(points: Floats) -> Floats:
     return slopes
 
 
-def _below_profile(floor: Floor, x: Floats, along: Floats) -> Floats:
+def _below_profile(floor: SeabedShape, x: Floats, along: Floats) -> Floats:
     points = floor.points[np.argsort(floor.points[:, 0], kind="stable")]
     steepest = float(_slopes(points).max(initial=0.0))
     below: Floats = (np.interp(along, points[:, 0], points[:, 1]) - x) / np.hypot(1.0, steepest)
     return below
 
 
-def _below_planes(floor: Floor, x: Floats, y: Floats, z: Floats) -> Floats:
+def _below_planes(floor: SeabedShape, x: Floats, y: Floats, z: Floats) -> Floats:
     """Depth below the highest plane whose bounds hold the node; of two as high the later one counts."""
     highest = np.full(len(x), -np.inf)
     depth = np.full(len(x), np.nan)
@@ -155,7 +155,7 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
     """
     scene = context.scene
     reading = scene.context
-    if reading.restart or any(map(is_superseded, reading.astray_keywords)) or reading.astray("SEABED PROPERTIES"):
+    if reading.restart or any(map(is_superseded, reading.misplaced_keywords)) or reading.misplaced("SEABED PROPERTIES"):
         return
     if any(map(is_superseded, reading.unread)) or "SEABED CONTACT" in scene.deck.keywords():
         return  # a law that was not read may hold
@@ -170,13 +170,13 @@ def _blocks(scene: Scene, elements: Indices) -> Iterator[Problem]:
     """Blocks without stiffness that hold for elements, unless a later one whose elements are not known may hold."""
     if not elements.size:
         return
-    grants = scene.laws.grants
+    grants = scene.laws.set_laws
     last_open = max((index for index, grant in enumerate(grants) if grant.set_.open), default=-1)
     legacy_open = any(grant.set_.open for grant in grants if grant.family == "legacy")
     found = np.unique(scene.laws.covered[elements], return_index=True, return_counts=True)
     for index, first, count in zip(*(part.tolist() for part in found), strict=True):
         where = grants[index].where
-        hidden = grants[index].unknown or scene.context.lost_behind(where, "SEABED PROPERTIES")
+        hidden = grants[index].unknown or scene.context.has_unread_line_after(where, "SEABED PROPERTIES")
         if legacy_open or last_open > index or hidden:
             continue
         which = f"{first_of('element', scene.element_ids[elements[first]], count)} get{'s' * (count == 1)}"
@@ -191,9 +191,9 @@ def _lying(scene: Scene, elements: Indices) -> Iterator[Problem]:
     if not elements.size:
         return
     uncertain = scene.laws.uncertain or "SEABED PROPERTIES" in scene.context.unread
-    if uncertain or scene.floor.kind is not FloorKind.FLAT or any(map(holds_in_soil, scene.deck.keywords())):
+    if uncertain or scene.seabed.kind is not SeabedKind.FLAT or any(map(holds_in_soil, scene.deck.keywords())):
         return
-    seabed = bool(scene.laws.types or scene.laws.grants)
+    seabed = bool(scene.laws.types or scene.laws.set_laws)
     lies = np.greater_equal if seabed else np.greater
     parts = (elements[block] for block in blocks_of(len(elements)))
     lying = np.concatenate([part[lies(_depths(scene, part), 0.0)] for part in parts])
@@ -249,7 +249,7 @@ def deep_node(context: LintContext) -> Iterator[Problem]:
     Finds: 3:2
     """
     scene = context.scene
-    if not (scene.laws.types or scene.laws.grants) or any(map(holds_in_soil, scene.deck.keywords())):
+    if not (scene.laws.types or scene.laws.set_laws) or any(map(holds_in_soil, scene.deck.keywords())):
         return
     depth = depths(scene)
     thinnest = float(np.fmin.reduce(scene.diameter, initial=np.inf))  # of Python: a product may overflow
@@ -312,7 +312,7 @@ def one_constrained_dof(context: LintContext) -> Iterator[Problem]:
     reported = 0
     for where, dof, nodes in held:
         found = nodes[alone[nodes]]
-        if found.size and reported < MOST_TOLD:
+        if found.size and reported < MOST_REPORTED:
             reported += 1
             which = first_of("node", scene.node_ids[found[0]], found.size)
             message = (

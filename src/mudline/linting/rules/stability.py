@@ -23,16 +23,11 @@ from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
 from mudline.linting.rule import rule
-from mudline.scene.contact_parts.nodal import nodal_stiffness
-from mudline.scene.contact_parts.smoothing import KEYWORD
-from mudline.scene.contact_parts.suction import suction_law
-from mudline.scene.contact_parts.unloading import KEYWORD as UNLOADING
-from mudline.scene.contact_parts.unloading import given_stiffness
-from mudline.scene.context import MOST_TOLD
+from mudline.scene.assignments import given_stiffness, nodal_stiffness, suction_law
+from mudline.scene.context import MOST_REPORTED
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices
-from mudline.scene.section_weight import mass_per_length
 
 if TYPE_CHECKING:
     from mudline.keywords.library.time import TimeSpan
@@ -161,7 +156,7 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
     blocks = list(scene.deck.blocks("TIME", "LOAD CASE"))
     if not blocks or not len(scene.element_ids):
         return
-    frequencies = omega(_stiffness(scene), mass_per_length(scene))
+    frequencies = omega(_stiffness(scene), scene.mass_per_length)
     if np.isnan(frequencies).all():
         return
     stiffest = int(np.nanargmax(frequencies))
@@ -181,15 +176,15 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
 
 def _stiffness(scene: Scene) -> Floats:
     """The largest stiffness of the contact of each element, per unit length; NaN without one."""
-    grants = scene.laws.grants
+    grants = scene.laws.set_laws
     linear = np.array([*(grant.stiffness for grant in grants), np.nan])[scene.laws.of_element]
     steepest = np.full(len(linear), np.nan)
     for number, entry in enumerate(scene.laws.curves):
         if entry.curve is not None and entry.whole:
             steepest[scene.laws.followers(number)] = steepest_slope(entry.curve.ratios, entry.curve.slopes)
     found = np.where(scene.law == LawKind.CURVE, steepest / scene.diameter, linear)
-    if UNLOADING in scene.extensions:
-        found = np.where(np.isnan(found), np.nan, np.fmax(found, given_stiffness(scene.extensions[UNLOADING])))
+    if "SEABED UNLOADING" in scene.extensions:
+        found = np.where(np.isnan(found), np.nan, np.fmax(found, given_stiffness(scene.extensions["SEABED UNLOADING"])))
     return np.where(scene.nodal, _nodal(scene), found) if scene.nodal.any() else found
 
 
@@ -201,7 +196,7 @@ def _nodal(scene: Scene) -> Floats:
     for end in nodes.T:
         np.add.at(length, end, 0.5 * scene.length)
     with np.errstate(all="ignore"):
-        spread = nodal_stiffness(scene, scene.extensions[KEYWORD]) / length
+        spread = nodal_stiffness(scene, scene.extensions["SEABED CONTACT"]) / length
     found: Floats = np.fmax(*spread[nodes].T)
     return found
 
@@ -244,7 +239,7 @@ def _inside(entry: SceneCurve, ratios: Floats, slopes: Floats) -> Iterator[Probl
     steep = np.flatnonzero(slopes)
     before, behind = np.abs(slopes[steep[:-1]]), np.abs(slopes[steep[1:]])
     jumps = np.flatnonzero((before / FARTHEST > behind) | (behind / FARTHEST > before))
-    for at in jumps[:MOST_TOLD].tolist():
+    for at in jumps[:MOST_REPORTED].tolist():
         point = int(np.flatnonzero(entry.points[:, 0] == ratios[steep[at + 1]])[0])
         message = (
             f"the slope goes from {before[at]:.6g} to {behind[at]:.6g} here, over {FARTHEST:g} times: correct the "
@@ -255,7 +250,7 @@ def _inside(entry: SceneCurve, ratios: Floats, slopes: Floats) -> Iterator[Probl
 
 def _beside(scene: Scene) -> Iterator[Problem]:
     """Jumps between an element on a curve and its neighbour on a linear seabed, one for each pair of laws."""
-    grants = scene.laws.grants
+    grants = scene.laws.set_laws
     reported: set[tuple[int, int]] = set()
     slopes = [*map(_extremes, scene.laws.curves), (math.nan, math.nan)]
     if _near(scene, slopes):
@@ -269,7 +264,7 @@ def _beside(scene: Scene) -> Iterator[Problem]:
         far = (stiffness / FARTHEST > steepest) | ((stiffness > 0.0) & (softest / FARTHEST > stiffness))
     for at in np.flatnonzero(far).tolist():
         pair = (int(scene.laws.of_element[linear[at]]), int(scene.laws.of_element[curved[at]]))
-        if pair in reported or len(reported) >= MOST_TOLD:
+        if pair in reported or len(reported) >= MOST_REPORTED:
             continue
         reported.add(pair)
         message = (
@@ -283,7 +278,7 @@ def _beside(scene: Scene) -> Iterator[Problem]:
 
 def _near(scene: Scene, extremes: Sequence[tuple[float, float]]) -> bool:
     """Whether no linear stiffness is far from the slopes of any curve, for any diameter."""
-    linear = [grant.stiffness for grant in scene.laws.grants if grant.stiffness > 0.0]
+    linear = [grant.stiffness for grant in scene.laws.set_laws if grant.stiffness > 0.0]
     slopes = [(softest, steepest) for softest, steepest in extremes if softest > 0.0]
     thickest = float(np.fmax.reduce(scene.diameter, initial=0.0))
     if not linear or not slopes or thickest == 0.0:

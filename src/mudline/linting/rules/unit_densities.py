@@ -13,12 +13,11 @@ from mudline.keywords.model import Part
 from mudline.linting.context import LintContext
 from mudline.linting.rule import rule
 from mudline.linting.rules.geometry import section_entries
-from mudline.scene.checks.sections import format_of
-from mudline.scene.contact_parts.units import FOOT, POUND
-from mudline.scene.contact_parts.units import LENGTH_UNIT as METRES
-from mudline.scene.context import MOST_TOLD
-from mudline.scene.given import number
+from mudline.scene.context import MOST_REPORTED
+from mudline.scene.deck_values import FOOT, POUND, number
+from mudline.scene.deck_values import LENGTH_UNIT as METRES
 from mudline.scene.model import Scene
+from mudline.scene.sections import format_of
 
 if TYPE_CHECKING:
     from mudline.keywords.library.geometric_sets import GeometricSet
@@ -172,10 +171,10 @@ def suspicious_density(context: LintContext) -> Iterator[Problem]:
     """
     unit = DENSITY_UNIT.get(context.scene.units)
     if unit is None:
-        yield from islice(_ratios(context), MOST_TOLD)
+        yield from islice(_ratios(context), MOST_REPORTED)
     else:
-        yield from islice(_water(context.scene, unit), MOST_TOLD)
-        yield from islice(_walls(context, unit), MOST_TOLD)
+        yield from islice(_water(context.scene, unit), MOST_REPORTED)
+        yield from islice(_walls(context, unit), MOST_REPORTED)
 
 
 def _water(scene: Scene, unit: str) -> Iterator[Problem]:
@@ -272,7 +271,7 @@ def suspicious_modulus(context: LintContext) -> Iterator[Problem]:
 
     Finds: 5:2
     """
-    yield from islice(_suspicious(context), MOST_TOLD)
+    yield from islice(_suspicious(context), MOST_REPORTED)
 
 
 def _suspicious(context: LintContext) -> Iterator[Problem]:

@@ -27,14 +27,13 @@ from mudline.linting.rules.unit_densities import (
     rounded,
     water_density,
 )
-from mudline.scene.checks.sections import format_of
-from mudline.scene.contact_parts.units import DEFAULT_DENSITY, LARGEST_MOBILISATION
-from mudline.scene.contact_parts.units import LENGTH_UNIT as METRES
-from mudline.scene.context import MOST_TOLD
+from mudline.scene.context import MOST_REPORTED
+from mudline.scene.deck_values import DEFAULT_DENSITY, LARGEST_MOBILISATION, number
+from mudline.scene.deck_values import LENGTH_UNIT as METRES
 from mudline.scene.force_curves import SceneCurve
-from mudline.scene.given import number
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Mask, looked_up
+from mudline.scene.sections import format_of
 
 UNT006 = Code("UNT006", "suspicious-length", Severity.WARNING)
 
@@ -174,7 +173,7 @@ def suspicious_length(context: LintContext) -> Iterator[Problem]:
     Finds: 5:19
     """
     for kind in (_diameters, _mobilisation, _curves, _elements, _ocean):
-        yield from islice(kind(context), MOST_TOLD)
+        yield from islice(kind(context), MOST_REPORTED)
 
 
 def _diameters(context: LintContext) -> Iterator[Problem]:
@@ -185,7 +184,7 @@ def _diameters(context: LintContext) -> Iterator[Problem]:
 def _mobilisation(context: LintContext) -> Iterator[Problem]:
     """Mobilisation lengths against the widest pipe that they hold for, but for those that SBD013 reports."""
     scene = context.scene
-    bed = scene.bed
+    bed = scene.resistance
     if not any(length > 0.0 for values in bed.values for length in values.mobilisation):
         return
     widest = np.full(len(bed.places) + 1, np.nan)
@@ -226,7 +225,7 @@ def _in_lengths(scene: Scene) -> Iterator[tuple[SceneCurve, float]]:
     candidates = [index for index, curve in enumerate(laws.curves) if _may_be_in_lengths(curve)]
     if not candidates:
         return
-    of_grant = np.array([*(grant.curve for grant in laws.grants), -1], dtype=np.intp)
+    of_grant = np.array([*(grant.curve for grant in laws.set_laws), -1], dtype=np.intp)
     of_element = looked_up(of_grant, laws.of_element)
     smallest, largest = np.full(len(laws.curves) + 1, np.inf), np.full(len(laws.curves) + 1, -np.inf)
     with np.errstate(invalid="ignore"):  # an element without a diameter makes both NaN

@@ -17,9 +17,9 @@ from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
 from mudline.linting.rule import rule
 from mudline.linting.rules.curve_shape import swapped
-from mudline.scene.context import MOST_TOLD
+from mudline.scene.context import MOST_REPORTED
+from mudline.scene.deck_values import surfaces
 from mudline.scene.model import Scene
-from mudline.scene.surfaces import surfaces
 
 if TYPE_CHECKING:
     from mudline.keywords.library.ocean import Ocean
@@ -113,11 +113,11 @@ def suspicious_magnitude(context: LintContext) -> Iterator[Problem]:
     """
     if least := LEAST.get(context.scene.units):
         for kind in (_soft, _weak, _fluid):
-            yield from islice(kind(context.scene, least), MOST_TOLD)
+            yield from islice(kind(context.scene, least), MOST_REPORTED)
 
 
 def _soft(scene: Scene, least: _Least) -> Iterator[Problem]:
-    for grant in scene.laws.grants:
+    for grant in scene.laws.set_laws:
         if grant.kind is LawKind.LINEAR and not grant.unknown and 0.0 < grant.stiffness < least.stiffness:
             message = (
                 f"a seabed stiffness of {grant.stiffness!r} {least.force_unit} per {least.length_unit}, expected at "
@@ -171,7 +171,7 @@ def large_friction(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:11
     """
-    yield from islice(_large(context.scene.deck), MOST_TOLD)
+    yield from islice(_large(context.scene.deck), MOST_REPORTED)
 
 
 def _large(deck: Deck) -> Iterator[Problem]:

@@ -1,17 +1,23 @@
-"""How a check is declared."""
+"""How a check is declared, and what all checks find."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
+from functools import cache
+from itertools import islice
 from typing import TYPE_CHECKING
 
 from mudline.diagnostics import Code, Problem
+from mudline.resources import modules_of
+from mudline.scene import checks
+from mudline.scene.context import MORE, MOST_REPORTED
 
 if TYPE_CHECKING:
-    from mudline.scene.model import Scene
+    from mudline.scene.resolved import ResolvedDeck
 
-Find = Callable[["Scene"], Iterable[Problem]]
+
+Find = Callable[["ResolvedDeck"], Iterable[Problem]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,3 +43,21 @@ def check(code: Code) -> Callable[[Find], Find]:
         return find
 
     return declare
+
+
+@cache
+def all_checks() -> tuple[Check, ...]:
+    """Every check of a scene: what the modules of this package declare."""
+    modules_of(checks)
+    return tuple(CHECKS)
+
+
+def checked(scene: ResolvedDeck) -> list[Problem]:
+    """What all checks find."""
+    return [problem for check in all_checks() for problem in _first(check, scene)]
+
+
+def _first(check: Check, scene: ResolvedDeck) -> Iterator[Problem]:
+    """What a check finds, without the rest where it is very much."""
+    for count, problem in enumerate(islice(check.find(scene), MOST_REPORTED + 1)):
+        yield problem if count < MOST_REPORTED else replace(problem, message=MORE)

@@ -1,4 +1,4 @@
-"""The types of seabed of a model, and what its laws need: an elastic seabed, a stiffness, curves, diameters."""
+"""The types of seabed of a model, and what its laws need: curves, an elastic seabed, a stiffness, diameters."""
 
 from __future__ import annotations
 
@@ -9,16 +9,21 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from mudline.contact.input import LawKind
+from mudline.deck.parameters import folded
 from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
+from mudline.keywords.kept import Names
+from mudline.keywords.remarks import advice_on
 from mudline.keywords.text import shown
 from mudline.scene.checks.declaring import check
-from mudline.scene.laws import typed_blocks
+from mudline.scene.laws import NOTHING, typed_blocks
+from mudline.scene.references import given_names
 
 if TYPE_CHECKING:
     from mudline.keywords.library.elastic_surface import ElasticSurface
     from mudline.keywords.library.embedment import Embedment
     from mudline.scene.force_curves import SceneCurve
-    from mudline.scene.model import Scene
+    from mudline.scene.resolved import ResolvedDeck
+
 
 SBD001 = Code("SBD001", "rigid-with-curve", Severity.ERROR)
 SBD002 = Code("SBD002", "two-seabed-types", Severity.ERROR)
@@ -29,11 +34,11 @@ SBD009 = Code("SBD009", "missing-diameter", Severity.ERROR)
 
 
 @check(SBD001)
-def rigid_with_curve(scene: Scene) -> Iterator[Problem]:
+def rigid_with_curve(scene: ResolvedDeck) -> Iterator[Problem]:
     """A rigid seabed has a force-embedment curve, or a value that only an elastic one has.
 
     Nothing sinks into a rigid seabed, so a curve cannot hold there: it is an error, as one of the two is not what was
-    meant. STIFFNESS= with a number, LATERAL= and SUCTION= count for nothing and are a warning. Choose TYPE=ELASTIC, or
+    meant. STIFFNESS= with a number, LATERAL= and SUCTION= have no effect and are a warning. Choose TYPE=ELASTIC, or
     remove the line.
 
     Example:
@@ -52,10 +57,10 @@ def rigid_with_curve(scene: Scene) -> Iterator[Problem]:
     """
     for where, properties, type_ in typed_blocks(scene.context):
         for index, entry in enumerate(properties.sets if type_ == "RIGID" else ()):
-            place = where._replace(path=("sets", index))
+            place = where.inside("sets", index)
             suction = entry.suction and entry.suction.stiffness
             for name, value in (("stiffness", entry.stiffness), ("lateral", entry.lateral), ("suction", suction)):
-                inner = place._replace(path=(*place.path, name))
+                inner = place.inside(name)
                 if isinstance(value, str):
                     message = f"curve {shown(value)} on a rigid seabed: a force-embedment curve needs TYPE=ELASTIC"
                     yield Problem(SBD001, message, where=inner)
@@ -65,7 +70,7 @@ def rigid_with_curve(scene: Scene) -> Iterator[Problem]:
 
 
 @check(SBD002)
-def two_seabed_types(scene: Scene) -> Iterator[Problem]:
+def two_seabed_types(scene: ResolvedDeck) -> Iterator[Problem]:
     """The model has a rigid and an elastic seabed.
 
     A model has one of them for all its elements, whether it says so with TYPE= or with *RIGID SURFACE and *ELASTIC
@@ -98,7 +103,7 @@ def two_seabed_types(scene: Scene) -> Iterator[Problem]:
 
 
 @check(SBD003)
-def missing_type(scene: Scene) -> Iterator[Problem]:
+def missing_type(scene: ResolvedDeck) -> Iterator[Problem]:
     """*SEABED PROPERTIES does not say whether the seabed is rigid or elastic.
 
     The type has no default: write TYPE=RIGID or TYPE=ELASTIC on the first line. A later block without TYPE= goes on
@@ -114,27 +119,27 @@ def missing_type(scene: Scene) -> Iterator[Problem]:
 
     Finds: 2:1
     """
-    reading, told = scene.context, False
+    reading, reported = scene.context, False
     for where, properties, type_ in typed_blocks(reading):
-        if type_ is None and not told and not reading.disturbed(where):
-            told = True
+        if type_ is None and not reported and not reading.has_read_errors(where):
+            reported = True
             message = "the type is missing: write TYPE=RIGID or TYPE=ELASTIC as the first line"
             yield Problem(SBD003, message, where=where)
         for index, entry in enumerate(properties.sets[:1]):
-            yield from _without_set(scene, entry.set_name, where._replace(path=("sets", index)), "lines")
+            yield from _without_set(scene, entry.set_name, where.inside("sets", index), "lines")
     for where, block in scene.deck.blocks("EMBEDMENT"):
         for index, curve in enumerate(cast("Embedment", block).curves[:1]):
-            yield from _without_set(scene, curve.set_name, where._replace(path=("curves", index)), "points")
+            yield from _without_set(scene, curve.set_name, where.inside("curves", index), "points")
 
 
-def _without_set(scene: Scene, name: str | None, where: Where, what: str) -> Iterator[Problem]:
+def _without_set(scene: ResolvedDeck, name: str | None, where: Where, what: str) -> Iterator[Problem]:
     if name is None and not scene.context.lacks_value(where, "set"):
         message = f"{what} before any SET= are read as those of SET=ALL (inferred): write SET= before them"
         yield Problem(SBD003, message, None, Severity.WARNING, where)
 
 
 @check(SBD004)
-def missing_embedment(scene: Scene) -> Iterator[Problem]:
+def missing_embedment(scene: ResolvedDeck) -> Iterator[Problem]:
     """*ELASTIC SURFACE gives no stiffness, and there is no *EMBEDMENT.
 
     The first field of *ELASTIC SURFACE may be empty only when curves of *EMBEDMENT carry the elements. Otherwise
@@ -157,13 +162,13 @@ def missing_embedment(scene: Scene) -> Iterator[Problem]:
     for where, block in scene.deck.blocks("ELASTIC SURFACE"):
         properties = cast("ElasticSurface", block).properties
         lacking = getattr(properties, "stiffness", None) is None
-        if lacking and not embedment and not reading.disturbed(where._replace(path=("properties",))):
+        if lacking and not embedment and not reading.has_read_errors(where.inside("properties")):
             message = "no stiffness here and no *EMBEDMENT in the model: nothing carries the elements; give a stiffness"
             yield reading.missing(SBD004, message, where, "EMBEDMENT")
 
 
 @check(SBD005)
-def embedment_needs_elastic(scene: Scene) -> Iterator[Problem]:
+def embedment_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
     """*EMBEDMENT stands beside a rigid seabed, or beside none.
 
     A force-embedment curve describes how far a pipe sinks, so it holds only on an elastic seabed: *ELASTIC SURFACE, or
@@ -188,9 +193,9 @@ def embedment_needs_elastic(scene: Scene) -> Iterator[Problem]:
     Finds: 5:2
     """
     reading, types = scene.context, scene.laws.types
-    unread = "SEABED PROPERTIES" in scene.deck.keywords() or reading.astray("SEABED PROPERTIES")
+    unread = "SEABED PROPERTIES" in scene.deck.keywords() or reading.misplaced("SEABED PROPERTIES")
     if "RIGID" not in types and ("ELASTIC" in types or unread):
-        return  # of a type that could not be read enough has been said
+        return  # a type that could not be read is reported elsewhere
     first: dict[tuple[int, int], SceneCurve] = {}
     for curve in scene.laws.curves:
         if curve.embedment:
@@ -205,7 +210,7 @@ def embedment_needs_elastic(scene: Scene) -> Iterator[Problem]:
 
 
 @check(SBD009)
-def missing_diameter(scene: Scene) -> Iterator[Problem]:
+def missing_diameter(scene: ResolvedDeck) -> Iterator[Problem]:
     """Elements follow a force-embedment curve and have no external diameter.
 
     The embedment ratio is a depth divided by the external diameter: without one there is no ratio, and no force. The
@@ -244,17 +249,65 @@ def missing_diameter(scene: Scene) -> Iterator[Problem]:
     missing = np.flatnonzero((scene.law == LawKind.CURVE) & np.isnan(sections.diameter) & ~sections.faulty)
     if not missing.size:
         return
-    found = np.unique(scene.laws.of_element[missing], return_index=True, return_counts=True)
-    for index, first, count in zip(*(part.tolist() for part in found), strict=True):
-        number = scene.element_ids[missing[first]]
-        what = f"element {number} has" if count == 1 else f"{count} elements (first: {number}) have"
-        message = f"{what} a curve and no external diameter: give Do (or Dd) in *GEOMETRIC SETS"
-        yield lacks_diameter(scene, SBD009, message, scene.laws.grants[index].where)
+    missing = missing[np.argsort(scene.laws.of_element[missing], kind="stable")]
+    begins = np.flatnonzero(np.diff(scene.laws.of_element[missing])) + 1
+    for elements in np.split(missing, begins):
+        index = int(scene.laws.of_element[elements[0]])
+        message = f"{scene.describe(elements)} a curve and no external diameter: give Do (or Dd) in *GEOMETRIC SETS"
+        yield lacks_diameter(scene, SBD009, message, scene.laws.set_laws[index].where)
 
 
-def lacks_diameter(scene: Scene, code: Code, message: str, where: Where) -> Problem:
+def lacks_diameter(scene: ResolvedDeck, code: Code, message: str, where: Where) -> Problem:
     """An external diameter that a law needs and that is not known, wherever it may be given."""
     if scene.section_table.open:
         message += "; a section belongs to a set whose elements this deck does not show"
         return Problem(code, message, None, Severity.WARNING, where, blocks=Blocks.ALWAYS)
     return replace(scene.context.missing(code, message, where, "GEOMETRIC SETS"), blocks=Blocks.ALWAYS)
+
+
+REF002 = Code("REF002", "undefined-curve", Severity.ERROR)
+
+
+@check(REF002)
+def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
+    """A STIFFNESS= names a curve that the deck does not define.
+
+    The elements of the set have no seabed then. A STIFFNESS= that is not a number is taken for the name of a curve, so
+    a slip in a number is reported here too. Define the curve in *SEABED STIFFNESS, or correct the name.
+
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Soft Clay
+          0.0, 0.0
+          0.1, 1200.0
+          0.5, 4200.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+        - STIFFNESS=Softclay
+        + STIFFNESS=Soft Clay
+
+    Finds: 10:12
+    """
+    names = {folded(curve.name): curve.name for curve in scene.laws.curves if curve.named and not curve.embedment}
+    followed: set[Where] | None = None
+    for _, where, name in given_names(scene.deck, Names.CURVE):
+        if folded(name) in names:
+            continue
+        near = scene.context.near(name, names)
+        hint = f" (did you mean {names[near]}?)" if near else ""
+        advice = advice_on(name) or "*SEABED STIFFNESS has no such curve"
+        problem = scene.context.missing(
+            REF002, f"curve {shown(name)} is not defined{hint}: {advice}", where, "SEABED STIFFNESS"
+        )
+        followed = _followed(scene) if followed is None else followed
+        yield replace(problem, blocks=Blocks.ALWAYS) if where in followed else problem
+
+
+def _followed(scene: ResolvedDeck) -> set[Where]:
+    """Where the names of missing curves stand that elements follow."""
+    lost = (
+        i for i, set_law in enumerate(scene.laws.set_laws) if set_law.kind is LawKind.CURVE and set_law.curve == NOTHING
+    )
+    return {scene.laws.set_laws[index].where for index in lost if (scene.laws.of_element == index).any()}

@@ -10,26 +10,19 @@ import numpy as np
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.catalogue import ZERO_LENGTH
 from mudline.scene.checks.declaring import check
-from mudline.scene.context import MOST_TOLD
+from mudline.scene.context import MOST_REPORTED
+from mudline.scene.sections import format_of
 
 if TYPE_CHECKING:
-    from mudline.keywords.library.geometric_sets import GeometricSet, GeometricSets
-    from mudline.scene.model import Scene
+    from mudline.keywords.library.geometric_sets import GeometricSets
+    from mudline.scene.resolved import ResolvedDeck
 
 GEO001 = Code("GEO001", "inner-exceeds-outer", Severity.ERROR)
 GEO004 = Code("GEO004", "zero-length-element", Severity.ERROR)
 
-_FORMATS = ("flexible", "rigid", "mooring", "truss")
-"""Keywords whose elements may have no length."""
-
-
-def format_of(entry: GeometricSet) -> str:
-    """The format of the property line, "" without one."""
-    return next((name for name in _FORMATS if getattr(entry, name) is not None), "")
-
 
 @check(GEO001)
-def inner_exceeds_outer(scene: Scene) -> Iterator[Problem]:
+def inner_exceeds_outer(scene: ResolvedDeck) -> Iterator[Problem]:
     """The internal diameter of a section is not smaller than its external diameter.
 
     The pipe has no wall: its mass and stiffness would be zero or negative. The two fields are exchanged, or the wall
@@ -52,11 +45,11 @@ def inner_exceeds_outer(scene: Scene) -> Iterator[Problem]:
                 message = (
                     f"internal diameter {inner!r} is not smaller than the external diameter {outer!r}: correct one"
                 )
-                yield Problem(GEO001, message, where=where._replace(path=("sets", index, format_of(entry), "Di")))
+                yield Problem(GEO001, message, where=where.inside("sets", index, format_of(entry), "Di"))
 
 
 @check(GEO004)
-def zero_length_element(scene: Scene) -> Iterator[Problem]:
+def zero_length_element(scene: ResolvedDeck) -> Iterator[Problem]:
     """The two nodes of an element lie at one place.
 
     The element has no length and no direction, so it has neither a stiffness nor a share of the seabed. A node was
@@ -86,12 +79,12 @@ def zero_length_element(scene: Scene) -> Iterator[Problem]:
         return
     joints = scene.deck.keywords().intersection(ZERO_LENGTH)
     hint = f", or keep it if *{min(joints)} makes it one without length" if joints else ""
-    told: set[Where] = set()
-    for index in same[: MOST_TOLD + 1].tolist():
+    reported: set[Where] = set()
+    for index in same[: MOST_REPORTED + 1].tolist():
         where = scene.table.numbered.where(index)
-        if where in told:
+        if where in reported:
             continue  # others of the same GEN=
-        told.add(where)
+        reported.add(where)
         one, other = scene.node_ids[scene.element_nodes[index]].tolist()
         nodes = f"both its ends are node {one}" if one == other else f"nodes {one} and {other} lie at one place"
         message = f"element {scene.element_ids[index]} has no length, {nodes}: correct it{hint}"

@@ -9,13 +9,13 @@ import numpy as np
 
 from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.scene.checks.declaring import check
-from mudline.scene.given import number
-from mudline.scene.numbering import Floats, Mask
+from mudline.scene.deck_values import number
+from mudline.scene.numbering import Floats, Mask, marked
 
 if TYPE_CHECKING:
     from mudline.contact.input import LawAssignment
     from mudline.keywords.library.seabed_trench import TrenchSet
-    from mudline.scene.model import Scene
+    from mudline.scene.resolved import ResolvedDeck
 
 EXT003 = Code("EXT003", "bad-trench", Severity.ERROR)
 
@@ -27,7 +27,7 @@ _HIDDEN = "; sets or lines that this deck does not show may give them another fr
 
 
 @check(EXT003)
-def bad_trench(scene: Scene) -> Iterator[Problem]:
+def bad_trench(scene: ResolvedDeck) -> Iterator[Problem]:
     """A trench has no possible geometry, no resistance, no friction spring, or a wall that locks itself.
 
     The walls of a trench rise from its bottom width to a larger upper width, and its depth is above 0. Their resistance
@@ -59,46 +59,41 @@ def bad_trench(scene: Scene) -> Iterator[Problem]:
     bare, locked = _without_spring(scene)
     for index, (entry, where) in enumerate(zip(_entries(scene), extension.places, strict=True)):
         yield from _of_block(scene, entry, where)
-        found = np.flatnonzero((extension.of_element == index) & bare)
-        if found.size:
-            message = (
-                f"{found.size} elements (first: {scene.element_ids[found[0]]}) have a trench and no lateral friction "
-                "spring: give *SEABED FRICTION for them"
-            )
-            yield _of_friction(scene, message, where._replace(path=(*where.path, "set")))
-        held = np.flatnonzero((extension.of_element == index) & locked)
-        if held.size:
-            message = f"{_LOCKED}: {held.size} elements (first: {scene.element_ids[held[0]]})"
-            yield _of_friction(scene, message, where._replace(path=(*where.path, "geometry")))
+        held = extension.of_element == index
+        if np.any(found := held & bare):
+            message = f"{scene.describe(found)} a trench and no lateral friction spring: give *SEABED FRICTION for them"
+            yield _of_friction(scene, message, where.inside("set"))
+        if np.any(found := held & locked):
+            yield _of_friction(scene, f"{_LOCKED}: {scene.describe(found, '', '').rstrip()}", where.inside("geometry"))
 
 
-def _of_friction(scene: Scene, message: str, where: Where) -> Problem:
+def _of_friction(scene: ResolvedDeck, message: str, where: Where) -> Problem:
     """What is wrong with the friction of elements, which may have another one than this deck shows."""
     if _uncertain(scene):
         return Problem(EXT003, message + _HIDDEN, None, Severity.WARNING, where, blocks=Blocks.ALWAYS)
     return Problem(EXT003, message, where=where)
 
 
-def _entries(scene: Scene) -> list[TrenchSet]:
+def _entries(scene: ResolvedDeck) -> list[TrenchSet]:
     return cast("list[TrenchSet]", scene.extensions[_KEYWORD].entries)
 
 
-def _of_block(scene: Scene, entry: TrenchSet, where: Where) -> Iterator[Problem]:
+def _of_block(scene: ResolvedDeck, entry: TrenchSet, where: Where) -> Iterator[Problem]:
     """What a block says by itself: its resistance, its section, its centreline."""
     if entry.model == "WALL" and entry.peak is not None:
         message = "PEAK= has no effect under MODEL=WALL: remove it, or write MODEL=PEAK"
-        yield Problem(EXT003, message, None, Severity.WARNING, where._replace(path=(*where.path, "peak")))
-    if entry.model != "WALL" and not scene.context.disturbed(where):
+        yield Problem(EXT003, message, None, Severity.WARNING, where.inside("peak"))
+    if entry.model != "WALL" and not scene.context.has_read_errors(where):
         for path, message in _resistance_faults(entry):
-            yield Problem(EXT003, message, where=where._replace(path=(*where.path, *path)))
+            yield Problem(EXT003, message, where=where.inside(*path))
     depth, bottom, upper = (number(entry.geometry, name) for name in _SIZES)
     if depth <= 0.0 or bottom <= 0.0 or upper <= 0.0 or upper <= bottom:
         message = "invalid trench geometry: depth and bottom width must be above 0, the upper width larger"
-        yield Problem(EXT003, message, where=where._replace(path=(*where.path, "geometry")))
+        yield Problem(EXT003, message, where=where.inside("geometry"))
     line = entry.centreline
     if all(number(line, f"{axis}0") == number(line, f"{axis}1") for axis in "yz"):
         message = "the two points of the centreline are one: give another one"
-        yield Problem(EXT003, message, where=where._replace(path=(*where.path, "centreline")))
+        yield Problem(EXT003, message, where=where.inside("centreline"))
 
 
 def _resistance_faults(entry: TrenchSet) -> Iterator[tuple[tuple[str | int, ...], str]]:
@@ -116,29 +111,29 @@ def _resistance_faults(entry: TrenchSet) -> Iterator[tuple[tuple[str | int, ...]
         yield ("table", row + 1, 0), "the offset is not larger than that of the row before: offsets must ascend"
 
 
-def _without_spring(scene: Scene) -> tuple[Mask, Mask]:
+def _without_spring(scene: ResolvedDeck) -> tuple[Mask, Mask]:
     """Elements in a trench of which a node has no lateral friction spring, and those whose wall locks itself."""
     extension = scene.extensions[_KEYWORD]
     nothing: Mask = np.zeros(len(scene.element_ids), dtype=np.bool_)
     if not (extension.of_element >= 0).any() or scene.element_nodes.min(initial=0) < 0 or _unread(scene):
         return nothing, nothing
-    from mudline.scene.contact_parts.build import friction_of  # noqa: PLC0415 - a deck without trenches does without it
+    from mudline.scene.contact_input import friction_of  # noqa: PLC0415 - a deck without trenches does without it
 
     friction = friction_of(scene)
     bare: Mask = (extension.of_element >= 0) & ~_sprung(scene, friction)
     return bare, _self_locking(scene, friction)
 
 
-def _unread(scene: Scene) -> bool:
-    """Whether friction could not be read, or belongs to no set, which has been told as an error."""
+def _unread(scene: ResolvedDeck) -> bool:
+    """Whether friction could not be read, or belongs to no set, which is reported as an error."""
     friction = scene.extensions.get("SEABED FRICTION")
-    if friction is not None and None in friction.sets and not scene.context.supplier("ELEMENT SETS"):
+    if friction is not None and None in friction.sets and not scene.context.possible_definition("ELEMENT SETS"):
         return True
-    places = [*scene.bed.places, *(friction.places if friction else ())]
-    return any(scene.context.disturbed(place) for place in places)
+    places = [*scene.resistance.places, *(friction.places if friction else ())]
+    return any(scene.context.has_read_errors(place) for place in places)
 
 
-def _uncertain(scene: Scene) -> bool:
+def _uncertain(scene: ResolvedDeck) -> bool:
     """Whether some friction may come from lines, sets or a deck that this deck does not show."""
     friction = scene.extensions.get("SEABED FRICTION")
     if friction is not None and any(held is None or held.open for held in friction.sets):
@@ -146,7 +141,7 @@ def _uncertain(scene: Scene) -> bool:
     return scene.laws.uncertain or scene.context.restart
 
 
-def _sprung(scene: Scene, friction: LawAssignment | None) -> Mask:
+def _sprung(scene: ResolvedDeck, friction: LawAssignment | None) -> Mask:
     """Elements (m,) whose two nodes have a lateral friction spring."""
     sprung = np.zeros(len(scene.node_ids), dtype=np.bool_)
     if friction is not None:
@@ -157,19 +152,18 @@ def _sprung(scene: Scene, friction: LawAssignment | None) -> Mask:
     return found
 
 
-def _self_locking(scene: Scene, friction: LawAssignment | None) -> Mask:
+def _self_locking(scene: ResolvedDeck, friction: LawAssignment | None) -> Mask:
     """Elements (m,) in a trench with sloped walls where the lateral coefficient of a node has mu2 tan(theta) >= 1."""
     from mudline.contact.laws.trench import wall_coefficient  # noqa: PLC0415 - as above
-    from mudline.scene.contact_parts.picking import marked, picked  # noqa: PLC0415 - as above
 
-    of_element, entries = scene.extensions[_KEYWORD].of_element, _entries(scene)
+    extension = scene.extensions[_KEYWORD]
     coefficient: Floats = np.zeros(len(scene.node_ids))
     if friction is not None:
         coefficient[friction.rows] = np.asarray(friction.parameters["lateral_coefficient"])
-    sizes = [picked((number(entry.geometry, name) for entry in entries), of_element) for name in _SIZES]
+    depth, bottom, upper = (extension.values(extension.of_element, "geometry", name) for name in _SIZES)
     found: Mask = np.zeros(len(scene.element_ids), dtype=np.bool_)
     for end in scene.element_nodes.T:
-        added = wall_coefficient(sizes[0], sizes[1], sizes[2], coefficient[end])
+        added = wall_coefficient(depth, bottom, upper, coefficient[end])
         found |= ~(np.isfinite(added) & (added >= 0.0))
-    usable = (sizes[0] > 0.0) & (sizes[1] > 0.0) & (sizes[2] > sizes[1])
-    return found & usable & marked((entry.model == "WALL" for entry in entries), of_element)
+    usable = (depth > 0.0) & (bottom > 0.0) & (upper > bottom)
+    return found & usable & marked((entry.model == "WALL" for entry in _entries(scene)), extension.of_element)

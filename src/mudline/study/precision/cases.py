@@ -11,9 +11,10 @@ import numpy as np
 from mudline.contact import ContactInput, LawKind
 from mudline.contact.arrays import FloatArray
 from mudline.contact.laws.suction import from_cohesion
-from mudline.scene.contact_parts.units import DEFAULT_GRAVITY
-from mudline.scene.model import LawArrays, Scene
-from mudline.scene.section_weight import mass_per_length, submerged_weight, surroundings
+from mudline.scene.deck_values import DEFAULT_GRAVITY
+from mudline.scene.model import Scene
+from mudline.scene.resolved import LawArrays
+from mudline.scene.sections import surroundings
 from mudline.study.precision.drag import Drag, drag_case
 from mudline.study.precision.drop import Drop, drop_case, drop_to
 from mudline.study.precision.integration import Case
@@ -59,7 +60,7 @@ class StudiedContacts(NamedTuple):
 def contacts_of(scene: Scene) -> StudiedContacts:
     """The stiffest curve and the stiffest linear law of a scene; raises DeckError where it cannot be evaluated."""
     studied = StudiedContacts(scene, scene.contact_input(), [], [])
-    masses, weights = mass_per_length(scene), submerged_weight(scene)
+    masses, weights = scene.mass_per_length, scene.submerged_weight
     for kind in (LawKind.CURVE, LawKind.LINEAR):
         elements = _distinct(scene.law_arrays(), scene.diameter, kind)
         found = [_contact(studied, element, float(masses[element]), float(weights[element])) for element in elements]
@@ -88,7 +89,7 @@ def _contact(studied: StudiedContacts, element: int, mass: float, weight: float)
         mass = _MASS
         studied.notes.append(f"The mass of the pipe is not known: {_MASS:g} per unit length is used.")
     if not weight > 0.0:
-        known = surroundings(scene).gravity
+        known = surroundings(scene.deck).gravity
         gravity = DEFAULT_GRAVITY.get(scene.units, DEFAULT_GRAVITY["metric"]) if math.isnan(known) else known
         weight = 0.5 * mass * gravity
         studied.notes.append(

@@ -14,7 +14,7 @@ from mudline.contact.input import ContactInput, LawAssignment
 from mudline.contact.model import ContactModel
 from mudline.curves import ForceCurve
 from mudline.deck.loading import load_bytes
-from mudline.scene.build import resolve
+from mudline.scene.model import resolve
 from mudline.study.picture import Picture, label, panels, style
 from mudline.study.pruning.cost import stepping
 from mudline.study.pruning.scenes import Pipe, Variant, everything, line, planes, positions, series

@@ -10,10 +10,8 @@ from mudline.contact.arrays import FloatArray, IndexArray
 from mudline.contact.input import LawKind
 from mudline.contact.stiffest import ADVISED_OMEGA_DT, CRITICAL_OMEGA_DT, omega, steepest_slope
 from mudline.curves import ForceCurve
-from mudline.scene.contact_parts.unloading import KEYWORD as UNLOADING
-from mudline.scene.contact_parts.unloading import given_stiffness
+from mudline.scene.assignments import given_stiffness
 from mudline.scene.model import Scene
-from mudline.scene.section_weight import mass_per_length
 from mudline.study.report import Layout, Omission
 
 
@@ -76,11 +74,11 @@ class _Steepest(NamedTuple):
 def find_contacts(scene: Scene) -> tuple[list[Contact], list[Omission]]:
     """The contacts that oscillate, the fastest first, and those of which no frequency is known."""
     springs = np.flatnonzero(np.isin(scene.law, (LawKind.CURVE, LawKind.LINEAR)))
-    back = scene.extensions.get(UNLOADING)
+    back = scene.extensions.get("SEABED UNLOADING")
     ways = np.full(len(scene.law), -1) if back is None else back.of_element
     kinds = np.column_stack([part[springs] for part in (scene.laws.of_element, scene.section_table.of_element, ways)])
     returns = np.full(len(scene.law), np.nan) if back is None else given_stiffness(back)
-    masses = mass_per_length(scene)
+    masses = scene.mass_per_length
     found, left_out = _nodal(scene, masses)
     for first, count in _groups(kinds):
         element = int(springs[first])

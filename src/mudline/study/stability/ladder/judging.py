@@ -18,8 +18,7 @@ from mudline.contact.errors import ElementError
 from mudline.contact.result import ContactResult
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Problem, Severity
-from mudline.scene.build import resolve
-from mudline.scene.model import Scene
+from mudline.scene.model import Scene, resolve
 from mudline.study.exact import BOUND, Compared, ExactCurve, ExactLaw, Tally
 from mudline.study.stability.ladder.cells import LENGTH, Cell
 

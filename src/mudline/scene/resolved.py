@@ -1,0 +1,269 @@
+"""A resolved deck: nodes, elements, sets, curves and laws as arrays, and by name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple, TypeVar, overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mudline.contact.input import LawKind
+from mudline.deck.evaluation import EvaluatedDeck
+from mudline.deck.parameters import folded
+from mudline.diagnostics import Problem
+from mudline.keywords.text import suggestion
+from mudline.scene.context import Context
+from mudline.scene.extensions import Extension, with_nodal_stiffness
+from mudline.scene.force_curves import SceneCurve
+from mudline.scene.laws import LawTable, SeabedResistance, SetLaw
+from mudline.scene.mesh import ElementTable
+from mudline.scene.numbering import Floats, Ids, Indices, Mask, Numbered
+from mudline.scene.seabed import SeabedShape
+from mudline.scene.sections import SectionTable, mass_per_length, submerged_weight, surroundings
+from mudline.scene.sets import Sets, set_key
+from mudline.short_repr import UnknownNameError, counted, cut, listed, short_repr
+
+if TYPE_CHECKING:
+    from mudline.curves import ForceCurve
+
+Value = TypeVar("Value")
+Default = TypeVar("Default")
+
+_LONGEST = 200
+_LONGEST_NAME = 60
+
+
+class ByName(Mapping[str, Value]):
+    """A mapping whose names are found without case, and without blanks around them.
+
+    Iteration gives the names as the deck first writes them. A name that is not there raises UnknownNameError, a
+    KeyError that says which there are.
+    """
+
+    def __init__(self, kind: str, entries: Iterable[tuple[str, Value]], key: Callable[[str], str] = folded) -> None:
+        """Hold `entries`, pairs of name and value; of two with one `key` the later holds. `kind` is one of them."""
+        self._kind = kind
+        self._key = key
+        self._entries = {key(name): (name, value) for name, value in entries}
+
+    def __getitem__(self, name: str) -> Value:
+        found = self._find(name)
+        if found is None:
+            raise self._missing(name)
+        return found[1]
+
+    @overload
+    def get(self, key: str, /) -> Value | None: ...
+    @overload
+    def get(self, key: str, /, default: Value | Default) -> Value | Default: ...
+    def get(self, key: str, /, default: object = None) -> object:
+        """Return the value of a name, or `default`."""
+        found = self._find(key)
+        return default if found is None else found[1]
+
+    def __contains__(self, name: object) -> bool:
+        return self._find(name) is not None
+
+    def __iter__(self) -> Iterator[str]:
+        return (name for name, _ in self._entries.values())
+
+    def __len__(self) -> int:
+        return len(self._entries)
+
+    def __repr__(self) -> str:
+        if not self:
+            return f"<no {self._kind}s>"
+        return cut(f"<{counted(len(self), self._kind)}: {listed(list(self))}", _LONGEST) + ">"
+
+    def _ipython_key_completions_(self) -> list[str]:
+        """The names, for the completion of `["` in notebooks."""
+        return list(self)
+
+    def _find(self, name: object) -> tuple[str, Value] | None:
+        return self._entries.get(self._key(name)) if isinstance(name, str) else None
+
+    def _missing(self, name: object) -> UnknownNameError:
+        if not isinstance(name, str):
+            return UnknownNameError(f"a {self._kind} is found by its name, a str, not by {type(name).__name__}")
+        names = list(self)
+        return UnknownNameError.among(self._kind, cut(name, _LONGEST_NAME), names, suggestion(name, names))
+
+
+class LawArrays(NamedTuple):
+    """The normal law of elements (m,): `LawKind`, index in `curves` or -1, linear stiffness or NaN."""
+
+    law: NDArray[np.int8]
+    curve_index: Indices
+    curves: tuple[ForceCurve, ...]
+    linear_stiffness: Floats
+
+    def __repr__(self) -> str:
+        return short_repr(self)
+
+
+@dataclass(repr=False)
+class ResolvedDeck:
+    """Nodes (n), elements (m), sets, curves and laws of a deck as arrays, in the deck's units; X is up.
+
+    Attributes:
+        deck: the deck with its equations evaluated.
+        nodes: definitions of the nodes.
+        table: definitions of the elements.
+        set_table: sets as indices.
+        section_table: cross-sections of the elements.
+        laws: what gives each element its normal law.
+        resistance: friction, lateral stiffness and suction of each element.
+        extensions: what the extension keywords say of each element, by keyword.
+        seabed: shape of the seabed.
+        noticed: what went wrong while the deck was resolved.
+    """
+
+    deck: EvaluatedDeck
+    nodes: Numbered
+    table: ElementTable
+    set_table: Sets
+    section_table: SectionTable
+    laws: LawTable
+    resistance: SeabedResistance
+    extensions: dict[str, Extension]
+    seabed: SeabedShape
+    noticed: list[Problem]
+
+    @property
+    def context(self) -> Context:
+        """What was noticed on the way, and what could not be read."""
+        return self.set_table.context
+
+    @property
+    def units(self) -> str:
+        """The unit system: "metric", "imperial" or "user"."""
+        return self.deck.units
+
+    @property
+    def node_ids(self) -> Ids:
+        """Node numbers (n,), in the order in which they first appear."""
+        return self.nodes.ids
+
+    @property
+    def coordinates(self) -> Floats:
+        """Node coordinates (n, 3), X up."""
+        return self.nodes.values
+
+    @property
+    def element_ids(self) -> Ids:
+        """Element numbers (m,)."""
+        return self.table.numbered.ids
+
+    @property
+    def element_nodes(self) -> Indices:
+        """Indices (m, 2) of each element's nodes."""
+        return self.table.nodes
+
+    @property
+    def length(self) -> Floats:
+        """Element lengths (m,) between the deck's coordinates."""
+        return self.table.length
+
+    @cached_property
+    def diameter(self) -> Floats:
+        """External diameters (m,): Do, else Dd of a FLEXIBLE section; NaN where there is none."""
+        return self.section_table.diameter
+
+    @cached_property
+    def mass_per_length(self) -> Floats:
+        """Mass per length (m,), in the deck's units; NaN where it is not known, or not above 0."""
+        return mass_per_length(self.section_table)
+
+    @cached_property
+    def submerged_weight(self) -> Floats:
+        """Weight less buoyancy per length (m,), in the deck's units; NaN where it is not known or overflows."""
+        return submerged_weight(self.section_table, surroundings(self.deck))
+
+    @cached_property
+    def sets(self) -> ByName[Ids]:
+        """Element numbers (k,) of every set by its name, found without case; ALL included."""
+        named = self.set_table.named.values()
+        return ByName("set", ((entry.name, self.element_ids[entry.elements]) for entry in named), set_key)
+
+    @cached_property
+    def curves(self) -> ByName[ForceCurve]:
+        """The force-embedment curves by name, found without case; one of `*EMBEDMENT` has the name of its set.
+
+        Of two curves of one name the later one holds, a named one before that of a set.
+        """
+        held: dict[str, SceneCurve] = {}
+        for entry in self.laws.curves:
+            before = held.get(folded(entry.name))
+            if entry.named and (before is None or before.embedment or not entry.embedment):
+                held[folded(entry.name)] = entry
+        return ByName("curve", ((entry.name, entry.curve) for entry in held.values() if entry.curve is not None))
+
+    def set_law(self, element: int) -> SetLaw | None:
+        """What gives the element of an index its law."""
+        index = int(self.laws.of_element[element])
+        return self.laws.set_laws[index] if index >= 0 else None
+
+    @cached_property
+    def nodal(self) -> Mask:
+        """Elements (m,) whose law is a stiffness of their nodes: `*SEABED CONTACT` replaces what they had."""
+        contact = self.extensions.get("SEABED CONTACT")
+        if contact is None:
+            return np.zeros(len(self.element_ids), dtype=np.bool_)
+        found: Mask = with_nodal_stiffness(contact) & (self._given_kind != LawKind.RIGID)
+        return found
+
+    @cached_property
+    def _given_kind(self) -> NDArray[np.int8]:
+        """`LawKind` of what each element is granted, whatever replaces it."""
+        kinds = np.array([*(set_law.kind for set_law in self.laws.set_laws), LawKind.NONE], dtype=np.int8)
+        return kinds[self.laws.of_element]
+
+    @cached_property
+    def law(self) -> NDArray[np.int8]:
+        """`LawKind` of each element (m,)."""
+        return np.where(self.nodal, np.int8(LawKind.NODAL), self._given_kind)
+
+    @cached_property
+    def law_names(self) -> list[str]:
+        """`curve:NAME`, `linear`, `nodal`, `rigid` or `none` for each element."""
+        names = [*(self.law_name(set_law) for set_law in self.laws.set_laws), "nodal", "none"]
+        index = np.where(self.nodal, len(names) - 2, self.laws.of_element)
+        return [names[position] for position in index.tolist()]
+
+    @cached_property
+    def law_sets(self) -> list[str | None]:
+        """Name of the set through which each element got its law; None without a law."""
+        names = [None if set_law.kind is LawKind.NONE else set_law.set_.name for set_law in self.laws.set_laws]
+        found = [[*names, None][index] for index in self.laws.of_element.tolist()]
+        for element in np.flatnonzero(self.nodal).tolist():
+            contact = self.extensions["SEABED CONTACT"]
+            holder = contact.sets[int(contact.of_element[element])]
+            found[element] = None if holder is None else holder.name
+        return found
+
+    def describe(self, elements: Mask | Indices, one: str = "has", many: str = "have") -> str:
+        """Elements of a message, given as mask or indices: `element 3 has`, or `4 elements (first: 3) have`."""
+        ids = self.element_ids[elements]
+        return f"element {ids[0]} {one}" if ids.size == 1 else f"{ids.size} elements (first: {ids[0]}) {many}"
+
+    def law_name(self, set_law: SetLaw) -> str:
+        """Name of the law that a set_law gives."""
+        if set_law.kind is LawKind.CURVE and set_law.curve >= 0:
+            return f"curve:{self.laws.curves[set_law.curve].name}"
+        return set_law.kind.name.lower()
+
+    def law_arrays(self) -> LawArrays:
+        """The law of every element as arrays, whatever else is known of it."""
+        linear = np.array([*(set_law.stiffness for set_law in self.laws.set_laws), np.nan])[self.laws.of_element]
+        usable = [index for index, entry in enumerate(self.laws.curves) if entry.curve is not None]
+        number = {index: position for position, index in enumerate(usable)}
+        curve_of_law = np.array([*(number.get(set_law.curve, -1) for set_law in self.laws.set_laws), -1], dtype=np.intp)
+        return LawArrays(
+            self.law,
+            np.where(self.nodal, -1, curve_of_law[self.laws.of_element]),
+            tuple(entry.curve for entry in self.laws.curves if entry.curve is not None),
+            np.where(self.nodal, np.nan, linear),
+        )
