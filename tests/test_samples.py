@@ -9,7 +9,7 @@ import pytest
 
 from mudline.diagnostics import Severity
 from mudline.linting.engine import lint_bytes
-from mudline.linting.selection import select
+from mudline.linting.registry import select
 from mudline.scene.model import resolve
 from mudline.syntax.source import Source
 from mudline.syntax.tree import parse

@@ -12,7 +12,7 @@ from mudline.deck.loading import load_bytes, load_path
 from mudline.deck.model import Deck
 from mudline.diagnostics import Diagnostic
 from mudline.linting.engine import lint_bytes
-from mudline.linting.selection import select as _chosen
+from mudline.linting.registry import select as _chosen
 
 _KEYWORD = re.compile(r"\s*[$*][A-Z][A-Z &/-]*\s*", re.IGNORECASE)
 _SECTION = re.compile(r"^\s*\$[A-Z]", re.IGNORECASE | re.MULTILINE)

@@ -8,8 +8,7 @@ import pytest
 
 from mudline.diagnostics import Diagnostic, Edit, Fix, Severity
 from mudline.linting.output.formats import form
-from mudline.linting.output.statistics import statistics_lines
-from mudline.linting.output.text import Screen, excerpt, findings, summary
+from mudline.linting.output.text import Screen, excerpt, findings, statistics_lines, summary
 from mudline.linting.output.visible import LONGEST, visible, visible_lines
 from mudline.syntax.source import Source
 from tests.cli.runner import assert_fits

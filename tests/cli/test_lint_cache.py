@@ -11,11 +11,11 @@ import pytest
 from mudline import cache_folder
 from mudline.cli import lint_jobs
 from mudline.diagnostics import Diagnostic
-from mudline.linting import cache_files, cache_keys
-from mudline.linting.cache_entries import packed, unpacked
+from mudline.linting import cache
+from mudline.linting.cache import packed, unpacked
+from mudline.linting.engine import LintSettings
 from mudline.linting.lint_file import FileReport, lint_one
 from mudline.linting.registry import rules
-from mudline.linting.settings import LintSettings
 from tests.cli.conftest import Place
 from tests.cli.decks import BAD_NUMBER, CLEAN, UNSORTED
 from tests.cli.runner import run
@@ -83,7 +83,7 @@ def test_another_program_knows_nothing(
     place: Place, linted: Linted, monkeypatch: pytest.MonkeyPatch, path: str, change: object
 ) -> None:
     run("lint", place())
-    monkeypatch.setattr(cache_keys, path, change)
+    monkeypatch.setattr(cache, path, change)
     run("lint", "deck.keyxm")
     assert len(linted) == 2
 
@@ -109,7 +109,7 @@ def test_deck_that_names_a_file_is_linted_each_time(place: Place, linted: Linted
     ],
 )
 def test_decks_that_stand_alone(name: str, data: bytes, alone: bool) -> None:
-    assert cache_keys.stands_alone(name, data) is alone
+    assert cache.stands_alone(name, data) is alone
 
 
 def damaged(change: Callable[[bytes], bytes]) -> Callable[[Path], None]:
@@ -199,17 +199,17 @@ def test_fix_of_another_kind() -> None:
 
 def test_number_and_size_are_bounded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     keys = [f"{i:040}" for i in range(9)]
-    monkeypatch.setattr(cache_files, "MOST_ENTRIES", 5)
-    monkeypatch.setattr(cache_files, "MOST_FILES", 2)
+    monkeypatch.setattr(cache, "MOST_ENTRIES", 5)
+    monkeypatch.setattr(cache, "MOST_FILES", 2)
     for name in "abc":
-        cache_files.write_entries(tmp_path / f"lint-{name}.txt", dict.fromkeys(keys, ""))
+        cache.write_entries(tmp_path / f"lint-{name}.txt", dict.fromkeys(keys, ""))
     assert len(list(tmp_path.iterdir())) == 2
-    assert list(cache_files.read_entries(tmp_path / "lint-c.txt")) == keys[-5:]
-    monkeypatch.setattr(cache_files, "MOST_BYTES", 1100)
-    cache_files.write_entries(tmp_path / "lint-c.txt", dict.fromkeys(keys, ""))
-    assert list(cache_files.read_entries(tmp_path / "lint-c.txt")) == keys[-2:]
-    monkeypatch.setattr(cache_files, "MOST_BYTES", 10)
-    assert cache_files.read_entries(tmp_path / "lint-c.txt") == {}
+    assert list(cache.read_entries(tmp_path / "lint-c.txt")) == keys[-5:]
+    monkeypatch.setattr(cache, "MOST_BYTES", 1100)
+    cache.write_entries(tmp_path / "lint-c.txt", dict.fromkeys(keys, ""))
+    assert list(cache.read_entries(tmp_path / "lint-c.txt")) == keys[-2:]
+    monkeypatch.setattr(cache, "MOST_BYTES", 10)
+    assert cache.read_entries(tmp_path / "lint-c.txt") == {}
 
 
 def test_places_of_the_systems(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:

@@ -11,9 +11,9 @@ import pytest
 
 from mudline.cli import lint_jobs, lint_pool
 from mudline.cli.inputs import Input
+from mudline.linting.engine import LintSettings
 from mudline.linting.lint_file import FileReport
 from mudline.linting.registry import rules
-from mudline.linting.settings import LintSettings
 from tests.cli.conftest import Place
 from tests.cli.decks import BAD_NUMBER, CLEAN, UNSORTED
 from tests.cli.runner import run

@@ -15,7 +15,8 @@ from mudline.keywords import catalogue
 from mudline.keywords.kept import Kept
 from mudline.keywords.model import Block
 from mudline.linting.engine import lint_bytes
-from mudline.linting.registry import Rule, rules
+from mudline.linting.registry import rules
+from mudline.linting.rule import Rule
 
 Declared = type[Block] | Kept
 

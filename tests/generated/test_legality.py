@@ -10,10 +10,9 @@ from hypothesis import given, settings
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Severity
 from mudline.linting.context import LintContext
-from mudline.linting.engine import lint_bytes, problems_in
+from mudline.linting.engine import LintSettings, lint_bytes, problems_in
 from mudline.linting.lint_file import lint_one
 from mudline.linting.registry import rules
-from mudline.linting.settings import LintSettings
 from mudline.scene.model import resolve
 from tests.generated.decks import document
 from tests.generated.legality import deck, outcome

@@ -15,8 +15,8 @@ from pathlib import Path
 from mudline.diagnostics import Diagnostic
 from mudline.linting.engine import lint_bytes
 from mudline.linting.output.visible import visible
-from mudline.linting.registry import Rule, rules
-from mudline.linting.selection import select
+from mudline.linting.registry import rules, select
+from mudline.linting.rule import Rule
 
 CORPUS = Path(__file__).parents[1] / "corpus"
 DECKS = frozenset({".keyx", ".keyxm", ".keyxi", ".das", ".json", ".yaml", ".yml"})

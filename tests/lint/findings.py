@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from mudline.linting.engine import lint_bytes
-from mudline.linting.registry import rules
-from mudline.linting.selection import select
+from mudline.linting.registry import rules, select
 
 PIPE = """\
 $MODEL
@@ -40,3 +39,24 @@ def curve(name: str, *points: tuple[float, float]) -> str:
 
 
 CLAY = curve("Clay", (0.0, 0.0), (0.5, 4000.0))
+ON_CLAY = "*SEABED STIFFNESS\n" + CLAY + PROPERTIES + " STIFFNESS=Clay\n"
+
+
+def points(*given: tuple[float, float]) -> str:
+    return CURVES + curve("a", *given) + PROPERTIES + " STIFFNESS=a\n"
+
+
+def in_units(text: str, suffix: str, code: str) -> list[tuple[int, int]]:
+    return [(one.line, one.column) for one in lint_bytes(text.encode(), f"deck.{suffix}", select([code]))]
+
+
+def repaired(text: str, code: str) -> str:
+    """The text with the repairs of all findings of a code, each on lines of its own."""
+    lines = text.split("\n")
+    for finding in lint_bytes(text.encode(), "deck.keyxm", select([code])):
+        assert finding.fix is not None
+        for edit in reversed(finding.fix.edits):
+            (line, start), (last, end) = edit.start, edit.end
+            assert line == last
+            lines[line - 1] = lines[line - 1][: start - 1] + edit.text + lines[line - 1][end - 1 :]
+    return "\n".join(lines)

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from mudline.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.linting.context import LintContext
-from mudline.linting.registry import Rule
+from mudline.linting.rule import Rule
 
 
 def replacing(

@@ -10,7 +10,7 @@ from jsonschema import Draft202012Validator
 
 from mudline.linting.baseline import Baseline, BaselineError, read_baseline
 from mudline.linting.engine import lint_bytes
-from mudline.linting.selection import select
+from mudline.linting.registry import select
 from tests.lint.findings import CLAY, CURVES, curve
 
 DECK = f"{CURVES}{CLAY}{curve('Sand', (0.0, 0.0), (0.5, 4000.0))}"
@@ -79,9 +79,9 @@ ENTRY = '{"path": "a", "code": "REF003", "content": "", "count": 1}'
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
-        ("", "no JSON"),
-        ("[" * 100_000, "no JSON"),
-        ("\udcff", "no JSON"),
+        ("", "not JSON"),
+        ("[" * 100_000, "not JSON"),
+        ("\udcff", "not JSON"),
         ("[]", "mudline-baseline/1"),
         ('{"format": "mudline-baseline/2"}', "mudline-baseline/1"),
         ('{"format": "mudline-baseline/1"}', "no list"),

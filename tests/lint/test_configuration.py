@@ -20,7 +20,7 @@ from mudline.linting.configuration import ConfigurationError, Search, read_confi
         ("severity = 1", ":1: severity must be a table, not 1"),
         ('[severity]\nLEG001 = "loud"', ":2: LEG001 cannot be 'loud'"),
         ('[per-file-ignores]\n"*.das" = ["NO"]', ":2: *.das: 'NO' names no rule"),
-        ("select = ", ": this is no TOML"),
+        ("select = ", ": this is not TOML"),
     ],
 )
 def test_a_wrong_configuration_is_told_with_its_line(tmp_path: Path, text: str, message: str) -> None:

@@ -13,8 +13,8 @@ from mudline.deck.loading import dump, load_bytes, load_path
 from mudline.deck.model import Deck
 from mudline.diagnostics import DeckError, Diagnostic, Severity
 from mudline.formatting.document import formatted
+from mudline.linting.engine import Fixing, LintSettings
 from mudline.linting.fixing import fix_bytes
-from mudline.linting.settings import Fixing, LintSettings
 from tests.lint import corpus
 
 DECKS = corpus.decks()

@@ -16,8 +16,8 @@ from mudline.deck.loading import load_bytes
 from mudline.diagnostics import Diagnostic, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.engine import lint_bytes, lint_context, lint_deck
-from mudline.linting.registry import rules
-from mudline.linting.selection import select
+from mudline.linting.registry import rules, select
+from tests.lint.findings import CLAY, PIPE, PROPERTIES, RESTART, found
 
 # A line and, behind the bar, the codes that are found in it.
 FAULTY = """\
@@ -313,3 +313,24 @@ def test_no_document_raises(name: str, at: int, length: int, word: str) -> None:
     text = DOCUMENTS[name]
     at %= len(text)
     _check((text[:at] + word + text[at + length :]).encode(), name)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "C nothing but a comment\n",
+        RESTART + "*TIME\n 0, 100\n*BOUNDARY\n TYPE=CONSTANT\n 1, 1\n",
+        "$LOAD CASE\n*WAVE-REGULAR\n 2, 10\n",
+        "$MODEL\n*LINES\n LINE=SCR, SECTION=TDZ\n*GEOMETRIC SETS\n SET=scr\n ,,,, 100, 1, 0.2, 0.3, 0.3\n"
+        "*SEABED STIFFNESS\n" + CLAY + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=Tdz\n STIFFNESS=Clay\n",
+        PIPE
+        + "$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n$MODEL\n*SEABED STIFFNESS\n"
+        + CLAY
+        + PROPERTIES
+        + " STIFFNESS=Clay\n",
+        "$DATABASE POSTPROCESSING\n*ELEMENT SETS\n SET=a\n 1, 2\n",
+    ],
+)
+def test_decks_of_which_nothing_is_to_be_said(text: str) -> None:
+    assert found(text) == []

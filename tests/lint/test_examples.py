@@ -15,12 +15,11 @@ from mudline.deck.forms.json import to_json
 from mudline.deck.forms.yaml import to_yaml
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import Code, Problem, Severity
-from mudline.linting import registry
 from mudline.linting.context import LintContext
-from mudline.linting.engine import lint_bytes
-from mudline.linting.fix_state import FixState, Reader
-from mudline.linting.registry import Rule, rule, rules
-from mudline.linting.settings import LintSettings
+from mudline.linting.engine import LintSettings, lint_bytes
+from mudline.linting.fixing import FixState, Reader
+from mudline.linting.registry import rules
+from mudline.linting.rule import Rule, described_by, rule
 
 ROW = re.compile(r"\| \[([A-Z]+[0-9]+)\]\(\1\.md\) \| `([a-z0-9-]+)` \| (\w+)(, off)? \| (\w*) \| .+ \|")
 PAGE = Path(__file__).parents[2] / "docs" / "rules" / "README.md"
@@ -90,7 +89,7 @@ def test_the_fix_clears_the_finding_and_brings_no_other(given: Rule) -> None:
     """All rules are on, those too that are off unless they are selected."""
     reader = Reader(given.file, LintSettings(tuple(rules()), dialect=given.dialect), NOWHERE)
     before = reader.read(given.bad_bytes)
-    fixes = [one.repair for one in before.told if one.code == given.code and one.repair]
+    fixes = [one.repair for one in before.findings if one.code == given.code and one.repair]
     assert len(fixes) == 1
     after = reader.after(before, fixes)
     assert after is not None
@@ -99,7 +98,7 @@ def test_the_fix_clears_the_finding_and_brings_no_other(given: Rule) -> None:
 
 
 def _codes(state: FixState) -> Counter[str]:
-    return Counter(problem.code.code for problem in state.told)
+    return Counter(problem.code.code for problem in state.findings)
 
 
 SYNTAX = [given for given in rules() if given.code.code.startswith("SYN")]
@@ -145,7 +144,7 @@ def test_an_example_may_have_its_own_encoding_and_end() -> None:
     assert b"\xd8" in by_code["SYN012"].bad_bytes
     assert by_code["SYN012"].remark == "saved as CP1252"
     assert not by_code["SYN014"].bad.endswith("\n")
-    assert by_code["SYN014"].remark == "the file ends behind the last character, without a line end"
+    assert by_code["SYN014"].remark == "the file ends without a line end"
     assert by_code["SYN002"].remark == ""
 
 
@@ -160,7 +159,7 @@ def test_two_rules_cannot_share_a_code_or_a_slug() -> None:
 
         Finds: 1:1
         """
-        yield from context.told(SYN001)
+        yield from context.problems_of(SYN001)
 
     for code in (SYN001, Code("ABC001", SYN001.slug, Severity.INFO)):
         with pytest.raises(ValueError, match="already"):
@@ -174,9 +173,9 @@ def described(lines: str, more: str = "") -> Rule:
     """A rule with an example."""
 
     def check(context: LintContext) -> Iterator[Problem]:
-        yield from context.told(SYN001)
+        yield from context.problems_of(SYN001)
 
-    return registry._described(Code("ABC001", "nothing", Severity.INFO), check, EXAMPLE.format(lines=lines) + more)
+    return described_by(Code("ABC001", "nothing", Severity.INFO), check, EXAMPLE.format(lines=lines) + more)
 
 
 @pytest.mark.parametrize(
@@ -211,12 +210,12 @@ def test_the_decks_may_differ_in_their_bytes_alone() -> None:
         ("", "must have Example and Finds"),
         (
             EXAMPLE.format(lines="    $MODEL"),
-            "the line '    $MODEL' of the example of ABC001 must have four blanks, then a blank, - or +",
+            "the line '    $MODEL' of the example of ABC001 must have four spaces, then a space, - or +",
         ),
         (EXAMPLE.format(lines="    -$MODEL\n  +*OCEAN"), "the line '  +*OCEAN' of the example of ABC001 must have"),
         (
             EXAMPLE.format(lines="     $MODEL"),
-            "the decks of the example of ABC001 must differ in a line behind - or +",
+            "the decks of the example of ABC001 must differ in a line with - or +",
         ),
         (EXAMPLE.format(lines=""), "the decks of the example of ABC001 must differ"),
         (EXAMPLE.format(lines="    -$").replace("1:1", "1"), "Finds: 1 of ABC001 must be line:column"),
@@ -224,7 +223,7 @@ def test_the_decks_may_differ_in_their_bytes_alone() -> None:
 )
 def test_a_docstring_in_another_form_is_refused_in_words(docstring: str, said: str) -> None:
     def check(context: LintContext) -> Iterator[Problem]:
-        yield from context.told(SYN001)
+        yield from context.problems_of(SYN001)
 
     check.__doc__ = docstring
     with pytest.raises(ValueError, match=re.escape(said)):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from mudline.linting.engine import lint_bytes
-from mudline.linting.selection import select
+from mudline.linting.registry import select
 from tests.lint.findings import CLAY, PIPE, PROPERTIES, RESTART, found, messages
 
 LINEAR = PROPERTIES + " STIFFNESS=5000\n"

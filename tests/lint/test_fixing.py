@@ -11,10 +11,11 @@ from hypothesis import strategies as st
 from mudline.deck.forms.json import to_json
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import Severity
+from mudline.linting.engine import Fixing, LintSettings
 from mudline.linting.fixing import MOST_PASSES, Fixed, fix_bytes
 from mudline.linting.lint_file import lint_one
-from mudline.linting.registry import Rule, rules
-from mudline.linting.settings import Fixing, LintSettings
+from mudline.linting.registry import rules
+from mudline.linting.rule import Rule
 from mudline.linting.suppression import STY010
 from tests.lint.findings import CLAY, CURVES, PIPE, PROPERTIES
 from tests.lint.made_rules import replacing

@@ -32,7 +32,7 @@ PAGE = """
 HEAD = '''"""A new module."""
 
 from mudline.diagnostics import Code, Problem, Severity, Where
-from mudline.linting.registry import rule
+from mudline.linting.rule import rule
 from mudline.scene.checks.declaring import check
 
 NEW001 = Code("NEW001", "deck-with-model", Severity.WARNING)
@@ -77,11 +77,10 @@ each_kind = pytest.mark.parametrize(
     [
         ("mudline.linting.rules", "new_subject.py", ADVICE),
         ("mudline.linting.rules", "new_family/new_subject.py", ADVICE),
-        ("mudline.linting.rules.curves", "new_subject.py", ADVICE),
         ("mudline.scene.checks", "new_subject.py", CHECK),
         ("mudline.codes", "new_subject.py", DECLARED),
     ],
-    ids=["rule", "package", "rule in a package", "check", "code"],
+    ids=["rule", "package", "check", "code"],
 )
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from mudline.linting import plugins
-from mudline.linting.output.pages import address, page
+from mudline.linting.output.finding_fields import address, page
 
 TOLD = (
     ("", None),

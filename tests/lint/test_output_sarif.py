@@ -1,13 +1,47 @@
+"""SARIF: what is written, and held against the schema of the standard, from the command line as users run it."""
+
 from __future__ import annotations
 
+import hashlib
 import json
+import os
+import re
+import sys
+from pathlib import Path
 from typing import Any
+from urllib.parse import unquote
 
 import pytest
+from jsonschema import Draft202012Validator
 
 from mudline.diagnostics import Diagnostic, Severity
+from mudline.linting.engine import lint_bytes
 from mudline.linting.output.formats import form
-from tests.lint.outputs import finding
+from mudline.linting.registry import find, rules
+from tests.cli.decks import BAD_NUMBER, CLEAN, UNSORTED
+from tests.cli.runner import Json, Outcome, run
+from tests.lint.outputs import finding, plugin_lint
+
+DATA = Path(__file__).parents[1] / "data"
+SCHEMA = json.loads((DATA / "sarif-schema-2.1.0.json").read_text(encoding="utf-8"))
+VALIDATOR = Draft202012Validator(SCHEMA, format_checker=Draft202012Validator.FORMAT_CHECKER)
+NAMES = BAD_NUMBER.replace("SET=Pipe", "SET=Rør-管")
+
+DECKS = {
+    "clean": ("deck.keyxm", CLEAN, 0),
+    "finding": ("deck.keyxm", BAD_NUMBER, 1),
+    "info": ("deck.keyxm", UNSORTED, 1),
+    "no ASCII": ("dæk-管.keyxm", NAMES, 1),
+    "CRLF": ("deck.keyxm", NAMES.replace("\n", "\r\n"), 1),
+    "CR": ("deck.keyxm", NAMES.replace("\n", "\r"), 1),
+    "BOM": ("deck.keyxm", f"\ufeff{NAMES}", 1),
+    "suppressed": ("deck.keyxm", BAD_NUMBER.replace(" 2, -0.1, ten", "C mudline: ignore SYN002\n 2, -0.1, ten"), 0),
+    "JSON": ("deck.json", '{"mudline": 1, "sections": [{"name": "MODEL", "blocks": 3}]}', 1),
+    "no JSON": ("deck.json", '{"a": ', 1),
+    "blanks": ("the deck.keyxm", BAD_NUMBER, 1),
+    "signs": ("50%20#1&é+;=.keyxm", BAD_NUMBER, 1),
+    "folders": ("a b/c#d/deck.keyxm", BAD_NUMBER, 1),
+}
 
 
 def run_of(*found: Diagnostic) -> dict[str, Any]:
@@ -83,3 +117,146 @@ def test_nothing_found_is_a_run_without_results() -> None:
 def test_levels() -> None:
     run = run_of(*(finding(severity=severity) for severity in Severity))
     assert [result["level"] for result in run["results"]] == ["note", "warning", "error"]
+
+
+def log_of(outcome: Outcome) -> Json:
+    log = outcome.json()
+    assert [f"{error.json_path}: {error.message}" for error in VALIDATOR.iter_errors(log)] == []
+    return log["runs"][0]
+
+
+@pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def test_the_schema_is_the_one_that_is_named() -> None:
+    data = (DATA / "sarif-schema-2.1.0.json").read_bytes()
+    assert hashlib.sha256(data).hexdigest() in (DATA / "README.md").read_text(encoding="utf-8")
+    assert SCHEMA["title"] == "Static Analysis Results Format (SARIF) Version 2.1.0 JSON Schema"
+    assert SCHEMA["properties"]["version"]["enum"] == ["2.1.0"]
+    Draft202012Validator.check_schema(SCHEMA)
+
+
+def test_the_schema_and_its_formats_are_heeded() -> None:
+    driver = {"name": "mudline", "rules": [{"id": "X", "helpUri": "docs/rules/X.md"}]}
+    (error,) = VALIDATOR.iter_errors({"version": "2.1.0", "runs": [{"tool": {"driver": driver}}]})
+    assert error.json_path.endswith(".helpUri")
+    assert not VALIDATOR.is_valid({"version": "2.1.0", "runs": [{"tool": {}}]})
+
+
+@pytest.mark.parametrize(("name", "text", "count"), DECKS.values(), ids=DECKS)
+def test_what_lint_prints_is_sarif(here: Path, name: str, text: str, count: int) -> None:
+    path = here / name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(text.encode())
+    outcome = run("lint", name, "--output-format", "sarif", "--isolated", "--fail-on", "info")
+    assert (outcome.code, outcome.err) == (min(count, 1), "")
+    results = log_of(outcome)["results"]
+    assert len(results) == count
+    for result in results:
+        location = result["locations"][0]["physicalLocation"]["artifactLocation"]
+        assert unquote(location["uri"]) == name
+        assert re.fullmatch(r"[A-Za-z0-9._~%/-]+", location["uri"])
+
+
+@pytest.fixture(scope="module")
+def examples(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Json]:
+    """The bad decks of all rules in folders named by their codes, and the run that SARIF tells of them."""
+    folder = tmp_path_factory.mktemp("examples")
+    for rule in rules():
+        (folder / rule.code.code).mkdir()
+        (folder / rule.code.code / rule.file).write_bytes(rule.bad_bytes)
+    off = ",".join(rule.code.code for rule in rules() if rule.off)
+    more = ["--extend-select", off] if off else []
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        return folder, log_of(run("lint", ".", "--output-format", "sarif", "--isolated", *more))
+
+
+def test_every_rule_is_told_with_its_help_and_level(examples: tuple[Path, Json]) -> None:
+    told = examples[1]["tool"]["driver"]["rules"]
+    assert {rule["id"] for rule in told} >= {rule.code.code for rule in rules() if rule.dialect == "mudline"}
+    for rule in told:
+        assert rule["shortDescription"]["text"].endswith((".", "?"))
+        assert rule["help"]["text"].endswith(rule["fullDescription"]["text"])
+        assert "Good:" in rule["help"]["markdown"]
+        assert rule["defaultConfiguration"]["level"] in {"error", "warning", "note"}
+        assert re.fullmatch(r"[A-Z][A-Za-z0-9]+", rule["name"])
+        assert "helpUri" not in rule  # a page in a repository has no address of its own
+
+
+def test_every_result_points_at_its_rule_and_into_its_file(examples: tuple[Path, Json]) -> None:
+    folder, printed = examples
+    prints = [result["partialFingerprints"]["mudline/v1"] for result in printed["results"]]
+    assert len(set(prints)) == len(prints)
+    for result in printed["results"]:
+        assert printed["tool"]["driver"]["rules"][result["ruleIndex"]]["id"] == result["ruleId"]
+        place = result["locations"][0]["physicalLocation"]
+        rows = lines_of(folder / place["artifactLocation"]["uri"])
+        region = place["region"]
+        assert 1 <= region["startLine"] <= region["endLine"] <= len(rows)
+        assert region["startColumn"] <= len(rows[region["startLine"] - 1].rstrip("\r\n")) + 1
+        assert (region["startLine"], region["startColumn"]) <= (region["endLine"], region["endColumn"])
+
+
+def test_the_fixes_that_are_told_clear_their_findings(examples: tuple[Path, Json]) -> None:
+    folder, printed = examples
+    fixable = [result for result in printed["results"] if "fixes" in result]
+    assert fixable
+    for result in fixable:
+        (change,) = result["fixes"][0]["artifactChanges"]
+        path = folder / change["artifactLocation"]["uri"]
+        mended = replaced("".join(lines_of(path)), change["replacements"])
+        rule = find(result["ruleId"])
+        assert len(lint_bytes(mended.encode(), path.name, rule)) < len(lint_bytes(path.read_bytes(), path.name, rule))
+
+
+def lines_of(path: Path) -> list[str]:
+    """The lines of a file with their ends, as SARIF counts them."""
+    data = path.read_bytes().removeprefix(b"\xef\xbb\xbf")
+    try:
+        text = data.decode()
+    except UnicodeDecodeError:
+        text = data.decode("cp1252", "replace")
+    return [*re.findall(r"[^\r\n]*(?:\r\n|\r|\n)|[^\r\n]+", text), ""]
+
+
+def _start(replacement: Json) -> tuple[int, int]:
+    region = replacement["deletedRegion"]
+    return region["startLine"], region["startColumn"]
+
+
+def replaced(text: str, replacements: list[Json]) -> str:
+    """What a viewer makes of the text that a fix is for."""
+    starts = [0]
+    for row in re.findall(r"[^\r\n]*(?:\r\n|\r|\n)", text):
+        starts.append(starts[-1] + len(row))
+    for one in sorted(replacements, key=_start, reverse=True):
+        region = one["deletedRegion"]
+        start = starts[region["startLine"] - 1] + region["startColumn"] - 1
+        end = starts[region["endLine"] - 1] + region["endColumn"] - 1
+        text = text[:start] + one["insertedContent"]["text"] + text[end:]
+    return text
+
+
+def test_a_rule_of_a_plugin_has_the_address_that_its_package_tells(tmp_path: Path) -> None:
+    told = plugin_lint(tmp_path, "sarif", "Documentation, https://acme.example/rules")
+    (rule,) = log_of(told)["tool"]["driver"]["rules"]
+    assert (rule["id"], rule["helpUri"]) == ("ACM001", "https://acme.example/rules")
+    (found,) = plugin_lint(tmp_path, "json", "Documentation, https://acme.example/rules").json()
+    assert found["url"] == "https://acme.example/rules"
+
+
+def test_a_rule_of_a_plugin_without_a_page_has_none(tmp_path: Path) -> None:
+    (rule,) = log_of(plugin_lint(tmp_path, "sarif", ""))["tool"]["driver"]["rules"]
+    assert (rule["id"], "helpUri" in rule) == ("ACM001", False)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems have no file names in odd bytes")
+@pytest.mark.parametrize(("name", "uri"), [(b"deck-\xff.keyxm", "deck-%FF.keyxm"), (b"<a:?>.das", "%3Ca%3A%3F%3E.das")])
+def test_a_name_in_odd_bytes_is_its_bytes(here: Path, name: bytes, uri: str) -> None:
+    (here / os.fsdecode(name)).write_text(BAD_NUMBER, encoding="utf-8")
+    (result,) = log_of(run("lint", ".", "--output-format", "sarif"))["results"]
+    assert result["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] == uri

@@ -15,7 +15,8 @@ import mudline
 from mudline.diagnostics import Code, Problem, Severity, Span, Where
 from mudline.linting.engine import lint_bytes
 from mudline.linting.plugins import Guarded, PluginError, load, origin
-from mudline.linting.registry import Rule, rules
+from mudline.linting.registry import rules
+from mudline.linting.rule import Rule
 from mudline.plugins import LintContext
 from tests.processes import TIMEOUT
 
@@ -133,8 +134,14 @@ FAULTS = {
     "adds nothing": ("", "it adds no rule: use the decorator mudline.plugins.rule"),
     "letters of mudline": (RULE.format(code="CRV900", slug="model", body="yield"), "CRV900 belong to mudline"),
     "letters without rules": (RULE.format(code="RUN900", slug="model", body="yield"), "RUN900 belong to mudline"),
-    "code of mudline": (RULE.format(code="CRV001", slug="model", body="yield"), "there is a rule CRV001 or model"),
-    "name of mudline": (RULE.format(code="COR001", slug="too-few-points", body="yield"), "or too-few-points already"),
+    "code of mudline": (
+        RULE.format(code="CRV001", slug="model", body="yield"),
+        "there is already a rule CRV001 or model",
+    ),
+    "name of mudline": (
+        RULE.format(code="COR001", slug="too-few-points", body="yield"),
+        "there is already a rule COR001 or too-few-points",
+    ),
     "docstring in no form": (
         RULE.format(code="COR001", slug="model", body="yield").replace("Example:", "Bad:"),
         "ValueError: the docstring of COR001 must have Example: tell its authors",

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from mudline.linting.engine import lint_bytes
-from mudline.linting.selection import select
+from mudline.linting.registry import select
 from tests.lint.findings import PIPE, PROPERTIES, RESTART, found, messages
 
 LAW = PROPERTIES + " STIFFNESS=60000.0\n"
@@ -113,7 +113,7 @@ def test_the_second_section_is_reported_also_in_another_block() -> None:
     text = BARE + STEEL.format("A") + "*GEOMETRIC SETS\n OPTION=TRUSS\n SET=A\n , 5.0, 0.1\n"
     assert found(text, "GEO006") == [("GEO006", text.count("\n") - 1, 6)]
     assert messages(text, "GEO006") == [
-        "SET='A' has a section already, and SET='B' has none: correct one of the two names"
+        "SET='A' already has a section, and SET='B' has none: correct one of the two names"
     ]
 
 

@@ -11,10 +11,9 @@ from hypothesis import strategies as st
 from mudline.deck.forms.json import to_json
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Diagnostic
-from mudline.linting.engine import lint_bytes
+from mudline.linting.engine import Fixing, LintSettings, lint_bytes
 from mudline.linting.fixing import fix_bytes
-from mudline.linting.selection import select
-from mudline.linting.settings import Fixing, LintSettings
+from mudline.linting.registry import select
 from mudline.migration.migrating import Migration, legacy_blocks, migrate
 from tests.lint import corpus
 from tests.lint.findings import CURVES, PIPE, PROPERTIES

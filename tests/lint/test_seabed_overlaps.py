@@ -1,4 +1,4 @@
-"""SBD008 and SBD021: sets that overlap, and nodes held in one direction on a sloping rigid bed."""
+"""SBD008 and SBD021: sets that overlap, and nodes held in one direction on a sloping rigid seabed."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from mudline.linting.engine import lint_bytes
-from mudline.linting.selection import select
+from mudline.linting.registry import select
 from tests.lint.findings import PIPE, PROPERTIES, RESTART, found, messages
 
 SETS = "*ELEMENT SETS\n SET=A\n GEN=1, 4\n SET=B\n GEN=3, 6\n SET=C\n GEN=3, 4\n SET=D\n GEN=1, 4\n"
@@ -46,17 +46,17 @@ def test_a_lost_definition_is_told_at_the_later_set() -> None:
     text = MODEL + soil("Nowhere") + soil("A", 6000) + soil("ALL")
     assert found(text, "SBD008") == [("SBD008", text.count("\n") - 1, 6)]
     assert messages(text, "SBD008")[0] == (
-        "the earlier definition of SET='A' counts for nothing: this later definition takes all its elements; put the "
-        "larger set first, or remove one"
+        "the earlier definition of SET='A' is overridden by this one for all its elements: put the larger set first, "
+        "or remove one"
     )
     assert "the earlier definition of this set" in messages(MODEL + soil("A") + soil("A"), "SBD008")[0]
     assert "4 elements" not in messages(MODEL + soil("A") + soil("B", 6000), "SBD008")[0]
-    assert "2 elements (first: 3) of SET='A'" in messages(MODEL + soil("A") + soil("B", 6000), "SBD008")[0]
+    assert "of SET='A' for 2 elements (first: 3):" in messages(MODEL + soil("A") + soil("B", 6000), "SBD008")[0]
 
 
 def test_one_element_is_told_by_its_number() -> None:
     text = MODEL.replace("GEN=3, 6", "GEN=4, 6") + soil("A") + soil("B", 6000)
-    assert "element 4 of SET='A'" in messages(text, "SBD008")[0]
+    assert "of SET='A' for element 4:" in messages(text, "SBD008")[0]
 
 
 def test_sets_of_unknown_elements_are_compared_by_name() -> None:
@@ -118,7 +118,7 @@ def test_nodes_that_are_held_alone_are_counted() -> None:
     told = messages(PIPE + RIGID + SLOPE + HELD + " GEN=1, 5, 2\n 3, 1\n", "SBD021")
     assert len(told) == 1
     assert told[0] == (
-        "of degrees of freedom 1 and 2 only 2 is constrained at 4 nodes (first: 1) on a sloping rigid bed, and both "
+        "of degrees of freedom 1 and 2 only 2 is constrained at 4 nodes (first: 1) on a sloping rigid seabed, and both "
         "are held there: give both, or remove this one"
     )
 

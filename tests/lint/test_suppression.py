@@ -11,11 +11,9 @@ from hypothesis import strategies as st
 from mudline.deck.forms.json import to_json
 from mudline.deck.forms.yaml import to_yaml
 from mudline.deck.loading import load_bytes
-from mudline.linting.engine import lint_bytes
+from mudline.linting.engine import Fixing, LintSettings, lint_bytes
 from mudline.linting.fixing import fix_bytes
-from mudline.linting.registry import rules
-from mudline.linting.selection import select
-from mudline.linting.settings import Fixing, LintSettings
+from mudline.linting.registry import rules, select
 from tests.lint.findings import CURVES, found
 
 FALLING = f"{CURVES} CURVE=Clay\n 0.0, 0.0\n 0.1, 1200.0\n 0.5, 900.0\n 1.0, 2000.0\n"

@@ -9,7 +9,7 @@ import pytest
 from mudline.deck.forms.json import to_json
 from mudline.deck.loading import load_bytes
 from mudline.linting.engine import lint_bytes
-from mudline.linting.selection import select
+from mudline.linting.registry import select
 from tests.lint.findings import PIPE, PROPERTIES, curve
 
 CODES = ("UNT002", "UNT004", "UNT005", "UNT006")

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Severity
 from mudline.formatting.document import formatted
+from mudline.linting.engine import Fixing, LintSettings
 from mudline.linting.fixing import fix_bytes
-from mudline.linting.selection import select
-from mudline.linting.settings import Fixing, LintSettings
+from mudline.linting.registry import select
 from mudline.syntax.source import Source
 from mudline.syntax.tree import line_grammar, mark_of, parse
 from tests.reading.decks import deck_texts, mutated

@@ -11,7 +11,7 @@ from mudline.deck.model import Deck
 from mudline.diagnostics import Severity
 from mudline.keywords.remarks import advice_on, remark_of
 from mudline.linting.engine import lint_bytes
-from mudline.linting.selection import select
+from mudline.linting.registry import select
 from tests.growth import FOURFOLD, TWOFOLD, call_growth, growth
 
 ADVICE = "no comment stands at the end of a line, put it on a line of its own, behind C and a blank"

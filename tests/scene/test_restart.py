@@ -15,8 +15,7 @@ from mudline.deck.loading import dump, load_bytes, load_path
 from mudline.deck.model import Deck
 from mudline.diagnostics import DeckError
 from mudline.linting.engine import lint_bytes
-from mudline.linting.registry import rules
-from mudline.linting.selection import select
+from mudline.linting.registry import rules, select
 from mudline.scene import restart
 from mudline.scene.continued import ContinuedDeck
 from mudline.scene.model import Scene, resolve

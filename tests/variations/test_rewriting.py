@@ -14,7 +14,7 @@ from mudline.deck.parameters import Parameters, folded
 from mudline.diagnostics import DeckError
 from mudline.keywords.values import Equation
 from mudline.linting.engine import lint_bytes
-from mudline.linting.selection import select
+from mudline.linting.registry import select
 from mudline.variations.files import path_fault
 from mudline.variations.planning import plan
 from mudline.variations.rewriting import ExpansionPlan, parameter_field

@@ -6,7 +6,7 @@ import pytest
 
 from mudline.deck.loading import dump, load_bytes
 from mudline.linting.engine import lint_bytes
-from mudline.linting.selection import select
+from mudline.linting.registry import select
 from mudline.variations.planning import plan
 from tests.samples import SAMPLES
 

@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from mudline.cli.inputs import Input, Inputs
+from mudline.linting.engine import Fixing, LintSettings
 from mudline.linting.lint_file import FileReport, lint_one
-from mudline.linting.settings import Fixing, LintSettings
 
 if TYPE_CHECKING:  # both are imported by runs that are large enough
     from mudline.cli.lint_pool import Arguments, Pool, Promise

@@ -13,7 +13,7 @@ from mudline.cli.options import View
 from mudline.cli.streams import counted, emit, notify, write_text
 from mudline.diagnostics import Diagnostic, Severity
 from mudline.linting.output.formats import TEXT, form, form_names
-from mudline.linting.output.statistics import statistics_lines
+from mudline.linting.output.text import statistics_lines
 from mudline.syntax.source import Source
 
 

@@ -18,9 +18,10 @@ from typing import NamedTuple, Self
 
 import click
 
+from mudline.linting.engine import LintSettings
 from mudline.linting.lint_file import FileReport, lint_one
-from mudline.linting.registry import Rule, rules
-from mudline.linting.settings import LintSettings
+from mudline.linting.registry import rules
+from mudline.linting.rule import Rule
 
 _MOST_ON_WINDOWS = 61
 """Processes that one process can wait for there."""

@@ -14,9 +14,8 @@ from mudline.cli.inputs import Input, is_deck
 from mudline.cli.streams import reason
 from mudline.diagnostics import Severity
 from mudline.linting.configuration import Configuration, ConfigurationError, Search, read_configuration
-from mudline.linting.registry import rules
-from mudline.linting.selection import UnknownRule, select
-from mudline.linting.settings import Fixing, LintSettings
+from mudline.linting.engine import Fixing, LintSettings
+from mudline.linting.registry import UnknownRule, rules, select
 from mudline.patterns import matches
 
 T = TypeVar("T")

@@ -13,8 +13,8 @@ from mudline.cli.options import View
 from mudline.cli.streams import emit_json
 from mudline.linting.output.visible import visible_lines
 from mudline.linting.plugins import origin
-from mudline.linting.registry import Rule, rules
-from mudline.linting.selection import UnknownRule, select
+from mudline.linting.registry import UnknownRule, rules, select
+from mudline.linting.rule import Rule
 
 _PAGE = 100
 """Columns of the page of a rule."""

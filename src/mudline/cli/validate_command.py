@@ -20,7 +20,7 @@ from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Diagnostic, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.engine import problems_in
-from mudline.linting.output.json_objects import as_object
+from mudline.linting.output.finding_fields import as_object
 from mudline.linting.registry import rules
 from mudline.results.csv_lines import csv_lines
 from mudline.syntax.source import Source

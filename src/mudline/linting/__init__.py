@@ -1,1 +1,1 @@
-"""Rules over a deck and its scene, and the forms in which their findings are told."""
+"""Rules over a deck and its scene, and the formats of their findings."""

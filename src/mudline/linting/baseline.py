@@ -20,7 +20,7 @@ _LONGEST = 500
 
 
 class BaselineError(ValueError):
-    """A file that is no baseline; the message says why."""
+    """A file that is not a baseline; the message says why."""
 
 
 class Entry(NamedTuple):
@@ -41,7 +41,7 @@ class Baseline:
     seen: set[str] = field(default_factory=set)
 
     def record(self, found: Iterable[Diagnostic], data: bytes, path: str) -> None:
-        """Take up the findings of a file, whose content is `data`."""
+        """Add the findings of a file, whose content is `data`."""
         self.known.update(self._entries(found, data, path))
 
     def unknown(self, found: Sequence[Diagnostic], data: bytes, path: str) -> list[Diagnostic]:
@@ -82,11 +82,11 @@ class Baseline:
 
 
 def read_baseline(path: Path) -> Baseline:
-    """The baseline in a file; raises OSError, or BaselineError for a file that is none."""
+    """The baseline in a file; raises OSError, or BaselineError for a file that is not a baseline."""
     try:
         document = json.loads(path.read_bytes())
     except (ValueError, RecursionError) as error:
-        raise BaselineError(f"it is no JSON ({error})") from error
+        raise BaselineError(f"it is not JSON ({error})") from error
     if not isinstance(document, dict) or document.get("format") != FORMAT:
         raise BaselineError(f'it has no "format": "{FORMAT}"')
     findings = document.get("findings")

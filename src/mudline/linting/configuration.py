@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from mudline.linting.selection import UnknownRule, select
+from mudline.linting.registry import UnknownRule, select
 from mudline.spelling import nearest
 
 Values = dict[str, Any]
@@ -23,7 +23,7 @@ _SEVERITIES = ("error", "warning", "info", "off")
 
 
 class ConfigurationError(ValueError):
-    """A configuration that cannot be used; the message tells file, line or key, and what to do."""
+    """A configuration that cannot be used; the message has file, line or key, and what to do."""
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ def read_configuration(path: Path, *, demanded: bool = True) -> Configuration | 
         text = path.read_bytes().decode("utf-8-sig").replace("\r\n", "\n")
         document = tomllib.loads(text)
     except (ValueError, RecursionError) as error:
-        raise ConfigurationError(f"{path.as_posix()}: this is no TOML: {error}") from error
+        raise ConfigurationError(f"{path.as_posix()}: this is not TOML: {error}") from error
     values: object = document
     if path.name == "pyproject.toml":
         tool = document.get("tool")
@@ -121,7 +121,7 @@ class _Reading:
                 raise self.error(word, f"{key}: {error}", key) from error
 
     def line(self, *words: str) -> int | None:
-        """The line that a key or a text stands in, as far as a look at the text tells."""
+        """The line of a key or a text, as far as a search of the text finds it."""
         for word in words:
             name = re.escape(word)
             pattern = re.compile(rf"""["']{name}["']|(^|[\s.\[{{,]){name}\s*[=\].]""")

@@ -1,22 +1,52 @@
-"""Running rules over decks."""
+"""Running rules over decks, under the settings of a run."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from enum import StrEnum
 from pathlib import Path
 
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import Deck
-from mudline.diagnostics import Blocks, DeckError, Diagnostic, Problem
+from mudline.diagnostics import Blocks, DeckError, Diagnostic, Problem, Severity
 from mudline.keywords.memory import BlockMemory
 from mudline.linting.context import LintContext
-from mudline.linting.registry import Rule
+from mudline.linting.rule import Rule
 from mudline.linting.suppression import suppressions
 from mudline.scene.continued import of_base
 
 _MEMORY = BlockMemory()
 """Rules look at decks and do not change them."""
+
+
+class Fixing(StrEnum):
+    """Which fixes are made: none, those that keep what the deck means, or also those that guess."""
+
+    NONE = "none"
+    SAFE = "safe"
+    UNSAFE = "unsafe"
+
+    def takes(self, applicability: str) -> bool:
+        """Whether fixes of an applicability ("safe" or "unsafe") are made."""
+        return self is Fixing.UNSAFE or (self is Fixing.SAFE and applicability == "safe")
+
+
+@dataclass(frozen=True, slots=True)
+class LintSettings:
+    """Which rules run, how severe their findings are, and which are fixed; it can be pickled.
+
+    `units` None means those of the file. `severities` override the rules' own by code. Findings of `fail_on` or worse
+    fail a run. Fixes of the codes in `unfixable` are never made.
+    """
+
+    rules: tuple[Rule, ...]
+    units: str | None = None
+    dialect: str = "mudline"
+    severities: Mapping[str, Severity] = field(default_factory=dict)
+    fail_on: Severity = Severity.WARNING
+    fixing: Fixing = Fixing.NONE
+    unfixable: frozenset[str] = frozenset()
 
 
 def lint_deck(deck: Deck, chosen: Sequence[Rule]) -> list[Diagnostic]:
@@ -26,13 +56,13 @@ def lint_deck(deck: Deck, chosen: Sequence[Rule]) -> list[Diagnostic]:
 
 def lint_context(context: LintContext, chosen: Sequence[Rule]) -> list[Diagnostic]:
     """The same for a deck whose scene is needed for more than the findings."""
-    return context.deck.diagnose(told(context, problems_in(context, chosen), chosen))
+    return context.deck.diagnose(unsuppressed(context, problems_in(context, chosen), chosen))
 
 
 def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
-    """What the chosen rules notice in a deck itself; what lies in a deck that it continues is told of that one.
+    """What the chosen rules find in a deck itself; what lies in a deck that it continues is reported for that one.
 
-    What comments suppress is among it, and unused comments are not.
+    Suppressed problems are among them; unused suppression comments are not.
     """
     found = (_advice(problem) if rule.advises else problem for rule in chosen for problem in rule.check(context))
     return [problem for problem in found if not of_base(context.deck, problem)]
@@ -43,7 +73,7 @@ def _advice(problem: Problem) -> Problem:
     return problem if problem.blocking is Blocks.NEVER else replace(problem, blocks=Blocks.NEVER)
 
 
-def told(context: LintContext, problems: list[Problem], chosen: Sequence[Rule]) -> list[Problem]:
+def unsuppressed(context: LintContext, problems: list[Problem], chosen: Sequence[Rule]) -> list[Problem]:
     """The problems that comments of the deck do not suppress, and the comments that suppress nothing."""
     found = suppressions(context.deck)
     return problems if found is None else found.split(problems, chosen)[0]
@@ -58,13 +88,13 @@ def lint_bytes(
     folder: Path | None = None,
     dialect: str = "mudline",
 ) -> list[Diagnostic]:
-    """All findings in a file's content, in its order; `name` tells its form and stands in the findings.
+    """All findings in a file's content, in its order; `name` gives its form, and is named in the findings.
 
-    `folder` is where files that the deck names stand; without it none of them is looked for. `dialect` is the program
+    `folder` is where files that the deck names are; without it none of them is looked for. `dialect` is the program
     that the deck is for, "mudline" or "flexcom".
 
     Never raises for content: a JSON or YAML file that holds no deck gives the reasons (DOC001, DOC002), whatever rules
-    are chosen, as nothing else can be said of it.
+    are chosen, as nothing else can be checked.
     """
     try:
         deck = load_bytes(data, name, units=units, folder=folder, read=_MEMORY.read)

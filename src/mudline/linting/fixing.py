@@ -3,14 +3,22 @@
 from __future__ import annotations
 
 from bisect import bisect_left, insort
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import islice
 from pathlib import Path
 
+from mudline.deck.model import Deck
+from mudline.deck.reading import read_source
 from mudline.diagnostics import Diagnostic, Problem, Repair, Severity, Span
-from mudline.linting.fix_state import FixState, Reader
-from mudline.linting.settings import LintSettings
+from mudline.linting.context import LintContext
+from mudline.linting.engine import LintSettings, problems_in, unsuppressed
+from mudline.linting.suppression import MARK
+from mudline.syntax.edits import TextEdit, edited_bytes
+from mudline.syntax.source import Source
+from mudline.syntax.tree import Kind, SyntaxTree, parse
 
 MOST_PASSES = 20
 """Times that repairs are made; each time those that do not overlap."""
@@ -37,8 +45,8 @@ def fix_bytes(data: bytes, name: str, settings: LintSettings, folder: Path | Non
     first = run.reader.read(data)
     last = run.fix(first)
     if last.unreadable:
-        told = f"not fixed: correct what cannot be read first, {_place(last)}" if run.wanted(first) else ""
-        return Fixed(None, (), told)
+        note = f"not fixed: correct what cannot be read first, {_place(last)}" if run.wanted(first) else ""
+        return Fixed(None, (), note)
     changed = last.data if last.data != data else None
     return Fixed(changed, tuple(run.fixed), run.note())
 
@@ -67,7 +75,7 @@ class _Run:
             if passes == MOST_PASSES or self.tries <= 0:
                 self.stopped = True
                 break
-            made, after = self._sound(state, problems)
+            made, after = self._accepted(state, problems)
             if after is None:
                 self.refused |= {_key(problem) for problem in problems}
                 continue
@@ -90,7 +98,7 @@ class _Run:
         """The findings that the settings want fixed."""
         return [
             problem
-            for problem in state.told
+            for problem in state.findings
             if problem.repair is not None
             and any(state.source.text[slice(*span)] != text for span, text in problem.repair.edits)
             and self.settings.fixing.takes(problem.repair.applicability)
@@ -106,14 +114,14 @@ class _Run:
             return _disjoint(cleared)
         return _disjoint([problem for problem in wanted if _repair(problem).applicability == "safe"] or wanted)
 
-    def _sound(self, state: FixState, problems: list[Problem]) -> tuple[list[Problem], FixState | None]:
+    def _accepted(self, state: FixState, problems: list[Problem]) -> tuple[list[Problem], FixState | None]:
         """Those of the problems whose repairs make nothing worse, and the deck after them; None if there are none."""
         after = self._try(state, problems)
         if after is not None or len(problems) == 1:
             return problems, after
         half = len(problems) // 2
-        one, first = self._sound(state, problems[:half])
-        two, second = self._sound(state, problems[half:])
+        one, first = self._accepted(state, problems[:half])
+        two, second = self._accepted(state, problems[half:])
         if first is None or second is None:
             return (two, second) if first is None else (one, first)
         both = self._try(state, one + two)
@@ -152,11 +160,100 @@ def _disjoint(problems: list[Problem]) -> list[Problem]:
 
 def _free(span: Span, taken: list[Span]) -> bool:
     at = bisect_left(taken, span)
-    return not any(_meet(span, other) for other in islice(taken, max(at - 1, 0), at + 1))
+    return not any(_overlap(span, other) for other in islice(taken, max(at - 1, 0), at + 1))
 
 
-def _meet(one: Span, other: Span) -> bool:
+def _overlap(one: Span, other: Span) -> bool:
     """Whether two edits want the same characters; an insertion meets what begins or ends at its place."""
     if one.start == one.end or other.start == other.end:
         return one.start <= other.end and other.start <= one.end
     return one.start < other.end and other.start < one.end
+
+
+@dataclass
+class FixState:
+    """One stage of a deck. `findings` are those that its comments do not suppress."""
+
+    data: bytes
+    source: Source
+    deck: Deck
+    findings: list[Problem]
+    errors: Counter[str]
+
+    @property
+    def unreadable(self) -> list[Problem]:
+        """What could not be read as it should."""
+        return [
+            problem
+            for problem in self.deck.problems
+            if problem.weight is Severity.ERROR and problem.code.code.startswith("SYN")
+        ]
+
+    @cached_property
+    def tree(self) -> SyntaxTree:
+        """The lines of the text."""
+        return parse(self.source)
+
+    @cached_property
+    def comments(self) -> Counter[str]:
+        """Comments without their layout and how often each occurs; those for this linter are left out."""
+        text = self.source.unified
+        comments = (text[slice(*leaf.span)] for leaf in self.tree.leaves() if leaf.kind is Kind.COMMENT)
+        return Counter(" ".join(comment[1:].split()) for comment in comments if not MARK.match(comment))
+
+    def untouched(self, edits: Sequence[Span]) -> Iterator[tuple[int, int]]:
+        """Section and block of every block that no edit touches."""
+        for index, section in enumerate(self.tree.sections):
+            for number, block in enumerate(section.blocks):
+                start, end = block.head.span.start, (block.leaves or [block.head])[-1].span.end
+                if not any(edit.start <= end and start <= edit.end for edit in edits):
+                    yield index, number
+
+
+@dataclass(frozen=True, slots=True)
+class Reader:
+    """Reads and lints the stages of one file."""
+
+    name: str
+    settings: LintSettings
+    folder: Path | None
+
+    def read(self, data: bytes) -> FixState:
+        """A stage."""
+        source = Source.from_bytes(data, self.name)
+        deck = read_source(source, units=self.settings.units)
+        deck.folder = self.folder
+        context = LintContext(deck, dialect=self.settings.dialect)
+        problems = problems_in(context, self.settings.rules)
+        everything = [*deck.problems, *context.scene.problems, *problems]
+        errors = Counter(problem.code.code for problem in everything if problem.weight is Severity.ERROR)
+        return FixState(data, source, deck, unsuppressed(context, problems, self.settings.rules), errors)
+
+    def after(self, before: FixState, repairs: Sequence[Repair]) -> FixState | None:
+        """The stage after some repairs; None if they cannot be made, change nothing, or make the deck worse."""
+        edits = [TextEdit(span, text) for repair in repairs for span, text in repair.edits]
+        try:
+            data = edited_bytes(before.source, edits)
+        except ValueError:  # edits that overlap or lie outside, a character that the encoding lacks
+            return None
+        if data == before.data:
+            return None
+        after = self.read(data)
+        if any(repair.applicability != "safe" for repair in repairs):
+            worse = after.errors.total() > before.errors.total()
+        else:
+            worse = bool(after.errors - before.errors) or not _same_elsewhere(before, after, edits)
+        return None if worse or before.comments - after.comments else after
+
+
+def _same_elsewhere(before: FixState, after: FixState, edits: Sequence[TextEdit]) -> bool:
+    """Whether both have the same blocks, with equal models where nothing was edited."""
+    if _outline(before.deck) != _outline(after.deck):
+        return False
+    one, other = before.deck.sections, after.deck.sections
+    places = before.untouched([edit.span for edit in edits])
+    return all(one[index].blocks[number] == other[index].blocks[number] for index, number in places)
+
+
+def _outline(deck: Deck) -> list[tuple[str, list[str]]]:
+    return [(section.name, [block.keyword for block in section.blocks]) for section in deck.sections]

@@ -7,9 +7,8 @@ from pathlib import Path
 
 from mudline.deck.loading import form_of
 from mudline.diagnostics import Diagnostic
-from mudline.linting.engine import lint_bytes
+from mudline.linting.engine import Fixing, LintSettings, lint_bytes
 from mudline.linting.fixing import Fixed, fix_bytes
-from mudline.linting.settings import Fixing, LintSettings
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,14 +28,16 @@ class FileReport:
 
 
 def lint_one(name: str, data: bytes, settings: LintSettings, folder: Path | None = None) -> FileReport:
-    """Lint the content of a file, and fix it if the settings say so; writes nothing and never raises for content.
+    """Lint the content of a file, and fix it if the settings ask for it; writes nothing and never raises for content.
 
-    `folder` is where files that the deck names stand; without it none of them is looked for.
+    `folder` is where files that the deck names are; without it none of them is looked for.
     """
     result = _fixed(name, data, settings, folder)
     content = data if result.changed is None else result.changed
     found = lint_bytes(content, name, settings.rules, units=settings.units, folder=folder, dialect=settings.dialect)
-    return FileReport(name, _weighed(found, settings), _weighed(result.fixed, settings), result.changed, result.note)
+    return FileReport(
+        name, _with_severities(found, settings), _with_severities(result.fixed, settings), result.changed, result.note
+    )
 
 
 def _fixed(name: str, data: bytes, settings: LintSettings, folder: Path | None) -> Fixed:
@@ -45,7 +46,9 @@ def _fixed(name: str, data: bytes, settings: LintSettings, folder: Path | None) 
     return fix_bytes(data, name, settings, folder)
 
 
-def _weighed(found: list[Diagnostic] | tuple[Diagnostic, ...], settings: LintSettings) -> tuple[Diagnostic, ...]:
+def _with_severities(
+    found: list[Diagnostic] | tuple[Diagnostic, ...], settings: LintSettings
+) -> tuple[Diagnostic, ...]:
     """The findings with the severities that the settings give them."""
     given = settings.severities
     return tuple(replace(one, severity=given[one.code]) if one.code in given else one for one in found)

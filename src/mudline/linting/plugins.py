@@ -9,12 +9,11 @@ from types import ModuleType
 from typing import TYPE_CHECKING
 
 from mudline.diagnostics import Code, Problem, Severity, Where
+from mudline.linting.context import LintContext
+from mudline.linting.rule import Check, Rule
 
-if TYPE_CHECKING:  # the registry asks for the plugins while it is read itself
+if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
-
-    from mudline.linting.context import LintContext
-    from mudline.linting.registry import Check, Rule
 
 GROUP = "mudline.rules"
 

@@ -1,161 +1,21 @@
-"""What a rule is, and the list of all rules: the checks of reading and resolving, and rules that only advise."""
+"""All rules: the checks of reading and resolving, rules that only advise, and those of plugins; choosing among them."""
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable
 from functools import cache
-from textwrap import dedent
 
 from mudline.codes import all_codes
-from mudline.diagnostics import Code, Problem
 from mudline.linting import plugins
 from mudline.linting import rules as rules_package
-from mudline.linting.context import LintContext
+from mudline.linting.rule import RULES, Noticed, Rule, add, described_by
 from mudline.resources import modules_of
 from mudline.scene.checks.declaring import all_checks
-
-Check = Callable[[LintContext], Iterable[Problem]]
-
-_HEADINGS = re.compile(r"^(Example|Finds|File|Bytes|Cut|Dialect):[ \t]*(.*)$", re.MULTILINE)
-_MARKED = re.compile(r"    ([ +-])(.*)")
-_PLACE = re.compile(r"([0-9]+):([0-9]+)")
-_RULES: dict[str, Rule] = {}
+from mudline.spelling import nearest
 
 
-@dataclass(frozen=True, slots=True)
-class Rule:
-    """A rule: its code, the function that finds, and what its page says.
-
-    `title` is the first sentence, `why` the text behind it, `bad` a deck that it finds something in at `place` (line
-    and column), `good` the same deck mended; `file` is the name that the examples are read under. `encoding` is that of
-    the bad deck's bytes, `dialect` the one under which it is at fault. A rule that is `off` runs only where it is
-    selected.
-    """
-
-    code: Code
-    check: Check
-    title: str
-    why: str
-    bad: str
-    good: str
-    place: tuple[int, int]
-    file: str
-    encoding: str
-    off: bool
-    dialect: str = "mudline"
-
-    @property
-    def advises(self) -> bool:
-        """Whether its findings, whatever their severity, never keep a deck from being evaluated."""
-        return not isinstance(self.check, Noticed)
-
-    @property
-    def bad_bytes(self) -> bytes:
-        """The bad deck as a file."""
-        return self.bad.encode(self.encoding)
-
-    @property
-    def good_bytes(self) -> bytes:
-        """The good deck as a file."""
-        return self.good.encode()
-
-    @property
-    def remark(self) -> str:
-        """What the text of the bad deck does not show about its file, or ""."""
-        if self.dialect != "mudline":
-            return f"with --dialect {self.dialect}"
-        if self.encoding != "utf-8":
-            return f"saved as {self.encoding.upper()}"
-        return "" if self.bad.endswith("\n") else "the file ends behind the last character, without a line end"
-
-
-@dataclass(frozen=True, slots=True)
-class Noticed:
-    """What reading and resolving a deck, or a check of its scene, noticed under a code."""
-
-    code: Code
-
-    def __call__(self, context: LintContext) -> Iterable[Problem]:
-        """The problems of the code."""
-        return context.told(self.code)
-
-
-def rule(code: Code, *, off: bool = False) -> Callable[[Check], Check]:
-    """Register a function as the rule of a code that only advises; `off` keeps it from running unless it is selected.
-
-    Its docstring begins with the title, a sentence on a line of its own; the text behind it says why. Below `Example:`
-    stand a bad and a good deck in one, four blanks in: a line behind a blank is in both, one behind `-` in the bad deck
-    only, one behind `+` in the good deck only. `Finds: line:column` is the place of the one finding in the bad deck.
-    `File: name` (default deck.keyxm) is the name of both decks. `Bytes: encoding` saves the bad deck in another
-    encoding than UTF-8; `Cut: yes` leaves out its last line end; `Dialect: name` reads both decks in a dialect.
-
-    Raises ValueError for a docstring that lacks a part, for a line of the example that has no mark, for two decks that
-    are the same, and for a code or slug that another rule has.
-    """
-
-    def register(check: Check) -> Check:
-        _register(_described(code, check, check.__doc__ or "", off=off))
-        return check
-
-    return register
-
-
-def _register(described: Rule) -> None:
-    code = described.code
-    if any(code.code == known.code.code or code.slug == known.code.slug for known in _RULES.values()):
-        raise ValueError(f"there is a rule {code.code} or {code.slug} already")
-    _RULES[code.code] = described
-
-
-def _described(code: Code, check: Check, page: str, *, off: bool = False) -> Rule:
-    first, _, rest = page.partition("\n")
-    parts = _HEADINGS.split(f"{first.strip()}\n{dedent(rest)}")
-    title, _, why = parts[0].strip().partition("\n")
-    found = {name: (line, body) for name, line, body in zip(parts[1::3], parts[2::3], parts[3::3], strict=True)}
-    lacking = [name for name in ("Example", "Finds") if name not in found]
-    if lacking or not title or not why.strip():
-        raise ValueError(f"the docstring of {code.code} must have {' and '.join(lacking) or 'a title and a reason'}")
-    words = {name: line.strip() for name, (line, _) in found.items()}
-    place = _PLACE.fullmatch(words["Finds"])
-    if place is None:
-        raise ValueError(f"Finds: {words['Finds']} of {code.code} must be line:column of the bad deck")
-    bad, good = _decks(code, found["Example"][1])
-    described = Rule(
-        code=code,
-        check=check,
-        title=title.strip(),
-        why=why.strip(),
-        bad=bad.removesuffix("\n") if "Cut" in words else bad,
-        good=good,
-        place=(int(place[1]), int(place[2])),
-        file=words.get("File", "deck.keyxm"),
-        encoding=words.get("Bytes", "utf-8"),
-        off=off,
-        dialect=words.get("Dialect", "mudline"),
-    )
-    if described.bad_bytes == described.good_bytes:
-        raise ValueError(f"the decks of the example of {code.code} must differ in a line behind - or +")
-    return described
-
-
-def _decks(code: Code, example: str) -> tuple[str, str]:
-    """The bad and the good deck of an example; an empty line is in both."""
-    bad: list[str] = []
-    good: list[str] = []
-    for line in example.strip("\n").split("\n"):
-        marked = _MARKED.fullmatch(line or "     ")
-        if marked is None:
-            raise ValueError(
-                f"the line {line!r} of the example of {code.code} must have four blanks, then a blank, - or +"
-            )
-        mark, text = marked.groups()
-        if mark != "+":
-            bad.append(f"{text}\n")
-        if mark != "-":
-            good.append(f"{text}\n")
-    return "".join(bad), "".join(good)
+class UnknownRule(ValueError):  # noqa: N818 - the name of the fault, as callers catch it
+    """A word that names no rule."""
 
 
 @cache
@@ -164,10 +24,10 @@ def _collected() -> tuple[tuple[Rule, ...], tuple[str, ...]]:
     for found in all_checks():
         declared.setdefault(found.code.code, (found.code, found.find.__doc__ or ""))
     for code, page in declared.values():
-        _register(_described(code, Noticed(code), page))
+        add(described_by(code, Noticed(code), page))
     modules_of(rules_package)
-    faults = plugins.load(_RULES)
-    return tuple(_RULES[code] for code in sorted(_RULES)), faults
+    faults = plugins.load(RULES)
+    return tuple(RULES[code] for code in sorted(RULES)), faults
 
 
 def rules() -> tuple[Rule, ...]:
@@ -189,3 +49,35 @@ def find(word: str) -> list[Rule]:
     if exact or not wanted.isalnum():
         return exact
     return [found for found in rules() if found.code.code.startswith(code)]
+
+
+def select(chosen: Iterable[str] = (), ignored: Iterable[str] = (), also: Iterable[str] = ()) -> tuple[Rule, ...]:
+    """The rules that codes, prefixes of codes or slugs choose, and `also`, without those ignored; by code.
+
+    Nothing chosen means all rules but those that are off. A rule that is off runs when a word in `chosen` or `also`
+    names it, were it by a prefix. What is ignored is left out, whatever else names it.
+
+    Raises UnknownRule, with a suggestion, for a word that names none.
+    """
+    wanted = _named(chosen) or {rule.code.code for rule in rules() if not rule.off}
+    wanted = (wanted | _named(also)) - _named(ignored)
+    return tuple(rule for rule in rules() if rule.code.code in wanted)
+
+
+def _named(words: Iterable[str]) -> set[str]:
+    found: set[str] = set()
+    for word in words:
+        named = find(word)
+        if not named:
+            raise UnknownRule(f"{word!r} names no rule{_hint(word)}")
+        found |= {rule.code.code for rule in named}
+    return found
+
+
+def _hint(word: str) -> str:
+    codes = [rule.code.code for rule in rules()]
+    if word.isalpha():  # a code has digits: this was to be a beginning
+        codes = sorted({code.rstrip("0123456789") for code in codes})
+    slugs = [rule.code.slug for rule in rules()]
+    near = nearest(word, slugs) or nearest(word, codes)
+    return f": did you mean {near}?" if near else ": `mudline rules` lists all rules"

@@ -1,7 +1,7 @@
 """Comments that hide findings: `C mudline: ignore CRV005`, `ignore-block`, `ignore-file`.
 
-A comment holds for the next line that is neither blank nor a comment, for the block that it stands in (from its keyword
-to the next one), or for the whole file. What it names are codes, prefixes of codes and slugs; naming none means all.
+A comment applies to the next line that is neither blank nor a comment, to the block that it is in (from its keyword to
+the next one), or to the whole file. What it names are codes, prefixes of codes and slugs; naming none means all.
 """
 
 from __future__ import annotations
@@ -9,16 +9,15 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections.abc import Hashable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
-from itertools import islice
+from dataclasses import dataclass, field
 
-from mudline.deck.findings import MOST_TOLD
 from mudline.deck.forms.keyword import to_keyword
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import Code, DeckError, Problem, Repair, Severity, Span, Where
 from mudline.keywords.model import Part, layout
-from mudline.linting.registry import Rule, find, rules
+from mudline.linting.registry import find, rules
+from mudline.linting.rule import Rule, first_reported
 from mudline.spelling import nearest
 from mudline.syntax.source import Source
 from mudline.syntax.tree import Kind, Leaf
@@ -26,7 +25,7 @@ from mudline.syntax.tree import Kind, Leaf
 STY010 = Code("STY010", "unused-suppression", Severity.WARNING)
 
 MARK = re.compile(r"[Cc][ \t]+mudline[ \t]*:[ \t]*", re.IGNORECASE)
-"""How a comment begins that speaks to mudline."""
+"""The beginning of a comment for mudline."""
 
 _NAMED = re.compile(r"mudline", re.IGNORECASE)
 _ORDER = re.compile(r"[\w-]+")
@@ -34,9 +33,9 @@ _WORD = re.compile(r"[^,\s]+")
 _REASON = re.compile(r"(?:(?<=[\s,])|^)--(?=\s|$)")
 _PLACES = {"ignore": "the next line", "ignore-block": "this block", "ignore-file": "this file"}
 _NOWHERE = ("outside",)
-"""The scope of what stands in no block."""
+"""The scope of what is in no block."""
 _NOTHING = ("nothing",)
-"""The scope of a comment that has nothing to hold for."""
+"""The scope of a comment that applies to nothing."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +49,7 @@ class Word:
 
 @dataclass(slots=True)
 class Directive:
-    """One comment. `scope` is what it holds for: a line, a block or the file; behind the last line that is nothing."""
+    """One comment. `scope` is what it applies to: a line, a block or the file; nothing after the last line."""
 
     order: str
     leaf: Span
@@ -74,31 +73,31 @@ class Suppressions:
     blocks: list[tuple[int, Hashable]] = field(default_factory=list)
 
     def split(self, problems: Sequence[Problem], chosen: Iterable[Rule]) -> tuple[list[Problem], list[Problem]]:
-        """The problems that are told, and those that are hidden.
+        """The problems that are reported, and those that are hidden.
 
-        The told ones have STY010 besides for what hides nothing, where that rule and the ones named are among the
+        The reported ones have STY010 besides for what hides nothing, where that rule and the ones named are among the
         chosen.
         """
         selected = {rule.code.code for rule in chosen}
         present = self._present(problems)
-        unused = list(_first(self._unused(present, selected))) if STY010.code in selected else []
+        unused = list(first_reported(self._unused(present, selected))) if STY010.code in selected else []
         hidden_by: dict[Hashable, set[str]] = {}
         for directive in self.directives:
             hidden_by.setdefault(directive.scope, set()).update(_named(directive))
-        told: list[Problem] = []
+        reported: list[Problem] = []
         hidden: list[Problem] = []
         for problem in [*problems, *unused]:
             codes = (hidden_by.get(scope, set()) for scope in self._scopes(problem))
-            (hidden if any(_covers(found, problem.code.code) for found in codes) else told).append(problem)
-        return told, hidden
+            (hidden if any(_covers(found, problem.code.code) for found in codes) else reported).append(problem)
+        return reported, hidden
 
     def unknown(self) -> Iterator[Problem]:
-        """What the comments name that no rule has, and orders that are none; the first of them if they are many."""
-        yield from _first(self._unknown())
+        """Names that no rule has and unknown instructions in comments; the first of them if there are many."""
+        yield from first_reported(self._unknown())
 
     def _unknown(self) -> Iterator[Problem]:
         for word, meant, where in self.misspelt:
-            message = f"{word.text!r} is no instruction: did you mean {meant}?"
+            message = f"{word.text!r} is not an instruction: did you mean {meant}?"
             yield self._problem(message, word.span, where, self._replacing(word, meant))
         for directive in self.directives:
             for number, word in enumerate(directive.words):
@@ -155,15 +154,8 @@ class Suppressions:
         return Repair(applicability, f"remove {directive.words[number].text}", ((span, ""),))
 
 
-def _first(problems: Iterator[Problem]) -> Iterator[Problem]:
-    """As many findings as are told one by one; the next says that there are more."""
-    yield from islice(problems, MOST_TOLD)
-    for further in islice(problems, 1):
-        yield replace(further, message=f"and more of the same: the first {MOST_TOLD} are listed", repair=None)
-
-
 def _place(directive: Directive) -> str:
-    """What a comment holds for, in words."""
+    """What a comment applies to, in words."""
     if directive.scope != _NOTHING:
         return _PLACES[directive.order]
     return "what is no block (put it below its *KEYWORD)" if directive.order == "ignore-block" else "what follows"
@@ -174,14 +166,14 @@ def _named(directive: Directive) -> set[str]:
 
 
 def _covers(named: set[str], code: str) -> bool:
-    """Whether a code is hidden; a comment that names none does not hide that it is of no use."""
+    """Whether a code is hidden; a comment that names none does not hide that it is unused."""
     return code in named or ("" in named and code != STY010.code)
 
 
 def suppressions(deck: Deck) -> Suppressions | None:
     """What the comments of a deck hide; None for a deck without such comments.
 
-    A deck in JSON or YAML is seen as the keyword text that it would be; one that cannot be said so hides nothing.
+    A deck in JSON or YAML is seen as the keyword text that it would be; one that has no such text hides nothing.
     """
     if isinstance(deck.origin, TextOrigin):
         return _read(deck.origin, own_text=True) if deck.origin.source.readable else None
@@ -234,7 +226,7 @@ def _read(origin: TextOrigin, *, own_text: bool) -> Suppressions | None:
 
 
 def _placed(origin: TextOrigin, blocks: list[tuple[int, Hashable]]) -> Iterator[tuple[Leaf, Where]]:
-    """The leaves in their order with the block that they stand in; the first lines of blocks go to `blocks`."""
+    """The leaves in their order with the block that they are in; the first lines of blocks go to `blocks`."""
     for index, section in enumerate((origin.tree.preamble, *origin.tree.sections), -1):
         if section.head is not None:
             blocks.append((origin.source.position(section.head.span.start)[0], _NOWHERE))

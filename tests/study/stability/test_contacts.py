@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mudline.linting.engine import lint_bytes
-from mudline.linting.selection import select
+from mudline.linting.registry import select
 from mudline.scene.model import Scene
 from mudline.study.sample import TEXT, sample_scene
 from mudline.study.schemes import SCHEMES

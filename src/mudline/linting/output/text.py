@@ -1,4 +1,4 @@
-"""Findings for people: the place, the message, the source line with a mark under the fault."""
+"""Findings for people: the place, the message, the source line with a mark under the fault; counts by rule."""
 
 from __future__ import annotations
 
@@ -50,10 +50,10 @@ def excerpt(found: Diagnostic, source: Source, screen: Screen) -> Iterator[Text]
     """The source line with a mark under the fault; a long line is cut around it."""
     line = _line_span(source, found.line)
     number = str(found.line)
-    room = max(_NARROWEST, screen.width - len(f" {number} | "))
+    width = max(_NARROWEST, screen.width - len(f" {number} | "))
     start = min(line.start + found.column - 1, line.end)
     end = min(line.start + found.end_column - 1, line.end) if found.end_line == found.line else line.end
-    piece = _window(source.text, line, start, room, screen)
+    piece = _window(source.text, line, start, width, screen)
     if not source.readable or not source.text[slice(*piece)].strip():
         yield Text("")
         return
@@ -79,12 +79,12 @@ def _line_span(source: Source, number: int) -> Span:
     return Span(start, end)
 
 
-def _window(text: str, line: Span, start: int, room: int, screen: Screen) -> Span:
-    """The part of a line that fits into `room` columns and shows what stands before and behind `start`."""
-    if line.end - line.start <= room and cell_len(visible(text[slice(*line)], screen.encoding)) <= room:
+def _window(text: str, line: Span, start: int, width: int, screen: Screen) -> Span:
+    """The part of a line that fits into `width` columns and shows what stands before and behind `start`."""
+    if line.end - line.start <= width and cell_len(visible(text[slice(*line)], screen.encoding)) <= width:
         return line
-    first = max(line.start, start - room // 3)
-    left = room - 2 * len(_CUT)
+    first = max(line.start, start - width // 3)
+    left = width - 2 * len(_CUT)
     last = first
     while last < line.end and (left := left - cell_len(visible(text[last], screen.encoding))) >= 0:
         last += 1
@@ -100,3 +100,12 @@ def summary(diagnostics: list[Diagnostic], files: int) -> Text:
             text.append(", " if len(text) > len("Found ") else "")
             text.append(f"{count} {_WORDS[severity]}{plural}", style)
     return text.append(f" in {files} file{'s' * (files != 1)}.")
+
+
+def statistics_lines(diagnostics: list[Diagnostic]) -> Iterator[str]:
+    """Findings counted by rule, the most frequent first."""
+    counts: dict[tuple[str, str], int] = {}
+    for found in diagnostics:
+        counts[found.code, found.slug] = counts.get((found.code, found.slug), 0) + 1
+    for (code, slug), count in sorted(counts.items(), key=lambda item: (-item[1], item[0])):
+        yield f"{count:6}  {code}  {slug}\n"

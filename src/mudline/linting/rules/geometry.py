@@ -1,24 +1,36 @@
-"""Where the line of a model lies."""
+"""Sections of pipes, and where the line lies."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from typing import NamedTuple
+from collections.abc import Iterable, Iterator
+from itertools import islice
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
 from mudline.contact.input import LawKind
-from mudline.diagnostics import Code, Problem, Severity
+from mudline.deck.model import Deck
+from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.catalogue import holds_in_soil
+from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
-from mudline.linting.registry import rule
-from mudline.linting.rules.seabed.elevation import depths
+from mudline.linting.rule import rule
+from mudline.linting.rules.seabed_position import depths
+from mudline.scene.context import MOST_REPORTED
 from mudline.scene.deck_values import number
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Mask, blocks_of
+from mudline.scene.sections import Section, format_of
+from mudline.scene.sets import set_key
 
+if TYPE_CHECKING:
+    from mudline.keywords.library.geometric_sets import GeometricSet, GeometricSets
+
+GEO002 = Code("GEO002", "number-and-curve", Severity.WARNING)
+GEO003 = Code("GEO003", "drag-diameter-assumed", Severity.INFO)
 GEO005 = Code("GEO005", "not-on-the-seabed", Severity.WARNING)
+GEO006 = Code("GEO006", "repeated-section", Severity.WARNING)
 
 HIGHEST = 100.0
 """Diameters above the seabed: a line that lies level does not hang there."""
@@ -28,6 +40,19 @@ FLAT = 0.01
 """Share of the water depth by which the heights of nodes on a level seabed may differ."""
 NEAR = 0.05
 """Share of the water depth by which a riser ends beside the seabed or the sea surface."""
+
+_BENDING = ("eiyy", "eizz")
+_CURVES = {
+    "eiyy_curve": ("EIYY", ("eiyy",)),
+    "eizz_curve": ("EIZZ", ("eizz",)),
+    "gj_curve": ("GJ", ("gj",)),
+    "ea_curve": ("EA", ("ea",)),
+    "ei_curve": ("EI", _BENDING),
+    "hysteresis_curve": ("EI_HYSTERESIS", _BENDING),
+    "e_curve": ("E", ("e",)),
+}
+"""Which numbers of the property line a curve replaces, and the setting that names the curve."""
+_NAMES = {"eiyy": "EIyy", "eizz": "EIzz", "gj": "GJ", "ea": "EA", "e": "E"}
 
 
 @rule(GEO005)
@@ -146,3 +171,157 @@ def _along_z(line: _Line) -> str:
             "the height as X, the first coordinate"
         )
     return ""
+
+
+def section_entries(deck: Deck) -> Iterator[tuple[Where, GeometricSet]]:
+    """Every entry of *GEOMETRIC SETS with its place."""
+    for where, block in deck.blocks("GEOMETRIC SETS"):
+        for index, entry in enumerate(cast("GeometricSets", block).sets):
+            yield where._replace(path=("sets", index)), entry
+
+
+@rule(GEO002)
+def number_and_curve(context: LintContext) -> Iterator[Problem]:
+    """A stiffness is given twice: as a number, and by a curve.
+
+    Where SET= names a curve of the non-linear stiffness, its number on the property line is to be left empty. With both
+    it is not clear which one a run uses. Leave the field empty, or remove the curve.
+
+    Example:
+         $MODEL
+         *GEOMETRIC SETS
+          OPTION=FLEXIBLE
+          SET=ALL, EI=Bend Stiffener
+        - 23.5E3, 23.5E3, 1.2E6, 480.0E6, 92.0, 0.9, 0.2032, 0.3429, 0.3429, 0.3429
+        + , , 1.2E6, 480.0E6, 92.0, 0.9, 0.2032, 0.3429, 0.3429, 0.3429
+
+    Finds: 5:2
+    """
+    yield from islice(_given_twice(context.deck), MOST_REPORTED)
+
+
+def _given_twice(deck: Deck) -> Iterator[Problem]:
+    for where, entry in section_entries(deck):
+        if entry.mooring is not None:
+            continue  # its format has no field for a curve, and EA must be given
+        for curve, (key, numbers) in _CURVES.items():
+            if getattr(entry, curve) is None:
+                continue
+            if given := [name for name in numbers if getattr(entry.section, name, None) is not None]:
+                names = " and ".join(_NAMES[name] for name in given)
+                message = f"{names} is given as a number, and {key}= names a curve for it: remove one of them"
+                place = where._replace(path=(*where.path, format_of(entry), _NAMES[given[0]]))
+                yield Problem(GEO002, message, where=place)
+
+
+@rule(GEO003)
+def drag_diameter_assumed(context: LintContext) -> Iterator[Problem]:
+    """A flexible section under a force-embedment curve has no Do: the drag diameter Dd is used.
+
+    The embedment ratio is a depth divided by the external diameter, so the stiffness of the seabed depends on it. The
+    drag diameter is often larger, as it takes in marine growth, fairings or strakes. Give Do, the last field but one of
+    the property line.
+
+    Example:
+         $MODEL
+         *NODE
+          1, -0.05, 0.0
+          5, -0.05, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *GEOMETRIC SETS
+          OPTION=FLEXIBLE
+          SET=ALL
+        - 23.5E3, 23.5E3, 1.2E6, 480.0E6, 92.0, 0.9, 0.2032, 0.3910, 0.3429
+        + 23.5E3, 23.5E3, 1.2E6, 480.0E6, 92.0, 0.9, 0.2032, 0.3910, 0.3429, 0.3429
+         *SEABED STIFFNESS
+          CURVE=Clay
+          0.0, 0.0
+          0.5, 4200.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Clay
+
+    Finds: 12:53
+    """
+    scene = context.scene
+    table = scene.section_table
+    if all(section.source != "Dd" for section in table.sections):
+        return
+    on_curve = table.of_element[(scene.law == LawKind.CURVE) & (table.of_element >= 0)]
+    for index, count in zip(*(part.tolist() for part in np.unique(on_curve, return_counts=True)), strict=True):
+        section = table.sections[index]
+        if section.source == "Dd" and not np.isnan(section.diameter) and not section.faulty:
+            elements = "an element" if count == 1 else f"{count} elements"
+            message = (
+                f"the embedment ratio of {elements} on a curve is computed with Dd = {section.diameter:g}, as the "
+                "section has no Do: give Do"
+            )
+            yield Problem(GEO003, message, where=section.where._replace(path=(*section.where.path, "flexible", "Dd")))
+
+
+@rule(GEO006)
+def repeated_section(context: LintContext) -> Iterator[Problem]:
+    """A set has two sections, and another set has none.
+
+    The later section of a set overrides the earlier one. That is legal, but beside a set without a section it suggests
+    an entry that was copied and kept the name of the first: the elements of that set have neither stiffness nor mass.
+    Correct the name in one of the two entries. Nothing is reported where elements come from lines or from another deck,
+    where a section names a set that is not defined (REF001), or where every element has a section.
+
+    Example:
+         $MODEL
+         *NODE
+          1, 0.0, 0.0
+          5, 0.0, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *ELEMENT SETS
+          SET=West
+          GEN=1, 2
+          SET=East
+          GEN=3, 4
+         *GEOMETRIC SETS
+          OPTION=RIGID
+          SET=West
+          207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
+        - SET=West
+        + SET=East
+          207.0E9, 79.6E9, 0.3239, 0.2731, 7850.0
+
+    Finds: 18:6
+    """
+    scene = context.scene
+    sections, reading = scene.section_table.sections, scene.context
+    repeated = _repeated(sections)
+    hidden = (
+        scene.section_table.open or reading.external_definers or reading.restart or "GEOMETRIC SETS" in reading.unread
+    )
+    if not repeated or hidden or any(scene.set_table.find(section.name) is None for section in sections):
+        return
+    lacking = scene.section_table.of_element < 0
+    sets = scene.set_table.named.values() if lacking.any() else ()
+    bare = [one.name for one in sets if one.elements.size and not one.open and lacking[one.elements].all()]
+    for section in repeated if bare else ():
+        message = (
+            f"SET={shown(section.name)} already has a section, and SET={shown(bare[0])} has none: correct one of the "
+            "two names"
+        )
+        yield Problem(GEO006, message, where=section.where._replace(path=(*section.where.path, "set")))
+
+
+def _repeated(sections: Iterable[Section]) -> list[Section]:
+    """Sections of a set that already has one."""
+    known: set[str] = set()
+    found: list[Section] = []
+    for section in sections:
+        name = set_key(section.name)
+        if name in known:
+            found.append(section)
+        known.add(name)
+    return found

@@ -1,23 +1,25 @@
-"""Superseded keywords."""
+"""Superseded keywords, and decks that mix them with newer ones."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
-from mudline.diagnostics import Code, Problem, Repair, Severity
+from mudline.diagnostics import Code, Problem, Repair, Severity, Where
+from mudline.keywords.catalogue import is_superseded, supersedes
 from mudline.linting.context import LintContext
-from mudline.linting.registry import rule
+from mudline.linting.rule import rule
 from mudline.syntax.edits import with_line_ends
 
 LEG001 = Code("LEG001", "superseded-keyword", Severity.INFO)
+SBD016 = Code("SBD016", "mixed-families", Severity.WARNING)
 
 
 @rule(LEG001)
 def superseded_keyword(context: LintContext) -> Iterator[Problem]:
     """The keyword is superseded by a newer one.
 
-    It is still legal and means what it meant. The newer keywords say more (profiles, friction by set), and new decks
-    are written with them.
+    It is still legal and keeps its meaning. The newer keywords can express more (profiles, friction by set), and new
+    decks use them.
 
     Example:
          $MODEL
@@ -57,3 +59,41 @@ def _migration(context: LintContext) -> Repair | None:
         return None
     edits = with_line_ends(text.source, rewrite(deck).edits)
     return Repair("unsafe", "write the newer keywords", tuple((edit.span, edit.text) for edit in edits))
+
+
+@rule(SBD016)
+def mixed_families(context: LintContext) -> Iterator[Problem]:
+    """The model has legacy and new seabed keywords.
+
+    The manual does not say how the two combine, so the deck may mean something else to another version of the program.
+    Here a block of *SEABED PROPERTIES that gives a stiffness overrides the legacy keywords (inferred). Keep one family.
+
+    Example:
+         $MODEL
+        -*ELASTIC SURFACE
+        - 50000.0, 0.3, 0.6
+        +*SEABED PROPERTIES
+        + TYPE=ELASTIC
+        + SET=ALL
+        + STIFFNESS=50000.0
+        + FRICTION=0.3, 0.6
+         *SEABED PROFILE
+          TYPE=SLOPING
+          SLOPE=2.0
+
+    Finds: 4:1
+    """
+    legacy, new = _first(context, is_superseded), _first(context, supersedes)
+    if not legacy or not new:
+        return
+    own = len(context.scene.deck.own_sections)
+    where, keyword = max((place for place in (legacy, new) if place[0].section < own), default=legacy)
+    other = (new if is_superseded(keyword) else legacy)[1]
+    message = f"*{keyword} and *{other} are in one model, and how they combine is not documented: keep one family"
+    yield Problem(SBD016, message, where=where)
+
+
+def _first(context: LintContext, fact: Callable[[str], bool]) -> tuple[Where, str] | None:
+    deck = context.scene.deck
+    names = filter(fact, deck.keywords())
+    return min(((where, name) for name in names for where, _ in deck.blocks(name)), default=None)

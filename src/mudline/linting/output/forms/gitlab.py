@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from mudline.diagnostics import Diagnostic, Severity
-from mudline.linting.output.fingerprints import Fingerprints
+from mudline.linting.output.finding_fields import Fingerprints
 from mudline.linting.output.formats import LintRun
 from mudline.linting.output.visible import visible
 

@@ -41,8 +41,8 @@ def _suite(name: str, listed: list[Diagnostic]) -> Iterator[str]:
         case = f"{found.code} {found.slug} {found.line}:{found.column}"
         place = f"{found.file}:{found.line}:{found.column}"
         yield f'    <testcase name={_value(case)} classname={_value(name)} time="0">\n'
-        told = visible(f"{place}: {found.message}")
-        yield f'      <failure type="{found.severity.value}" message={quoteattr(told)}>{escape(told)}</failure>\n'
+        text = visible(f"{place}: {found.message}")
+        yield f'      <failure type="{found.severity.value}" message={quoteattr(text)}>{escape(text)}</failure>\n'
         yield "    </testcase>\n"
     yield "  </testsuite>\n"
 

@@ -5,22 +5,24 @@ from __future__ import annotations
 import json
 import os
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 from urllib.parse import quote
 
 from mudline.diagnostics import Diagnostic, Edit, Severity
-from mudline.linting.output.fingerprints import Fingerprints
+from mudline.linting.output.finding_fields import Fingerprints, address
 from mudline.linting.output.formats import LintRun
-from mudline.linting.output.pages import address
-from mudline.linting.output.sarif_rules import described
 from mudline.linting.output.visible import visible
+from mudline.linting.registry import rules
+from mudline.linting.rule import Rule
 
 SUMMARY = "SARIF 2.1.0: rules with help, levels, regions in code points, fixes and fingerprints"
 
 SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
 _BASE = "ROOT"
+
+_NO_RULE = "This is no rule and cannot be left out; the message says why the file could not be used or checked."
 
 
 def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:
@@ -92,3 +94,28 @@ def _region(start: tuple[int, int], end: tuple[int, int]) -> dict[str, int]:
 
 def _edit(edit: Edit) -> dict[str, Any]:
     return {"deletedRegion": _region(edit.start, edit.end), "insertedContent": {"text": edit.text}}
+
+
+def described(found: Diagnostic, levels: Mapping[Severity, str], address: str | None) -> dict[str, Any]:
+    """The reporting descriptor of the code of a finding.
+
+    `address` is that of its help on the web: SARIF wants a whole address, not the path of a page.
+    """
+    rule = next((rule for rule in rules() if rule.code.code == found.code), None)
+    title = rule.title if rule else f"{found.slug.replace('-', ' ').capitalize()}."
+    why = rule.why if rule else _NO_RULE
+    severity = rule.code.severity if rule else found.severity
+    return {
+        "id": found.code,
+        "name": "".join(word.capitalize() for word in found.slug.split("-")),
+        "shortDescription": {"text": title},
+        "fullDescription": {"text": why},
+        "defaultConfiguration": {"level": levels[severity], "enabled": not (rule and rule.off)},
+        "help": {"text": f"{title}\n\n{why}"} | ({"markdown": _markdown(rule)} if rule else {}),
+        **({"helpUri": address} if address else {}),
+    }
+
+
+def _markdown(rule: Rule) -> str:
+    examples = f"Bad:\n\n```text\n{rule.bad.rstrip()}\n```\n\nGood:\n\n```text\n{rule.good.rstrip()}\n```\n"
+    return f"# {rule.title}\n\n{rule.why}\n\n{examples}"

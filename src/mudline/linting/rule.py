@@ -1,0 +1,165 @@
+"""What a rule is: a function that finds, and a docstring that becomes its page."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
+from itertools import islice
+from textwrap import dedent
+
+from mudline.deck.findings import MOST_TOLD
+from mudline.diagnostics import Code, Problem
+from mudline.linting.context import LintContext
+
+Check = Callable[[LintContext], Iterable[Problem]]
+
+_HEADINGS = re.compile(r"^(Example|Finds|File|Bytes|Cut|Dialect):[ \t]*(.*)$", re.MULTILINE)
+_MARKED = re.compile(r"    ([ +-])(.*)")
+_PLACE = re.compile(r"([0-9]+):([0-9]+)")
+RULES: dict[str, Rule] = {}
+"""The rules that are registered, by code, in the order of their registration."""
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """A rule: its code, the function that finds, and what its page says.
+
+    `title` is the first sentence, `why` the text after it, `bad` a deck that it finds something in at `place` (line
+    and column), `good` the deck corrected; `file` is the name that the examples are read under. `encoding` is that of
+    the bad deck's bytes, `dialect` the one under which it is at fault. A rule that is `off` runs only where it is
+    selected.
+    """
+
+    code: Code
+    check: Check
+    title: str
+    why: str
+    bad: str
+    good: str
+    place: tuple[int, int]
+    file: str
+    encoding: str
+    off: bool
+    dialect: str = "mudline"
+
+    @property
+    def advises(self) -> bool:
+        """Whether its findings, whatever their severity, never keep a deck from being evaluated."""
+        return not isinstance(self.check, Noticed)
+
+    @property
+    def bad_bytes(self) -> bytes:
+        """The bad deck as a file."""
+        return self.bad.encode(self.encoding)
+
+    @property
+    def good_bytes(self) -> bytes:
+        """The good deck as a file."""
+        return self.good.encode()
+
+    @property
+    def remark(self) -> str:
+        """What the text of the bad deck does not show about its file, or ""."""
+        if self.dialect != "mudline":
+            return f"with --dialect {self.dialect}"
+        if self.encoding != "utf-8":
+            return f"saved as {self.encoding.upper()}"
+        return "" if self.bad.endswith("\n") else "the file ends without a line end"
+
+
+@dataclass(frozen=True, slots=True)
+class Noticed:
+    """What reading and resolving a deck, or a check of its scene, reports under a code."""
+
+    code: Code
+
+    def __call__(self, context: LintContext) -> Iterable[Problem]:
+        """The problems of the code."""
+        return context.problems_of(self.code)
+
+
+def rule(code: Code, *, off: bool = False) -> Callable[[Check], Check]:
+    """Register a function as the rule of a code that only advises; `off` keeps it from running unless it is selected.
+
+    Its docstring begins with the title, a sentence on a line of its own; the text after it says why. Below `Example:`
+    are a bad and a good deck in one, indented by four spaces: a line after a space is in both, one after `-` in the bad
+    deck only, one after `+` in the good deck only. `Finds: line:column` is the place of the only finding in the bad
+    deck. `File: name` (default deck.keyxm) is the name of both decks. `Bytes: encoding` saves the bad deck in another
+    encoding than UTF-8; `Cut: yes` leaves out its last line end; `Dialect: name` reads both decks in a dialect.
+
+    Raises ValueError for a docstring that lacks a part, for a line of the example that has no mark, for two decks that
+    are the same, and for a code or slug that another rule has.
+    """
+
+    def register(check: Check) -> Check:
+        add(described_by(code, check, check.__doc__ or "", off=off))
+        return check
+
+    return register
+
+
+def add(described: Rule) -> None:
+    """Register a rule; raises ValueError for a code or slug that another rule has."""
+    code = described.code
+    if any(code.code == known.code.code or code.slug == known.code.slug for known in RULES.values()):
+        raise ValueError(f"there is already a rule {code.code} or {code.slug}")
+    RULES[code.code] = described
+
+
+def described_by(code: Code, check: Check, page: str, *, off: bool = False) -> Rule:
+    """The rule that a docstring describes (see `rule`); raises ValueError for a docstring that lacks a part."""
+    first, _, rest = page.partition("\n")
+    parts = _HEADINGS.split(f"{first.strip()}\n{dedent(rest)}")
+    title, _, why = parts[0].strip().partition("\n")
+    found = {name: (line, body) for name, line, body in zip(parts[1::3], parts[2::3], parts[3::3], strict=True)}
+    lacking = [name for name in ("Example", "Finds") if name not in found]
+    if lacking or not title or not why.strip():
+        raise ValueError(f"the docstring of {code.code} must have {' and '.join(lacking) or 'a title and a reason'}")
+    words = {name: line.strip() for name, (line, _) in found.items()}
+    place = _PLACE.fullmatch(words["Finds"])
+    if place is None:
+        raise ValueError(f"Finds: {words['Finds']} of {code.code} must be line:column of the bad deck")
+    bad, good = _decks(code, found["Example"][1])
+    described = Rule(
+        code=code,
+        check=check,
+        title=title.strip(),
+        why=why.strip(),
+        bad=bad.removesuffix("\n") if "Cut" in words else bad,
+        good=good,
+        place=(int(place[1]), int(place[2])),
+        file=words.get("File", "deck.keyxm"),
+        encoding=words.get("Bytes", "utf-8"),
+        off=off,
+        dialect=words.get("Dialect", "mudline"),
+    )
+    if described.bad_bytes == described.good_bytes:
+        raise ValueError(f"the decks of the example of {code.code} must differ in a line with - or +")
+    return described
+
+
+def _decks(code: Code, example: str) -> tuple[str, str]:
+    """The bad and the good deck of an example; an empty line is in both."""
+    bad: list[str] = []
+    good: list[str] = []
+    for line in example.strip("\n").split("\n"):
+        marked = _MARKED.fullmatch(line or "     ")
+        if marked is None:
+            raise ValueError(
+                f"the line {line!r} of the example of {code.code} must have four spaces, then a space, - or +"
+            )
+        mark, text = marked.groups()
+        if mark != "+":
+            bad.append(f"{text}\n")
+        if mark != "-":
+            good.append(f"{text}\n")
+    return "".join(bad), "".join(good)
+
+
+def first_reported(problems: Iterable[Problem]) -> Iterator[Problem]:
+    """As many findings as are reported one by one; the next one says that there are more."""
+    found = iter(problems)
+    yield from islice(found, MOST_TOLD)
+    for further in islice(found, 1):
+        yield replace(further, message=f"and more of the same: the first {MOST_TOLD} are listed", repair=None)

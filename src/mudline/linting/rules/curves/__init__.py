@@ -1,1 +1,0 @@
-"""Force-embedment curves."""

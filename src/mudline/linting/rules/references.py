@@ -1,0 +1,219 @@
+"""Names that one place of a deck uses and another one defines: element sets and parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import islice
+from typing import TYPE_CHECKING, cast
+
+from mudline.deck.parameters import folded, list_items
+from mudline.deck.reading import TextOrigin
+from mudline.diagnostics import Code, Problem, Repair, Severity, Span, Where
+from mudline.keywords.text import shown
+from mudline.linting.context import LintContext
+from mudline.linting.rule import rule
+from mudline.scene.context import MOST_REPORTED
+from mudline.scene.sets import ALL
+
+if TYPE_CHECKING:
+    from mudline.keywords.library.element_sets import ElementSets, SetList
+    from mudline.keywords.library.parameters import Parameter
+
+REF011 = Code("REF011", "long-name", Severity.WARNING)
+REF012 = Code("REF012", "long-list", Severity.WARNING)
+REF016 = Code("REF016", "repeated-set", Severity.WARNING)
+REF017 = Code("REF017", "repeated-parameter", Severity.WARNING)
+
+LONGEST_NAME = 256
+LONGEST_LIST = 20
+
+
+@rule(REF011)
+def long_name(context: LintContext) -> Iterator[Problem]:
+    """The name of a set has more than 256 characters.
+
+    The language allows 256. A longer name may be cut when the deck is run, and names that differ only after the cut
+    would then be one set. Choose a shorter name.
+
+    Example:
+         $MODEL
+         *NODE
+          1, 12.0, 0.0
+          2, 12.0, 10.0
+         *ELEMENT
+          1, 1, 2
+         *ELEMENT SETS
+        - SET=Eastern export flowline from the manifold to the platform between kilometre post 12.400 and kilometre\
+ post 12.900 as surveyed before the trench was made and again after it was filled with the crossings of both cables\
+ and the two mattresses that were laid on the eastern one in the second season
+        + SET=Export KP 12.400 to 12.900
+          1
+
+    Finds: 8:6
+    """
+    for where, block in context.scene.deck.blocks("ELEMENT SETS"):
+        for index, entry in enumerate(cast("ElementSets", block).sets):
+            length = len(cast("str | None", entry.name) or "")
+            if length > LONGEST_NAME:
+                message = f"a set name of {length} characters: it must not be longer than {LONGEST_NAME}"
+                yield Problem(REF011, message, where=where._replace(path=("sets", index, "name")))
+
+
+@rule(REF012)
+def long_list(context: LintContext) -> Iterator[Problem]:
+    """A line of a set lists more than 20 elements.
+
+    The language allows 20 on a line. Further elements may be dropped without a warning when the deck is run, and then
+    lack the stiffness or the curve of their set. Put the rest on lines of their own: lines of a set add up.
+
+    Example:
+         $MODEL
+         *NODE
+          1, 12.0, 0.0
+          25, 12.0, 240.0
+          GEN=1, 25
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 24
+         *ELEMENT SETS
+          SET=Coated Joints
+        - 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 22, 24
+        + 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20
+        + 22, 24
+
+    Finds: 11:73
+    """
+    for where, count in islice(_long(context), MOST_REPORTED):
+        message = f"{count} elements on a line: the language allows {LONGEST_LIST}; put the rest on lines of their own"
+        repair = _split(context.text, where, count) if context.text else None
+        yield Problem(REF012, message, where=where._replace(path=(*where.path, LONGEST_LIST)), repair=repair)
+
+
+def _long(context: LintContext) -> Iterator[tuple[Where, int]]:
+    """Lists that are too long, and how many elements they have."""
+    for where, block in context.deck.blocks("ELEMENT SETS"):
+        for index, entry in enumerate(cast("ElementSets", block).sets):
+            for number, member in enumerate(entry.members):
+                count = len(cast("SetList", member).elements) if member.rule == "set_list" else 0
+                if count > LONGEST_LIST:
+                    yield where._replace(path=("sets", index, "members", number, "elements")), count
+
+
+def _split(text: TextOrigin, where: Where, count: int) -> Repair | None:
+    """A line break after every 20 elements, indented as the line is; None where more than commas is between them."""
+    source = text.source.unified
+    edits: list[tuple[Span, str]] = []
+    line_break = _line_break(text.source.text, text.span(where))
+    for following in range(LONGEST_LIST, count, LONGEST_LIST):
+        places = [where._replace(path=(*where.path, at)) for at in (following - 1, following)]
+        before, behind = (text.span(place) for place in places)
+        if before is None or behind is None or not all(text.written(place) for place in places):
+            return None
+        between = source[before.end : behind.start]
+        if between.strip(" \t") not in ("", ","):
+            return None
+        edits.append((Span(before.end, behind.start), line_break))
+    return Repair("safe", f"put at most {LONGEST_LIST} elements on a line", tuple(edits))
+
+
+def _line_break(text: str, line: Span | None) -> str:
+    """A line end as the file has them, and the indentation of a line; at least a space."""
+    at = line.start if line else 0
+    start = max(text.rfind("\n", 0, at), text.rfind("\r", 0, at)) + 1
+    end = "\r\n" if "\r\n" in text else "\n" if "\n" in text else "\r" if "\r" in text else "\n"
+    indentation = text[start:at]
+    return end + (indentation or " ")
+
+
+@rule(REF016)
+def repeated_set(context: LintContext) -> Iterator[Problem]:
+    """A set is defined twice: it holds the elements of both definitions.
+
+    Whoever changes one of them expects the set to change, but the elements of the other one stay in it, with their
+    stiffness and curve. Names are compared without case. Put the elements under one SET=, or choose another name.
+
+    Example:
+         $MODEL
+         *NODE
+          1, 12.0, 0.0
+          5, 12.0, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *ELEMENT SETS
+          SET=Coated
+        - 1, 2
+        + 1, 2, 4
+          SET=Bare
+          3
+        - SET=COATED
+        - 4
+
+    Finds: 14:6
+    """
+    yield from islice(_repeated_sets(context), MOST_REPORTED)
+
+
+def _repeated_sets(context: LintContext) -> Iterator[Problem]:
+    known = {ALL}
+    for where, block in context.deck.blocks("ELEMENT SETS"):
+        for index, entry in enumerate(cast("ElementSets", block).sets):
+            name = cast("str | None", entry.name)
+            if name is None:
+                continue
+            key = folded(name)
+            if key in known and key != ALL:
+                message = f"set {shown(name)} is already defined, and this adds to it: put its elements under one SET="
+                yield Problem(REF016, message, where=where._replace(path=("sets", index, "name")))
+            known.add(key)
+
+
+@rule(REF017)
+def repeated_parameter(context: LintContext) -> Iterator[Problem]:
+    """A parameter is defined twice: the later value applies everywhere.
+
+    Equations before the second definition use its value too: the first definition is overridden, although a reader
+    finds it first. Items of a list have the name of the list in front, as in Soil_stiffness. Remove one of the two.
+
+    Example:
+         $PREPROCESSOR
+         *PARAMETERS
+        - depth, 850.0
+        + depth, 910.0
+          od, 0.3239
+        - Depth, 910.0
+         $MODEL
+         *OCEAN
+          =[depth], 1025.0, 9.81
+
+    Finds: 5:2
+    """
+    known: set[str] = set()
+    reported = 0
+    for where, block in context.deck.blocks("PARAMETERS", "PREPROCESSOR"):
+        for index, parameter in enumerate(cast("list[Parameter]", block.parameters)):
+            repeated: list[str] = []
+            for name in _names(parameter):
+                key = folded(name)
+                if key in known:
+                    repeated.append(name)
+                known.add(key)
+            if repeated and reported < MOST_REPORTED:
+                reported += 1
+                others = f" (and {len(repeated) - 1} more of this list)" if len(repeated) > 1 else ""
+                message = (
+                    f"parameter {shown(repeated[0])}{others} is defined twice, and this value overrides the earlier "
+                    "one: remove one of them"
+                )
+                yield Problem(REF017, message, where=where._replace(path=("parameters", index, "name")))
+
+
+def _names(parameter: Parameter) -> list[str]:
+    """The parameters that a line defines."""
+    name, value = cast("str | None", parameter.name), cast("object", parameter.value)
+    if name is None or value is None:
+        return []
+    if isinstance(value, str) and value.startswith("/"):
+        return [item.name for item in list_items(name, value)[0]]
+    return [name]

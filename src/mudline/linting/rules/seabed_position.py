@@ -1,0 +1,373 @@
+"""Where nodes and elements lie relative to the seabed, and what holds them vertically."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+
+from mudline.contact.input import LawKind
+from mudline.diagnostics import Code, Problem, Severity, Where
+from mudline.keywords.catalogue import holds_in_soil, is_superseded
+from mudline.linting.context import LintContext
+from mudline.linting.rule import rule
+from mudline.scene.checks.laws import SBD004
+from mudline.scene.context import MOST_REPORTED
+from mudline.scene.model import Scene
+from mudline.scene.numbering import LARGEST, Floats, Indices, Mask, blocks_of
+from mudline.scene.seabed import SeabedKind, SeabedShape
+
+if TYPE_CHECKING:
+    from mudline.keywords.library.boundary import Boundary, FixedNode, FixedRange
+
+SBD006 = Code("SBD006", "no-vertical-restraint", Severity.WARNING)
+SBD021 = Code("SBD021", "one-constrained-dof", Severity.WARNING)
+SBD022 = Code("SBD022", "deep-node", Severity.WARNING)
+
+_VERTICAL = 90.0
+
+_DEEPEST = 5.0
+
+_IN_PLANE = (1, 2)
+
+
+def depths(scene: Scene) -> Floats:
+    """Depths (n,) of the deck's coordinates normal to the seabed, negative above it; NaN where they are not known.
+
+    Of a polyline and of a surface it is a lower bound: no point of the seabed is nearer. A surface is triangulated
+    between its points, so it lies nowhere below the lowest of them. A cubic profile may lie anywhere between its
+    points.
+    """
+    floor = scene.seabed
+    x, y, z = scene.coordinates.T
+    if not _is_bed(scene):
+        return np.full(len(x), np.nan)
+    with np.errstate(over="ignore", invalid="ignore"):
+        if floor.kind is SeabedKind.PLANES:
+            return _below_planes(floor, x, y, z)
+        if floor.kind in (SeabedKind.FLAT, SeabedKind.SLOPING):
+            slope = np.radians(floor.slope)
+            found = np.empty(len(x))
+            for block in blocks_of(len(x)):
+                found[block] = _along(floor.direction, y[block], z[block]) * np.sin(slope) - x[block] * np.cos(slope)
+            return found
+        if floor.missing or floor.points.size == 0 or floor.interpolation != "LINEAR":
+            return np.full(len(x), np.nan)
+        if floor.kind is SeabedKind.SURFACE:
+            return np.asarray(floor.points[:, 0].min() - x)
+        return _below_profile(floor, x, _along(floor.direction, y, z))
+
+
+def _is_bed(scene: Scene) -> bool:
+    """Whether slopes are below 90 degrees, and the deck describes one seabed; other rules report where it does not."""
+    floor = scene.seabed
+    if floor.kind is SeabedKind.PLANES and "SEABED PROFILE" in scene.deck.keywords():
+        return False
+    return all(abs(slope) < _VERTICAL for slope in (floor.slope, *(plane.slope for plane in floor.planes)))
+
+
+def steepness(scene: Scene) -> Floats:
+    """Slopes (n,) of the seabed under the nodes as a tangent, without sign: of a profile, or of a uniform slope.
+
+    NaN where they are not known.
+    """
+    floor = scene.seabed
+    _, y, z = scene.coordinates.T
+    if floor.kind in (SeabedKind.FLAT, SeabedKind.SLOPING):
+        return np.full(len(y), abs(np.tan(np.radians(floor.slope))))
+    if floor.kind is not SeabedKind.PROFILE or floor.missing or floor.points.size == 0:
+        return np.full(len(y), np.nan)
+    points = floor.points[np.argsort(floor.points[:, 0], kind="stable")]
+    slopes = np.concatenate([[0.0], _slopes(points), [0.0]])
+    place = _along(floor.direction, y, z)
+    sides = (np.searchsorted(points[:, 0], place, side) for side in ("left", "right"))
+    found: Floats = np.maximum(*(slopes[side] for side in sides))
+    return found
+
+
+def _along(direction: float, y: Floats, z: Floats) -> Floats:
+    """The horizontal coordinate in which a seabed that is the same across it rises or falls."""
+    turned = np.radians(direction)
+    along: Floats = y * np.cos(turned) + z * np.sin(turned)
+    return along
+
+
+def _slopes(points: Floats) -> Floats:
+    widths, rises = np.diff(points, axis=0).T
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        slopes: Floats = np.abs(np.where(rises == 0.0, 0.0, rises / widths))
+    return slopes
+
+
+def _below_profile(floor: SeabedShape, x: Floats, along: Floats) -> Floats:
+    points = floor.points[np.argsort(floor.points[:, 0], kind="stable")]
+    steepest = float(_slopes(points).max(initial=0.0))
+    below: Floats = (np.interp(along, points[:, 0], points[:, 1]) - x) / np.hypot(1.0, steepest)
+    return below
+
+
+def _below_planes(floor: SeabedShape, x: Floats, y: Floats, z: Floats) -> Floats:
+    """Depth below the highest plane whose bounds hold the node; of two as high the later one counts."""
+    highest = np.full(len(x), -np.inf)
+    depth = np.full(len(x), np.nan)
+    for plane in floor.planes:
+        x0, y0, z0 = plane.point
+        slope = np.radians(plane.slope)
+        height = x0 + _along(plane.direction, y - y0, z - z0) * np.tan(slope)
+        y_min, y_max, z_min, z_max = plane.bounds
+        held = (y >= y_min) & (y <= y_max) & (z >= z_min) & (z <= z_max) & (height >= highest)
+        highest[held] = height[held]
+        depth[held] = ((height - x) * np.cos(slope))[held]
+    return depth
+
+
+@rule(SBD006)
+def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
+    """Nothing supports elements of the model vertically.
+
+    Either the block of *SEABED PROPERTIES that applies to the elements gives no stiffness: a block overrides an earlier
+    one as a whole, and does not inherit its STIFFNESS=. Or the elements lie at or below the seabed (X = 0) in the
+    deck's coordinates, and no law applies to them. A static run may then have no unique solution. Give STIFFNESS=, or
+    put the elements into a set that has it.
+
+    Example:
+         $MODEL
+         *NODE
+          1, -0.05, 0.0
+          5, -0.05, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *ELEMENT SETS
+          SET=Crossing
+          2, 3
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+          SET=Crossing
+        + STIFFNESS=50000.0
+          FRICTION=0.8, 0.9
+
+    Finds: 16:2
+    """
+    scene = context.scene
+    reading = scene.context
+    if reading.restart or any(map(is_superseded, reading.misplaced_keywords)) or reading.misplaced("SEABED PROPERTIES"):
+        return
+    if any(map(is_superseded, reading.unread)) or "SEABED CONTACT" in scene.deck.keywords():
+        return  # a law that was not read may hold
+    if any(context.problems_of(SBD004)):
+        return  # that there is no stiffness is reported there
+    free = scene.law == LawKind.NONE
+    yield from _blocks(scene, np.flatnonzero(free & (scene.laws.covered >= 0)))
+    yield from _lying(scene, np.flatnonzero(free & (scene.laws.covered < 0)))
+
+
+def _blocks(scene: Scene, elements: Indices) -> Iterator[Problem]:
+    """Blocks without stiffness that hold for elements, unless a later one whose elements are not known may hold."""
+    if not elements.size:
+        return
+    grants = scene.laws.set_laws
+    last_open = max((index for index, grant in enumerate(grants) if grant.set_.open), default=-1)
+    legacy_open = any(grant.set_.open for grant in grants if grant.family == "legacy")
+    found = np.unique(scene.laws.covered[elements], return_index=True, return_counts=True)
+    for index, first, count in zip(*(part.tolist() for part in found), strict=True):
+        where = grants[index].where
+        hidden = grants[index].unknown or scene.context.has_unread_line_after(where, "SEABED PROPERTIES")
+        if legacy_open or last_open > index or hidden:
+            continue
+        which = f"{first_of('element', scene.element_ids[elements[first]], count)} get{'s' * (count == 1)}"
+        message = (
+            f"{which} no stiffness from this block, which overrides earlier ones as a whole: give STIFFNESS= here too"
+        )
+        yield Problem(SBD006, message, where=where)
+
+
+def _lying(scene: Scene, elements: Indices) -> Iterator[Problem]:
+    """Elements at or below a flat seabed without any law; without any seabed in the deck only those below count."""
+    if not elements.size:
+        return
+    uncertain = scene.laws.uncertain or "SEABED PROPERTIES" in scene.context.unread
+    if uncertain or scene.seabed.kind is not SeabedKind.FLAT or any(map(holds_in_soil, scene.deck.keywords())):
+        return
+    seabed = bool(scene.laws.types or scene.laws.set_laws)
+    lies = np.greater_equal if seabed else np.greater
+    parts = (elements[block] for block in blocks_of(len(elements)))
+    lying = np.concatenate([part[lies(_depths(scene, part), 0.0)] for part in parts])
+    if lying.size:
+        where = "at or below" if seabed else "below"
+        which = f"{first_of('element', scene.element_ids[lying[0]], lying.size)} lie{'s' * (lying.size == 1)}"
+        message = f"{which} {where} the seabed (X = 0) and no seabed law applies: give STIFFNESS= to a set of them"
+        yield Problem(SBD006, message, where=scene.table.numbered.where(int(lying[0])))
+
+
+def _depths(scene: Scene, elements: Indices) -> Floats:
+    """Mean depths of the two nodes; NaN where one is not known."""
+    depths = np.full(len(elements), np.nan)
+    ends = scene.element_nodes[elements]
+    known = (ends >= 0).all(axis=1)
+    heights = scene.coordinates[ends[known], 0]
+    depths[known] = 0.0 - (0.5 * heights[:, 0] + 0.5 * heights[:, 1])
+    return depths
+
+
+def first_of(thing: str, first: int, count: int) -> str:
+    """Some elements or nodes in words, by the number of the first and how many they are."""
+    return f"{thing} {first}" if count == 1 else f"{count} {thing}s (first: {first})"
+
+
+@rule(SBD022)
+def deep_node(context: LintContext) -> Iterator[Problem]:
+    """Nodes lie more than five diameters below the seabed.
+
+    Pipes on the seabed sink by a fraction of their diameter. So deep a node usually has the wrong datum: elevations are
+    measured upwards from the mudline at X = 0, and not from the sea surface. Correct the coordinates. Of a
+    three-dimensional seabed only its lowest point is used; cubic and compiled profiles, and models with soil curves,
+    are left out.
+
+    Example:
+         $MODEL
+         *NODE
+        - 1, -500.0, 0.0
+        - 2, -500.0, 10.0
+        + 1, -0.02, 0.0
+        + 2, -0.02, 10.0
+         *ELEMENT
+          1, 1, 2
+         *GEOMETRIC SETS
+          OPTION=RIGID
+          SET=ALL
+          207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+
+    Finds: 3:2
+    """
+    scene = context.scene
+    if not (scene.laws.types or scene.laws.set_laws) or any(map(holds_in_soil, scene.deck.keywords())):
+        return
+    depth = depths(scene)
+    thinnest = float(np.fmin.reduce(scene.diameter, initial=np.inf))  # of Python: a product may overflow
+    if thinnest > 0.0 and np.fmax.reduce(depth, initial=-np.inf) <= _DEEPEST * thinnest:
+        return
+    with np.errstate(over="ignore", invalid="ignore"):
+        ends = scene.element_nodes
+        known = (ends >= 0).all(axis=1) & (scene.diameter > 0.0)
+        limit = np.zeros(len(depth))
+        for side in (0, 1):
+            np.maximum.at(limit, ends[known, side], _DEEPEST * scene.diameter[known])
+        deep = np.flatnonzero((limit > 0.0) & (depth > limit))
+    if deep.size:
+        which = f"{first_of('node', scene.node_ids[deep[0]], deep.size)} lie{'s' * (deep.size == 1)}"
+        message = f"{which} more than 5 diameters below the seabed: correct the datum of X"
+        yield Problem(SBD022, message, where=scene.nodes.where(int(deep[0])))
+
+
+@rule(SBD021)
+def one_constrained_dof(context: LintContext) -> Iterator[Problem]:
+    """Only one of the degrees of freedom 1 and 2 is constrained at a node on a sloping rigid seabed.
+
+    Such a seabed holds its nodes along its normal, which lies between the directions 1 and 2. A node with a constraint
+    in one of the two only is held in both by the program: it can no longer slide down the slope, and the reaction there
+    is larger than the deck suggests. Constrain both, or none. Reported are nodes on the seabed or below it, or less
+    than a diameter above it.
+
+    Example:
+         $MODEL
+         *NODE
+          1, 0.0, 0.0
+          2, 0.3, 10.0
+         *ELEMENT
+          1, 1, 2
+         *SEABED PROPERTIES
+          TYPE=RIGID
+          SET=ALL
+          FRICTION=0.3, 0.6
+         *SEABED PROFILE
+          TYPE=SLOPING
+          SLOPE=2.0
+         $LOAD CASE
+         *BOUNDARY
+          TYPE=CONSTANT
+        + 1, 1
+          1, 2
+
+    Finds: 17:5
+    """
+    scene = context.scene
+    if "RIGID" not in scene.laws.types or "ELASTIC" in scene.laws.types:
+        return
+    held = list(_held(scene))
+    if not held or scene.context.restart:  # the deck that is continued may constrain the other one
+        return
+    given = np.zeros((2, len(scene.node_ids)), dtype=np.bool_)
+    for _, dof, nodes in held:
+        given[dof - 1, nodes] = True
+    alone = (given[0] != given[1]) & _on_slope(scene)
+    reported = 0
+    for where, dof, nodes in held:
+        found = nodes[alone[nodes]]
+        if found.size and reported < MOST_REPORTED:
+            reported += 1
+            which = first_of("node", scene.node_ids[found[0]], found.size)
+            message = (
+                f"of degrees of freedom 1 and 2 only {dof} is constrained at {which} on a sloping rigid seabed, and "
+                "both are held there: give both, or remove this one"
+            )
+            yield Problem(SBD021, message, where=where)
+
+
+def _on_slope(scene: Scene) -> Mask:
+    """Nodes within a diameter of a seabed that is not level."""
+    reach = np.zeros(len(scene.node_ids))
+    ends = scene.element_nodes
+    known = (ends >= 0).all(axis=1) & (scene.diameter > 0.0)
+    for side in (0, 1):
+        np.maximum.at(reach, ends[known, side], scene.diameter[known])
+    near = 1e-6 * np.abs(scene.coordinates).max(axis=1, initial=0.0)  # coordinates are rounded when they are written
+    sloping: Mask = (steepness(scene) > 0.0) & (depths(scene) >= -np.maximum(reach, near))
+    return sloping
+
+
+def _held(scene: Scene) -> Iterator[tuple[Where, int, Indices]]:
+    """Each constraint of degree of freedom 1 or 2: its place, the degree, the indices of its nodes."""
+    for where, block in scene.deck.blocks("BOUNDARY", "LOAD CASE"):
+        for i, type_ in enumerate(cast("Boundary", block).types):
+            for j, entry in enumerate(type_.entries):
+                place = where._replace(path=("types", i, "entries", j))
+                generated = getattr(entry, "generate", None)
+                if generated is None:
+                    yield from _single(scene, cast("FixedNode", entry), place)
+                else:
+                    yield from _range(scene, cast("FixedRange", entry), place)
+
+
+def _single(scene: Scene, entry: FixedNode, where: Where) -> Iterator[tuple[Where, int, Indices]]:
+    node, dof = entry.node, entry.dof
+    if isinstance(node, int) and abs(node) <= LARGEST and dof in _IN_PLANE:
+        found = np.flatnonzero(scene.node_ids == node)
+        yield where._replace(path=(*where.path, "dof")), int(dof), found
+
+
+def _range(scene: Scene, entry: FixedRange, where: Where) -> Iterator[tuple[Where, int, Indices]]:
+    """Nodes of a GEN=: of three values the last one is the degree of freedom, of five the fourth.
+
+    Four values can be read in two ways; they are read as increment and degree of freedom.
+    """
+    values = entry.generate
+    if values.third is None:
+        return
+    step, dof = (1, values.third) if values.fourth is None else (values.third, values.fourth)
+    numbers = (values.start, values.end, step)
+    if dof not in _IN_PLANE or not all(isinstance(value, int) and abs(value) <= LARGEST for value in numbers):
+        return
+    start, end, step = (int(value) for value in numbers)
+    if step > 0:
+        ids = scene.node_ids
+        found = np.flatnonzero((ids >= start) & (ids <= end) & ((ids - start) % step == 0))
+        yield where._replace(path=(*where.path, "generate")), int(dof), found

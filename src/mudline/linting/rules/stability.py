@@ -1,0 +1,312 @@
+"""What keeps a solution from being found, or from being right."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+
+from mudline.contact.input import LawKind
+from mudline.contact.laws.suction import SuctionLaw
+from mudline.contact.stiffest import (
+    ADVISED_OMEGA_DT,
+    CRITICAL_OMEGA_DT,
+    critical_step,
+    omega,
+    release_stiffness,
+    rounded_down,
+    steepest_slope,
+)
+from mudline.diagnostics import Code, Problem, Severity
+from mudline.keywords.text import shown
+from mudline.linting.context import LintContext
+from mudline.linting.rule import rule
+from mudline.scene.assignments import given_stiffness, nodal_stiffness, suction_law
+from mudline.scene.context import MOST_REPORTED
+from mudline.scene.force_curves import SceneCurve
+from mudline.scene.model import Scene
+from mudline.scene.numbering import Floats, Indices
+
+if TYPE_CHECKING:
+    from mudline.keywords.library.time import TimeSpan
+
+STB001 = Code("STB001", "suction-snap", Severity.INFO)
+STB002 = Code("STB002", "coarse-time-step", Severity.INFO)
+STB003 = Code("STB003", "stiff-jump", Severity.WARNING)
+
+_SMALLEST_PART, _LARGEST_PART = 0.01, 0.99
+
+_CONSEQUENCES = (
+    (1.0, "with Newmark, HHT and generalised-alpha the rebound may be up to 11 % too fast"),
+    (
+        CRITICAL_OMEGA_DT["central-difference"],
+        "with Newmark, HHT and generalised-alpha the rebound may be far too fast",
+    ),
+    (
+        math.inf,
+        (
+            "with Newmark, HHT and generalised-alpha the rebound may be up to three times too fast, "
+            "central difference fails"
+        ),
+    ),
+)
+"""What happens to a landing pipe, up to a product of frequency and step."""
+
+FARTHEST = 1.0e4
+
+
+@rule(STB001)
+def suction_snap(context: LintContext) -> Iterator[Problem]:
+    """The suction force decreases while the pipe keeps rising.
+
+    From the second corner of the trapezoid to breakout, the suction decreases with slope F_max / ((1 - xc2) Delta_B).
+    This is a negative stiffness. A static or quasi-static solution is unique only where the stiffness of the pipe
+    itself, per unit length, is greater; elsewhere the pipe snaps off the seabed, and the solver may not converge. The
+    message gives the stiffness at the velocity of REGULARISATION=, for the element that needs most. Use smaller steps
+    at lift-off, or a linear SUCTION=.
+
+    Example:
+         $MODEL
+         *NODE
+          1, -0.05, 0.0
+          5, -0.05, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *GEOMETRIC SETS
+          OPTION=RIGID
+          SET=ALL
+          207.0E9, 79.6E9, 0.3, 0.265, 7850.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+        -*SEABED SUCTION
+        - SET=ALL
+        - COHESION=5000.0
+        + SUCTION=15000.0, 0.05
+
+    Finds: 18:2
+    """
+    scene = context.scene
+    extension = scene.extensions.get("SEABED SUCTION")
+    if extension is None:
+        return
+    for index, where in enumerate(extension.places):
+        elements = np.flatnonzero(extension.of_element == index)
+        needed = _release(suction_law(scene, extension, elements))
+        known = np.flatnonzero(np.isfinite(needed) & (needed > 0.0))
+        if known.size:
+            worst = int(known[np.argmax(needed[known])])
+            message = (
+                f"the release of the suction is softening: equilibrium needs a structural stiffness per unit length "
+                f"above F_max / ((1 - xc2) Delta_B) = {needed[worst]:.6g} at the velocity of REGULARISATION= "
+                f"(element {scene.element_ids[elements[worst]]})"
+            )
+            yield Problem(STB001, message, where=where)
+
+
+def _release(law: SuctionLaw) -> Floats:
+    """|slope| of the release branch, per unit length, of some elements; NaN where it is not known."""
+    with np.errstate(all="ignore"):
+        usable = (law.second_corner >= _SMALLEST_PART) & (law.second_corner <= _LARGEST_PART)
+        return np.where(usable & (law.regularisation > 0.0), release_stiffness(law, law.regularisation), np.nan)
+
+
+@rule(STB002, off=True)
+def coarse_time_step(context: LintContext) -> Iterator[Problem]:
+    """The fixed time step is coarse for the stiffest contact.
+
+    A pipe on the seabed oscillates with omega, the root of stiffness over mass, both per unit length. Implicit schemes
+    that are called unconditionally stable are so for linear systems: contact that opens and closes adds energy to the
+    pipe when omega times the step is large; the rebound velocity is at most 3 % too high at 0.5, and far more above.
+    Explicit schemes fail above 2. Only backward Euler never adds energy. The stiffness of *SEABED UNLOADING is used
+    where it is larger. The mass is that of the section without added water, and the third value of *TIME is read as the
+    step (inferred). Give the step that the message names.
+
+    Example:
+         $MODEL
+         *NODE
+          1, -0.05, 0.0
+          5, -0.05, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *GEOMETRIC SETS
+          OPTION=MOORING
+          SET=ALL
+          480.0E6, 200.0, 0.3
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+         $LOAD CASE
+         *TIME
+          STEP=FIXED
+        - 0.0, 120.0, 0.1, 24.0
+        + 0.0, 120.0, 0.03, 24.0
+
+    Finds: 20:14
+    """
+    scene = context.scene
+    blocks = list(scene.deck.blocks("TIME", "LOAD CASE"))
+    if not blocks or not len(scene.element_ids):
+        return
+    frequencies = omega(_stiffness(scene), scene.mass_per_length)
+    if np.isnan(frequencies).all():
+        return
+    stiffest = int(np.nanargmax(frequencies))
+    frequency = float(frequencies[stiffest])
+    advised = rounded_down(float(critical_step(frequencies[stiffest], ADVISED_OMEGA_DT)))
+    for where, block in blocks:
+        step = getattr(cast("TimeSpan", block), "increment", None)
+        if isinstance(step, int | float) and frequency * step > ADVISED_OMEGA_DT:
+            effect = next(words for limit, words in _CONSEQUENCES if frequency * step <= limit)
+            message = (
+                f"omega dt = {frequency * step:.3g} on the stiffest contact (element {scene.element_ids[stiffest]}, "
+                f"omega = {frequency:.4g} rad/s): {effect}; give a step of {advised:.3g} or less "
+                "(inferred: the third value is the step)"
+            )
+            yield Problem(STB002, message, where=where._replace(path=("increment",)))
+
+
+def _stiffness(scene: Scene) -> Floats:
+    """The largest stiffness of the contact of each element, per unit length; NaN without one."""
+    grants = scene.laws.set_laws
+    linear = np.array([*(grant.stiffness for grant in grants), np.nan])[scene.laws.of_element]
+    steepest = np.full(len(linear), np.nan)
+    for number, entry in enumerate(scene.laws.curves):
+        if entry.curve is not None and entry.whole:
+            steepest[scene.laws.followers(number)] = steepest_slope(entry.curve.ratios, entry.curve.slopes)
+    found = np.where(scene.law == LawKind.CURVE, steepest / scene.diameter, linear)
+    if "SEABED UNLOADING" in scene.extensions:
+        found = np.where(np.isnan(found), np.nan, np.fmax(found, given_stiffness(scene.extensions["SEABED UNLOADING"])))
+    return np.where(scene.nodal, _nodal(scene), found) if scene.nodal.any() else found
+
+
+def _nodal(scene: Scene) -> Floats:
+    """Stiffness of the stiffer end of each element, spread over the halves of the elements that meet there."""
+    nodes, length = scene.element_nodes, np.zeros(len(scene.node_ids))
+    if (nodes < 0).any():
+        return np.full(len(nodes), np.nan)
+    for end in nodes.T:
+        np.add.at(length, end, 0.5 * scene.length)
+    with np.errstate(all="ignore"):
+        spread = nodal_stiffness(scene, scene.extensions["SEABED CONTACT"]) / length
+    found: Floats = np.fmax(*spread[nodes].T)
+    return found
+
+
+@rule(STB003)
+def stiff_jump(context: LintContext) -> Iterator[Problem]:
+    """The stiffness of the seabed jumps by a factor of more than 10 000.
+
+    It does so where two segments of a curve meet, flat ones left out, or where an element on a curve has a neighbour on
+    a linear seabed that is so much stiffer, or softer, than every segment. The solver loses digits at such a jump, and
+    the pipe bends sharply at the edge. Usually an exponent is wrong. Correct the point or the stiffness; real rock
+    beside mud needs a transition.
+
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Clay over Rock
+          0.0, 0.0
+        - 0.1, 5.0
+        - 0.2, 2.0E6
+        - 0.3, 4.0E6
+        + 0.1, 5.0E2
+        + 0.2, 2.0E4
+        + 0.3, 4.0E4
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Clay over Rock
+
+    Finds: 5:2
+    """
+    for _, entry in context.odd_curves:
+        if entry.curve is not None and entry.whole:
+            yield from _inside(entry, entry.curve.ratios, entry.curve.slopes)
+    yield from _beside(context.scene)
+
+
+def _inside(entry: SceneCurve, ratios: Floats, slopes: Floats) -> Iterator[Problem]:
+    """Jumps at points of a curve."""
+    steep = np.flatnonzero(slopes)
+    before, behind = np.abs(slopes[steep[:-1]]), np.abs(slopes[steep[1:]])
+    jumps = np.flatnonzero((before / FARTHEST > behind) | (behind / FARTHEST > before))
+    for at in jumps[:MOST_REPORTED].tolist():
+        point = int(np.flatnonzero(entry.points[:, 0] == ratios[steep[at + 1]])[0])
+        message = (
+            f"the slope goes from {before[at]:.6g} to {behind[at]:.6g} here, over {FARTHEST:g} times: correct the "
+            "point, or add a transition"
+        )
+        yield Problem(STB003, message, where=entry.point(point))
+
+
+def _beside(scene: Scene) -> Iterator[Problem]:
+    """Jumps between an element on a curve and its neighbour on a linear seabed, one for each pair of laws."""
+    grants = scene.laws.set_laws
+    reported: set[tuple[int, int]] = set()
+    slopes = [*map(_extremes, scene.laws.curves), (math.nan, math.nan)]
+    if _near(scene, slopes):
+        return
+    linear, curved = _neighbours(scene)
+    extremes = np.array(slopes)
+    curve_of = np.array([*(grant.curve for grant in grants), -1], dtype=np.intp)
+    stiffness = np.array([*(grant.stiffness for grant in grants), np.nan])[scene.laws.of_element[linear]]
+    with np.errstate(all="ignore"):
+        softest, steepest = (extremes[curve_of[scene.laws.of_element[curved]]] / scene.diameter[curved][:, None]).T
+        far = (stiffness / FARTHEST > steepest) | ((stiffness > 0.0) & (softest / FARTHEST > stiffness))
+    for at in np.flatnonzero(far).tolist():
+        pair = (int(scene.laws.of_element[linear[at]]), int(scene.laws.of_element[curved[at]]))
+        if pair in reported or len(reported) >= MOST_REPORTED:
+            continue
+        reported.add(pair)
+        message = (
+            f"the linear stiffness {stiffness[at]:.6g} of element {scene.element_ids[linear[at]]} is over "
+            f"{FARTHEST:g} times away from that of curve {shown(scene.laws.curves[curve_of[pair[1]]].name)} at its "
+            f"neighbour {scene.element_ids[curved[at]]}, {softest[at]:.6g} to {steepest[at]:.6g}: correct it, or "
+            "add a transition"
+        )
+        yield Problem(STB003, message, where=grants[pair[0]].where)
+
+
+def _near(scene: Scene, extremes: Sequence[tuple[float, float]]) -> bool:
+    """Whether no linear stiffness is far from the slopes of any curve, for any diameter."""
+    linear = [grant.stiffness for grant in scene.laws.set_laws if grant.stiffness > 0.0]
+    slopes = [(softest, steepest) for softest, steepest in extremes if softest > 0.0]
+    thickest = float(np.fmax.reduce(scene.diameter, initial=0.0))
+    if not linear or not slopes or thickest == 0.0:
+        return True
+    thinnest = float(np.fmin.reduce(scene.diameter, initial=math.inf))
+    too_stiff = max(linear) / FARTHEST > min(steepest for _, steepest in slopes) / thickest
+    too_soft = max(softest for softest, _ in slopes) / thinnest / FARTHEST > min(linear)
+    return not too_stiff and not too_soft
+
+
+def _extremes(entry: SceneCurve) -> tuple[float, float]:
+    """The smallest and the largest slope of a curve, flat segments left out; NaN without any."""
+    slopes = np.abs(entry.curve.slopes) if entry.curve is not None and entry.whole else np.zeros(0)
+    slopes = slopes[slopes > 0.0]
+    return (float(slopes.min()), float(slopes.max())) if slopes.size else (math.nan, math.nan)
+
+
+def _neighbours(scene: Scene) -> tuple[Indices, Indices]:
+    """Pairs of elements that meet at a node: one on a linear seabed, one on a curve."""
+    law = scene.law
+    if not ((law == LawKind.LINEAR).any() and (law == LawKind.CURVE).any()):
+        nothing: Indices = np.zeros(0, dtype=np.intp)
+        return nothing, nothing
+    nodes = scene.element_nodes.ravel()
+    order = np.argsort(nodes, kind="stable")
+    elements, at = order // 2, nodes[order]
+    meet = (at[1:] == at[:-1]) & (at[1:] >= 0)
+    one, other = elements[:-1][meet], elements[1:][meet]
+    one, other = np.append(one, other), np.append(other, one)
+    wanted = (law[one] == LawKind.LINEAR) & (law[other] == LawKind.CURVE)
+    return one[wanted], other[wanted]

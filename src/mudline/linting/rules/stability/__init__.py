@@ -1,1 +1,0 @@
-"""What keeps a solution from being found, or from being right."""

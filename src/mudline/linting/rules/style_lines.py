@@ -1,0 +1,294 @@
+"""Comments, keyword lines and suppression comments; the lines that style rules look at."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from mudline.deck.reading import TextOrigin
+from mudline.diagnostics import Code, Problem, Repair, Severity, Span
+from mudline.keywords import catalogue
+from mudline.keywords.reader import ReadBlock, all_keys
+from mudline.linting.context import LintContext
+from mudline.linting.rule import first_reported, rule
+from mudline.linting.suppression import STY010, suppressions
+from mudline.syntax.fields import first_key, trimmed
+from mudline.syntax.tree import Kind, Leaf, canonical_name
+
+STY002 = Code("STY002", "lower-case-comment", Severity.WARNING)
+STY005 = Code("STY005", "indented-keyword", Severity.WARNING)
+STY006 = Code("STY006", "keyword-case", Severity.INFO)
+STY008 = Code("STY008", "key-like-comment", Severity.INFO)
+STY009 = Code("STY009", "indented-comment", Severity.WARNING)
+
+_DATA = (Kind.RUN, Kind.SETTING, Kind.TEXT)
+
+_KEY_LIKE = re.compile(r"\n[Cc][A-Za-z]")
+_INDENTED_COMMENT = re.compile(r"[ \t]++[Cc](?:[ \t]++[^ \t\r\n]|[-*=#_.~+]{2})")
+_COMMENT_BELOW = re.compile(rf"\n{_INDENTED_COMMENT.pattern}")
+
+_SMALL = re.compile(r"[a-z]")
+_INDENTED_HEAD = re.compile(r"[ \t]++[*$]")
+_HEAD_BELOW = re.compile(rf"\n{_INDENTED_HEAD.pattern}")
+_SMALL_HEAD = re.compile(r"[ \t]*+[*$][^\na-z]*+[a-z]")
+_SMALL_BELOW = re.compile(rf"\n{_SMALL_HEAD.pattern}")
+_UPPER = {code: code - 32 for code in range(ord("a"), ord("z") + 1)}
+
+
+class Placed(NamedTuple):
+    """A line, or a run of them; `read` is the block that it stands in, `kept` says that this block has no model."""
+
+    leaf: Leaf
+    read: ReadBlock | None
+    kept: bool
+
+
+def placed_leaves(text: TextOrigin) -> Iterator[Placed]:
+    """Every line but those of keywords and sections."""
+    preamble = text.tree.preamble
+    yield from (Placed(leaf, None, kept=False) for leaf in preamble.leaves)
+    yield from (Placed(leaf, None, kept=False) for block in preamble.blocks for leaf in block.leaves)
+    for index, section in enumerate(text.tree.sections):
+        yield from (Placed(leaf, None, kept=False) for leaf in section.leaves)
+        for number, block in enumerate(section.blocks):
+            read = text.read.get((index, number))
+            yield from (Placed(leaf, read, read is None) for leaf in block.leaves)
+
+
+def data_leaves(text: TextOrigin) -> Iterator[tuple[Leaf, ReadBlock]]:
+    """The lines with values of the blocks that have a model."""
+    source, sections = text.source.unified, text.tree.sections
+    for (section, number), read in text.read.items():
+        for leaf in sections[section].blocks[number].leaves:
+            if leaf.kind in _DATA or is_setting(source, leaf, read):
+                yield leaf, read
+
+
+def is_setting(source: str, leaf: Leaf, read: ReadBlock) -> bool:
+    """Whether a line is a KEY= that the keyword knows."""
+    known = leaf.kind in (Kind.SETTING, Kind.UNDECIDED)
+    return known and first_key(source, leaf.span) in all_keys(type(read.model))
+
+
+def first_of_lines(pattern: re.Pattern[str], source: str, span: Span) -> Iterator[re.Match[str]]:
+    """The first match of a pattern on each line of a span."""
+    at = span.start
+    while at < span.end and (match := pattern.search(source, at, span.end)):
+        yield match
+        at = source.find("\n", match.end(), span.end) + 1 or span.end
+
+
+def line_around(source: str, offset: int) -> Span:
+    """The line that an offset stands in, without its LF; `source` is a unified text."""
+    end = source.find("\n", offset)
+    return Span(source.rfind("\n", 0, offset) + 1, len(source) if end < 0 else end)
+
+
+@rule(STY002)
+def lower_case_comment(context: LintContext) -> Iterator[Problem]:
+    """A comment begins with a lower-case c.
+
+    The mark of a comment is a capital C in column 1. A lower-case c is accepted here, but stricter programs read the
+    line as data. Write a capital C.
+
+    Example:
+         $MODEL
+         *OCEAN
+        -c Depth from the survey
+        +C Depth from the survey
+          500.0, 1025.0, 9.81
+
+    Finds: 3:1
+    """
+    if context.text:
+        source = context.text.source.unified
+        if "\nc" in source or source.startswith("c"):
+            yield from first_reported(_lower_case(context.text))
+
+
+def _lower_case(text: TextOrigin) -> Iterator[Problem]:
+    source = text.source.unified
+    for leaf, _, kept in placed_leaves(text):
+        start = leaf.span.start
+        if leaf.kind is Kind.COMMENT and source[start] == "c" and not kept:
+            mark = Span(start, start + 1)
+            repair = Repair("safe", "write a capital C", ((mark, "C"),))
+            yield Problem(STY002, "the comment begins with a lower-case c: write a capital C", mark, repair=repair)
+
+
+@rule(STY008)
+def key_like_comment(context: LintContext) -> Iterator[Problem]:
+    """A setting such as CURVE= begins in column 1, where a C makes a comment.
+
+    It is read as data here, since its keyword knows the setting. Programs that read any line with a C in column 1 as a
+    comment skip it without a warning, and with it the name of a curve or a whole group of values. Put a space in front.
+
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+        -CURVE=Clay
+        + CURVE=Clay
+          0.0, 0.0
+          0.5, 4200.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Clay
+
+    Finds: 3:1
+    """
+    if context.text and _KEY_LIKE.search(context.text.source.unified):
+        yield from first_reported(_key_like(context.text))
+
+
+def _key_like(text: TextOrigin) -> Iterator[Problem]:
+    source = text.source.unified
+    for leaf, read, _ in placed_leaves(text):
+        start = leaf.span.start
+        if read is not None and source[start] in "Cc" and is_setting(source, leaf, read):
+            key = first_key(source, leaf.span)
+            message = f"{key}= begins with C in column 1, a comment to other programs: put a space before it"
+            repair = Repair("safe", "put a space before it", ((Span(start, start), " "),))
+            yield Problem(STY008, message, Span(start, source.index("=", start) + 1), repair=repair)
+
+
+@rule(STY009)
+def indented_comment(context: LintContext) -> Iterator[Problem]:
+    """A line that looks like a comment is indented, and so it is data.
+
+    Only a C in column 1 makes a comment; the manual mentions no other (inferred). With a space before it the line is
+    read as values of its keyword, as the name of a set for instance, or cannot be read. If it is a comment, remove the
+    spaces. Lines of blocks that are passed through unchanged are not checked.
+
+    Example:
+         $MODEL
+         *OCEAN
+        -  C Depth from the survey
+        +C Depth from the survey
+          500.0, 1025.0, 9.81
+
+    Finds: 3:3
+    """
+    if context.text:
+        source = context.text.source.unified
+        if _COMMENT_BELOW.search(source) or _INDENTED_COMMENT.match(source):
+            yield from first_reported(_indented_comments(context.text))
+
+
+def _indented_comments(text: TextOrigin) -> Iterator[Problem]:
+    source = text.source.unified
+    for leaf, read, kept in placed_leaves(text):
+        if kept or leaf.kind not in (Kind.TEXT, Kind.SETTING) or not _INDENTED_COMMENT.match(source, *leaf.span):
+            continue
+        if read is None or not is_setting(source, leaf, read):
+            message = "an indented line is data, not a comment: if it is meant as one, put its C in column 1"
+            yield Problem(STY009, message, trimmed(source, *leaf.span))
+
+
+@rule(STY005)
+def indented_keyword(context: LintContext) -> Iterator[Problem]:
+    """A keyword or a section does not begin in column 1.
+
+    Spaces before the `*` or the `$` are ignored here, but a program that expects the mark in column 1 reads the line as
+    data of the block above. Remove the spaces.
+
+    Example:
+         $MODEL
+        -  *OCEAN
+        +*OCEAN
+          500.0, 1025.0, 9.81
+
+    Finds: 2:3
+    """
+    if context.text:
+        source = context.text.source.unified
+        if _HEAD_BELOW.search(source) or _INDENTED_HEAD.match(source):
+            yield from first_reported(_indented_heads(context.text))
+
+
+def _indented_heads(text: TextOrigin) -> Iterator[Problem]:
+    source = text.source.unified
+    for start, head in _heads(text):
+        if start < head.start:
+            mark = source[head.start]
+            what = "section" if mark == "$" else "keyword"
+            message = f"the {what} is indented: put its {mark} in column 1"
+            repair = Repair("safe", "remove the indentation", ((Span(start, head.start), ""),))
+            yield Problem(STY005, message, head, repair=repair)
+
+
+@rule(STY006)
+def keyword_case(context: LintContext) -> Iterator[Problem]:
+    """The name of a keyword or a section is not in upper case.
+
+    Case is ignored here. Manuals and other decks write these names in upper case, though, and a search of many decks
+    for a keyword may miss others. Write it in upper case.
+
+    Example:
+         $MODEL
+        -*Ocean
+        +*OCEAN
+          500.0, 1025.0, 9.81
+
+    Finds: 2:1
+    """
+    if context.text:
+        source = context.text.source.unified
+        if _SMALL_BELOW.search(source) or _SMALL_HEAD.match(source):
+            yield from first_reported(_small(context.text))
+
+
+def _small(text: TextOrigin) -> Iterator[Problem]:
+    source = text.source.unified
+    for _, head in _heads(text):
+        written = source[slice(*head)]
+        if _SMALL.search(written) and _known(written):
+            what = "section" if written[0] == "$" else "keyword"
+            repair = Repair("safe", "write it in upper case", ((head, written.translate(_UPPER)),))
+            message = f"the {what} is not in upper case: write it in upper case"
+            yield Problem(STY006, message, head, repair=repair)
+
+
+def _known(head: str) -> bool:
+    """Whether a head names a known section or keyword: what follows a name may be a remark."""
+    return canonical_name(head) in (catalogue.SECTIONS if head[0] == "$" else catalogue.keywords())
+
+
+def _heads(text: TextOrigin) -> Iterator[tuple[int, Span]]:
+    """The start of every line that begins a section or a keyword, and its text without surrounding white space."""
+    source = text.source.unified
+    for section in (text.tree.preamble, *text.tree.sections):
+        for head in (section.head, *(block.head for block in section.blocks)):
+            if head is not None:
+                yield head.span.start, trimmed(source, *head.span)
+
+
+@rule(STY010)
+def unused_suppression(context: LintContext) -> Iterator[Problem]:
+    """A suppression comment suppresses nothing.
+
+    It was written for a finding that is no longer there, or names no rule; the next fault of that kind would be hidden
+    before anyone has seen it. Only rules that run are judged: with `--ignore CRV005` a comment for CRV005 is not
+    unused. The fix removes the code, or the comment when it names nothing else.
+
+    Example:
+         $MODEL
+         *SEABED STIFFNESS
+          CURVE=Clay
+          0.0, 0.0
+          0.1, 1200.0
+        -C mudline: ignore CRV0O5 -- remoulded, see the survey
+        +C mudline: ignore CRV005 -- remoulded, see the survey
+          0.5, 900.0
+          1.0, 2000.0
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=Clay
+
+    Finds: 6:19
+    """
+    found = suppressions(context.deck)
+    if found is not None:
+        yield from found.unknown()

@@ -1,0 +1,316 @@
+"""Lengths that do not fit the pipe."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from itertools import islice
+
+import numpy as np
+
+from mudline.diagnostics import Code, Problem, Severity, Where
+from mudline.keywords.model import Part
+from mudline.linting.context import LARGEST_RATIO, LintContext
+from mudline.linting.rule import rule
+from mudline.linting.rules.seabed_friction import given
+from mudline.linting.rules.seabed_position import depths
+from mudline.linting.rules.unit_densities import (
+    DENSITIES,
+    DENSITY_UNIT,
+    LENGTH_UNIT,
+    LIGHTEST_STEEL,
+    WATER,
+    WIDEST_PIPE,
+    is_metal,
+    is_placeholder,
+    readable_sections,
+    rounded,
+    water_density,
+)
+from mudline.scene.context import MOST_REPORTED
+from mudline.scene.deck_values import DEFAULT_DENSITY, LARGEST_MOBILISATION, number
+from mudline.scene.deck_values import LENGTH_UNIT as METRES
+from mudline.scene.force_curves import SceneCurve
+from mudline.scene.model import Scene
+from mudline.scene.numbering import Floats, Mask, looked_up
+from mudline.scene.sections import format_of
+
+UNT006 = Code("UNT006", "suspicious-length", Severity.WARNING)
+
+WIDEST = 60.0
+"""m: no hull that is modelled by beams is wider."""
+WIDEST_LINE = 2.0
+"""m: what is wider and has the wall of a pipe is a pipe in inches."""
+THICKEST = 0.09
+"""m: likewise."""
+PIPE_WALL = (6.0, 50.0)
+"""Diameter to wall thickness of pipes; hulls and piles have more, wellheads and blowout preventers less."""
+NARROWEST_BORE = 0.1
+"""Internal to external diameter: a smaller one is a wall thickness."""
+LIGHTEST = 0.01
+"""Mass to that of the water displaced: no line is lighter."""
+LINES = (0.3, 30.0)
+"""Mass to that of the water displaced, of usual lines."""
+_METRIC_UNITS = {"mm": 1e-3, "inches": 0.0254}
+
+LONGEST_MOBILISATION = 10.0
+"""Diameters, where the usual characteristic length of 10 ft is shorter."""
+LONGEST_IN_USER_UNITS = 100.0
+"""Diameters."""
+LONGEST_ELEMENT = 25.0
+"""Times as long as the longer neighbour: meshes are graded in smaller steps."""
+FEWEST_POINTS, MOST_ROUND, ROUNDING = 3, 0.5, 1e-3
+"""Points of a curve over metres, the share of them that may be round numbers, and how well depths are rounded."""
+HIGHEST, HIGHEST_IN_USER_UNITS = 3.0, 10.0
+"""Water depths that a model may be high."""
+TALLEST = 500.0
+"""m that a model may rise above the sea, as no wind turbine does."""
+
+
+def odd_diameters(context: LintContext) -> Iterator[tuple[Where, str]]:
+    """The place of each diameter that does not fit its section, and what is wrong, in words."""
+    scene = context.scene
+    for where, entry in readable_sections(context):
+        source, _ = entry.diameter
+        section = entry.section
+        width = number(section, source.lower())
+        if section is None or not 0.0 < width < math.inf:
+            continue
+        place = where._replace(path=(*where.path, format_of(entry)))
+        message = _width(scene, section, width, source)
+        if entry.rigid is None:
+            message = message or _mass(scene, section, width, source)
+        elif not message and (message := _bore(scene, section, width)):
+            source = "Di"
+        if message:
+            yield place._replace(path=(*place.path, source)), message
+
+
+def _width(scene: Scene, section: Part, width: float, source: str) -> str:
+    """What is wrong with a diameter in metres or feet."""
+    unit = LENGTH_UNIT.get(scene.units)
+    if unit is None:
+        return ""
+    metres = METRES[scene.units]
+    seen = f"an external diameter {source} of {width!r} {unit}"
+    if width * metres > WIDEST:
+        return f"{seen}, expected below {WIDEST / metres:.3g} {unit}: write it in {unit} (mm?)"
+    wall = 0.5 * (width - number(section, "di"))
+    is_pipe = PIPE_WALL[0] * wall <= width <= PIPE_WALL[1] * wall and is_metal(section, scene, LIGHTEST_STEEL)
+    if is_pipe and width * metres > WIDEST_LINE and wall * metres > THICKEST:
+        likely = "mm" if wall > 2.5 else "inches"
+        return (
+            f"{seen} with a wall of {wall:.3g} {unit}, expected a wall below {THICKEST / metres:.2g} {unit}: write "
+            f"both in {unit} ({likely}?)"
+        )
+    return ""
+
+
+def _bore(scene: Scene, section: Part, width: float) -> str:
+    """What is wrong with an internal diameter."""
+    bore = number(section, "di")
+    if not 0.0 < bore < NARROWEST_BORE * width or not is_metal(section, scene, LIGHTEST_STEEL):
+        return ""
+    if width * METRES.get(scene.units, 0.0) > WIDEST_PIPE:
+        return ""
+    return (
+        f"an internal diameter of {bore!r} leaves a wall of nine tenths of the radius {width / 2:.4g} or more: "
+        "if it is the wall thickness, give the internal diameter"
+    )
+
+
+def _mass(scene: Scene, section: Part, width: float, source: str) -> str:
+    """What is wrong with a diameter beside the mass of its section."""
+    mass, buoyancy = number(section, "mass"), number(section, "db", width)
+    displaced = 0.25 * math.pi * buoyancy * buoyancy * _water(scene)
+    if is_placeholder(mass) or not mass < LIGHTEST * displaced < math.inf:
+        return ""
+    metres = METRES.get(scene.units)
+    units = {name: factor / metres for name, factor in _METRIC_UNITS.items()} if metres else {}
+    fits = [name for name, factor in units.items() if LINES[0] <= mass / (displaced * factor * factor) <= LINES[1]]
+    likely = f" ({' or '.join(fits)}?)" if fits else ""
+    return (
+        f"a mass of {mass!r} is {mass / displaced:.1g} of the water that a diameter {source} of {width!r} displaces, "
+        f"expected at least {LIGHTEST}: correct the unit of the diameter{likely} or of the mass"
+    )
+
+
+def _water(scene: Scene) -> float:
+    """Density of water that diameters are judged by: that of the deck, if it may be one."""
+    given_ = water_density(scene)
+    unit = DENSITY_UNIT.get(scene.units)
+    if unit is None or WATER.holds(given_ * DENSITIES[unit]):
+        return given_
+    return DEFAULT_DENSITY[scene.units]
+
+
+@rule(UNT006)
+def suspicious_length(context: LintContext) -> Iterator[Problem]:
+    """A length does not fit the pipe: millimetres, inches, or a wall thickness in place of a diameter.
+
+    Reported are, each with the likely unit:
+
+    * an external diameter above 60 m (a spar hull of 37 m is legal); one above 2 m with the wall of a steel pipe, at
+      least 90 mm and a 6th to a 50th of the diameter; one of a FLEXIBLE, MOORING or TRUSS section whose mass is below
+      1 % of the water that it displaces (0 and powers of ten are placeholders);
+    * an internal diameter below a tenth of the external one in a steel pipe up to 2.5 m wide: the wall thickness;
+    * a mobilisation length above 10 diameters and above 10 ft, the usual characteristic length;
+    * a force-embedment curve with three points or more whose ratios become round numbers when divided by the diameter;
+    * an element over 25 times as long as each of the neighbours at its two ends, all of one section;
+    * nodes over three times as high above the seabed as the water is deep, and over 500 m above the sea.
+
+    In user units only ratios are checked: masses against displaced water where *OCEAN gives its density, bores of walls
+    as dense as steel, mobilisation lengths above 100 diameters, curves, elements, and nodes above ten depths.
+
+    Example:
+         $MODEL
+         *GEOMETRIC SETS
+          OPTION=RIGID
+          SET=ALL
+        - 207.0E9, 79.6E9, 323.9, 288.9, 7850.0
+        + 207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
+
+    Finds: 5:19
+    """
+    for kind in (_diameters, _mobilisation, _curves, _elements, _ocean):
+        yield from islice(kind(context), MOST_REPORTED)
+
+
+def _diameters(context: LintContext) -> Iterator[Problem]:
+    for where, message in odd_diameters(context):
+        yield Problem(UNT006, message, where=where)
+
+
+def _mobilisation(context: LintContext) -> Iterator[Problem]:
+    """Mobilisation lengths against the widest pipe that they hold for, but for those that SBD013 reports."""
+    scene = context.scene
+    bed = scene.resistance
+    if not any(length > 0.0 for values in bed.values for length in values.mobilisation):
+        return
+    widest = np.full(len(bed.places) + 1, np.nan)
+    friction = scene.extensions.get("SEABED FRICTION")
+    used = np.ones(len(bed.of_element), dtype=np.bool_) if friction is None else friction.of_element < 0
+    np.fmax.at(widest, bed.of_element[used], scene.diameter[used])
+    places = {where: index for index, where in enumerate(bed.places)}
+    usual = 1.05 * LARGEST_MOBILISATION.get(scene.units, 0.0)
+    for entry in given(context):
+        diameter = float(widest[places[entry.where]]) if entry.where in places else math.nan
+        longest = max(LONGEST_MOBILISATION * diameter, usual) if usual else LONGEST_IN_USER_UNITS * diameter
+        for name in ("longitudinal_mobilisation", "transverse_mobilisation"):
+            length = entry.value(name)
+            if length is not None and diameter > 0.0 and longest < length < math.inf and length != 10.0:
+                unit = f" {LENGTH_UNIT[scene.units]}" if usual else ""
+                message = (
+                    f"mobilisation length {length!r}{unit} is {length / diameter:.3g} diameters of the pipe, expected "
+                    f"below {rounded(longest)}{unit}: write it in the unit of the diameter (mm?)"
+                )
+                yield Problem(UNT006, message, where=entry.place(name))
+
+
+def _curves(context: LintContext) -> Iterator[Problem]:
+    for curve, diameter in _in_lengths(context.scene):
+        message = (
+            f"every ratio of this curve is a round number of diameters of {diameter:.4g} (the last one "
+            f"{curve.points[:, 0].max() / diameter:.3g}): if these are depths, write them divided by the diameter"
+        )
+        yield Problem(UNT006, message, where=curve.where)
+
+
+def _in_lengths(scene: Scene) -> Iterator[tuple[SceneCurve, float]]:
+    """Curves of which every ratio is a round number of diameters and most are not round numbers; with the diameter.
+
+    All elements on the curve must have one diameter.
+    """
+    laws = scene.laws
+    candidates = [index for index, curve in enumerate(laws.curves) if _may_be_in_lengths(curve)]
+    if not candidates:
+        return
+    of_grant = np.array([*(grant.curve for grant in laws.set_laws), -1], dtype=np.intp)
+    of_element = looked_up(of_grant, laws.of_element)
+    smallest, largest = np.full(len(laws.curves) + 1, np.inf), np.full(len(laws.curves) + 1, -np.inf)
+    with np.errstate(invalid="ignore"):  # an element without a diameter makes both NaN
+        np.minimum.at(smallest, of_element, scene.diameter)
+        np.maximum.at(largest, of_element, scene.diameter)
+    for index in candidates:
+        curve, diameter = laws.curves[index], float(smallest[index])
+        if diameter == largest[index] and _is_round(_ratios(curve) / diameter).all():
+            yield curve, diameter
+
+
+def _may_be_in_lengths(curve: SceneCurve) -> bool:
+    """Whether most ratios of a curve are not round numbers, and CRV010 reports none of them."""
+    ratios = _ratios(curve)
+    if not curve.usable or len(ratios) < FEWEST_POINTS or ratios.max() > LARGEST_RATIO:
+        return False
+    return bool(_is_round(ratios).mean() < MOST_ROUND)
+
+
+def _ratios(curve: SceneCurve) -> Floats:
+    found: Floats = curve.points[curve.points[:, 0] != 0.0, 0]
+    return found
+
+
+def _is_round(values: Floats) -> Mask:
+    """Which numbers have two significant digits, as far as rounding in the deck lets that be seen."""
+    with np.errstate(divide="ignore", over="ignore", under="ignore"):
+        digits = np.abs(values) / 10.0 ** np.floor(np.log10(np.abs(values)))
+    return np.abs(digits - digits.round(1)) <= ROUNDING * digits
+
+
+def _elements(context: LintContext) -> Iterator[Problem]:
+    scene = context.scene
+    for element, ratio in _longest_of_neighbours(scene):
+        message = (
+            f"element {scene.element_ids[element]} is {scene.length[element]:.4g} long, {ratio:.3g} times as long as "
+            "the longer of its neighbours: correct the coordinates of its nodes"
+        )
+        yield Problem(UNT006, message, where=scene.table.numbered.where(element))
+
+
+def _longest_of_neighbours(scene: Scene) -> Iterator[tuple[int, float]]:
+    """Index of each element that is over 25 times as long as any neighbour, at both ends, and how many times it is.
+
+    All must be of one section, so that a tether or a rigid link beside a finely meshed pipe is not reported.
+    """
+    ends, length = scene.element_nodes, scene.length
+    shortest = length.min(where=length > 0.0, initial=np.inf)
+    if not np.fmax.reduce(length, initial=0.0) > LONGEST_ELEMENT * shortest:
+        return
+    usable = np.flatnonzero((ends >= 0).all(axis=1) & np.isfinite(length) & (length > 0.0))
+    order = usable[np.argsort(length[usable], kind="stable")]
+    nodes, elements = ends[order].ravel(), np.repeat(order, 2)
+    by_node = np.argsort(nodes, kind="stable")  # of one node the longest element comes last
+    nodes, elements = nodes[by_node], elements[by_node]
+    last = np.flatnonzero(np.append(nodes[1:] != nodes[:-1], True))
+    longest, second = np.full((2, len(scene.node_ids)), -1, dtype=np.intp)
+    longest[nodes[last]] = elements[last]
+    shared = last[(last > 0) & (nodes[last - 1] == nodes[last])]
+    second[nodes[shared]] = elements[shared - 1]
+    found = order[(longest[ends[order]] == order[:, None]).all(axis=1)]
+    found = found[(second[ends[found]] >= 0).all(axis=1)]
+    neighbours = second[ends[found]]
+    sections = scene.section_table.of_element
+    ratios = length[found] / length[neighbours].max(axis=1, initial=0.0)
+    odd = (sections[neighbours] == sections[found][:, None]).all(axis=1) & (ratios > LONGEST_ELEMENT)
+    yield from zip(found[odd].tolist(), ratios[odd].tolist(), strict=True)
+
+
+def _ocean(context: LintContext) -> Iterator[Problem]:
+    """The water depth against the heights of nodes, unless all of them lie above the sea, which GEO005 reports."""
+    scene = context.scene
+    oceans = [(where, number(block, "depth")) for where, block in scene.deck.blocks("OCEAN")]
+    if not oceans or not len(scene.node_ids):
+        return
+    where, depth = oceans[-1]
+    below = depths(scene)
+    metres = METRES.get(scene.units)
+    height = -float(below.min())
+    above_sea = (height - depth) * (metres or math.inf)
+    if not 0.0 < depth < math.inf or -float(below.max()) > depth or not height < math.inf:
+        return
+    if height > (HIGHEST if metres else HIGHEST_IN_USER_UNITS) * depth and above_sea > TALLEST:
+        message = (
+            f"node {scene.node_ids[below.argmin()]} lies {height:.5g} high in water {depth!r} deep, expected "
+            "little more than the depth: write both in one unit (km, feet or mm?), and heights as X"
+        )
+        yield Problem(UNT006, message, where=where._replace(path=("depth",)))

@@ -1,0 +1,106 @@
+"""Which rules a selection holds."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+
+from mudline.diagnostics import Code, Problem, Severity
+from mudline.linting import registry
+from mudline.linting.context import LintContext
+from mudline.linting.registry import UnknownRule, rules, select
+from mudline.linting.rule import Rule, rule
+
+
+def _codes(chosen: tuple[Rule, ...]) -> list[str]:
+    return [rule.code.code for rule in chosen]
+
+
+def test_nothing_chosen_means_every_rule_that_is_on() -> None:
+    assert _codes(select()) == sorted(rule.code.code for rule in rules() if not rule.off)
+
+
+@pytest.mark.parametrize("word", ["SYN002", "syn002", " SYN002 ", "bad-number", "Bad-Number"])
+def test_a_code_or_a_slug_in_any_case_names_one_rule(word: str) -> None:
+    assert _codes(select([word])) == ["SYN002"]
+
+
+def test_a_prefix_names_all_rules_that_begin_with_it() -> None:
+    assert _codes(select(["syn00"])) == [f"SYN00{digit}" for digit in range(1, 10)]
+    assert set(_codes(select(["SYN", "LEG"]))) == {code for code in _codes(rules()) if code[:3] in ("SYN", "LEG")}
+
+
+def test_the_order_of_the_words_does_not_matter() -> None:
+    assert _codes(select(["unknown-keyword", "SYN001", "SYN009"])) == ["SYN001", "SYN009"]
+
+
+def test_ignored_rules_are_left_out_whatever_names_them() -> None:
+    assert _codes(select(["SYN00"], ["SYN002", "unreadable-line"]))[0] == "SYN003"
+    assert "LEG001" not in _codes(select(ignored=["LEG"]))
+    assert "LEG001" not in _codes(select(ignored=["LEG"], also=["LEG001"]))
+
+
+def test_more_rules_are_added_to_what_is_chosen() -> None:
+    assert _codes(select(["SYN001"], also=["LEG001"])) == ["LEG001", "SYN001"]
+
+
+@pytest.mark.parametrize(
+    ("word", "hint"),
+    [
+        ("SYN0002", "did you mean SYN002?"),
+        ("syn099x", "did you mean SYN00"),
+        ("bad-numbers", "did you mean bad-number?"),
+        ("Unkown-Keyword", "did you mean unknown-keyword?"),
+        ("REFX", "did you mean REF?"),
+        ("crb", "did you mean CRV?"),
+        ("zzz", "`mudline rules` lists all rules"),
+        ("", "`mudline rules` lists all rules"),
+        ("-", "`mudline rules` lists all rules"),
+    ],
+)
+def test_a_word_that_names_no_rule_is_refused_with_a_hint(word: str, hint: str) -> None:
+    with pytest.raises(UnknownRule) as caught:
+        select([word])
+    assert str(caught.value).startswith(f"{word!r} names no rule")
+    assert hint in str(caught.value)
+
+
+@pytest.mark.parametrize("place", ["chosen", "ignored", "also"])
+def test_a_word_is_checked_wherever_it_stands(place: str) -> None:
+    with pytest.raises(UnknownRule, match="did you mean SYN001"):
+        select(**{place: ["SYN0001"]})
+
+
+@pytest.fixture
+def quiet_rule(monkeypatch: pytest.MonkeyPatch) -> str:
+    """A rule that is off, beside the real ones."""
+
+    def check(context: LintContext) -> Iterator[Problem]:
+        """A title.
+
+        A reason.
+
+        Example:
+            -$MODEL
+
+        Finds: 1:1
+        """
+        yield from context.problems_of(code)
+
+    code = Code("QQQ001", "quiet-rule", Severity.INFO)
+    known = rules()
+    added: dict[str, Rule] = {}
+    monkeypatch.setattr("mudline.linting.rule.RULES", added)
+    rule(code, off=True)(check)
+    extended = (*known, *added.values())
+    monkeypatch.setattr(registry, "rules", lambda: extended)
+    return code.code
+
+
+def test_a_rule_that_is_off_runs_only_where_it_is_named(quiet_rule: str) -> None:
+    assert quiet_rule not in _codes(select())
+    assert _codes(select(["quiet-rule"])) == [quiet_rule]
+    assert _codes(select(["QQQ"])) == [quiet_rule]
+    assert _codes(select(also=[quiet_rule])) == [*_codes(select()), quiet_rule]
+    assert quiet_rule not in _codes(select(["SYN"]))
