@@ -15,9 +15,9 @@ def grammar_file(name: str) -> Path:
     return packaged if packaged.exists() else Path(__file__).parents[2] / "grammar" / name
 
 
-def modules_of(package: ModuleType) -> list[ModuleType]:
-    """Every module of a package and of the packages in it, imported, by name; what they declare is there then."""
-    return list(_modules_of(package))
+def modules_of(package: str) -> list[ModuleType]:
+    """Import every module of a package, and of the packages in it; what they declare is there then."""
+    return list(_modules_of(import_module(package)))
 
 
 def _modules_of(package: ModuleType) -> Iterator[ModuleType]:

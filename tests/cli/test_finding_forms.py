@@ -7,7 +7,7 @@ import json
 import pytest
 
 from mudline.diagnostics import Diagnostic, Edit, Fix, Severity
-from mudline.linting.output.formats import form
+from mudline.linting.output.forms import form
 from mudline.linting.output.text import Screen, excerpt, findings, statistics_lines, summary
 from mudline.linting.output.visible import LONGEST, visible, visible_lines
 from mudline.syntax.source import Source

@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 from mudline.cli.result_files import result_file, result_forms
-from mudline.linting.output.formats import TEXT, TEXT_SUMMARY, form_module, form_names
+from mudline.linting.output.forms import TEXT, TEXT_SUMMARY, form_module, form_names
 
 _ROOT = Path(__file__).parents[2]
 _FINDINGS = "| form | what it is |\n| --- | --- |\n"

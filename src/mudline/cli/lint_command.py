@@ -24,7 +24,7 @@ from mudline.linting.baseline import Baseline, BaselineError, read_baseline
 from mudline.linting.configuration import Configuration
 from mudline.linting.engine import Fixing
 from mudline.linting.lint_file import FileReport, lint_one
-from mudline.linting.output.formats import TEXT, form_names
+from mudline.linting.output.forms import TEXT, form_names
 from mudline.linting.output.visible import visible
 from mudline.syntax.source import Source
 

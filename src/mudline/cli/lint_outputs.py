@@ -12,7 +12,7 @@ from mudline import __version__
 from mudline.cli.options import View
 from mudline.cli.streams import counted, emit, notify, write_text
 from mudline.diagnostics import Diagnostic, Severity
-from mudline.linting.output.formats import TEXT, form, form_names
+from mudline.linting.output.forms import TEXT, form, form_names
 from mudline.linting.output.text import statistics_lines
 from mudline.syntax.source import Source
 

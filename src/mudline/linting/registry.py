@@ -7,7 +7,6 @@ from functools import cache
 
 from mudline.codes import all_codes
 from mudline.linting import plugins
-from mudline.linting import rules as rules_package
 from mudline.linting.rule import RULES, Noticed, Rule, add, described_by
 from mudline.resources import modules_of
 from mudline.scene.checks.declaring import all_checks
@@ -25,7 +24,7 @@ def _collected() -> tuple[tuple[Rule, ...], tuple[str, ...]]:
         declared.setdefault(found.code.code, (found.code, found.find.__doc__ or ""))
     for code, page in declared.values():
         add(described_by(code, Noticed(code), page))
-    modules_of(rules_package)
+    modules_of("mudline.linting.rules")
     faults = plugins.load(RULES)
     return tuple(RULES[code] for code in sorted(RULES)), faults
 

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 
 from mudline.diagnostics import Code, Problem
 from mudline.resources import modules_of
-from mudline.scene import checks
 from mudline.scene.context import MORE, MOST_REPORTED
 
 if TYPE_CHECKING:
@@ -48,7 +47,7 @@ def check(code: Code) -> Callable[[Find], Find]:
 @cache
 def all_checks() -> tuple[Check, ...]:
     """Every check of a scene: what the modules of this package declare."""
-    modules_of(checks)
+    modules_of("mudline.scene.checks")
     return tuple(CHECKS)
 
 

@@ -10,7 +10,7 @@ from typing import Any
 
 from mudline.diagnostics import Diagnostic, Severity
 from mudline.linting.output.finding_fields import Fingerprints
-from mudline.linting.output.formats import LintRun
+from mudline.linting.output.forms import LintRun
 from mudline.linting.output.visible import visible
 
 SUMMARY = "a code quality report; fingerprints do not depend on line numbers"

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 
 from mudline.diagnostics import Diagnostic
 from mudline.linting.output.finding_fields import as_object
-from mudline.linting.output.formats import LintRun
+from mudline.linting.output.forms import LintRun
 
 SUMMARY = "the same objects, one a line"
 

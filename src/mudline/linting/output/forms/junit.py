@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 from xml.sax.saxutils import escape, quoteattr
 
 from mudline.diagnostics import Diagnostic
-from mudline.linting.output.formats import LintRun
+from mudline.linting.output.forms import LintRun
 from mudline.linting.output.visible import visible
 
 SUMMARY = (

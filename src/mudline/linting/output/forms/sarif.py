@@ -11,7 +11,7 @@ from urllib.parse import quote
 
 from mudline.diagnostics import Diagnostic, Edit, Severity
 from mudline.linting.output.finding_fields import Fingerprints, address
-from mudline.linting.output.formats import LintRun
+from mudline.linting.output.forms import LintRun
 from mudline.linting.output.visible import visible
 from mudline.linting.registry import rules
 from mudline.linting.rule import Rule
