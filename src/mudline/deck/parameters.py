@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple, cast
 
@@ -65,7 +66,7 @@ class Definition:
     value: Value | Equation
     where: Where
     expression: Expression | None = None
-    used: list[str] = field(default_factory=list)
+    used: Sequence[str] = ()
 
 
 class NoValueError(Exception):
@@ -92,7 +93,8 @@ class Parameters:
             for index, parameter in enumerate(block.parameters):
                 self._define(parameter, Where(where.section, where.block, ("parameters", index, "value")))
         for name in self.definitions:
-            self._resolve(name)
+            if name not in self.values and name not in self.failed:
+                self._resolve(name)
 
     def number(self, value: object) -> float | None:
         """A field as a number: evaluated if it is an equation; None when it has no numeric value."""
@@ -140,7 +142,7 @@ class Parameters:
 
     def _add(self, name: str, value: Value, where: Where) -> None:
         """A text becomes an equation or a number where it reads as one; quotes around it are dropped."""
-        if isinstance(value, str):
+        if isinstance(value, str) and not isinstance(value, Equation):
             number = read_number(value)
             value = Equation.match(value) or (value.removeprefix('"').removesuffix('"') if number is None else number)
         self.definitions[folded(name)] = Definition(name, value, where)
@@ -151,12 +153,12 @@ class Parameters:
         open_names: set[str] = set()
         while stack:
             current = stack[-1]
-            definition = self.definitions[current]
             if current in self.values or current in self.failed:
                 stack.pop()
                 continue
+            definition = self.definitions[current]
             waiting = self._waiting(current, definition)
-            cyclic = open_names.intersection(waiting) if waiting else set()
+            cyclic = open_names.intersection(waiting) if waiting else None
             if waiting and not cyclic:
                 open_names.add(current)
                 stack += waiting
@@ -170,16 +172,17 @@ class Parameters:
 
     def _waiting(self, name: str, definition: Definition) -> list[str]:
         """Evaluate a definition, or name the parameters that have to be evaluated before."""
-        if not isinstance(definition.value, Equation):
-            self.values[name] = definition.value
-            return []
+        expression = definition.expression
         try:
-            expression = definition.expression
             if expression is None:
+                if not isinstance(definition.value, Equation):
+                    self.values[name] = definition.value
+                    return []
                 expression = definition.expression = self._parse(definition.value, definition.where)
-                definition.used = [other for other in map(folded, expression.names) if other in self.definitions]
+                used = dict.fromkeys([folded(use.name) for use in expression.name_spans])
+                definition.used = [other for other in used if other in self.definitions]
             waiting = [other for other in definition.used if other not in self.values]
-            if waiting and self.failed.intersection(waiting):
+            if waiting and not self.failed.isdisjoint(waiting):
                 self._fail(name, None)
                 return []
             if not waiting:
@@ -201,9 +204,12 @@ class Parameters:
         except ExpressionError as error:
             raise NoValueError(_problem(SYN017, equation, error, where)) from error
 
+    def _known(self, name: str) -> Value:
+        return self.values[folded(name)]
+
     def _value(self, expression: Expression, where: Where) -> Value:
         try:
-            return evaluate(expression, lambda name: self.values[folded(name)])
+            return evaluate(expression, self._known)
         except UndefinedName as error:
             word = expression.text[error.start : error.end]
             known = (definition.name for definition in self.definitions.values())

@@ -96,7 +96,12 @@ def _lines(text: str, raw: RawBlock, keys: Collection[str]) -> Iterator[tuple[st
                     raise _OddError
                 terminal = terminals[written] = terminal_of(key)
             yield terminal, fields
-        elif kind in (LeafKind.RUN, LeafKind.TEXT):
+        elif kind is LeafKind.TEXT:
+            match = _LINE.fullmatch(text, *span)
+            if match is None:
+                raise _OddError
+            yield ROW, match[1]
+        elif kind is LeafKind.RUN:
             yield from ((ROW, fields) for fields in _rows(text, span))
         elif kind is not LeafKind.BLANK:
             raise _OddError
@@ -113,11 +118,12 @@ def _rows(text: str, run: Span) -> Iterator[str]:
 def _entries(record: type[Record], lines: list[tuple[str, str]], opening: str) -> Iterator[Values]:
     """The values of each record; those of one form are read alike."""
     forms: dict[tuple[str, ...], _Form] = {}
-    starts = [index for index, (terminal, _) in enumerate(lines) if terminal == opening]
+    terminal_of_line, fields_of_line = zip(*lines, strict=True)
+    starts = [index for index, terminal in enumerate(terminal_of_line) if terminal == opening]
     for start, stop in pairwise([*starts, len(lines)]):
         if stop - start > SMALL:
             raise _OddError
-        terminals, fields = zip(*lines[start:stop], strict=True)
+        terminals, fields = terminal_of_line[start:stop], fields_of_line[start:stop]
         form = forms.get(terminals)
         if form is None:
             tree = fitting(record.rule, terminals)
@@ -210,6 +216,8 @@ def _value(word: str, slot: Slot) -> Value:
         if slot.kind is Kind.NAME or slot.kind is Kind.IDENT:
             raise _OddError
         return Equation(word)
+    if slot.kind is Kind.NAME:
+        return word
     problems: list[Problem] = []
     try:
         value = read_value(Field(word, Span(0, len(word))), slot, problems)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, cast
@@ -101,6 +101,9 @@ class _Reader:
         self.definitions: dict[str, list[tuple[ElementSet, Where]]] = {}
         self.sets = Sets(context, elements)
         self.keys: dict[str, str] = {}
+        deck = context.deck
+        self.sound = range(0 if deck.problems else len(deck.own_sections))
+        """Sections of which every line could be used."""
 
     def read(self) -> Sets:
         named = self.sets.named
@@ -108,8 +111,7 @@ class _Reader:
         everything = identity(len(self.elements))
         named[ALL] = NamedSet("ALL", everything, None, open=bool(context.definers or context.restart))
         for where, block in context.deck.blocks("ELEMENT SETS"):
-            for index, entry in enumerate(cast("ElementSets", block).sets):
-                self._collect(entry, Where(where.section, where.block, ("sets", index)))
+            self._collect(cast("ElementSets", block).sets, where)
         for key, name in context.harvested.items():
             if key not in self.definitions:
                 named.setdefault(key, NamedSet(name, _NOTHING, None, open=True))
@@ -125,25 +127,29 @@ class _Reader:
             key = self.keys[name] = set_key(name)
         return key
 
-    def _collect(self, entry: ElementSet, where: Where) -> None:
-        name = cast("str | None", entry.name)
-        if name is None:
-            self.context.unread.add("ELEMENT SETS")
-            return
-        key = self._key(name)
-        if key == ALL:
-            message = "set ALL is predefined and holds every element: choose another name"
-            self.context.tell(REF009, message, where._replace(path=(*where.path, "name")))
-        else:
+    def _collect(self, entries: Sequence[ElementSet], block: Where) -> None:
+        """Note the sets of a block by their names."""
+        for index, entry in enumerate(entries):
+            where = Where(block.section, block.block, ("sets", index))
+            name = cast("str | None", entry.name)
+            if name is None:
+                self.context.unread.add("ELEMENT SETS")
+                continue
+            key = self._key(name)
+            if key == ALL:
+                message = "set ALL is predefined and holds every element: choose another name"
+                self.context.tell(REF009, message, where._replace(path=(*where.path, "name")))
+                continue
             self.definitions.setdefault(key, []).append((entry, where))
 
     def _expand(self, key: str) -> None:
         """Expand a set and, before it, its subsets; an explicit stack, as chains may be long."""
+        named = self.sets.named
         waiting = [key]
         unfinished: set[str] = set()
         while waiting:
             current = waiting[-1]
-            if current in self.sets.named:
+            if current in named:
                 waiting.pop()
             elif current in unfinished:
                 waiting.pop()
@@ -151,46 +157,45 @@ class _Reader:
                 self._settle(current)
             else:
                 unfinished.add(current)
-                waiting += self._needed(current, unfinished)
+                self._await(current, waiting, unfinished)
 
-    def _needed(self, key: str, unfinished: set[str]) -> Iterator[str]:
-        """The subsets that are to be expanded before a set; those that cannot be are told."""
-        for name, where, index in self._subsets(key):
-            other = self._key(name)
-            if other in unfinished:
-                message = f"set {shown(name)} contains itself: SUBSET= leads back to it; remove one of these lines"
-                self.context.tell(REF008, message, _inside(where, "members", index, "subset"))
-            elif other in self.definitions:
-                yield other
-            elif other not in self.sets.named:
-                near = self.context.near(name, self._names)
-                hint = f" (did you mean {self._names[near]}?)" if near else ""
-                message = f"SUBSET= names no set: {shown(name)} is not defined{hint}; define it"
-                place = _inside(where, "members", index, "subset")
-                self.context.tell_missing(REF008, message, place, "ELEMENT SETS")
+    def _await(self, key: str, waiting: list[str], unfinished: set[str]) -> None:
+        """Put the subsets that are to be expanded before a set on the stack; those that cannot be are told."""
+        named = self.sets.named
+        for entry, where in self.definitions[key]:
+            for index, member in enumerate(entry.members):
+                if member.rule != "set_subset":
+                    continue
+                name = cast("SetSubset", member).subset
+                if cast("str | None", name) is None:
+                    continue
+                other = self._key(name)
+                if other in unfinished:
+                    message = f"set {shown(name)} contains itself: SUBSET= leads back to it; remove one of these lines"
+                    self.context.tell(REF008, message, _inside(where, "members", index, "subset"))
+                elif other in self.definitions:
+                    waiting.append(other)
+                elif other not in named:
+                    near = self.context.near(name, self._names)
+                    hint = f" (did you mean {self._names[near]}?)" if near else ""
+                    message = f"SUBSET= names no set: {shown(name)} is not defined{hint}; define it"
+                    place = _inside(where, "members", index, "subset")
+                    self.context.tell_missing(REF008, message, place, "ELEMENT SETS")
 
     @cached_property
     def _names(self) -> dict[str, str]:
         """Every name of a set, by its folded form."""
-        return self.context.harvested | {key: entries[0][0].name for key, entries in self.definitions.items()}
-
-    def _subsets(self, key: str) -> Iterator[tuple[str, Where, int]]:
-        """The subsets of a set, each with the place of the definition that names it and its index among the members."""
-        for entry, where in self.definitions[key]:
-            for index, member in enumerate(entry.members):
-                if member.rule == "set_subset":
-                    name = cast("str | None", cast("SetSubset", member).subset)
-                    if name is not None:
-                        yield name, where, index
+        return self.context.harvested | {key: found[0][0].name for key, found in self.definitions.items()}
 
     def _settle(self, key: str) -> None:
         """The union of all members of all definitions of a name."""
-        first, place = self.definitions[key][0]
+        definitions = self.definitions[key]
+        first, place = definitions[0]
         parts: list[Indices] = []
         unsure = False
         members = 0
-        for entry, where in self.definitions[key]:
-            unsure |= self.context.disturbed(where)
+        for entry, where in definitions:
+            unsure |= where.section not in self.sound and self.context.disturbed(where)
             members += len(entry.members)
             for index, member in enumerate(entry.members):
                 if member.rule == "set_subset":

@@ -1,0 +1,84 @@
+"""Equations of one or two names or numbers, which most are: read by one regular expression, evaluated without a tree.
+
+The grammar defines what an equation is, and `mudline.expression.evaluation` what its value is, or why it has none. An
+equation or a value that does not fit here is left to them.
+"""
+
+from __future__ import annotations
+
+import math
+import operator as python
+import re
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import Final
+
+from mudline.diagnostics import Span
+from mudline.expression.builder import FORTRAN_EXPONENT
+from mudline.expression.nodes import Chain, Expression, Name, NameSpan, Node, Number, Plain
+
+_NAME, _NUMBER, _OPERATOR, _SECOND_NAME, _SECOND_NUMBER = 1, 2, 3, 4, 5
+_ARITHMETIC: Final[Mapping[str, Callable[[float, float], float]]] = {
+    "+": python.add,
+    "-": python.sub,
+    "*": python.mul,
+    "/": python.truediv,
+}
+
+
+def plain_pattern(terminals: Mapping[str, str]) -> re.Pattern[str]:
+    """Return the pattern of what is read here, from the terminals of the grammar as regular expressions."""
+    blanks = rf"(?:{terminals['BLANKS']})?+"
+    leaf = rf"(?>({terminals['NAME']})|({terminals['NUMBER']}))"
+    operator = rf"({terminals['ADD']}|{terminals['MULTIPLY']})"
+    return re.compile(f"{blanks}{leaf}{blanks}(?:{operator}{blanks}{leaf}{blanks})?")
+
+
+def read_plain(text: str, pattern: re.Pattern[str]) -> Expression | None:
+    """Return an equation of one or two names or numbers; None where the text is none."""
+    match = pattern.fullmatch(text)
+    if match is None:
+        return None
+    name, number, operator, second, addend = match.groups()
+    names: tuple[NameSpan, ...] = ()
+    left = name if number is None else _number(number)
+    if name is not None:
+        names = (NameSpan(name, *match.span(_NAME)),)
+    right: str | float = 0.0
+    if operator is not None:
+        right = second if addend is None else _number(addend)
+        if second is not None:
+            names = (*names, NameSpan(second, *match.span(_SECOND_NAME)))
+    return Expression(text, names, (), Plain(left, operator or "", right, partial(_tree, match)))
+
+
+def plain_value(plain: Plain, lookup: Callable[[str], float | str]) -> float | None:
+    """Return the value of a plain equation; None unless it and those in it are finite numbers that `lookup` has."""
+    left, operator, right, _ = plain
+    try:
+        a = lookup(left) if isinstance(left, str) else left
+        b = lookup(right) if isinstance(right, str) else right
+        if type(a) is not float or type(b) is not float:
+            return None
+        value = _ARITHMETIC[operator](a, b) if operator else a
+    except (KeyError, ZeroDivisionError):
+        return None
+    return value if math.isfinite(a) and math.isfinite(b) and math.isfinite(value) else None
+
+
+def _number(text: str) -> float:
+    return float(text.translate(FORTRAN_EXPONENT))
+
+
+def _tree(match: re.Match[str]) -> Node:
+    first = _leaf(match, _NAME, _NUMBER)
+    if match[_OPERATOR] is None:
+        return first
+    second = _leaf(match, _SECOND_NAME, _SECOND_NUMBER)
+    return Chain(Span(first.span.start, second.span.end), (match[_OPERATOR],), (first, second))
+
+
+def _leaf(match: re.Match[str], name: int, number: int) -> Name | Number:
+    if match[name] is not None:
+        return Name(Span(*match.span(name)), match[name])
+    return Number(Span(*match.span(number)), _number(match[number]))
