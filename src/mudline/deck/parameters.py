@@ -149,48 +149,57 @@ class Parameters:
 
     def _resolve(self, name: str) -> None:
         """Evaluate a parameter and, before it, those that it uses; an explicit stack, as chains may be long."""
+        values, failed, definitions = self.values, self.failed, self.definitions
         stack = [name]
         open_names: set[str] = set()
         while stack:
             current = stack[-1]
-            if current in self.values or current in self.failed:
+            if current in values or current in failed:
                 stack.pop()
                 continue
-            definition = self.definitions[current]
-            waiting = self._waiting(current, definition)
-            cyclic = open_names.intersection(waiting) if waiting else None
-            if waiting and not cyclic:
-                open_names.add(current)
-                stack += waiting
+            definition = definitions[current]
+            if definition.expression is None and not self._read(current, definition):
                 continue
+            waiting = [other for other in definition.used if other not in values]
+            cyclic: set[str] = set()
+            if waiting and failed.isdisjoint(waiting):
+                cyclic = open_names.intersection(waiting)
+                if not cyclic:
+                    open_names.add(current)
+                    stack += waiting
+                    continue
             stack.pop()
             open_names.discard(current)
             if cyclic:
-                chain = " -> ".join(self.definitions[n].name for n in [*sorted(cyclic), current])
+                chain = " -> ".join(definitions[n].name for n in [*sorted(cyclic), current])
                 message = f"parameter {definition.name} is defined through itself ({chain}): give one of them a value"
                 self._fail(current, Problem(REF014, message, None, None, definition.where))
+            elif waiting:
+                self._fail(current, None)
+            else:
+                self._settle(current, definition)
 
-    def _waiting(self, name: str, definition: Definition) -> list[str]:
-        """Evaluate a definition, or name the parameters that have to be evaluated before."""
-        expression = definition.expression
+    def _read(self, name: str, definition: Definition) -> bool:
+        """Read the equation of a parameter; returns whether it is still to be evaluated."""
+        value = definition.value
+        if not isinstance(value, Equation):
+            self.values[name] = value
+            return False
         try:
-            if expression is None:
-                if not isinstance(definition.value, Equation):
-                    self.values[name] = definition.value
-                    return []
-                expression = definition.expression = self._parse(definition.value, definition.where)
-                used = dict.fromkeys([folded(use.name) for use in expression.name_spans])
-                definition.used = [other for other in used if other in self.definitions]
-            waiting = [other for other in definition.used if other not in self.values]
-            if waiting and not self.failed.isdisjoint(waiting):
-                self._fail(name, None)
-                return []
-            if not waiting:
-                self.values[name] = self._value(expression, definition.where)
+            expression = definition.expression = self._parse(value, definition.where)
         except NoValueError as reason:
             self._fail(name, reason.problem)
-            return []
-        return waiting
+            return False
+        used = [folded(use.name) for use in expression.name_spans]
+        definition.used = [other for other in used if other in self.definitions]
+        return True
+
+    def _settle(self, name: str, definition: Definition) -> None:
+        """Evaluate a parameter of which all that it uses has a value."""
+        try:
+            self.values[name] = self._value(cast("Expression", definition.expression), definition.where)
+        except NoValueError as reason:
+            self._fail(name, reason.problem)
 
     def _fail(self, name: str, problem: Problem | None) -> None:
         """A parameter without value: told once, not again for each of its users."""

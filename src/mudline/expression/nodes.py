@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import NamedTuple
@@ -138,7 +139,7 @@ class NameSpan(NamedTuple):
 
 
 class Plain(NamedTuple):
-    """An equation of one name or number, or of two joined by + - * or /, as most are; `read` makes its tree.
+    """An equation of one name or number, or of two joined by + - * or /, as most are; `read` makes its tree of `match`.
 
     A name is a text here, a number a float; an equation of one of them has no operator and the right side 0.
     """
@@ -146,7 +147,8 @@ class Plain(NamedTuple):
     left: str | float
     operator: str
     right: str | float
-    read: Callable[[], Node]
+    match: re.Match[str]
+    read: Callable[[re.Match[str]], Node]
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,7 +171,7 @@ class Expression:
     @property
     def root(self) -> Node:
         """The whole as a tree of parts."""
-        return self.content.read() if isinstance(self.content, Plain) else self.content
+        return self.content.read(self.content.match) if isinstance(self.content, Plain) else self.content
 
     @property
     def names(self) -> tuple[str, ...]:

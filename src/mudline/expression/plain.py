@@ -10,7 +10,6 @@ import math
 import operator as python
 import re
 from collections.abc import Callable, Mapping
-from functools import partial
 from typing import Final
 
 from mudline.diagnostics import Span
@@ -41,20 +40,20 @@ def read_plain(text: str, pattern: re.Pattern[str]) -> Expression | None:
         return None
     name, number, operator, second, addend = match.groups()
     names: tuple[NameSpan, ...] = ()
-    left = name if number is None else _number(number)
+    left = name if number is None else float(number.translate(FORTRAN_EXPONENT))
     if name is not None:
         names = (NameSpan(name, *match.span(_NAME)),)
     right: str | float = 0.0
     if operator is not None:
-        right = second if addend is None else _number(addend)
+        right = second if addend is None else float(addend.translate(FORTRAN_EXPONENT))
         if second is not None:
             names = (*names, NameSpan(second, *match.span(_SECOND_NAME)))
-    return Expression(text, names, (), Plain(left, operator or "", right, partial(_tree, match)))
+    return Expression(text, names, (), Plain(left, operator or "", right, match, _tree))
 
 
 def plain_value(plain: Plain, lookup: Callable[[str], float | str]) -> float | None:
     """Return the value of a plain equation; None unless it and those in it are finite numbers that `lookup` has."""
-    left, operator, right, _ = plain
+    left, operator, right, _, _ = plain
     try:
         a = lookup(left) if isinstance(left, str) else left
         b = lookup(right) if isinstance(right, str) else right
@@ -64,10 +63,6 @@ def plain_value(plain: Plain, lookup: Callable[[str], float | str]) -> float | N
     except (KeyError, ZeroDivisionError):
         return None
     return value if math.isfinite(a) and math.isfinite(b) and math.isfinite(value) else None
-
-
-def _number(text: str) -> float:
-    return float(text.translate(FORTRAN_EXPONENT))
 
 
 def _tree(match: re.Match[str]) -> Node:
@@ -81,4 +76,4 @@ def _tree(match: re.Match[str]) -> Node:
 def _leaf(match: re.Match[str], name: int, number: int) -> Name | Number:
     if match[name] is not None:
         return Name(Span(*match.span(name)), match[name])
-    return Number(Span(*match.span(number)), _number(match[number]))
+    return Number(Span(*match.span(number)), float(match[number].translate(FORTRAN_EXPONENT)))

@@ -101,6 +101,8 @@ class _Reader:
         self.definitions: dict[str, list[tuple[ElementSet, Where]]] = {}
         self.sets = Sets(context, elements)
         self.keys: dict[str, str] = {}
+        self.links: dict[str, str] = {}
+        """Sets that are given once, as one subset, by their keys with that of the subset."""
         deck = context.deck
         self.sound = range(0 if deck.problems else len(deck.own_sections))
         """Sections of which every line could be used."""
@@ -140,24 +142,40 @@ class _Reader:
                 message = "set ALL is predefined and holds every element: choose another name"
                 self.context.tell(REF009, message, where._replace(path=(*where.path, "name")))
                 continue
-            self.definitions.setdefault(key, []).append((entry, where))
+            known = self.definitions.get(key)
+            if known is None:
+                self.definitions[key] = [(entry, where)]
+                only = entry.members[0] if len(entry.members) == 1 else None
+                if only is not None and only.rule == "set_subset" and (subset := cast("SetSubset", only).subset):
+                    self.links[key] = self._key(subset)
+            else:
+                known.append((entry, where))
+                self.links.pop(key, None)
 
     def _expand(self, key: str) -> None:
         """Expand a set and, before it, its subsets; an explicit stack, as chains may be long."""
-        named = self.sets.named
+        named, definitions, links = self.sets.named, self.definitions, self.links
         waiting = [key]
         unfinished: set[str] = set()
         while waiting:
             current = waiting[-1]
+            link = links.get(current)
             if current in named:
                 waiting.pop()
             elif current in unfinished:
                 waiting.pop()
                 unfinished.remove(current)
-                self._settle(current)
+                if link is not None and (found := named.get(link)):
+                    entry, where = definitions[current][0]
+                    named[current] = NamedSet(entry.name, found.elements, where, found.open or self._disturbed(where))
+                else:
+                    self._settle(current)
             else:
                 unfinished.add(current)
-                self._await(current, waiting, unfinished)
+                if link in definitions and link not in unfinished:
+                    waiting.append(link)
+                else:
+                    self._await(current, waiting, unfinished)
 
     def _await(self, key: str, waiting: list[str], unfinished: set[str]) -> None:
         """Put the subsets that are to be expanded before a set on the stack; those that cannot be are told."""
@@ -195,7 +213,7 @@ class _Reader:
         unsure = False
         members = 0
         for entry, where in definitions:
-            unsure |= where.section not in self.sound and self.context.disturbed(where)
+            unsure |= self._disturbed(where)
             members += len(entry.members)
             for index, member in enumerate(entry.members):
                 if member.rule == "set_subset":
@@ -210,6 +228,9 @@ class _Reader:
         self.sets.named[key] = NamedSet(first.name, _union(parts), place, unsure)
         if not members and not unsure:  # of what is listed and does not exist, enough is said where it stands
             self.context.tell(REF010, f"set {shown(first.name)} has no element: give it some, or remove it", place)
+
+    def _disturbed(self, where: Where) -> bool:
+        return where.section not in self.sound and self.context.disturbed(where)
 
     def _subset(self, name: str | None) -> tuple[Indices, bool]:
         found = None if name is None else self.sets.named.get(self._key(name))
