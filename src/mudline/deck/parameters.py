@@ -161,23 +161,22 @@ class Parameters:
             if definition.expression is None and not self._read(current, definition):
                 continue
             waiting = [other for other in definition.used if other not in values]
-            cyclic: set[str] = set()
-            if waiting and failed.isdisjoint(waiting):
-                cyclic = open_names.intersection(waiting)
-                if not cyclic:
-                    open_names.add(current)
-                    stack += waiting
-                    continue
+            useless = not failed.isdisjoint(waiting)
+            if waiting and not useless and open_names.isdisjoint(waiting):
+                open_names.add(current)
+                stack += waiting
+                continue
             stack.pop()
             open_names.discard(current)
-            if cyclic:
-                chain = " -> ".join(definitions[n].name for n in [*sorted(cyclic), current])
-                message = f"parameter {definition.name} is defined through itself ({chain}): give one of them a value"
-                self._fail(current, Problem(REF014, message, None, None, definition.where))
-            elif waiting:
+            if not waiting:
+                self._settle(current, definition)
+            elif useless:
                 self._fail(current, None)
             else:
-                self._settle(current, definition)
+                cyclic = sorted(open_names.union({current}).intersection(waiting))
+                chain = " -> ".join(definitions[n].name for n in [*cyclic, current])
+                message = f"parameter {definition.name} is defined through itself ({chain}): give one of them a value"
+                self._fail(current, Problem(REF014, message, None, None, definition.where))
 
     def _read(self, name: str, definition: Definition) -> bool:
         """Read the equation of a parameter; returns whether it is still to be evaluated."""
