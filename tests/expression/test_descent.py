@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from mudline.expression import DEEPEST, Expression, ExpressionError, evaluate, parse
 from mudline.expression.descent import LEVELS, descend
-from mudline.expression.parsing import by_grammar, plain_equations, tokens
+from mudline.expression.parsing import by_grammar, plain_equations, tokens, tree
 from mudline.expression.plain import read_plain
 
 MARKS = st.sampled_from([*'+-*/^(),=<>"#[ \t', "**", "==", "!=", "<>", "<=", ">=", '""'])
@@ -55,7 +55,7 @@ def test_the_equation_is_that_of_the_grammar(text: str) -> None:
 
 @given(st.one_of(ANYTHING, EQUATIONS, st.lists(st.one_of(MARKS, WORDS, VALUES), max_size=4).map(" ".join)))
 def test_a_plain_equation_is_that_of_the_grammar(text: str) -> None:
-    found = read_plain(text, plain_equations())
+    found = read_plain(text, plain_equations(), tree)
     assert found is None or _shown(found) == _shown(_by_grammar(text))
 
 
@@ -67,7 +67,7 @@ def test_a_plain_equation_is_that_of_the_grammar(text: str) -> None:
     ],
 )
 def test_equations_of_one_or_two_names_or_numbers_are_plain(text: str, *, plain: bool) -> None:
-    assert (read_plain(text, plain_equations()) is not None) == plain
+    assert (read_plain(text, plain_equations(), tree) is not None) == plain
 
 
 def _outcome(expression: Expression, values: dict[str, float | str]) -> str:
@@ -87,7 +87,7 @@ def test_a_plain_equation_has_the_value_of_its_tree(
     left: str, operator: str, right: str, x: float | str, y: float | str
 ) -> None:
     text = f"{left}{operator}{right}" if operator else left
-    plain = read_plain(text, plain_equations())
+    plain = read_plain(text, plain_equations(), tree)
     assert plain is not None
     assert _outcome(plain, {"x": x, "y": y}) == _outcome(by_grammar(text), {"x": x, "y": y})
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import NamedTuple
@@ -139,7 +138,7 @@ class NameSpan(NamedTuple):
 
 
 class Plain(NamedTuple):
-    """An equation of one name or number, or of two joined by + - * or /, as most are; `read` makes its tree of `match`.
+    """An equation of one name or number, or of two joined by + - * or /; `read` gives the tree of its text.
 
     A name is a text here, a number a float; an equation of one of them has no operator and the right side 0.
     """
@@ -147,8 +146,7 @@ class Plain(NamedTuple):
     left: str | float
     operator: str
     right: str | float
-    match: re.Match[str]
-    read: Callable[[re.Match[str]], Node]
+    read: Callable[[str], Node]
 
 
 @dataclass(frozen=True, slots=True)
@@ -171,7 +169,7 @@ class Expression:
     @property
     def root(self) -> Node:
         """The whole as a tree of parts."""
-        return self.content.read(self.content.match) if isinstance(self.content, Plain) else self.content
+        return self.content.read(self.text) if isinstance(self.content, Plain) else self.content
 
     @property
     def names(self) -> tuple[str, ...]:

@@ -51,10 +51,19 @@ def parse(text: str) -> Expression:
     """
     if len(text) > LONGEST:
         raise ExpressionError(f"the equation is longer than {LONGEST} characters", LONGEST, len(text))
-    if expression := read_plain(text, plain_equations()):
+    if expression := read_plain(text, plain_equations(), tree):
         return expression
     if not text.strip():
         raise ExpressionError("the equation is empty", 0, len(text))
+    return _read(text)
+
+
+def tree(text: str) -> Node:
+    """Return the parts of an equation; raises ExpressionError where it is not one."""
+    return _read(text).root
+
+
+def _read(text: str) -> Expression:
     return descend(text, tokens()) or by_grammar(text)
 
 

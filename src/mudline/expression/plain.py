@@ -7,22 +7,15 @@ equation or a value that does not fit here is left to them.
 from __future__ import annotations
 
 import math
-import operator as python
 import re
 from collections.abc import Callable, Mapping
-from typing import Final
 
-from mudline.diagnostics import Span
 from mudline.expression.builder import FORTRAN_EXPONENT
-from mudline.expression.nodes import Chain, Expression, Name, NameSpan, Node, Number, Plain
+from mudline.expression.nodes import Expression, NameSpan, Node, Plain
+from mudline.expression.operations import ARITHMETIC
 
-_NAME, _NUMBER, _OPERATOR, _SECOND_NAME, _SECOND_NUMBER = 1, 2, 3, 4, 5
-_ARITHMETIC: Final[Mapping[str, Callable[[float, float], float]]] = {
-    "+": python.add,
-    "-": python.sub,
-    "*": python.mul,
-    "/": python.truediv,
-}
+_FIRST, _SECOND = 1, 4
+"""The groups of the names."""
 
 
 def plain_pattern(terminals: Mapping[str, str]) -> re.Pattern[str]:
@@ -33,8 +26,8 @@ def plain_pattern(terminals: Mapping[str, str]) -> re.Pattern[str]:
     return re.compile(f"{blanks}{leaf}{blanks}(?:{operator}{blanks}{leaf}{blanks})?")
 
 
-def read_plain(text: str, pattern: re.Pattern[str]) -> Expression | None:
-    """Return an equation of one or two names or numbers; None where the text is none."""
+def read_plain(text: str, pattern: re.Pattern[str], read: Callable[[str], Node]) -> Expression | None:
+    """Return an equation of one or two names or numbers; None where the text is none. `read` gives trees."""
     match = pattern.fullmatch(text)
     if match is None:
         return None
@@ -42,38 +35,24 @@ def read_plain(text: str, pattern: re.Pattern[str]) -> Expression | None:
     names: tuple[NameSpan, ...] = ()
     left = name if number is None else float(number.translate(FORTRAN_EXPONENT))
     if name is not None:
-        names = (NameSpan(name, *match.span(_NAME)),)
+        names = (NameSpan(name, *match.span(_FIRST)),)
     right: str | float = 0.0
     if operator is not None:
         right = second if addend is None else float(addend.translate(FORTRAN_EXPONENT))
         if second is not None:
-            names = (*names, NameSpan(second, *match.span(_SECOND_NAME)))
-    return Expression(text, names, (), Plain(left, operator or "", right, match, _tree))
+            names = (*names, NameSpan(second, *match.span(_SECOND)))
+    return Expression(text, names, (), Plain(left, operator or "", right, read))
 
 
 def plain_value(plain: Plain, lookup: Callable[[str], float | str]) -> float | None:
     """Return the value of a plain equation; None unless it and those in it are finite numbers that `lookup` has."""
-    left, operator, right, _, _ = plain
+    left, operator, right, _ = plain
     try:
         a = lookup(left) if isinstance(left, str) else left
         b = lookup(right) if isinstance(right, str) else right
         if type(a) is not float or type(b) is not float:
             return None
-        value = _ARITHMETIC[operator](a, b) if operator else a
+        value = ARITHMETIC[operator](a, b) if operator else a
     except (KeyError, ZeroDivisionError):
         return None
     return value if math.isfinite(a) and math.isfinite(b) and math.isfinite(value) else None
-
-
-def _tree(match: re.Match[str]) -> Node:
-    first = _leaf(match, _NAME, _NUMBER)
-    if match[_OPERATOR] is None:
-        return first
-    second = _leaf(match, _SECOND_NAME, _SECOND_NUMBER)
-    return Chain(Span(first.span.start, second.span.end), (match[_OPERATOR],), (first, second))
-
-
-def _leaf(match: re.Match[str], name: int, number: int) -> Name | Number:
-    if match[name] is not None:
-        return Name(Span(*match.span(name)), match[name])
-    return Number(Span(*match.span(number)), float(match[number].translate(FORTRAN_EXPONENT)))
