@@ -9,11 +9,11 @@ from collections.abc import Sequence
 from mudline import __version__
 from mudline.cli import INTERRUPTED
 
-_COLLECTION = (50_000, 20, 50)
+_COLLECTION = (5_000_000, 10, 10)
 """Objects between two collections, and collections between two of older ones.
 
-What a deck is read into lives as long as the command and holds hardly a cycle: by default a third of the time of a deck
-of many entries goes into looking for some.
+What a deck is read into has no cycles and is freed with it: a run of many decks leaves some ten objects of each to the
+collector. By default a third of the time of a deck of many entries goes into looking for cycles.
 """
 
 

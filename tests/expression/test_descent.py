@@ -1,16 +1,18 @@
-"""Recursive descent against the grammar: the same trees, and nothing read that the grammar does not read."""
+"""Recursive descent and plain equations against the grammar: the same trees, and nothing that it does not read."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mudline.expression import DEEPEST, Expression, ExpressionError, parse
+from mudline.expression import DEEPEST, Expression, ExpressionError, evaluate, parse
 from mudline.expression.descent import LEVELS, descend
-from mudline.expression.parsing import by_grammar, tokens
+from mudline.expression.parsing import by_grammar, plain_equations, tokens, tree
+from mudline.expression.plain import read_plain
 
 MARKS = st.sampled_from([*'+-*/^(),=<>"#[ \t', "**", "==", "!=", "<>", "<=", ">=", '""'])
 WORDS = st.sampled_from(["and", "or", "not", "AND", "Or", "NOT", "and_1", "nothing", "x", "x y not", "Water Depth"])
@@ -49,6 +51,45 @@ def _by_grammar(text: str) -> Expression | None:
 @given(st.one_of(ANYTHING, EQUATIONS))
 def test_the_equation_is_that_of_the_grammar(text: str) -> None:
     assert _shown(descend(text, tokens())) == _shown(_by_grammar(text))
+
+
+@given(st.one_of(ANYTHING, EQUATIONS, st.lists(st.one_of(MARKS, WORDS, VALUES), max_size=4).map(" ".join)))
+def test_a_plain_equation_is_that_of_the_grammar(text: str) -> None:
+    found = read_plain(text, plain_equations(), tree)
+    assert found is None or _shown(found) == _shown(_by_grammar(text))
+
+
+@pytest.mark.parametrize(
+    ("text", "plain"),
+    [
+        *((text, True) for text in ("x", " 1 ", "Water Depth+1", "p2 * p1", "1.D3/x y ")),
+        *((text, False) for text in ("-1", "x**2", "x and y", '"t"', "f()", "1 + 2 + 3", "1 2", "")),
+    ],
+)
+def test_equations_of_one_or_two_names_or_numbers_are_plain(text: str, *, plain: bool) -> None:
+    assert (read_plain(text, plain_equations(), tree) is not None) == plain
+
+
+def _outcome(expression: Expression, values: dict[str, float | str]) -> str:
+    """The value of an equation, or why it has none; the sign of zero included."""
+    try:
+        return repr(evaluate(expression, values.__getitem__))
+    except ExpressionError as error:
+        return repr((type(error), error.message, error.span))
+
+
+LEAVES = st.sampled_from(["x", "y", "pi", "nothing", "0", "1", "2.5D1", "1e308", "1e999"])
+NUMBERS = st.one_of(st.sampled_from([0.0, -0.0, math.inf, math.nan, "text", 3]), st.floats())
+
+
+@given(LEAVES, st.sampled_from(["", *"+-*/"]), LEAVES, NUMBERS, NUMBERS)
+def test_a_plain_equation_has_the_value_of_its_tree(
+    left: str, operator: str, right: str, x: float | str, y: float | str
+) -> None:
+    text = f"{left}{operator}{right}" if operator else left
+    plain = read_plain(text, plain_equations(), tree)
+    assert plain is not None
+    assert _outcome(plain, {"x": x, "y": y}) == _outcome(by_grammar(text), {"x": x, "y": y})
 
 
 @given(EQUATIONS)

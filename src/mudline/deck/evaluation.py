@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 from typing import Any, NewType
 
 from mudline.codes.fields import SYN002
@@ -59,13 +59,13 @@ def _evaluated_slots(part: type[Part]) -> tuple[str, ...]:
 
 def _has_equation(value: object) -> bool:
     """Whether there is an equation in a value or below it."""
-    if value is None or type(value) in _PLAIN:
+    kind = type(value)
+    if value is None or kind in _PLAIN:
         return False
     if isinstance(value, list):
         return any(map(_has_equation, value))
-    if isinstance(value, Part):
-        slots = _evaluated_slots(type(value))
-        return bool(slots) and any(_has_equation(getattr(value, name)) for name in slots)
+    if issubclass(kind, Part):
+        return any(map(_has_equation, map(partial(getattr, value), _evaluated_slots(kind))))
     if isinstance(value, Table):
         return value.equations
     return isinstance(value, Equation)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple, cast
 
@@ -65,7 +66,7 @@ class Definition:
     value: Value | Equation
     where: Where
     expression: Expression | None = None
-    used: list[str] = field(default_factory=list)
+    used: Sequence[str] = ()
 
 
 class NoValueError(Exception):
@@ -92,7 +93,8 @@ class Parameters:
             for index, parameter in enumerate(block.parameters):
                 self._define(parameter, Where(where.section, where.block, ("parameters", index, "value")))
         for name in self.definitions:
-            self._resolve(name)
+            if name not in self.values and name not in self.failed:
+                self._resolve(name)
 
     def number(self, value: object) -> float | None:
         """A field as a number: evaluated if it is an equation; None when it has no numeric value."""
@@ -140,54 +142,63 @@ class Parameters:
 
     def _add(self, name: str, value: Value, where: Where) -> None:
         """A text becomes an equation or a number where it reads as one; quotes around it are dropped."""
-        if isinstance(value, str):
+        if isinstance(value, str) and not isinstance(value, Equation):
             number = read_number(value)
             value = Equation.match(value) or (value.removeprefix('"').removesuffix('"') if number is None else number)
         self.definitions[folded(name)] = Definition(name, value, where)
 
     def _resolve(self, name: str) -> None:
         """Evaluate a parameter and, before it, those that it uses; an explicit stack, as chains may be long."""
+        values, failed, definitions = self.values, self.failed, self.definitions
         stack = [name]
         open_names: set[str] = set()
         while stack:
             current = stack[-1]
-            definition = self.definitions[current]
-            if current in self.values or current in self.failed:
+            if current in values or current in failed:
                 stack.pop()
                 continue
-            waiting = self._waiting(current, definition)
-            cyclic = open_names.intersection(waiting) if waiting else set()
-            if waiting and not cyclic:
+            definition = definitions[current]
+            if definition.expression is None and not self._read(current, definition):
+                continue
+            waiting = [other for other in definition.used if other not in values]
+            useless = not failed.isdisjoint(waiting)
+            if waiting and not useless and open_names.isdisjoint(waiting):
                 open_names.add(current)
                 stack += waiting
                 continue
             stack.pop()
             open_names.discard(current)
-            if cyclic:
-                chain = " -> ".join(self.definitions[n].name for n in [*sorted(cyclic), current])
+            if not waiting:
+                self._settle(current, definition)
+            elif useless:
+                self._fail(current, None)
+            else:
+                cyclic = sorted(open_names.union({current}).intersection(waiting))
+                chain = " -> ".join(definitions[n].name for n in [*cyclic, current])
                 message = f"parameter {definition.name} is defined through itself ({chain}): give one of them a value"
                 self._fail(current, Problem(REF014, message, None, None, definition.where))
 
-    def _waiting(self, name: str, definition: Definition) -> list[str]:
-        """Evaluate a definition, or name the parameters that have to be evaluated before."""
-        if not isinstance(definition.value, Equation):
-            self.values[name] = definition.value
-            return []
+    def _read(self, name: str, definition: Definition) -> bool:
+        """Read the equation of a parameter; returns whether it is still to be evaluated."""
+        value = definition.value
+        if not isinstance(value, Equation):
+            self.values[name] = value
+            return False
         try:
-            expression = definition.expression
-            if expression is None:
-                expression = definition.expression = self._parse(definition.value, definition.where)
-                definition.used = [other for other in map(folded, expression.names) if other in self.definitions]
-            waiting = [other for other in definition.used if other not in self.values]
-            if waiting and self.failed.intersection(waiting):
-                self._fail(name, None)
-                return []
-            if not waiting:
-                self.values[name] = self._value(expression, definition.where)
+            expression = definition.expression = self._parse(value, definition.where)
         except NoValueError as reason:
             self._fail(name, reason.problem)
-            return []
-        return waiting
+            return False
+        used = [folded(use.name) for use in expression.name_spans]
+        definition.used = [other for other in used if other in self.definitions]
+        return True
+
+    def _settle(self, name: str, definition: Definition) -> None:
+        """Evaluate a parameter of which all that it uses has a value."""
+        try:
+            self.values[name] = self._value(cast("Expression", definition.expression), definition.where)
+        except NoValueError as reason:
+            self._fail(name, reason.problem)
 
     def _fail(self, name: str, problem: Problem | None) -> None:
         """A parameter without value: told once, not again for each of its users."""
@@ -201,9 +212,12 @@ class Parameters:
         except ExpressionError as error:
             raise NoValueError(_problem(SYN017, equation, error, where)) from error
 
+    def _known(self, name: str) -> Value:
+        return self.values[folded(name)]
+
     def _value(self, expression: Expression, where: Where) -> Value:
         try:
-            return evaluate(expression, lambda name: self.values[folded(name)])
+            return evaluate(expression, self._known)
         except UndefinedName as error:
             word = expression.text[error.start : error.end]
             known = (definition.name for definition in self.definitions.values())

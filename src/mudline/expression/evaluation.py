@@ -24,12 +24,14 @@ from mudline.expression.nodes import (
     Name,
     Node,
     Number,
+    Plain,
     Power,
     Prefix,
     Text,
     children,
 )
 from mudline.expression.operations import Operand, Value, apply, arithmetic, compare, power
+from mudline.expression.plain import plain_value
 
 Lookup = Callable[[str], float | str]
 Steps = Generator[Node, Value, Value]
@@ -52,9 +54,13 @@ def evaluate(expression: Expression, lookup: Lookup) -> float | str:
         EvaluationError: a part has no finite value, text stands where a number is wanted, or a function has too many
             or too few arguments.
     """
+    value: Value | None = None
+    if isinstance(expression.content, Plain):
+        value = plain_value(expression.content, lookup)
+        if value is not None:
+            return value
     waiting: list[Steps] = []
     steps = _steps(expression.root, lookup)
-    value: Value | None = None
     while True:
         try:
             part = next(steps) if value is None else steps.send(value)

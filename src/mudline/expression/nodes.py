@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -137,6 +137,18 @@ class NameSpan(NamedTuple):
     end: int
 
 
+class Plain(NamedTuple):
+    """An equation of one name or number, or of two joined by + - * or /; `read` gives the tree of its text.
+
+    A name is a text here, a number a float; an equation of one of them has no operator and the right side 0.
+    """
+
+    left: str | float
+    operator: str
+    right: str | float
+    read: Callable[[str], Node]
+
+
 @dataclass(frozen=True, slots=True)
 class Expression:
     """An equation that has been read.
@@ -146,13 +158,18 @@ class Expression:
         name_spans: every use of a name that is not a function, in the order of the text; constants such as `pi` are
             among them, as a parameter may bear that name.
         functions: the functions called, as written, each spelling once, in the order of the text.
-        root: the whole as a tree of parts.
+        content: the tree of its parts, or what stands for it until somebody asks for `root`.
     """
 
     text: str
     name_spans: tuple[NameSpan, ...] = field(compare=False)
     functions: tuple[str, ...] = field(compare=False)
-    root: Node = field(repr=False, compare=False)
+    content: Node | Plain = field(repr=False, compare=False)
+
+    @property
+    def root(self) -> Node:
+        """The whole as a tree of parts."""
+        return self.content.read(self.text) if isinstance(self.content, Plain) else self.content
 
     @property
     def names(self) -> tuple[str, ...]:

@@ -16,7 +16,7 @@ Value = float | str
 LONGEST_TEXT = 10_000
 """The longest text that joining may make, in code points: parameters can double one another without end."""
 
-_ARITHMETIC: Final[Mapping[str, Callable[[float, float], float]]] = {
+ARITHMETIC: Final[Mapping[str, Callable[[float, float], float]]] = {
     "+": python.add,
     "-": python.sub,
     "*": python.mul,
@@ -70,7 +70,7 @@ def arithmetic(operator: str, left: Operand, right: Operand) -> Operand:
     a, b = left.number, right.number
     if operator == "/" and b == 0.0:
         raise EvaluationError("division by zero", *right.span)
-    return Operand(finite(_ARITHMETIC[operator](a, b), whole), whole)
+    return Operand(finite(ARITHMETIC[operator](a, b), whole), whole)
 
 
 def _joined(left: str, right: str, span: Span) -> str:

@@ -13,6 +13,7 @@ from mudline.expression.builder import Builder
 from mudline.expression.descent import descend
 from mudline.expression.errors import ExpressionError, shorten
 from mudline.expression.nodes import Call, Expression, Name, NameSpan, Node, walk
+from mudline.expression.plain import plain_pattern, read_plain
 from mudline.resources import grammar_file
 from mudline.syntax.scanning import scanner
 
@@ -36,6 +37,12 @@ def tokens() -> Pattern[str]:
     return scanner(_grammar())
 
 
+@cache
+def plain_equations() -> Pattern[str]:
+    """Return the pattern of the equations that `read_plain` reads."""
+    return plain_pattern({one.name: one.pattern.to_regexp() for one in _grammar().terminals})
+
+
 def parse(text: str) -> Expression:
     """Read an equation: `text` is what stands between `=[` and `]`.
 
@@ -44,8 +51,19 @@ def parse(text: str) -> Expression:
     """
     if len(text) > LONGEST:
         raise ExpressionError(f"the equation is longer than {LONGEST} characters", LONGEST, len(text))
+    if expression := read_plain(text, plain_equations(), tree):
+        return expression
     if not text.strip():
         raise ExpressionError("the equation is empty", 0, len(text))
+    return _read(text)
+
+
+def tree(text: str) -> Node:
+    """Return the parts of an equation; raises ExpressionError where it is not one."""
+    return _read(text).root
+
+
+def _read(text: str) -> Expression:
     return descend(text, tokens()) or by_grammar(text)
 
 

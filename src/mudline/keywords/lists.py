@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from itertools import islice
 from typing import Any, cast
 
 from pydantic import ValidationError
@@ -27,16 +29,18 @@ def checked_by_parts(schema: CoreSchema) -> CoreSchema:
 
 
 def _by_parts(given: object, check: core_schema.ValidatorFunctionWrapHandler) -> list[object]:
-    """All entries, or the faults of the first part that has any."""
-    if not isinstance(given, list) or len(given) <= _PART:
+    """All entries, or the faults of the first part that has any. Entries may be made as they are checked."""
+    if not isinstance(given, list | Iterator) or (isinstance(given, list) and len(given) <= _PART):
         return cast("list[object]", check(given))
     made: list[object] = []
-    for start in range(0, len(given), _PART):
+    entries = iter(given)
+    while part := list(islice(entries, _PART)):
         try:
-            made += check(given[start : start + _PART])
+            made += check(part)
         except ValidationError as error:
+            start = len(made)
             moved = [_moved(fault, start) for fault in error.errors(include_url=False)]
-            if start + _PART < len(given):
+            if any(True for _ in entries):
                 moved.append(InitErrorDetails(type=_UNCHECKED, loc=(start + _PART,), input=None))
             raise ValidationError.from_exception_data(error.title, moved) from error
     return made

@@ -7,13 +7,13 @@ a block with anything else in it, be it a comment or one odd character, is left 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import partial
-from itertools import pairwise
 from typing import Any, cast
 
 from lark import Token, Tree
+from pydantic import ValidationError
 
 from mudline.diagnostics import Problem, Span
 from mudline.keywords.grammar import ROW, SMALL, fitting, records_of, terminal_of
@@ -61,8 +61,8 @@ class _Form:
         return found
 
 
-def read_plain(text: str, raw: RawBlock, declared: type[Block], keys: Collection[str]) -> Values | None:
-    """Return the values of a block of plain records, ready to be validated; None where it is anything else.
+def read_plain(text: str, raw: RawBlock, declared: type[Block], keys: Collection[str]) -> Block | None:
+    """Return the model of a block of plain records; None where it is anything else.
 
     `keys` are those that the lines of the block may begin with.
     """
@@ -71,12 +71,10 @@ def read_plain(text: str, raw: RawBlock, declared: type[Block], keys: Collection
     if len(raw.leaves) < FEWEST or records is None or len(slots) != 1 or declared.tabular:
         return None
     slot = slots[0]
+    entries = _entries(slot.record[records.rule], _lines(text, raw, keys), records.opening)
     try:
-        lines = list(_lines(text, raw, keys))
-        if not lines or lines[0][0] != records.opening:
-            return None
-        return {slot.json: list(_entries(slot.record[records.rule], lines, records.opening))}
-    except _OddError:
+        return declared.model_validate({"keyword": raw.name, slot.json: entries})
+    except (_OddError, ValidationError):
         return None
 
 
@@ -96,7 +94,12 @@ def _lines(text: str, raw: RawBlock, keys: Collection[str]) -> Iterator[tuple[st
                     raise _OddError
                 terminal = terminals[written] = terminal_of(key)
             yield terminal, fields
-        elif kind in (LeafKind.RUN, LeafKind.TEXT):
+        elif kind is LeafKind.TEXT:
+            match = _LINE.fullmatch(text, *span)
+            if match is None:
+                raise _OddError
+            yield ROW, match[1]
+        elif kind is LeafKind.RUN:
             yield from ((ROW, fields) for fields in _rows(text, span))
         elif kind is not LeafKind.BLANK:
             raise _OddError
@@ -110,21 +113,32 @@ def _rows(text: str, run: Span) -> Iterator[str]:
         yield match[1]
 
 
-def _entries(record: type[Record], lines: list[tuple[str, str]], opening: str) -> Iterator[Values]:
-    """The values of each record; those of one form are read alike."""
+def _entries(record: type[Record], lines: Iterable[tuple[str, str]], opening: str) -> Iterator[Values]:
+    """The values of each record, while its lines are read; those of one form are read alike."""
     forms: dict[tuple[str, ...], _Form] = {}
-    starts = [index for index, (terminal, _) in enumerate(lines) if terminal == opening]
-    for start, stop in pairwise([*starts, len(lines)]):
-        if stop - start > SMALL:
-            raise _OddError
-        terminals, fields = zip(*lines[start:stop], strict=True)
-        form = forms.get(terminals)
+
+    def values() -> Values:
+        kinds = tuple(terminals)
+        form = forms.get(kinds)
         if form is None:
-            tree = fitting(record.rule, terminals)
+            tree = fitting(record.rule, kinds) if len(kinds) <= SMALL else None
             if tree is None:
                 raise _OddError
-            form = forms[terminals] = _form(record, tree)
-        yield form.values(fields)
+            form = forms[kinds] = _form(record, tree)
+        return form.values(written)
+
+    terminals: list[str] = []
+    written: list[str] = []
+    for terminal, fields in lines:
+        if terminal == opening:
+            if terminals:
+                yield values()
+            terminals, written = [], []
+        elif not terminals:
+            raise _OddError
+        terminals.append(terminal)
+        written.append(fields)
+    yield values()
 
 
 def _form(record: type[Record], tree: Tree[Token]) -> _Form:
@@ -210,6 +224,8 @@ def _value(word: str, slot: Slot) -> Value:
         if slot.kind is Kind.NAME or slot.kind is Kind.IDENT:
             raise _OddError
         return Equation(word)
+    if slot.kind is Kind.NAME:
+        return word
     problems: list[Problem] = []
     try:
         value = read_value(Field(word, Span(0, len(word))), slot, problems)

@@ -85,14 +85,8 @@ def read_block(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -
 
 def _plain(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock | None:
     """A long block of plain records; its places are found by reading it again, line by line."""
-    values = read_plain(text, raw, declared, all_keys(declared))
-    if values is None:
-        return None
-    try:
-        model = declared.model_validate({"keyword": raw.name, **values})
-    except ValidationError:
-        return None
-    return ReadBlock(model, lambda: _Reader(text, raw, declared, last=last).read().own, [])
+    model = read_plain(text, raw, declared, all_keys(declared))
+    return None if model is None else ReadBlock(model, lambda: _Reader(text, raw, declared, last=last).read().own, [])
 
 
 class _Reader:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, cast
@@ -101,6 +101,11 @@ class _Reader:
         self.definitions: dict[str, list[tuple[ElementSet, Where]]] = {}
         self.sets = Sets(context, elements)
         self.keys: dict[str, str] = {}
+        self.links: dict[str, str] = {}
+        """Sets that are given once, as one subset, by their keys with that of the subset."""
+        deck = context.deck
+        self.sound = range(0 if deck.problems else len(deck.own_sections))
+        """Sections of which every line could be used."""
 
     def read(self) -> Sets:
         named = self.sets.named
@@ -108,8 +113,7 @@ class _Reader:
         everything = identity(len(self.elements))
         named[ALL] = NamedSet("ALL", everything, None, open=bool(context.external_definers or context.restart))
         for where, block in context.deck.blocks("ELEMENT SETS"):
-            for index, entry in enumerate(cast("ElementSets", block).sets):
-                self._collect(entry, Where(where.section, where.block, ("sets", index)))
+            self._collect(cast("ElementSets", block).sets, where)
         for key, name in context.opaque_set_names.items():
             if key not in self.definitions:
                 named.setdefault(key, NamedSet(name, _NOTHING, None, open=True))
@@ -125,72 +129,93 @@ class _Reader:
             key = self.keys[name] = set_key(name)
         return key
 
-    def _collect(self, entry: ElementSet, where: Where) -> None:
-        name = cast("str | None", entry.name)
-        if name is None:
-            self.context.unread.add("ELEMENT SETS")
-            return
-        key = self._key(name)
-        if key == ALL:
-            message = "set ALL is predefined and holds every element: choose another name"
-            self.context.report(REF009, message, where.inside("name"))
-        else:
-            self.definitions.setdefault(key, []).append((entry, where))
+    def _collect(self, entries: Sequence[ElementSet], block: Where) -> None:
+        """Note the sets of a block by their names."""
+        for index, entry in enumerate(entries):
+            where = Where(block.section, block.block, ("sets", index))
+            name = cast("str | None", entry.name)
+            if name is None:
+                self.context.unread.add("ELEMENT SETS")
+                continue
+            key = self._key(name)
+            if key == ALL:
+                message = "set ALL is predefined and holds every element: choose another name"
+                self.context.report(REF009, message, where.inside("name"))
+                continue
+            known = self.definitions.get(key)
+            if known is None:
+                self.definitions[key] = [(entry, where)]
+                only = entry.members[0] if len(entry.members) == 1 else None
+                if only is not None and only.rule == "set_subset" and (subset := cast("SetSubset", only).subset):
+                    self.links[key] = self._key(subset)
+            else:
+                known.append((entry, where))
+                self.links.pop(key, None)
 
     def _expand(self, key: str) -> None:
         """Expand a set and, before it, its subsets; an explicit stack, as chains may be long."""
+        named, definitions, links = self.sets.named, self.definitions, self.links
         waiting = [key]
         unfinished: set[str] = set()
         while waiting:
             current = waiting[-1]
-            if current in self.sets.named:
+            link = links.get(current)
+            if current in named:
                 waiting.pop()
             elif current in unfinished:
                 waiting.pop()
                 unfinished.remove(current)
-                self._settle(current)
+                if link is not None and (found := named.get(link)):
+                    entry, where = definitions[current][0]
+                    named[current] = NamedSet(
+                        entry.name, found.elements, where, found.open or self._has_read_errors(where)
+                    )
+                else:
+                    self._settle(current)
             else:
                 unfinished.add(current)
-                waiting += self._needed(current, unfinished)
+                if link in definitions and link not in unfinished:
+                    waiting.append(link)
+                else:
+                    self._await(current, waiting, unfinished)
 
-    def _needed(self, key: str, unfinished: set[str]) -> Iterator[str]:
-        """The subsets that are to be expanded before a set; those that cannot be are reported."""
-        for name, where, index in self._subsets(key):
-            other = self._key(name)
-            if other in unfinished:
-                message = f"set {shown(name)} contains itself: SUBSET= leads back to it; remove one of these lines"
-                self.context.report(REF008, message, where.inside("members", index, "subset"))
-            elif other in self.definitions:
-                yield other
-            elif other not in self.sets.named:
-                near = self.context.near(name, self._names)
-                hint = f" (did you mean {self._names[near]}?)" if near else ""
-                message = f"SUBSET= names no set: {shown(name)} is not defined{hint}; define it"
-                place = where.inside("members", index, "subset")
-                self.context.report_missing(REF008, message, place, "ELEMENT SETS")
+    def _await(self, key: str, waiting: list[str], unfinished: set[str]) -> None:
+        """Put the subsets that are to be expanded before a set on the stack; those that cannot be are reported."""
+        named = self.sets.named
+        for entry, where in self.definitions[key]:
+            for index, member in enumerate(entry.members):
+                if member.rule != "set_subset":
+                    continue
+                name = cast("SetSubset", member).subset
+                if cast("str | None", name) is None:
+                    continue
+                other = self._key(name)
+                if other in unfinished:
+                    message = f"set {shown(name)} contains itself: SUBSET= leads back to it; remove one of these lines"
+                    self.context.report(REF008, message, where.inside("members", index, "subset"))
+                elif other in self.definitions:
+                    waiting.append(other)
+                elif other not in named:
+                    near = self.context.near(name, self._names)
+                    hint = f" (did you mean {self._names[near]}?)" if near else ""
+                    message = f"SUBSET= names no set: {shown(name)} is not defined{hint}; define it"
+                    place = where.inside("members", index, "subset")
+                    self.context.report_missing(REF008, message, place, "ELEMENT SETS")
 
     @cached_property
     def _names(self) -> dict[str, str]:
-        """Every name of a set, by its folded form."""
-        return self.context.opaque_set_names | {key: entries[0][0].name for key, entries in self.definitions.items()}
-
-    def _subsets(self, key: str) -> Iterator[tuple[str, Where, int]]:
-        """The subsets of a set, each with the place of the definition that names it and its index among the members."""
-        for entry, where in self.definitions[key]:
-            for index, member in enumerate(entry.members):
-                if member.rule == "set_subset":
-                    name = cast("str | None", cast("SetSubset", member).subset)
-                    if name is not None:
-                        yield name, where, index
+        """Every name of a set, by its casefolded form."""
+        return self.context.opaque_set_names | {key: found[0][0].name for key, found in self.definitions.items()}
 
     def _settle(self, key: str) -> None:
         """The union of all members of all definitions of a name."""
-        first, place = self.definitions[key][0]
+        definitions = self.definitions[key]
+        first, place = definitions[0]
         parts: list[Indices] = []
         unsure = False
         members = 0
-        for entry, where in self.definitions[key]:
-            unsure |= self.context.has_read_errors(where)
+        for entry, where in definitions:
+            unsure |= self._has_read_errors(where)
             members += len(entry.members)
             for index, member in enumerate(entry.members):
                 if member.rule == "set_subset":
@@ -205,6 +230,9 @@ class _Reader:
         self.sets.named[key] = NamedSet(first.name, _union(parts), place, unsure)
         if not members and not unsure:  # of what is listed and does not exist, it is reported where it stands
             self.context.report(REF010, f"set {shown(first.name)} has no element: give it some, or remove it", place)
+
+    def _has_read_errors(self, where: Where) -> bool:
+        return where.section not in self.sound and self.context.has_read_errors(where)
 
     def _subset(self, name: str | None) -> tuple[Indices, bool]:
         found = None if name is None else self.sets.named.get(self._key(name))
