@@ -8,7 +8,7 @@ from mudline.cli.console import console
 from mudline.cli.options import View
 from mudline.cli.tables import print_table
 from mudline.results.against import Comparison
-from mudline.results.numbers import shown
+from mudline.results.quantities import shown
 
 
 def print_comparison(comparison: Comparison, view: View) -> None:

@@ -18,8 +18,8 @@ from mudline.cli.streams import emit
 from mudline.cli.terminal import tell
 from mudline.cli.writing import writing
 from mudline.linting.output.visible import visible
-from mudline.results.csv_lines import csv_lines
 from mudline.results.curves import curve_rows, point_table, static_table, value_table
+from mudline.results.quantities import csv_lines
 from mudline.scene.build import resolve
 from mudline.scene.model import Scene
 

@@ -12,8 +12,7 @@ from mudline.cli.options import View
 from mudline.cli.tables import print_table
 from mudline.cli.terminal import tell
 from mudline.results.curves import diameters, used_curves
-from mudline.results.numbers import shown
-from mudline.results.units import headed, unit_names
+from mudline.results.quantities import headed, shown, unit_names
 from mudline.scene.model import Scene
 
 _MOST_DIAMETERS = 3

@@ -33,11 +33,11 @@ from mudline.cli.options import View
 from mudline.cli.streams import emit
 from mudline.results.against import Comparison
 from mudline.results.columns import ElementTable, NodeTable
-from mudline.results.csv_lines import csv_lines
-from mudline.results.digest import Digest
 from mudline.results.evaluation import Evaluation, Prepared, Tension, evaluate_scene, prepare
 from mudline.results.formats import CsvForm, JsonForm, plan_rows
 from mudline.results.plot_data import PlotData
+from mudline.results.quantities import csv_lines
+from mudline.results.totals import Digest
 from mudline.scene.build import resolve
 
 MOST_ROWS = 40

@@ -11,8 +11,8 @@ from typing import TypeVar
 import click
 
 from mudline.cli.terminal import reason
+from mudline.results.against import Reference, read_reference
 from mudline.results.evaluation import Evaluation
-from mudline.results.reference import Reference, read_reference
 from mudline.scene.external import ExternalElements, read_external
 from mudline.scene.model import Scene
 from mudline.scene.positions import Positions, read_positions

@@ -8,8 +8,7 @@ import numpy as np
 
 from mudline.results.columns import SLIDING, STATES, ElementTable
 from mudline.results.evaluation import Evaluation, Part
-from mudline.results.numbers import shown
-from mudline.results.units import headed, unit_names
+from mudline.results.quantities import headed, shown, unit_names
 from mudline.scene.numbering import Floats, Indices
 
 Cells = tuple[str, ...]

@@ -13,11 +13,9 @@ from mudline.cli.options import View
 from mudline.cli.tables import print_table
 from mudline.contact import Plan
 from mudline.results.columns import SLIDING, STATES
-from mudline.results.digest import Digest
 from mudline.results.evaluation import Evaluation, Part
-from mudline.results.numbers import shown
-from mudline.results.totals import Total, counts, reaction, totals
-from mudline.results.units import UnitNames, headed, unit_names
+from mudline.results.quantities import UnitNames, headed, shown, unit_names
+from mudline.results.totals import Digest, Total, counts, reaction, totals
 
 
 def print_plan(plan: Plan, view: View) -> None:

@@ -13,8 +13,7 @@ from mudline.cli.console import console
 from mudline.cli.options import View
 from mudline.cli.tables import print_table
 from mudline.linting.output.visible import visible
-from mudline.results.numbers import shown
-from mudline.results.units import UnitNames, headed, unit_names
+from mudline.results.quantities import UnitNames, headed, shown, unit_names
 
 _WIDEST = 120
 _MOST_DIAMETERS = 10

@@ -9,8 +9,7 @@ from mudline.cli.console import console
 from mudline.cli.options import View
 from mudline.cli.tables import print_table
 from mudline.linting.output.visible import visible
-from mudline.results.numbers import shown
-from mudline.results.units import headed
+from mudline.results.quantities import headed, shown
 from mudline.study.report import Cell, StudyReport, StudyTable
 
 _DIGITS = 4

@@ -14,7 +14,7 @@ from mudline.cli.streams import emit
 from mudline.cli.verdict import Total, Verdict
 from mudline.diagnostics import Diagnostic
 from mudline.linting.output.json_objects import as_object
-from mudline.results.csv_lines import csv_lines
+from mudline.results.quantities import csv_lines
 from mudline.syntax.source import Source
 
 

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from mudline.results.units import unit_names
+from mudline.results.quantities import unit_names
 
 _MARGIN = 0.15
 _LONGEST_NAME = 40

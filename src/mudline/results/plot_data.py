@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from mudline.contact import ContactResult, LawKind
 from mudline.results.evaluation import Evaluation, Part
-from mudline.results.traces import traces
+from mudline.results.totals import traces
 from mudline.scene.numbering import Floats, Indices
 
 _BINS = 2000

@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from mudline.contact import LawKind
 from mudline.deck.model import Opaque
-from mudline.results.bed_summary import bed_summary, extension_summary, floor_summary
-from mudline.results.numbers import finite
-from mudline.results.static_embedment import static_embedment
+from mudline.results.curves import static_embedment
+from mudline.results.quantities import finite
 from mudline.scene.continued import ContinuedDeck
+from mudline.scene.floor import Floor, FloorKind
 from mudline.scene.model import Scene
 
 
@@ -105,3 +105,53 @@ def _laws(scene: Scene) -> list[dict[str, Any]]:
             rows.append({"law": law, "set": grant.set_.name, "elements": count, "stiffness": stiffness})
     free = int((scene.laws.of_element < 0).sum())
     return [*rows, {"law": "none", "set": None, "elements": free, "stiffness": None}] if free else rows
+
+
+_PAIRS = ("friction", "mobilisation")
+_SINGLE = ("lateral", "suction", "extent")
+
+
+def floor_summary(floor: Floor) -> dict[str, Any]:
+    """The shape of the bed; null for what its kind has not."""
+    slope = floor.kind is FloorKind.SLOPING
+    from_points = floor.kind in (FloorKind.PROFILE, FloorKind.SURFACE)
+    return {
+        "kind": floor.kind.value,
+        "slope": finite(floor.slope) if slope else None,
+        "direction": finite(floor.direction) if slope or from_points else None,
+        "interpolation": floor.interpolation if from_points else None,
+        "points": len(floor.points) if from_points and not floor.missing else None,
+        "planes": len(floor.planes) or None,
+        "file": floor.file or None,
+        "missing": floor.missing or None,
+    }
+
+
+def bed_summary(scene: Scene) -> list[dict[str, Any]]:
+    """Friction, mobilisation, lateral stiffness and suction by block, with the number of elements that have them.
+
+    Friction coefficients and mobilisation lengths are longitudinal and transverse. Blocks that give none of all this
+    are left out.
+    """
+    rows = []
+    for index, (values, where) in enumerate(zip(scene.bed.values, scene.bed.places, strict=True)):
+        pairs = {name: [finite(value) for value in getattr(values, name)] for name in _PAIRS}
+        single = {name: finite(getattr(values, name)) for name in _SINGLE}
+        if any(value is not None for value in (*single.values(), *(one for pair in pairs.values() for one in pair))):
+            entry: Any = scene.deck.sections[where.section].blocks[where.block]
+            name = (entry.sets[where.path[1]].set_name or "ALL") if where.path[0] == "sets" else "ALL"
+            rows.append({"set": name, "elements": int((scene.bed.of_element == index).sum()), **pairs, **single})
+    return rows
+
+
+def extension_summary(scene: Scene) -> list[dict[str, Any]]:
+    """The blocks of the extension keywords, with the elements that follow each."""
+    return [
+        {
+            "keyword": keyword,
+            "set": getattr(entry, "set_name", None),
+            "elements": int((found.of_element == index).sum()),
+        }
+        for keyword, found in scene.extensions.items()
+        for index, entry in enumerate(found.entries)
+    ]
