@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mudline.results.columns import SLIDING, STATES, ElementTable
+from mudline.results.columns import ElementTable
 from mudline.results.evaluation import Evaluation, Part
-from mudline.results.quantities import headed, shown, unit_names
+from mudline.results.quantities import SLIDING, STATES, headed, shown, unit_names
 from mudline.scene.numbering import Floats, Indices
 
 Cells = tuple[str, ...]

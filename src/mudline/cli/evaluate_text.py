@@ -12,9 +12,8 @@ from mudline.cli.evaluate_rows import LEFT, Cells, touching_elements, touching_n
 from mudline.cli.options import View
 from mudline.cli.tables import print_table
 from mudline.contact import Plan
-from mudline.results.columns import SLIDING, STATES
 from mudline.results.evaluation import Evaluation, Part
-from mudline.results.quantities import UnitNames, headed, shown, unit_names
+from mudline.results.quantities import SLIDING, STATES, UnitNames, headed, shown, unit_names
 from mudline.results.totals import Digest, Total, counts, reaction, totals
 
 

@@ -12,8 +12,8 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
-from mudline.results.plot_data import Chosen, PlotData, along, thinned
-from mudline.results.quantities import unit_names
+from mudline.results.plot_data import TRACED, Chosen, PlotData, along, thinned
+from mudline.results.quantities import ELEMENTS, STEPS, headed, labelled, unit_names
 from mudline.scene.numbering import Floats, Indices
 
 _MOST = 4000
@@ -22,24 +22,24 @@ _MOST_CURVES = 8
 _LEAST = 0.01
 """Least span of a scale, as a part of the largest value on it."""
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#F0E442")
-"""Told apart by colour-blind eyes (Okabe and Ito)."""
-_BED = "#8c6d46"
+"""Distinct for colour-blind eyes (Okabe and Ito)."""
+_SEABED = "#8c6d46"
 
 
 def profile(axes: Axes, data: PlotData, chosen: Chosen) -> None:
-    """The line over the bed, coloured by the force of the bed where that acts."""
+    """The line over the seabed, coloured by the seabed reaction where that acts."""
     names = unit_names(data.evaluation.scene.units)
     distance, direction = along(chosen.positions)
     nodes = data.evaluation.nodes
     nodes = nodes[np.argsort(distance[nodes], kind="stable")]
     drawn = nodes[thinned(chosen.result.gap[nodes], _MOST)]
     with np.errstate(all="ignore"):
-        bed = chosen.positions[drawn, 0] - chosen.result.gap[drawn] / chosen.result.normal[drawn, 0]
-    axes.plot(distance[drawn], bed, color=_BED, linewidth=1.0, label="sea bed", zorder=1)
+        seabed = chosen.positions[drawn, 0] - chosen.result.gap[drawn] / chosen.result.normal[drawn, 0]
+    axes.plot(distance[drawn], seabed, color=_SEABED, linewidth=1.0, label="seabed", zorder=1)
     elements = data.evaluation.elements
     force = chosen.result.force[elements]
     acts = np.nan_to_num(force) != 0.0
-    free, held = elements[~acts], elements[acts]
+    free, loaded = elements[~acts], elements[acts]
     places: Floats = np.stack([distance, chosen.positions[:, 0]], axis=-1)
     ends = data.evaluation.scene.element_nodes
     free = free[_some(free)]
@@ -51,39 +51,37 @@ def profile(axes: Axes, data: PlotData, chosen: Chosen) -> None:
         rasterized=len(free) > _MOST,
     )
     axes.add_collection(pale)
-    if held.size:
-        held = held[thinned(chosen.result.force[held], _MOST)]
-        lines = LineCollection(list(places[ends[held]]), cmap="viridis", linewidths=4.0, zorder=3)
-        lines.set_array(chosen.result.force[held])
-        lines.set_clim(*widened(chosen.result.force[held]))
+    if loaded.size:
+        loaded = loaded[thinned(chosen.result.force[loaded], _MOST)]
+        lines = LineCollection(list(places[ends[loaded]]), cmap="viridis", linewidths=4.0, zorder=3)
+        lines.set_array(chosen.result.force[loaded])
+        lines.set_clim(*widened(chosen.result.force[loaded]))
         axes.add_collection(lines)
         bar = axes.figure.colorbar(lines, ax=axes, pad=0.01)
-        bar.set_label(_label("force of the bed\nper unit length", names.line_force))
+        bar.set_label(ELEMENTS["force"].axis(data.evaluation.scene.units))
     axes.autoscale_view()
     axes.locator_params(axis="x", nbins=6)
-    axes.set_xlabel(_label(_distance(direction), names.length))
-    axes.set_ylabel(_label("height X", names.length))
+    axes.set_xlabel(labelled(_distance(direction), names.length))
+    axes.set_ylabel(labelled("height X", names.length))
     axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, fontsize="small", frameon=False)
     axes.grid(visible=True, alpha=0.3)
 
 
 def embedment(axes: Axes, data: PlotData, chosen: Chosen) -> None:
     """Depth of the elements about the contact, downwards."""
-    names = unit_names(data.evaluation.scene.units)
     _along_contact(axes, data, chosen, chosen.result.depth, COLORS[0])
-    axes.axhline(0.0, color=_BED, linewidth=1.0)
+    axes.axhline(0.0, color=_SEABED, linewidth=1.0)
     deepest = float(np.nan_to_num(chosen.result.depth).max(initial=0.0))
     if deepest > 0.0:  # what hangs high above would hide how deep the rest lies
         axes.set_ylim(bottom=max(axes.get_ylim()[0], -0.6 * deepest))
     axes.invert_yaxis()
-    axes.set_ylabel(_label("embedment", names.length))
+    axes.set_ylabel(ELEMENTS["depth"].axis(data.evaluation.scene.units))
 
 
 def stiffness(axes: Axes, data: PlotData, chosen: Chosen) -> None:
-    """Stiffness of the bed about the contact."""
-    names = unit_names(data.evaluation.scene.units)
+    """Stiffness of the seabed about the contact."""
     _along_contact(axes, data, chosen, chosen.result.stiffness, COLORS[1])
-    axes.set_ylabel(_label("stiffness of the bed\nper unit length", names.stiffness))
+    axes.set_ylabel(ELEMENTS["stiffness"].axis(data.evaluation.scene.units))
 
 
 def _along_contact(axes: Axes, data: PlotData, chosen: Chosen, values: Floats, color: str) -> None:
@@ -99,7 +97,7 @@ def _along_contact(axes: Axes, data: PlotData, chosen: Chosen, values: Floats, c
         middle[drawn], values[elements[drawn]], color=color, linewidth=1.2, marker="o" if few else None, markersize=3.5
     )
     axes.locator_params(axis="x", nbins=6)
-    axes.set_xlabel(_label(_distance(direction), unit_names(data.evaluation.scene.units).length))
+    axes.set_xlabel(labelled(_distance(direction), unit_names(data.evaluation.scene.units).length))
     axes.grid(visible=True, alpha=0.3)
 
 
@@ -108,13 +106,12 @@ def _near_contact(middle: Floats, touching: np.ndarray[tuple[int], np.dtype[np.b
     if not touching.any():
         return np.arange(len(middle))
     low, high = float(middle[touching].min()), float(middle[touching].max())
-    room = 0.1 * (high - low) or 1e-9 * abs(high)
-    return np.flatnonzero((middle >= low - room) & (middle <= high + room))
+    margin = 0.1 * (high - low) or 1e-9 * abs(high)
+    return np.flatnonzero((middle >= low - margin) & (middle <= high + margin))
 
 
 def on_curves(axes: Axes, data: PlotData, spelled: Callable[[str], str]) -> None:
     """Force-embedment curves with the evaluated points on them; `spelled` makes their names fit to be shown."""
-    names = unit_names(data.evaluation.scene.units)
     curves = data.evaluation.model.input.curves
     every = _points(data)
     used = np.unique(every[0])
@@ -133,8 +130,8 @@ def on_curves(axes: Axes, data: PlotData, spelled: Callable[[str], str]) -> None
         axes.plot([], [], color=color, marker="o", markersize=4, label=label)
     if len(used) > _MOST_CURVES:
         axes.plot([], [], " ", label=f"and {len(used) - _MOST_CURVES} more curves")
-    axes.set_xlabel("embedment ratio, depth / diameter [-]")
-    axes.set_ylabel(_label("force of the bed\nper unit length", names.line_force))
+    axes.set_xlabel(labelled(ELEMENTS["ratio"].label, "-"))
+    axes.set_ylabel(ELEMENTS["force"].axis(data.evaluation.scene.units))
     axes.grid(visible=True, alpha=0.3)
     legend = axes.legend(loc="best", fontsize="small", title="curves, evaluated points", title_fontsize="small")
     for text in legend.get_texts():
@@ -177,8 +174,8 @@ def trace(axes: Axes, data: PlotData, name: str, label: str, *, last: bool) -> N
 def widened(values: Floats) -> tuple[float, float]:
     """The least and the largest value, drawn apart to a hundredth of their size: no scale shows what is rounding."""
     low, high = float(values.min()), float(values.max())
-    room = 0.5 * max(0.0, _LEAST * max(abs(low), abs(high)) - (high - low))
-    return low - room, high + room
+    margin = 0.5 * max(0.0, _LEAST * max(abs(low), abs(high)) - (high - low))
+    return low - margin, high + margin
 
 
 def _some(rows: Indices) -> Indices:
@@ -194,22 +191,12 @@ def _distance(direction: Floats) -> str:
     return "horizontal distance along the line"
 
 
-def _label(name: str, unit: str) -> str:
-    return f"{name} [{unit}]" if unit else name
-
-
 def _short(name: str, longest: int = 30) -> str:
     return name if len(name) <= longest else name[: longest - 3] + "..."
 
 
 _Panel = Callable[[Axes], None]
 _Spelled = Callable[[str], str]
-_TRACES = {
-    "reaction": ("total reaction", "force"),
-    "force": ("largest force\nper length", "line_force"),
-    "touching": ("elements\nin contact", ""),
-    "deepest": ("deepest\nembedment", "length"),
-}
 
 
 def draw(data: PlotData, form: str, stream: BinaryIO, spelled: _Spelled) -> None:
@@ -257,15 +244,13 @@ def _right(data: PlotData, spelled: _Spelled) -> list[tuple[_Panel, float]]:
     if data.on_curve.size:
         panels.append((lambda axes: on_curves(axes, data, spelled), 3.8))
     if data.evaluation.steps > 1:
-        names = list(_TRACES)
-        panels += [(_traced(data, name, last=name == names[-1]), 1.4) for name in names]
+        panels += [(_traced(data, name, last=name == TRACED[-1]), 1.4) for name in TRACED]
     return panels
 
 
 def _traced(data: PlotData, name: str, *, last: bool) -> _Panel:
-    label, unit = _TRACES[name]
-    named = getattr(unit_names(data.evaluation.scene.units), unit) if unit else ""
-    return lambda axes: trace(axes, data, name, f"{label}\n[{named}]" if named else label, last=last)
+    label = headed(STEPS[name].label, STEPS[name].unit_name(data.evaluation.scene.units))
+    return lambda axes: trace(axes, data, name, label, last=last)
 
 
 def _title(data: PlotData, spelled: _Spelled) -> str:

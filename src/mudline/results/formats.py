@@ -101,10 +101,10 @@ class TextForm(Protocol):
     """Spells results as they come."""
 
     def body(self, part: Part) -> Iterator[str]:
-        """Some steps, behind what stands before the first of them."""
+        """Some steps, after what comes before the first of them."""
 
     def tail(self, more: Mapping[str, object]) -> Iterator[str]:
-        """What stands behind the last step; `more` is what is known only then."""
+        """What comes after the last step; `more` is what is known only then."""
 
 
 class JsonForm:
@@ -140,10 +140,10 @@ class JsonForm:
         yield "}\n"
 
     def _restrained(self, part: Part, step: int, indent: str) -> Iterator[str]:
-        """The nodes that a rigid bed restrains; nothing where there is none."""
-        held = part.result.restrained
-        if held is not None:
-            numbers = self._evaluation.scene.node_ids[held[step]].tolist()
+        """The nodes that a rigid seabed restrains; nothing where there is none."""
+        restrained = part.result.restrained
+        if restrained is not None:
+            numbers = self._evaluation.scene.node_ids[restrained[step]].tolist()
             yield f',\n{indent}"restrained": {json.dumps(numbers)}'
 
     def _head(self) -> Iterator[str]:
@@ -196,14 +196,12 @@ def _list(objects: Iterable[str], indent: str) -> Iterator[str]:
 _PACKED = 1 << 18
 """Values that are packed at a time."""
 
-Told = Callable[[], None]
-
 
 class NpzFile:
     """The same names as arrays: elements (steps, m), nodes (steps, n), vectors (steps, n, 3).
 
     A single state without a time has no axis for steps. Texts that are null elsewhere are empty. An archive takes one
-    array after the other, so until the end what changes lies in nameless files in `folder`.
+    array after the other, so what changes is in nameless files until the end, in `folder`.
     """
 
     def __init__(self, evaluation: Evaluation, tables: list[Table], folder: Path) -> None:
@@ -232,14 +230,14 @@ class NpzFile:
                     self._arrays[column.name] = _Array(column, self._open, self._folder)
                 self._arrays[column.name].take(column)
 
-    def write(self, stream: BinaryIO, told: Told) -> None:
-        """Write the archive; `told` is called behind each array. Raises OSError."""
+    def write(self, stream: BinaryIO, advance: Callable[[], None]) -> None:
+        """Write the archive; `advance` is called after each array. Raises OSError."""
         time, steps = self._evaluation.time, self._evaluation.steps
         with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
             for name, array in self._arrays.items():
                 shape = array.shape if time is None or not array.over_steps else (steps, *array.shape)
                 _pack(archive, name, array.dtype, shape, array.pieces(steps if array.over_steps else 1))
-                told()
+                advance()
             if time is not None:
                 _pack(archive, "time", time.dtype, time.shape, [time])
 

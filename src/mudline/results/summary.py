@@ -112,7 +112,7 @@ _SINGLE = ("lateral", "suction", "extent")
 
 
 def floor_summary(floor: Floor) -> dict[str, Any]:
-    """The shape of the bed; null for what its kind has not."""
+    """The shape of the seabed; null for what its kind has not."""
     slope = floor.kind is FloorKind.SLOPING
     from_points = floor.kind in (FloorKind.PROFILE, FloorKind.SURFACE)
     return {

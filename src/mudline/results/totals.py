@@ -9,17 +9,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mudline.contact import ContactResult
-from mudline.results.columns import SLIDING, STATES, Names
 from mudline.results.evaluation import Evaluation, Part
-from mudline.results.quantities import finite
+from mudline.results.quantities import SLIDING, STATES, Names, finite
 from mudline.scene.numbering import Floats, Indices
 
 
 class Total(NamedTuple):
     """Elements that share a law and the set that gave it to them, at one step.
 
-    `deepest` is the largest depth, negative above the bed, None where there is no bed; `reaction` the total normal
-    force of a law per unit length; None for springs of nodes.
+    `deepest` is the largest depth, negative above the seabed, None where there is no seabed; `reaction` the total
+    normal force of a law per unit length; None for springs of nodes.
     """
 
     law: str
@@ -120,50 +119,39 @@ def _sum(forces: Floats) -> float:
         return float(forces.sum())
 
 
-class Traces(NamedTuple):
-    """Figures of some steps (steps,): NaN where there is none.
+class Trace(NamedTuple):
+    """A figure of some steps (steps,), NaN where there is none, and the indices of its elements; -1 for none.
 
-    Attributes:
-        reaction: total normal force on all nodes.
-        force: largest magnitude of an element's force per unit length, with its sign.
-        force_element: the index of that element, -1 for none.
-        pull: largest magnitude of an element's force per unit length that holds it down, 0 where none is.
-        pull_element: the index of that element, -1 for none.
-        touching: number of elements in contact.
-        deepest: largest depth of an element.
-        deepest_element: the index of that element, -1 for none.
+    A figure of all elements together has no indices.
     """
 
-    reaction: Floats
-    force: Floats
-    force_element: Indices
-    pull: Floats
-    pull_element: Indices
-    touching: Floats
-    deepest: Floats
-    deepest_element: Indices
+    values: Floats
+    elements: Indices | None = None
 
 
-def traces(evaluation: Evaluation, part: Part) -> Traces:
-    """The figures of the steps of a part."""
+def traces(evaluation: Evaluation, part: Part) -> dict[str, Trace]:
+    """The figures of the steps of a part by the names of `STEPS`."""
     result, chosen = part.result, evaluation.elements
     with np.errstate(over="ignore", invalid="ignore"):
         reaction = result.normal_force[:, evaluation.nodes].sum(axis=1)
-    force, force_at = _largest(result.force[:, chosen], chosen, by_size=True)
-    pull, pull_at = _largest(np.maximum(0.0 - result.force[:, chosen], 0.0), chosen, by_size=False)
-    deepest, deepest_at = _largest(result.depth[:, chosen], chosen, by_size=False)
-    touching = np.count_nonzero(result.contact[:, chosen], axis=1).astype(np.float64)
-    return Traces(reaction, force, force_at, pull, pull_at, touching, deepest, deepest_at)
+    force = result.force[:, chosen]
+    return {
+        "reaction": Trace(reaction),
+        "force": _largest(force, chosen, by_size=True),
+        "pull": _largest(np.maximum(0.0 - force, 0.0), chosen, by_size=False),
+        "touching": Trace(np.count_nonzero(result.contact[:, chosen], axis=1).astype(np.float64)),
+        "deepest": _largest(result.depth[:, chosen], chosen, by_size=False),
+    }
 
 
-def _largest(values: Floats, chosen: Indices, *, by_size: bool) -> tuple[Floats, Indices]:
+def _largest(values: Floats, chosen: Indices, *, by_size: bool) -> Trace:
     steps = np.arange(len(values))
     if not values.shape[1]:
-        return np.full(len(values), np.nan), np.full(len(values), -1)
+        return Trace(np.full(len(values), np.nan), np.full(len(values), -1))
     ranked = np.where(np.isnan(values), -np.inf, np.abs(values) if by_size else values)
     column = ranked.argmax(axis=1)
     found = values[steps, column]
-    return found, np.where(np.isnan(found), -1, chosen[column])
+    return Trace(found, np.where(np.isnan(found), -1, chosen[column]))
 
 
 class Peak(NamedTuple):
@@ -176,28 +164,21 @@ class Peak(NamedTuple):
 
 @dataclass(slots=True)
 class Peaks:
-    """Gathers the largest figures as the steps come, by the names of `Traces`."""
+    """Collects the largest figures as the steps come, by the names of `STEPS`."""
 
     evaluation: Evaluation
     found: dict[str, Peak] = field(default_factory=dict)
 
     def take(self, part: Part) -> None:
         """Look at some steps."""
-        of_part = traces(self.evaluation, part)
-        elements = {
-            "force": of_part.force_element,
-            "pull": of_part.pull_element,
-            "deepest": of_part.deepest_element,
-        }
-        for name in ("reaction", "force", "pull", "touching", "deepest"):
-            values: Floats = getattr(of_part, name)
+        for name, (values, elements) in traces(self.evaluation, part).items():
             sizes = np.abs(values) if name == "force" else values
             if np.isnan(sizes).all():
                 continue
             step = int(np.nanargmax(sizes))
             before = self.found.get(name)
             if before is None or sizes[step] > (abs(before.value) if name == "force" else before.value):
-                element = int(self.evaluation.scene.element_ids[elements[name][step]]) if name in elements else None
+                element = None if elements is None else int(self.evaluation.scene.element_ids[elements[step]])
                 self.found[name] = Peak(float(values[step]), part.start + step, element)
 
 
