@@ -18,7 +18,7 @@ from mudline.contact.positions import Batch
 from mudline.contact.result import ContactResult
 from mudline.contact.seabed.base import FlatSeabed, Seabed
 from mudline.contact.tables import ContactState, Tables, rows_within
-from mudline.contact.vectors import in_plane
+from mudline.contact.vectors import Components, in_plane
 
 if TYPE_CHECKING:
     from mudline.contact.laws.friction import FrictionHistory
@@ -101,9 +101,6 @@ def _keep_freed_memory() -> None:
     is never touched costs nothing.
     """
     np.empty(31 * 2**20, np.int8)
-
-
-Components = tuple[FloatArray, ...]
 
 
 class Nodes:

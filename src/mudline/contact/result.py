@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
@@ -21,17 +21,17 @@ class ContactResult:
     without a position.
 
     Attributes:
-        depth: mean distance of the element's two nodes below the bed; negative above it.
+        depth: mean distance of the element's two nodes below the seabed; negative above it.
         ratio: embedment ratio, depth / diameter.
         contact: depth > 0, or > -h in a centred zone.
-        force: normal force per unit length, positive pushing out of the bed.
+        force: normal force per unit length, positive pushing out of the seabed.
         slope: d force / d ratio, per unit length.
         stiffness: d force / d penetration, per unit length and length of penetration.
         cut: where a pulling curve was cut; such an element is in contact with force, slope and stiffness 0.
-        gap: distance of the node above the bed, along its normal.
-        normal: (..., n, 3) unit normal of the bed at the node, out of the soil; may be a read-only view.
-        reaction: (..., n, 3) total force of the bed on the node.
-        normal_force: the reaction along the normal, positive pushing out of the bed.
+        gap: distance of the node above the seabed, along its normal.
+        normal: (..., n, 3) unit normal of the seabed at the node, out of the soil; may be a read-only view.
+        reaction: (..., n, 3) total force of the seabed on the node.
+        normal_force: the reaction along the normal, positive pushing out of the seabed.
         state: (..., m) `SuctionState` of the elements, -1 without suction; None where no element has it.
         regularised: (..., m) suction at a velocity below v_r, where the force is less than the power law gives; None
             without suction.
@@ -39,7 +39,7 @@ class ContactResult:
         friction_state: (..., n, 2) `FrictionState` of the nodes; None without friction.
         evaluated: (m,) elements whose two nodes have positions.
         present: (n,) nodes that have a position.
-        rigid: (n,) nodes of elements on a rigid bed, a constraint and no force; None where there are none.
+        rigid: (n,) nodes of elements on a rigid seabed, a constraint and no force; None where there are none.
     """
 
     depth: FloatArray
@@ -69,7 +69,7 @@ class ContactResult:
 
     @property
     def restrained(self) -> BoolArray | None:
-        """Nodes (..., n) that a rigid bed restrains along their `normal`: its own, at the bed or below it."""
+        """Nodes (..., n) that a rigid seabed restrains along their `normal`: its own, at the seabed or below it."""
         return None if self.rigid is None else self.rigid & (self.gap <= 0.0)
 
     def friction_state_of(self, side: int) -> StateArray:
@@ -87,26 +87,12 @@ class ContactResult:
         return self._cut(slice(start, stop))
 
     def _cut(self, key: int | slice) -> ContactResult:
-        return ContactResult(
-            depth=self.depth[key],
-            ratio=self.ratio[key],
-            contact=self.contact[key],
-            force=self.force[key],
-            slope=self.slope[key],
-            stiffness=self.stiffness[key],
-            cut=self.cut[key],
-            gap=self.gap[key],
-            normal=self.normal[key],
-            reaction=self.reaction[key],
-            normal_force=self.normal_force[key],
-            evaluated=self.evaluated,
-            present=self.present,
-            state=None if self.state is None else self.state[key],
-            regularised=None if self.regularised is None else self.regularised[key],
-            friction=None if self.friction is None else self.friction[key],
-            friction_state=None if self.friction_state is None else self.friction_state[key],
-            rigid=self.rigid,
-        )
+        arrays = ((name, getattr(self, name)) for name in _BY_STEP)
+        of_steps: dict[str, Any] = {name: None if values is None else values[key] for name, values in arrays}
+        return ContactResult(**of_steps, evaluated=self.evaluated, present=self.present, rigid=self.rigid)
+
+
+_BY_STEP = tuple(each.name for each in fields(ContactResult) if each.name not in {"evaluated", "present", "rigid"})
 
 
 def blank_result(

@@ -100,7 +100,7 @@ ROWS = (row_of_0, row_of_1, row_of_2, row_of_3, row_of_4, row_of_5, row_of_6)
 def one_of(wrap: Wrap, laws: tuple[tuple[Callable[..., Any], int], ...], first: int) -> Callable[..., Any]:
     """Return a function that evaluates the law of a kind, from 0: (kind, z, diameter, table, row).
 
-    `laws` are reactions and their numbers of parameters, which stand in a table from the column `first` on.
+    `laws` are reactions and their numbers of parameters, which are in a table from the column `first` on.
     """
     if not laws:
 
