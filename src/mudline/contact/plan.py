@@ -73,7 +73,7 @@ class Plan:
         return "\n".join([*lines, f"{'history':<10} {'yes' if self.history else 'no':<3} {self.steps}"])
 
 
-def make_plan(given: ContactInput, tables: Tables, choice: Choice) -> Plan:
+def make_plan(given: ContactInput, tables: Tables, choice: BackendChoice) -> Plan:
     """Return the stages that an input needs and those it does not."""
     uplift = given.has("suction", "suction spring")
     forces = bool(tables.normal or tables.nodal) or uplift
@@ -107,7 +107,7 @@ def _seabed(given: ContactInput) -> str:
     return given.seabed.describe() + held
 
 
-def _normal_law(given: ContactInput, tables: Tables, choice: Choice) -> str:
+def _normal_law(given: ContactInput, tables: Tables, choice: BackendChoice) -> str:
     parts = []
     curves = [rows for rows in tables.normal if rows.curve >= 0]
     if curves:
@@ -218,7 +218,7 @@ _WORTH_COMPILING = 15_000_000
 """The same where they have to be compiled first."""
 
 
-class Choice:
+class BackendChoice:
     """How a model evaluates its series.
 
     Attributes:
@@ -275,7 +275,7 @@ class Choice:
             return None
         laws = tuple(rows.law for rows in (*self._tables.normal, *self._tables.nodal))
         facts = (
-            tables.what_there_is(self._tables, flat=self._flat),
+            tables.features_of(self._tables, flat=self._flat),
             [law.name for law in laws],
             functions.edition(laws),
             metadata.version("numba"),

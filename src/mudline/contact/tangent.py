@@ -117,7 +117,7 @@ def assemble(
     if tables.lateral is not None:
         _add_lateral(step, by_position)
     if tables.friction is not None:
-        sliding = _slide(step)
+        sliding = _friction_of(step)
         closed = np.flatnonzero((result.friction_state_of(0) > 0) & (result.normal_force > 0.0))
         axes = np.stack(sliding.directions.axes, axis=1)
         push = np.einsum("nij,ni->nj", axes, sliding.friction.by_compression)
@@ -224,7 +224,7 @@ class _Sliding(NamedTuple):
     by_angle: FloatArray | None
 
 
-def _slide(step: _Step) -> _Sliding:
+def _friction_of(step: _Step) -> _Sliding:
     from mudline.contact.laws.friction import ExtraLimit, slide  # noqa: PLC0415 - only now is it needed
 
     tables, history = step.tables, step.before.friction

@@ -26,14 +26,14 @@ from mudline.contact.compiled.tables import (
     NO_LINE,
     by_component,
     element_tables,
+    features_of,
     node_tables,
     read_only,
     suction_table,
     trench_tables,
-    what_there_is,
 )
 from mudline.contact.laws import base
-from mudline.contact.plan import Choice
+from mudline.contact.plan import BackendChoice
 from mudline.contact.positions import Batch
 from mudline.contact.result import ContactResult
 from mudline.contact.seabed.base import FlatSeabed, Seabed
@@ -107,7 +107,7 @@ class _Job(NamedTuple):
 class CompiledDriver:
     """Evaluates batches of steps. Holds no state of a series; may be shared by threads."""
 
-    def __init__(self, tables: Tables, seabed: Seabed, choice: Choice) -> None:
+    def __init__(self, tables: Tables, seabed: Seabed, choice: BackendChoice) -> None:
         """Prepare the tables of the loops, and the loops, which are compiled when they are first called."""
         given = tables.given
         self._tables, self._choice, self._threads = tables, choice, choice.threads
@@ -115,7 +115,7 @@ class CompiledDriver:
         self._pool: ThreadPoolExecutor | None = None
         self._normal = None if seabed.same_normal is None else read_only(seabed.same_normal.reshape(1, 1, 3))
         self._nodes, self._elements = len(given.node_ids), len(given.element_ids)
-        has = what_there_is(tables, flat=isinstance(seabed, FlatSeabed))
+        has = features_of(tables, flat=isinstance(seabed, FlatSeabed))
         self._has = has
         normal = [rows for rows in tables.normal if rows.curve < 0]
         slopes = tuple((_as_reaction(rows.steepest), len(rows.law.parameters)) for rows in normal if has.steepens)

@@ -30,7 +30,7 @@ NO_LAW, ON_CURVE, FIRST_LAW = 0, 1, 2
 """Kinds of normal laws of elements; those with an equation are numbered from the last on."""
 
 
-class Has(NamedTuple):
+class Features(NamedTuple):
     """What a scene has, as far as loops differ by it."""
 
     flat: bool
@@ -50,10 +50,10 @@ class Has(NamedTuple):
     tables: bool
 
 
-def what_there_is(tables: Tables, *, flat: bool) -> Has:
+def features_of(tables: Tables, *, flat: bool) -> Features:
     """Return what a scene has, as far as the loops differ by it."""
     friction, trench, suction = tables.friction, tables.trench, tables.suction
-    return Has(
+    return Features(
         flat=flat,
         curves=any(rows.curve >= 0 for rows in tables.normal),
         cuts=tables.cuts,
