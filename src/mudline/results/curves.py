@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from mudline.contact.arrays import BoolArray
 from mudline.contact.input import LawAssignment, LawKind
 from mudline.contact.laws.linear import penetration_under, smoothed_reaction
 from mudline.curves import ForceCurve
@@ -38,10 +39,15 @@ def used_curves(scene: Scene) -> list[tuple[int, SceneCurve, ForceCurve]]:
     return [(index, entry, entry.curve) for index, entry in enumerate(scene.laws.curves) if entry.curve is not None]
 
 
+def followers(scene: Scene, curve: int) -> BoolArray:
+    """The elements (m,) that follow a curve."""
+    found: BoolArray = np.array([grant.curve == curve for grant in scene.laws.grants] + [False])[scene.laws.of_element]
+    return found
+
+
 def diameters(scene: Scene, curve: int) -> list[float]:
     """The different external diameters of the elements that follow a curve."""
-    follows = np.array([grant.curve == curve for grant in scene.laws.grants] + [False])[scene.laws.of_element]
-    found = scene.diameter[follows]
+    found = scene.diameter[followers(scene, curve)]
     return [float(value) for value in np.unique(found[~np.isnan(found)])]
 
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from mudline.contact import LawKind
 from mudline.deck.model import Opaque
-from mudline.results.curves import static_embedment
+from mudline.results.curves import followers, static_embedment
 from mudline.results.quantities import finite
 from mudline.scene.continued import ContinuedDeck
 from mudline.scene.floor import Floor, FloorKind
@@ -68,7 +68,6 @@ def _sets(scene: Scene) -> list[dict[str, Any]]:
 def _curves(scene: Scene) -> list[dict[str, Any]]:
     rows = []
     for index, entry in enumerate(scene.laws.curves):
-        follows = np.array([grant.curve == index for grant in scene.laws.grants] + [False])[scene.laws.of_element]
         curve = entry.curve
         rows.append(
             {
@@ -77,7 +76,7 @@ def _curves(scene: Scene) -> list[dict[str, Any]]:
                 "points": len(entry.points),
                 "ratios": None if curve is None else [float(curve.ratios[0]), float(curve.ratios[-1])],
                 "forces": None if curve is None else [float(curve.forces.min()), float(curve.forces.max())],
-                "elements": int(follows.sum()),
+                "elements": int(followers(scene, index).sum()),
                 "open": any(grant.curve == index and grant.set_.open for grant in scene.laws.grants),
             }
         )

@@ -294,8 +294,9 @@ def from_straight(lines: Array, line: int, p: Point) -> Point:
 SHARED = (
     last_at_or_below, unit_of_span, mean_normal, on_piece, from_laid, from_straight, table_resistance, row_of_4,
     next_unloading, next_suction, suction_law, in_limits,
-    *(function for plane in vectors.PLANES.values() for function in plane), vectors.tangent_share,
-    vectors.span_scale, on_segment, norm, on_ellipse, in_box, in_ellipse, slip_distance, lateral_force, maximum_force, trapezoid, after_cycle, breakout_uplift, next_state, suction_force, spring_suction,
-    in_table, on_wall, peak_share, share_of_piece, line_stiffness, on_line, trench_bottom,
+    *(function for plane in vectors.PLANES.values() for function in plane), vectors.tangent_share, vectors.span_scale,
+    on_segment, norm, on_ellipse, in_box, in_ellipse, slip_distance, lateral_force, maximum_force, trapezoid,
+    after_cycle, breakout_uplift, next_state, suction_force, spring_suction, in_table, on_wall, peak_share,
+    share_of_piece, line_stiffness, on_line, trench_bottom,
 )  # fmt: skip
 """Functions that loops call by name."""
