@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import pytest
+
 import mudline
 from mudline.results.evaluation import Evaluation, evaluate_scene
 from mudline.results.quantities import ELEMENTS, NODES, Quantity
@@ -46,3 +48,11 @@ def test_units_are_those_of_the_deck() -> None:
     ]
     assert ELEMENTS["depth"].axis("metric") == "embedment [m]"
     assert (ELEMENTS["slope"].axis("user"), NODES["gap"].axis("imperial")) == ("slope", "gap [ft]")
+
+
+def test_a_new_row_is_enough_for_all_formats(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(ELEMENTS, "cut", Quantity("cut", "whether a pulling curve was cut"))
+    evaluation = evaluated()
+    assert json_of(evaluation)["elements"][0]["cut"] is False
+    assert csv_of(evaluation, "elements").splitlines()[0].endswith(",cut")
+    assert arrays_of(evaluation)["cut"].dtype == bool

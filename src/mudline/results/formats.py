@@ -108,7 +108,7 @@ class TextForm(Protocol):
 
 
 class JsonForm:
-    """The JSON of the contract, a row on a line; with times, the rows stand under `steps`."""
+    """The JSON of the contract, a row on a line; with times, the rows are under `steps`."""
 
     def __init__(self, evaluation: Evaluation, elements: ElementTable) -> None:
         self._evaluation = evaluation
