@@ -36,7 +36,7 @@ def test_png(place: Place, folder: Path) -> None:
 def test_axes_have_units_and_curves_names(place: Place) -> None:
     texts = drawn(place, UNUSED)
     assert "embedment ratio, depth / diameter [-]" in texts
-    assert "seabed force per unit length [N/m]" in texts
+    assert "seabed reaction per unit length [N/m]" in texts
     assert "Clay" in texts
     assert "Sand" in texts
     assert "beyond the points" in texts
@@ -51,7 +51,7 @@ def test_what_was_asked_for_is_marked(place: Place) -> None:
 
 @pytest.mark.parametrize(("units", "name"), [("imperial", "lbf/ft"), ("user", "force per length")])
 def test_other_units(place: Place, units: str, name: str) -> None:
-    assert f"seabed force per unit length [{name}]" in drawn(place, CLEAN, "--units", units)
+    assert f"seabed reaction per unit length [{name}]" in drawn(place, CLEAN, "--units", units)
 
 
 def test_names_are_plain_text(place: Place) -> None:

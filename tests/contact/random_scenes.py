@@ -25,7 +25,7 @@ from mudline.contact import (
     LawAssignment,
 )
 from mudline.contact.arrays import FloatArray, IndexArray
-from mudline.contact.compiled.tables import what_there_is
+from mudline.contact.compiled.tables import features_of
 from mudline.contact.seabed import FlatSeabed, PlanesSeabed, ProfileSeabed, Seabed, SlopingSeabed
 from mudline.curves import ForceCurve
 from tests.contact.builders import ALONG_Y, FRICTION, bridge_law, floats, friction, on, suction
@@ -404,7 +404,7 @@ def loops_of(inputs: ContactInput) -> object:
     except ValueError:
         return None
     laws = tuple(rows.law.name for rows in (*tables.normal, *tables.nodal) if rows.curve < 0)
-    return what_there_is(tables, flat=flat), laws
+    return features_of(tables, flat=flat), laws
 
 
 def main() -> int:

@@ -17,7 +17,7 @@ from mudline.contact.compiled import driver as compiled_driver
 from mudline.contact.compiled.functions import edition
 from mudline.contact.laws import law_named
 from mudline.contact.laws.base import NormalLaw
-from mudline.contact.plan import Backend, Choice
+from mudline.contact.plan import Backend, BackendChoice
 from mudline.contact.positions import Batch
 from tests.contact.builders import CURVE, LINEAR, at_depths, chain, everything, friction, journey
 from tests.processes import TIMEOUT
@@ -32,7 +32,7 @@ def _no_markers(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setenv("MUDLINE_CACHE_DIR", str(tmp_path / "cache"))
 
 
-def choice_of(backend: Backend, contact: ContactModel | None = None) -> tuple[Choice, int]:
+def choice_of(backend: Backend, contact: ContactModel | None = None) -> tuple[BackendChoice, int]:
     """The choice of a model, and how many nodes it has."""
     made = contact or ContactModel(chain([LINEAR] * 99), backend=backend)
     return made._choice, len(made.input.node_ids)

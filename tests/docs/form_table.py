@@ -1,16 +1,24 @@
-"""The forms of findings and of result files as tables, which pages written by hand have from the program."""
+"""Tables of pages written by hand that come from the program: forms of findings and of result files, quantities."""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from pathlib import Path
 
 from mudline.cli.result_files import result_file, result_forms
 from mudline.linting.output.forms import TEXT, TEXT_SUMMARY, form_module, form_names
+from mudline.results.quantities import ELEMENTS, NODES, Quantity
 
 _ROOT = Path(__file__).parents[2]
 _FINDINGS = "| form | what it is |\n| --- | --- |\n"
 _RESULTS = "| suffix | holds |\n| --- | --- |\n"
+_ELEMENT = "An element:\n\n| key | holds | unit |\n| --- | --- | --- |\n"
+_NODE = "A node:\n\n| key | holds | unit |\n| --- | --- | --- |\n"
+_AGAINST = (
+    "| `force_against`, `stiffness_against`, `ratio_against` "
+    "| only with `--against`: the value in the file, or `null` | as ours |\n"
+)
 
 
 def form_table() -> str:
@@ -24,14 +32,32 @@ def result_table() -> str:
     return _RESULTS + "".join(f"| `.{name}` | {result_file(name).SUMMARY} |\n" for name in result_forms())
 
 
+def quantity_rows(quantities: Iterable[Quantity]) -> str:
+    """A row a quantity, with its unit in metric and imperial decks."""
+    return "".join(f"| `{each.name}` | {each.meaning} |{_unit(each)}|\n" for each in quantities)
+
+
+def _unit(quantity: Quantity) -> str:
+    return f" {quantity.unit_name('metric')} / {quantity.unit_name('imperial')} " if quantity.unit else " "
+
+
 def pages_with_tables() -> dict[str, str]:
-    """The pages written by hand that have a table of forms, with the table written anew."""
-    tables = {"docs/outputs.md": (_FINDINGS, form_table()), "docs/evaluate.md": (_RESULTS, result_table())}
-    return {page: _with_table(page, *table) for page, table in tables.items()}
+    """The pages written by hand that have such tables, with the tables written anew."""
+    tables = {
+        "docs/outputs.md": {_FINDINGS: form_table()},
+        "docs/evaluate.md": {_RESULTS: result_table()},
+        "docs/json.md": {
+            _ELEMENT: _ELEMENT + quantity_rows(ELEMENTS.values()) + _AGAINST,
+            _NODE: _NODE + quantity_rows(NODES.values()),
+        },
+    }
+    return {page: _with_tables(page, of_page) for page, of_page in tables.items()}
 
 
-def _with_table(page: str, head: str, table: str) -> str:
+def _with_tables(page: str, tables: dict[str, str]) -> str:
     text = (_ROOT / page).read_text(encoding="utf-8")
-    fresh, count = re.subn(re.escape(head) + r"(?:\|[^\n]*\n)*", lambda _: table, text)
-    assert count == 1
-    return fresh
+    for head, table in tables.items():
+        parts = re.split(re.escape(head) + r"(?:\|[^\n]*\n)*", text)
+        assert len(parts) == 2
+        text = table.join(parts)
+    return text

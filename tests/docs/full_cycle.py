@@ -92,7 +92,7 @@ def _panel(axes: Axes, path: Cycle) -> None:
     for note in NOTES:
         axes.annotate(note.text, note.point, note.at, arrowprops=line, fontsize=9.0)
     axes.set_xlabel("penetration of the pipe [mm]")
-    axes.set_ylabel("force of the bed per unit length [kN/m]\nabove 0 it pushes the pipe out, below 0 it holds it back")
+    axes.set_ylabel("seabed reaction per unit length [kN/m]\nabove 0 it pushes the pipe out, below 0 it holds it back")
     axes.set_title("One cycle of samples/full-cycle.keyxm: a pipe of 0.4064 m on soft clay, pulled out at 10 mm/s")
     axes.set_xlim(-55.0, 140.0)
     axes.set_ylim(-1.6, 5.0)

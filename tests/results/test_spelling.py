@@ -12,10 +12,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.results.columns import coded
-from mudline.results.csv_lines import csv_lines
-from mudline.results.numbers import finite, shown
-from mudline.results.tables import Spelling
-from mudline.results.units import headed, unit_names
+from mudline.results.formats import Spelling
+from mudline.results.quantities import csv_lines, finite, headed, shown, unit_names
 
 JSON = Spelling(json.dumps, "null")
 CSV = Spelling(lambda name: name, "")

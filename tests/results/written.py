@@ -13,11 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mudline.results.columns import ElementTable, NodeTable, Table
-from mudline.results.digest import Digest
 from mudline.results.evaluation import Evaluation
-from mudline.results.formats import CsvForm, JsonForm, TextForm
-from mudline.results.npz_file import NpzFile
-from mudline.results.totals import StepTotal, Total, totals
+from mudline.results.formats import CsvForm, JsonForm, NpzFile, TextForm
+from mudline.results.totals import Digest, StepTotal, Total, totals
 
 Json: TypeAlias = Any
 

@@ -12,10 +12,8 @@ from mudline.cli.inputs import load, refuses_bad_decks
 from mudline.cli.options import View
 from mudline.cli.streams import emit, emit_json, notify, notify_missing, writing
 from mudline.linting.output.visible import visible
-from mudline.results.csv_lines import csv_lines
 from mudline.results.curves import curve_rows, diameters, point_table, static_table, used_curves, value_table
-from mudline.results.numbers import shown
-from mudline.results.units import UnitNames, headed, unit_names
+from mudline.results.quantities import UnitNames, csv_lines, headed, shown, unit_names
 from mudline.scene.model import Scene, resolve
 
 if TYPE_CHECKING:

@@ -29,14 +29,13 @@ from mudline.cli.options import View
 from mudline.cli.result_files import ResultConsumer, Sink, result_file, result_forms, together
 from mudline.cli.streams import counted, emit, emit_json, notify, reason
 from mudline.contact import LawKind
-from mudline.results.against import Comparison
+from mudline.results.against import Comparison, read_reference
 from mudline.results.columns import ElementTable, NodeTable
-from mudline.results.csv_lines import csv_lines
-from mudline.results.digest import Digest
 from mudline.results.evaluation import Evaluation, Part, Prepared, Tension, evaluate_scene, prepare
 from mudline.results.formats import CsvForm, JsonForm, plan_rows
 from mudline.results.plot_data import PlotData
-from mudline.results.reference import read_reference
+from mudline.results.quantities import csv_lines
+from mudline.results.totals import Digest
 from mudline.scene.external_elements import read_external
 from mudline.scene.model import Scene, resolve
 from mudline.scene.positions import Positions, read_positions

@@ -11,12 +11,10 @@ import numpy as np
 from mudline.cli.options import View
 from mudline.contact import Plan
 from mudline.results.against import Comparison
-from mudline.results.columns import SLIDING, STATES, ElementTable
-from mudline.results.digest import Digest
+from mudline.results.columns import ElementTable
 from mudline.results.evaluation import Evaluation, Part
-from mudline.results.numbers import shown
-from mudline.results.totals import Total, counts, reaction, totals
-from mudline.results.units import UnitNames, headed, unit_names
+from mudline.results.quantities import SLIDING, STATES, UnitNames, headed, shown, unit_names
+from mudline.results.totals import Digest, Total, counts, reaction, totals
 from mudline.scene.numbering import Floats, Indices
 
 if TYPE_CHECKING:

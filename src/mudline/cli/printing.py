@@ -16,7 +16,7 @@ from rich.text import Text
 from mudline.diagnostics import Diagnostic
 from mudline.linting.output.text import STYLES, Screen, findings, summary
 from mudline.linting.output.visible import visible
-from mudline.results.numbers import shown
+from mudline.results.quantities import shown
 from mudline.syntax.source import Source
 
 EXCERPT_WIDTH = 120

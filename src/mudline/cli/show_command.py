@@ -12,9 +12,8 @@ from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import load, refuses_bad_decks
 from mudline.cli.options import View
 from mudline.cli.streams import counted, emit_json, notify
-from mudline.results.numbers import shown
+from mudline.results.quantities import UnitNames, headed, shown, unit_names
 from mudline.results.summary import summarise
-from mudline.results.units import UnitNames, headed, unit_names
 from mudline.scene.model import resolve
 
 if TYPE_CHECKING:

@@ -12,8 +12,7 @@ from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import load, refuses_bad_decks
 from mudline.cli.options import View
 from mudline.cli.streams import counted, emit, notify, notify_missing, reason
-from mudline.results.numbers import shown
-from mudline.results.units import headed
+from mudline.results.quantities import headed, shown
 from mudline.scene.model import Scene, resolve
 from mudline.study.report import Cell, StudyError, StudyOptions, StudyReport, StudyTable, silent
 

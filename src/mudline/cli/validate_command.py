@@ -22,7 +22,7 @@ from mudline.linting.context import LintContext
 from mudline.linting.engine import problems_in
 from mudline.linting.output.finding_fields import as_object
 from mudline.linting.registry import rules
-from mudline.results.csv_lines import csv_lines
+from mudline.results.quantities import csv_lines
 from mudline.syntax.source import Source
 
 if TYPE_CHECKING:

@@ -211,28 +211,23 @@ class ContactInput:
         rows = np.concatenate([_rows(part, count) for part in parts])
         order = np.argsort(rows, kind="stable")
         rows = rows[order]
-        twice = np.flatnonzero(rows[1:] == rows[:-1])
-        if twice.size:
-            self._refuse(law, int(rows[twice[0]]), f"has two {name} laws")
+        self._refuse_first(law, rows[1:], rows[1:] == rows[:-1], f"has two {name} laws")
         columns = [_columns(law, part) for part in parts]
         found = {each.name: np.concatenate([part[each.name] for part in columns])[order] for each in law.parameters}
         for each in law.parameters:
-            wrong = np.flatnonzero(each.invalid(found[each.name]))
-            if wrong.size:
-                value = float(found[each.name][wrong[0]])
-                what = f"has a {name} law whose {each.name.replace('_', ' ')} is {value!r}; expected {each.valid_range}"
-                self._refuse(law, int(rows[wrong[0]]), what)
+            wrong = each.invalid(found[each.name])
+            value = float(found[each.name][np.argmax(wrong)]) if wrong.any() else 0.0
+            what = f"has a {name} law whose {each.name.replace('_', ' ')} is {value!r}; expected {each.valid_range}"
+            self._refuse_first(law, rows, wrong, what)
         if law.check is not None:
             bad, what = law.check(found)
-            if bad.any():
-                self._refuse(law, int(rows[np.flatnonzero(bad)[0]]), f"has a {name} law: {what}")
+            self._refuse_first(law, rows, bad, f"has a {name} law: {what}")
         if law.tables:
             index, held = ("curve", len(self.curves)) if isinstance(law, NormalLaw) else ("table", len(self.tables))
-            missing = np.flatnonzero((found[index] >= held) | (found[index] % 1.0 != 0.0))
-            if missing.size:
-                self._refuse(law, int(rows[missing[0]]), f"has a {index} that is not there")
-        if law.needs_diameter and (bare := np.flatnonzero(np.isnan(self.diameter[rows]))).size:
-            self._refuse(law, int(rows[bare[0]]), f"has a {name} law and no diameter")
+            missing = (found[index] >= held) | (found[index] % 1.0 != 0.0)
+            self._refuse_first(law, rows, missing, f"has a {index} that is not there")
+        if law.needs_diameter:
+            self._refuse_first(law, rows, np.isnan(self.diameter[rows]), f"has a {name} law and no diameter")
         return AssignedLaw(law, rows, found)
 
     def _check_elements(self, nodes: int) -> None:
@@ -246,9 +241,7 @@ class ContactInput:
         for laws in (self._restrained, self.nodal_laws):
             if len(laws) > 1:
                 rows = np.sort(np.concatenate([given.rows for given in laws]))
-                twice = np.flatnonzero(rows[1:] == rows[:-1])
-                if twice.size:
-                    self._refuse(laws[0].law, int(rows[twice[0]]), "has two normal laws")
+                self._refuse_first(laws[0].law, rows[1:], rows[1:] == rows[:-1], "has two normal laws")
 
     def _require(self, holds: BoolArray, otherwise: str) -> None:
         broken = np.flatnonzero(~holds)
@@ -256,7 +249,11 @@ class ContactInput:
             element = int(self.element_ids[broken[0]])
             raise ElementError(f"element {element} {otherwise}", element)
 
-    def _refuse(self, law: Law, row: int, what: str) -> None:
+    def _refuse_first(self, law: Law, rows: IndexArray, wrong: BoolArray, what: str) -> None:
+        """Raise for the first of the rows of a law that is wrong, if there is one."""
+        if not wrong.any():
+            return
+        row = rows[np.argmax(wrong)]
         if law.acts_on == "nodes":
             raise ValueError(f"node {self.node_ids[row]} {what}")
         element = int(self.element_ids[row])

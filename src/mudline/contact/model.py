@@ -10,12 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mudline.contact.arrays import BoolArray, FloatArray
-from mudline.contact.checks import is_finite, refuse, refuse_pulling
 from mudline.contact.input import ContactInput
 from mudline.contact.numpy_driver import NumpyDriver
-from mudline.contact.plan import Backend, Choice, Plan, make_plan
+from mudline.contact.plan import Backend, BackendChoice, Plan, make_plan
 from mudline.contact.positions import Batch, as_mask, as_series, as_times, as_velocities, read_steps
-from mudline.contact.result import ContactResult, blank_result
+from mudline.contact.result import ContactResult, blank_result, is_finite, refuse, refuse_pulling
 from mudline.contact.seabed import FlatSeabed, Seabed
 from mudline.contact.tables import ContactState, Tables
 from mudline.short_repr import counted, outline, short_repr
@@ -64,7 +63,7 @@ class ContactModel:
         self._seabed: Seabed = given.seabed or FlatSeabed()
         with np.errstate(all="ignore"):  # what overflows is refused where a step comes to it
             self._tables = Tables(given)
-            self._choice = Choice(backend, threads, self._tables, flat=isinstance(self._seabed, FlatSeabed))
+            self._choice = BackendChoice(backend, threads, self._tables, flat=isinstance(self._seabed, FlatSeabed))
             self.plan: Plan = make_plan(given, self._tables, self._choice)
             self._numpy = NumpyDriver(self._tables, self._seabed)
         self._compiled: CompiledDriver | None = None

@@ -1,7 +1,7 @@
 """The laws driven by numpy: ranges of elements and of nodes, batches of steps at a time.
 
 Positions are given, so all that knows no history is computed for a batch of steps at once; only the states of suction,
-stick points and touchdown points go from step to step. Nothing is checked here: `contact.checks` says whether
+stick points and touchdown points go from step to step. Nothing is checked here: `contact.result` says whether
 everything came out finite, and what did not.
 """
 
@@ -18,7 +18,7 @@ from mudline.contact.positions import Batch
 from mudline.contact.result import ContactResult
 from mudline.contact.seabed.base import FlatSeabed, Seabed
 from mudline.contact.tables import ContactState, Tables, rows_within
-from mudline.contact.vectors import in_plane
+from mudline.contact.vectors import Components, in_plane
 
 if TYPE_CHECKING:
     from mudline.contact.laws.friction import FrictionHistory
@@ -103,9 +103,6 @@ def _keep_freed_memory() -> None:
     np.empty(31 * 2**20, np.int8)
 
 
-Components = tuple[FloatArray, ...]
-
-
 class Nodes:
     """Nodes begin <= i < end."""
 
@@ -158,7 +155,7 @@ class Nodes:
             return
         wanted = tuple(line.sums(axis, self.begin, self.end, directed=True) for axis in work.tangent)
         along = self._turned_axes(in_plane(wanted, normal), normal)
-        sideward = self._slide(part, state, work, (along, self._plane.across(along, normal)), laid)
+        sideward = self._tangential_reaction(part, state, work, (along, self._plane.across(along, normal)), laid)
         for axis, component in enumerate(self._plane.reaction(total, normal, sideward)):
             reaction_here[..., axis] = component
 
@@ -171,7 +168,7 @@ class Nodes:
             axis[:, self._turned] = values
         return along
 
-    def _slide(
+    def _tangential_reaction(
         self,
         part: ContactResult,
         state: ContactState,
@@ -213,7 +210,7 @@ class Nodes:
         springs = [self._constant[side] + self._rising[side] * pressing for side in range(2)]
         limits = [self._coefficients[side] * pressing for side in range(2)]
         limited = not self._curved or _all_above_0(limits, closed)
-        walls = None if laid is None or not self._ranks else self._walls(places, across, pressing, laid)
+        walls = None if laid is None or not self._ranks else self._trench_limits(places, across, pressing, laid)
         stick = [history.stick_points[here, axis].copy() for axis in range(3)]
         held = history.states[here, 0] > 0
         forces = np.empty(closed.shape), np.empty(closed.shape)
@@ -261,7 +258,7 @@ class Nodes:
                 part.friction_state[:, here, side] = states
         return forces
 
-    def _walls(
+    def _trench_limits(
         self, places: list[FloatArray], across: Components, pressing: FloatArray, laid: LaidCentreline
     ) -> tuple[FloatArray, FloatArray]:
         """What trenches add to the lateral limits (steps, k) against motion along +u2, and along -u2."""

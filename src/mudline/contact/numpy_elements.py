@@ -50,7 +50,7 @@ class _Group(NamedTuple):
     diameter: FloatArray
 
 
-class _Some(NamedTuple):
+class _Subset(NamedTuple):
     """Elements of a range with another law: rows in the law's own arrays, columns in the range, parameters."""
 
     rows: slice
@@ -81,10 +81,10 @@ class Elements:
         bare = np.setdiff1d(np.arange(end - begin), np.concatenate(held))
         self._order, self._bare = np.concatenate([*held, bare]), len(bare)
         self._back = np.argsort(self._order) if (np.diff(self._order) != 1).any() else None
-        self._unloading = self._some(tables.unloading)
+        self._unloading = self._subset(tables.unloading)
         self._steeper = [] if self._unloading is None else self._may_steepen(self._unloading)
-        self._springs, self._suction = self._some(tables.springs), self._some(tables.suction)
-        self._lateral = self._some(tables.lateral)
+        self._springs, self._suction = self._subset(tables.springs), self._subset(tables.suction)
+        self._lateral = self._subset(tables.lateral)
         self._law: SuctionLaw | None = None
         if self._suction is not None:
             from mudline.contact.laws.suction import SuctionLaw  # noqa: PLC0415 - only now is it needed
@@ -102,7 +102,7 @@ class Elements:
         columns = tuple(column[cut] for column in rows.columns)
         return _Group(rows, at - self.begin, columns, self._tables.diameter[at]) if len(at) else None
 
-    def _some(self, given: ElementRows | None) -> _Some | None:
+    def _subset(self, given: ElementRows | None) -> _Subset | None:
         if given is None:
             return None
         rows = rows_within(given.rows, self.begin, self.end)
@@ -110,33 +110,33 @@ class Elements:
             return None
         at = as_range(given.rows[rows] - self.begin)
         onset = self._onset[at] if isinstance(self._onset, np.ndarray) else self._onset
-        return _Some(rows, at, tuple(column[rows] for column in given.columns), onset)
+        return _Subset(rows, at, tuple(column[rows] for column in given.columns), onset)
 
     def run(self, batch: Batch, part: ContactResult, state: ContactState, work: Work) -> None:
         """Write the elements of a batch, and what they leave for nodes."""
-        depth, contact = self._embed(part)
+        depth, contact = self._write_depths(part)
         values = part.force[:, self._here], part.slope[:, self._here], part.stiffness[:, self._here]
         trench = None
         if self._unloading is not None and state.unloading is not None:
-            trench = self._unload(self._unloading, depth, values, part, state.unloading)
+            trench = self._apply_unloading(self._unloading, depth, values, part, state.unloading)
         else:
-            self._follow(depth, part.ratio[:, self._here], contact, values, part)
+            self._apply_normal_laws(depth, part.ratio[:, self._here], contact, values, part)
         if self._unsized.size:
             values[1][:, self._unsized] = np.nan
         if self._springs is not None:
-            self._hold_back(self._springs, depth, values)
+            self._apply_springs(self._springs, depth, values)
         if self._suction is not None and batch.speed is not None and state.suction is not None:
-            self._pull(self._suction, batch.speed, (depth, contact, trench), values, part, state.suction)
+            self._apply_suction(self._suction, batch.speed, (depth, contact, trench), values, part, state.suction)
         np.multiply(values[0], self._half, out=work.load[:, self._inner])
         if not work.tangent:
             return
-        along = self._point(work)
+        along = self._write_directions(work)
         for axis in work.lateral:
             axis[:, self._inner] = 0.0
         if self._lateral is not None and state.touchdown is not None:
-            self._spring_back(self._lateral, along, contact, part, state.touchdown, work)
+            self._apply_lateral(self._lateral, along, contact, part, state.touchdown, work)
 
-    def _embed(self, part: ContactResult) -> tuple[FloatArray, BoolArray]:
+    def _write_depths(self, part: ContactResult) -> tuple[FloatArray, BoolArray]:
         """Write depth, ratio and contact from the gaps of the nodes; NaN where there is no seabed."""
         depth, contact = part.depth[:, self._here], part.contact[:, self._here]
         first, second = self._tables.line.at(part.gap, self.begin, self.end)
@@ -147,7 +147,7 @@ class Elements:
         np.greater(depth, self._onset, out=contact)
         return depth, contact
 
-    def _follow(
+    def _apply_normal_laws(
         self, depth: FloatArray, ratio: FloatArray | None, touches: BoolArray, values: Values, part: ContactResult
     ) -> None:
         """Write what the normal laws give at a depth, 0 where an element does not touch.
@@ -156,7 +156,7 @@ class Elements:
         depth / diameter where that is at hand already.
         """
         if self._back is None and len(self._groups) == 1 and not self._bare:
-            self._apply(self._groups[0], depth, ratio, touches, values, part)
+            self._apply_normal_law(self._groups[0], depth, ratio, touches, values, part)
             return
         z, on = depth.take(self._order, axis=1), touches.take(self._order, axis=1)
         found = [np.empty(depth.shape) for _ in values]
@@ -164,7 +164,7 @@ class Elements:
         for group in self._groups:
             some = slice(start, start + len(group.at))
             ours = found[0][:, some], found[1][:, some], found[2][:, some]
-            self._apply(group, z[:, some], None, on[:, some], ours, part)
+            self._apply_normal_law(group, z[:, some], None, on[:, some], ours, part)
             start = some.stop
         for target, source in zip(values, found, strict=True):
             source[:, start:] = 0.0
@@ -173,7 +173,7 @@ class Elements:
             else:
                 np.take(source, self._back, axis=1, out=target, mode="clip")
 
-    def _apply(
+    def _apply_normal_law(
         self,
         group: _Group,
         depth: FloatArray,
@@ -205,8 +205,8 @@ class Elements:
                 _zero_outside(~pulls, values)
                 part.cut[:, self.begin + group.at] = pulls
 
-    def _unload(
-        self, some: _Some, depth: FloatArray, values: Values, part: ContactResult, history: UnloadingHistory
+    def _apply_unloading(
+        self, some: _Subset, depth: FloatArray, values: Values, part: ContactResult, history: UnloadingHistory
     ) -> _Trench:
         """Write the virgin path at the largest penetrations so far, or the lines to there."""
         from mudline.contact.laws.unloading import line_stiffness, on_line, trench_bottom  # noqa: PLC0415 - only now
@@ -216,7 +216,7 @@ class Elements:
         fresh, deepest = so_far[1:] > so_far[:-1], so_far[1:]
         reached = depth.copy()
         reached[:, some.at] = deepest
-        self._follow(reached, None, reached > self._onset, values, part)
+        self._apply_normal_laws(reached, None, reached > self._onset, values, part)
         force, slope, stiffness = (taken(each, some.at) for each in values)
         force_max, steepest = np.maximum(force, 0.0), some.columns[0]
         if self._steeper:
@@ -239,7 +239,7 @@ class Elements:
             kept[some.rows] = moved[-1]
         return _Trench(bottom - taken(depth, some.at), z > bottom)
 
-    def _may_steepen(self, some: _Some) -> list[tuple[_Group, IndexArray, IndexArray]]:
+    def _may_steepen(self, some: _Subset) -> list[tuple[_Group, IndexArray, IndexArray]]:
         """Elements whose normal law may be steeper than their line: group, places among those that unload and in it."""
         at = np.arange(self.end - self.begin)[some.at]
         found = []
@@ -261,7 +261,7 @@ class Elements:
         columns = [column[rows] for column in group.columns]
         return np.broadcast_to(group.rows.steepest(z, diameter, *columns), z.shape)
 
-    def _hold_back(self, some: _Some, depth: FloatArray, values: Values) -> None:
+    def _apply_springs(self, some: _Subset, depth: FloatArray, values: Values) -> None:
         """Add springs against uplift."""
         from mudline.contact.laws.linear import spring_suction  # noqa: PLC0415 - only now is it needed
 
@@ -270,9 +270,9 @@ class Elements:
         values[1][:, some.at] += stiffness * self._diameter[some.at]
         values[2][:, some.at] += stiffness
 
-    def _pull(
+    def _apply_suction(
         self,
-        some: _Some,
+        some: _Subset,
         speed: FloatArray,
         where: tuple[FloatArray, BoolArray, _Trench | None],
         values: Values,
@@ -362,7 +362,7 @@ class Elements:
         steps, columns, reaches, factors = (np.concatenate(parts) for parts in zip(*pulled, strict=True))
         return every, (steps, columns, reaches, factors)
 
-    def _point(self, work: Work) -> list[FloatArray]:
+    def _write_directions(self, work: Work) -> list[FloatArray]:
         """Write the unit directions of the elements; return those components that `work` has."""
         spans = []
         for plane in work.planes:
@@ -373,9 +373,9 @@ class Elements:
             target[:, self._inner] = unit
         return found
 
-    def _spring_back(
+    def _apply_lateral(
         self,
-        some: _Some,
+        some: _Subset,
         along: list[FloatArray],
         contact: BoolArray,
         part: ContactResult,
@@ -409,7 +409,7 @@ class Elements:
         for target, axis in zip(work.lateral, across, strict=True):
             target[:, self._inner][:, some.at] = axis * force
 
-    def _mean_normal(self, some: _Some, part: ContactResult) -> tuple[FloatArray, ...]:
+    def _mean_normal(self, some: _Subset, part: ContactResult) -> tuple[FloatArray, ...]:
         """Components of the mean of the unit normals at both ends of elements."""
         if part.normal.strides[1] == 0:  # one for all nodes
             return tuple(part.normal[:1, :1, axis] for axis in range(3))

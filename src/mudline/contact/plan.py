@@ -17,7 +17,7 @@ import numpy as np
 from mudline.contact.arrays import FloatArray
 from mudline.contact.input import ContactInput, LawKind
 from mudline.contact.tables import Tables
-from mudline.short_repr import UnknownNameError, outline
+from mudline.short_repr import UnknownNameError, counted, outline
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -73,7 +73,7 @@ class Plan:
         return "\n".join([*lines, f"{'history':<10} {'yes' if self.history else 'no':<3} {self.steps}"])
 
 
-def make_plan(given: ContactInput, tables: Tables, choice: Choice) -> Plan:
+def make_plan(given: ContactInput, tables: Tables, choice: BackendChoice) -> Plan:
     """Return the stages that an input needs and those it does not."""
     uplift = given.has("suction", "suction spring")
     forces = bool(tables.normal or tables.nodal) or uplift
@@ -107,32 +107,32 @@ def _seabed(given: ContactInput) -> str:
     return given.seabed.describe() + held
 
 
-def _normal_law(given: ContactInput, tables: Tables, choice: Choice) -> str:
+def _normal_law(given: ContactInput, tables: Tables, choice: BackendChoice) -> str:
     parts = []
     curves = [rows for rows in tables.normal if rows.curve >= 0]
     if curves:
         cut = ", pulling forces cut to 0" if given.tension == "cut" else ""
-        elements = _count(sum(len(rows.rows) for rows in curves), "element")
-        parts.append(f"{elements} on {_count(len(curves), 'force-embedment curve')}{cut}")
+        elements = counted(sum(len(rows.rows) for rows in curves), "element")
+        parts.append(f"{elements} on {counted(len(curves), 'force-embedment curve')}{cut}")
     linear = sum(len(rows.rows) for rows in tables.normal if rows.law.name in {"linear", "smoothed"})
     if linear:
-        parts.append(f"{_count(linear, 'element')} with a linear stiffness")
+        parts.append(f"{counted(linear, 'element')} with a linear stiffness")
     parts += [
-        f"{_count(len(rows.rows), 'element')} with the law {rows.law.name!r}: {rows.law.summary}"
+        f"{counted(len(rows.rows), 'element')} with the law {rows.law.name!r}: {rows.law.summary}"
         for rows in tables.normal
         if rows.curve < 0 and rows.law.name not in {"linear", "smoothed"}
     ]
     for rows in tables.nodal:
         own = "its" if len(rows.rows) == 1 else "their"
         what = f"a stiffness of {own} own" if rows.law.name == "nodal" else f"the law {rows.law.name!r}"
-        parts.append(f"{_count(len(rows.rows), 'node')} with {what}")
+        parts.append(f"{counted(len(rows.rows), 'node')} with {what}")
     if not parts:
         parts.append("no element has a curve or a linear stiffness")
     if "rigid" in given.assigned:
         rigid = len(given.assigned["rigid"].rows)
-        parts.append(f"{_count(rigid, 'element')} on a rigid seabed: a constraint, listed as restrained nodes")
+        parts.append(f"{counted(rigid, 'element')} on a rigid seabed: a constraint, listed as restrained nodes")
     if none := int((given.law == LawKind.NONE).sum()):
-        parts.append(f"{_count(none, 'element')} without a law")
+        parts.append(f"{counted(none, 'element')} without a law")
     if choice.uncovered:
         parts.append(f"evaluated with numpy: {choice.uncovered}")
     return "; ".join(parts)
@@ -152,7 +152,7 @@ def _unloading(given: ContactInput) -> tuple[bool, str]:
     if "unloading" not in given.assigned:
         return False, "no element has an unloading stiffness"
     count = len(given.assigned["unloading"].rows)
-    return True, f"{_count(count, 'element')} on unloading lines, from the deepest point so far"
+    return True, f"{counted(count, 'element')} on unloading lines, from the deepest point so far"
 
 
 def _suction(given: ContactInput) -> str:
@@ -162,10 +162,10 @@ def _suction(given: ContactInput) -> str:
         slow = sorted(set(law["regularisation"].tolist()))
         span = f"{slow[0]:g}" if len(slow) == 1 else f"{slow[0]:g} to {slow[-1]:g}"
         capped = f", less force than alpha v^n below v = {span}" if slow[-1] > 0.0 else ""
-        parts.append(f"{_count(len(law.rows), 'element')} after Bridge et al., with a state each{capped}")
+        parts.append(f"{counted(len(law.rows), 'element')} after Bridge et al., with a state each{capped}")
     if "suction spring" in given.assigned:
         count = int((given.assigned["suction spring"]["stiffness"] > 0.0).sum())
-        parts.append(f"{_count(count, 'element')} with a spring up to an extent, without history (inferred)")
+        parts.append(f"{counted(count, 'element')} with a spring up to an extent, without history (inferred)")
     return "; ".join(parts) or "no element has a suction law"
 
 
@@ -178,9 +178,9 @@ def _friction(given: ContactInput) -> str:
     if constant.any():
         ellipses = int((constant & (law["elliptic"] > 0.0)).sum())
         criterion = f", {ellipses} of them with an ellipse" if ellipses else ""
-        parts.append(f"{_count(int(constant.sum()), 'node')} with a constant spring{criterion}")
+        parts.append(f"{counted(int(constant.sum()), 'node')} with a constant spring{criterion}")
     if lengths := int((~constant).sum()):
-        parts.append(f"{_count(lengths, 'node')} with a mobilisation length, Kt = mu N / length (inferred)")
+        parts.append(f"{counted(lengths, 'node')} with a mobilisation length, Kt = mu N / length (inferred)")
     return "; ".join(parts)
 
 
@@ -188,7 +188,7 @@ def _lateral(given: ContactInput) -> tuple[bool, str]:
     if "lateral" not in given.assigned:
         return False, "no element has a lateral spring"
     count = int((given.assigned["lateral"]["stiffness"] > 0.0).sum())
-    return True, f"{_count(count, 'element')} with a spring to where it touched down (inferred), in place of friction"
+    return True, f"{counted(count, 'element')} with a spring to where it touched down (inferred), in place of friction"
 
 
 _TRENCHES = {
@@ -204,12 +204,8 @@ def _trench(given: ContactInput, tables: Tables) -> tuple[bool, str]:
         return False, "no node lies in a trench"
     if tables.trench is None:
         return False, "a trench adds to the limits of friction, and no node has a friction law"
-    parts = [f"{_count(len(law.rows), 'element')} {_TRENCHES[name]}" for name, law in found.items()]
+    parts = [f"{counted(len(law.rows), 'element')} {_TRENCHES[name]}" for name, law in found.items()]
     return True, "; ".join([*parts, "the seabed is not lowered"])
-
-
-def _count(number: int, thing: str) -> str:
-    return f"{number} {thing}{'' if number == 1 else 's'}"
 
 
 Backend = Literal["auto", "numpy", "fast"]
@@ -222,7 +218,7 @@ _WORTH_COMPILING = 15_000_000
 """The same where they have to be compiled first."""
 
 
-class Choice:
+class BackendChoice:
     """How a model evaluates its series.
 
     Attributes:
@@ -279,7 +275,7 @@ class Choice:
             return None
         laws = tuple(rows.law for rows in (*self._tables.normal, *self._tables.nodal))
         facts = (
-            tables.what_there_is(self._tables, flat=self._flat),
+            tables.features_of(self._tables, flat=self._flat),
             [law.name for law in laws],
             functions.edition(laws),
             metadata.version("numba"),

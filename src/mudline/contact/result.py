@@ -1,14 +1,16 @@
-"""What an evaluation gives."""
+"""What an evaluation gives, and what is refused in it: who, at which step, and why."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+import math
+from dataclasses import dataclass, fields
+from typing import Any, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mudline.contact.arrays import BoolArray, FloatArray, StateArray
+from mudline.contact.arrays import BoolArray, FloatArray, IdArray, StateArray
+from mudline.contact.errors import ElementError, PositionError
 from mudline.contact.tables import Tables
 from mudline.short_repr import outline
 
@@ -21,17 +23,17 @@ class ContactResult:
     without a position.
 
     Attributes:
-        depth: mean distance of the element's two nodes below the bed; negative above it.
+        depth: mean distance of the element's two nodes below the seabed; negative above it.
         ratio: embedment ratio, depth / diameter.
         contact: depth > 0, or > -h in a centred zone.
-        force: normal force per unit length, positive pushing out of the bed.
+        force: normal force per unit length, positive pushing out of the seabed.
         slope: d force / d ratio, per unit length.
         stiffness: d force / d penetration, per unit length and length of penetration.
         cut: where a pulling curve was cut; such an element is in contact with force, slope and stiffness 0.
-        gap: distance of the node above the bed, along its normal.
-        normal: (..., n, 3) unit normal of the bed at the node, out of the soil; may be a read-only view.
-        reaction: (..., n, 3) total force of the bed on the node.
-        normal_force: the reaction along the normal, positive pushing out of the bed.
+        gap: distance of the node above the seabed, along its normal.
+        normal: (..., n, 3) unit normal of the seabed at the node, out of the soil; may be a read-only view.
+        reaction: (..., n, 3) total force of the seabed on the node.
+        normal_force: the reaction along the normal, positive pushing out of the seabed.
         state: (..., m) `SuctionState` of the elements, -1 without suction; None where no element has it.
         regularised: (..., m) suction at a velocity below v_r, where the force is less than the power law gives; None
             without suction.
@@ -39,7 +41,7 @@ class ContactResult:
         friction_state: (..., n, 2) `FrictionState` of the nodes; None without friction.
         evaluated: (m,) elements whose two nodes have positions.
         present: (n,) nodes that have a position.
-        rigid: (n,) nodes of elements on a rigid bed, a constraint and no force; None where there are none.
+        rigid: (n,) nodes of elements on a rigid seabed, a constraint and no force; None where there are none.
     """
 
     depth: FloatArray
@@ -69,7 +71,7 @@ class ContactResult:
 
     @property
     def restrained(self) -> BoolArray | None:
-        """Nodes (..., n) that a rigid bed restrains along their `normal`: its own, at the bed or below it."""
+        """Nodes (..., n) that a rigid seabed restrains along their `normal`: its own, at the seabed or below it."""
         return None if self.rigid is None else self.rigid & (self.gap <= 0.0)
 
     def friction_state_of(self, side: int) -> StateArray:
@@ -87,26 +89,12 @@ class ContactResult:
         return self._cut(slice(start, stop))
 
     def _cut(self, key: int | slice) -> ContactResult:
-        return ContactResult(
-            depth=self.depth[key],
-            ratio=self.ratio[key],
-            contact=self.contact[key],
-            force=self.force[key],
-            slope=self.slope[key],
-            stiffness=self.stiffness[key],
-            cut=self.cut[key],
-            gap=self.gap[key],
-            normal=self.normal[key],
-            reaction=self.reaction[key],
-            normal_force=self.normal_force[key],
-            evaluated=self.evaluated,
-            present=self.present,
-            state=None if self.state is None else self.state[key],
-            regularised=None if self.regularised is None else self.regularised[key],
-            friction=None if self.friction is None else self.friction[key],
-            friction_state=None if self.friction_state is None else self.friction_state[key],
-            rigid=self.rigid,
-        )
+        arrays = ((name, getattr(self, name)) for name in _BY_STEP)
+        of_steps: dict[str, Any] = {name: None if values is None else values[key] for name, values in arrays}
+        return ContactResult(**of_steps, evaluated=self.evaluated, present=self.present, rigid=self.rigid)
+
+
+_BY_STEP = tuple(each.name for each in fields(ContactResult) if each.name not in {"evaluated", "present", "rigid"})
 
 
 def blank_result(
@@ -147,3 +135,98 @@ def _repeated(values: NDArray[Any], shape: tuple[int, int]) -> NDArray[Any]:
     found: NDArray[Any] = np.ndarray((*shape, *values.shape), values.dtype, values.data, 0, (0, 0, *values.strides))
     found.setflags(write=False)
     return found
+
+
+def is_finite(part: ContactResult, speed: FloatArray | None) -> bool:
+    """Whether nothing needs to be looked at: every value of a batch is finite.
+
+    A sum of finite values may overflow, and values are NaN where there is no position; then this is False too.
+    """
+    at_nodes = part.normal_force if part.friction is None and part.normal.strides[1] == 0 else part.reaction
+    every = [part.ratio, part.slope, part.stiffness, at_nodes, *([] if speed is None else [speed])]
+    return math.isfinite(sum(float(values.sum()) for values in every))
+
+
+def refuse(part: ContactResult, speed: FloatArray | None, first_step: int, tables: Tables) -> None:
+    """Raise for the first step of a batch with a value that must not be, if there is one.
+
+    Raises:
+        PositionError: the velocity or the distance of a node, or the reaction there, is not finite.
+        ElementError: the embedment, the force, its derivatives or the reaction of an element overflow, or its curve
+            pulls where suction acts too.
+    """
+    for step in range(len(part.depth)):
+        _refuse_step(part.step(step), None if speed is None else speed[step], first_step + step, tables)
+        refuse_pulling(part.steps(step, step + 1), first_step + step, tables)
+
+
+def _refuse_step(part: ContactResult, speed: FloatArray | None, step: int, tables: Tables) -> None:
+    given = tables.given
+    _refuse_node(np.isinf(part.gap), given.node_ids, step, "its distance to the seabed overflows")
+    if speed is not None:
+        here = ~np.isnan(part.gap)
+        _refuse_node(~np.isfinite(speed) & here, given.node_ids, step, "its velocity is not finite")
+    infinite = np.isinf(part.ratio) | np.isinf(part.depth)
+    _refuse_element(infinite, given.element_ids, step, "its embedment ratio overflows")
+    known = ~np.isnan(part.depth)
+    unbounded = ~np.isfinite(part.force) & known
+    if unbounded.any():
+        element = int(np.flatnonzero(unbounded)[0])
+        _refuse_force(part, element, step, tables)
+    for what, values in (("slope", part.slope), ("stiffness", part.stiffness)):
+        _refuse_element(np.isinf(values), given.element_ids, step, f"its {what} overflows")
+    loads = np.zeros(len(given.node_ids))
+    with np.errstate(all="ignore"):
+        load = np.where(known, part.force * tables.half, 0.0)
+        for end in (tables.line.first, tables.line.second):
+            np.add.at(loads, end, load)
+    at_node = ~(np.isfinite(loads[tables.line.first]) & np.isfinite(loads[tables.line.second]))
+    _refuse_element(at_node & known, given.element_ids, step, "the reaction at its nodes overflows")
+    wrong = ~np.isfinite(part.reaction).all(axis=-1) & part.present
+    _refuse_node(wrong, given.node_ids, step, "the reaction there overflows")
+
+
+def refuse_pulling(part: ContactResult, first_step: int, tables: Tables) -> None:
+    """Raise where the curve of an element with suction pulls, if it does.
+
+    Raises:
+        ElementError: it does so, and is neither cut nor without suction.
+    """
+    if tables.pulling is None:
+        return
+    elements = tables.pulling
+    pulls = part.contact[:, elements] & (part.force[:, elements] < 0.0)
+    if pulls.any():
+        step, column = np.argwhere(pulls)[0].tolist()
+        element, step = int(tables.given.element_ids[elements[column]]), first_step + step
+        what = "its curve pulls there, and suction acts on it too; cut the curve with tension cut, or correct it"
+        raise ElementError(f"element {element} at step {step}: {what}", element, step)
+
+
+def _refuse_force(part: ContactResult, element: int, step: int, tables: Tables) -> NoReturn:
+    number, why = int(tables.given.element_ids[element]), "its force overflows"
+    index = int(tables.given.curve_index[element])
+    if index >= 0 and part.contact[element]:
+        ratio = float(part.ratio[element])
+        if math.isinf(_force(tables, index, ratio)):
+            why = f"no force at ratio {ratio!r}: the force there overflows"
+    raise ElementError(f"element {number} at step {step}: {why}", number, step)
+
+
+def _force(tables: Tables, index: int, ratio: float) -> float:
+    force, slope = np.empty(1), np.empty(1)
+    with np.errstate(all="ignore"):
+        tables.given.curves[index].fill(np.array([ratio]), force, slope)
+    return math.inf if not math.isfinite(force[0]) else float(force[0])
+
+
+def _refuse_node(wrong: BoolArray, ids: IdArray, step: int, what: str) -> None:
+    if wrong.any():
+        node = int(ids[np.flatnonzero(wrong)[0]])
+        raise PositionError(f"node {node} at step {step}: {what}", node, step)
+
+
+def _refuse_element(wrong: BoolArray, ids: IdArray, step: int, what: str) -> None:
+    if wrong.any():
+        element = int(ids[np.flatnonzero(wrong)[0]])
+        raise ElementError(f"element {element} at step {step}: {what}", element, step)

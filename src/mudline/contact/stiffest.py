@@ -153,8 +153,6 @@ def _unloading(tables: Tables) -> LawStiffness:
 
 
 def _suction(tables: Tables, speed: FloatArray | None) -> LawStiffness:
-    from mudline.contact.laws.suction import SuctionLaw, breakout_uplift, maximum_force  # noqa: PLC0415 - only now
-
     rows = tables.given.assigned["suction"].rows
     law = SuctionLaw(*tables.given.assigned["suction"].columns)
     factor = law.force_factor * law.largest_factor

@@ -8,7 +8,7 @@ seabed the normal is held too. Friction makes A unsymmetric. B holds the velocit
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -17,6 +17,9 @@ from mudline.contact.result import ContactResult
 from mudline.contact.tables import ContactState, Tables
 from mudline.contact.vectors import in_plane, turned_3, units
 from mudline.short_repr import short_repr
+
+if TYPE_CHECKING:
+    from mudline.contact.laws.friction import FrictionForce
 
 
 class Triples(NamedTuple):
@@ -114,10 +117,10 @@ def assemble(
     if tables.lateral is not None:
         _add_lateral(step, by_position)
     if tables.friction is not None:
-        sliding = _slide(step)
+        sliding = _friction_of(step)
         closed = np.flatnonzero((result.friction_state_of(0) > 0) & (result.normal_force > 0.0))
         axes = np.stack(sliding.directions.axes, axis=1)
-        push = np.einsum("nij,ni->nj", axes, sliding.by_compression)
+        push = np.einsum("nij,ni->nj", axes, sliding.friction.by_compression)
         _add_springs(axes, sliding, closed, by_position)
         _add_turning(step, sliding, closed, by_position)
         _add_compression(step, push, closed, (stiffness, own), by_position)
@@ -193,44 +196,35 @@ def _add_lateral(step: _Step, blocks: _Blocks) -> None:
 
 def _projected(span: FloatArray, normal: FloatArray) -> FloatArray:
     """Unit vectors (k, 3) along the projections of spans; the default direction for one along the normal."""
-    from mudline.contact.vectors import in_plane  # noqa: PLC0415 - beside its only use
-
-    size = _size(span)
-    unit = np.divide(span, size[:, None], out=np.zeros_like(span), where=size[:, None] > 0.0)
+    unit, _ = _unit(span)
     return np.stack(in_plane(tuple(unit.T), tuple(normal.T)), axis=1)
 
 
 def _turning(span: FloatArray, normal: FloatArray) -> FloatArray:
     """Derivative (k, 3, 3) by the end of `span` (k, 3) of the unit vector n x t, t the projection of the span."""
     flat = span - np.einsum("ki,ki->k", span, normal)[:, None] * normal
-    size = _size(flat)
-    able = size > 0.0  # an element without direction takes one that does not turn
-    along = np.divide(flat, size[:, None], out=np.zeros_like(flat), where=able[:, None])
+    along, size = _unit(flat)
+    # an element without direction takes one that does not turn
     # d t = (I - t t - n n) d span / |flat|, and of it only n x t is left in the plane: n x (that) = -t (n x t . d span)
     across = np.cross(normal, along)
-    return 0.0 - _outer(along, across) / np.where(able, size, 1.0)[:, None, None]
+    return 0.0 - _outer(along, across) / np.where(size > 0.0, size, 1.0)[:, None, None]
 
 
 class _Sliding(NamedTuple):
-    """Friction of one step at nodes (n,): derivatives of its forces (n, 2) along u1 and u2.
+    """Friction of one step at nodes (n,).
 
-    directions: u1, u2 and how they turn. force: (n, 2). elongation: (n, 2) from the stick points.
-    by_position: (n, 2, 2) by the elongations. by_compression: (n, 2) by the normal force.
-    by_added: (n, 2) by what trenches add to the lateral limit. gradient: (n, 3) of that by the node's position, and
-    by_angle: (n,) by a turn of the directions; both None without trenches.
+    directions: u1, u2 and how they turn. friction: its force along u1 and u2 with derivatives. gradient: (n, 3) of what
+    trenches add to the lateral limit, by the node's position, and by_angle: (n,) by a turn of the directions; both None
+    without trenches.
     """
 
     directions: Directions
-    force: FloatArray
-    elongation: FloatArray
-    by_position: FloatArray
-    by_compression: FloatArray
-    by_added: FloatArray
+    friction: FrictionForce
     gradient: FloatArray | None
     by_angle: FloatArray | None
 
 
-def _slide(step: _Step) -> _Sliding:
+def _friction_of(step: _Step) -> _Sliding:
     from mudline.contact.laws.friction import ExtraLimit, slide  # noqa: PLC0415 - only now is it needed
 
     tables, history = step.tables, step.before.friction
@@ -252,24 +246,14 @@ def _slide(step: _Step) -> _Sliding:
         added = added_limit(tables.trench, line, places, directions.axes, pressed, forward)
         gradient, by_angle = added.gradient, added.by_angle
         extra = ExtraLimit(added.force, np.ones(len(places)), added.by_normal_force, np.where(trial > 0.0, 1.0, -1.0))
-    found = slide(law, history, places, directions.axes, compression, extra)
-    return _Sliding(
-        directions,
-        found.force,
-        found.elongation,
-        found.by_position,
-        found.by_compression,
-        found.by_offset,
-        gradient,
-        by_angle,
-    )
+    return _Sliding(directions, slide(law, history, places, directions.axes, compression, extra), gradient, by_angle)
 
 
 def _add_springs(axes: FloatArray, sliding: _Sliding, closed: IndexArray, blocks: _Blocks) -> None:
     """Springs, and limits that follow the offset in a trench, along u1 and u2."""
-    along = np.einsum("nij,njk->nik", sliding.by_position, axes)
+    along = np.einsum("nij,njk->nik", sliding.friction.by_position, axes)
     if sliding.gradient is not None:
-        along += sliding.by_added[:, :, None] * sliding.gradient[:, None, :]
+        along += sliding.friction.by_offset[:, :, None] * sliding.gradient[:, None, :]
     own = np.einsum("nij,nik->njk", axes, along)
     blocks.add(closed, closed, own[closed])
 
@@ -294,17 +278,16 @@ def _add_turning(step: _Step, sliding: _Sliding, closed: IndexArray, blocks: _Bl
     A turn by an angle a about the normal makes d u1 = a u2, d u2 = -a u1.
     """
     first, second = sliding.directions.axes
-    by_angle = np.stack([sliding.elongation[:, 1], 0.0 - sliding.elongation[:, 0]], axis=1)
-    change = np.einsum("nij,nj->ni", sliding.by_position, by_angle)
+    by_angle = np.stack([sliding.friction.elongation[:, 1], 0.0 - sliding.friction.elongation[:, 0]], axis=1)
+    change = np.einsum("nij,nj->ni", sliding.friction.by_position, by_angle)
     if sliding.by_angle is not None:
-        change += sliding.by_added * sliding.by_angle[:, None]
+        change += sliding.friction.by_offset * sliding.by_angle[:, None]
     turned = change[:, 0, None] * first + change[:, 1, None] * second
-    turned += sliding.force[:, 0, None] * second - sliding.force[:, 1, None] * first
+    turned += sliding.friction.force[:, 0, None] * second - sliding.friction.force[:, 1, None] * first
     held = _marked(closed, len(step.points)) & sliding.directions.follows
     start, end = step.ends.T
     span = step.points[end] - step.points[start]
-    length = _size(span)
-    unit = np.divide(span, length[:, None], out=np.zeros_like(span), where=length[:, None] > 0.0)
+    unit, length = _unit(span)
     size = sliding.directions.size
     for side, at in enumerate((start, end)):
         used = np.flatnonzero(held[at] & (length > 0.0) & (size[at] > 0.0))
@@ -330,6 +313,12 @@ def _outer(one: FloatArray, other: FloatArray) -> FloatArray:
 def _size(vectors: FloatArray) -> FloatArray:
     size: FloatArray = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
     return size
+
+
+def _unit(vectors: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Unit vectors, 0 for those without length, and the lengths (k,)."""
+    size = _size(vectors)
+    return np.divide(vectors, size[:, None], out=np.zeros_like(vectors), where=size[:, None] > 0.0), size
 
 
 class Directions(NamedTuple):

@@ -57,17 +57,8 @@ class TrenchRows(NamedTuple):
 
     def some(self, rows: IndexArray | slice) -> TrenchRows:
         """Return some rows, which have no starts."""
-        return self._replace(
-            nodes=self.nodes[rows],
-            start=self.start[:0],
-            kind=self.kind[rows],
-            inner=self.inner[rows],
-            outer=self.outer[rows],
-            steepness=self.steepness[rows],
-            amount=self.amount[rows],
-            table=self.table[rows],
-            line=self.line[rows],
-        )
+        names = ("nodes", "kind", "inner", "outer", "steepness", "amount", "table", "line")
+        return self._replace(start=self.start[:0], **{name: getattr(self, name)[rows] for name in names})
 
 
 def trench_rows(given: ContactInput, friction: FloatArray) -> TrenchRows:

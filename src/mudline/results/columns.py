@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -11,15 +11,11 @@ from numpy.typing import NDArray
 
 from mudline.contact import ContactResult
 from mudline.results.evaluation import Evaluation, Part
+from mudline.results.quantities import ELEMENTS, NODES, Names, Quantity
 from mudline.scene.numbering import Floats
 
 Values = NDArray[Any]
-Names = tuple[str | None, ...]
 
-STATES: Names = ("free", "compression", "suction", "hold", "broken", None)
-"""Of an element with suction, by number; the last one stands for -1."""
-SLIDING: Names = ("open", "stick", "slip", None)
-"""Of a direction of a node with friction."""
 CUT = "curve-cut"
 
 
@@ -60,6 +56,25 @@ class Column:
         return self.values[first:last]
 
 
+def columns_of(
+    quantities: Mapping[str, Quantity],
+    values: Mapping[str, Values],
+    names: Mapping[str, Names],
+    of_result: Callable[[str], Values],
+) -> list[Column]:
+    """A column of each quantity; values that are not given are those of the result with its name."""
+    return [
+        Column(
+            name,
+            values[name] if name in values else of_result(name),
+            names.get(name, quantity.names),
+            quantity.vector,
+            quantity.over_steps,
+        )
+        for name, quantity in quantities.items()
+    ]
+
+
 class Table(Protocol):
     """Makes the columns of elements or nodes for some steps."""
 
@@ -84,13 +99,13 @@ class ElementTable:
         laws, names = coded(scene.law_names)
         self._laws = laws[self._chosen]
         self._may_cut = evaluation.model.input.tension == "cut"
-        self._names: Names = (*names[:-1], CUT, None)
-        self._fixed = [
-            Column("element", scene.element_ids[self._chosen], over_steps=False),
-            Column("set", set_codes[self._chosen], sets, over_steps=False),
-            Column("diameter", scene.diameter[self._chosen], over_steps=False),
-            Column("length", evaluation.length[self._chosen], over_steps=False),
-        ]
+        self._names: dict[str, Names] = {"set": sets, "law": (*names[:-1], CUT, None)}
+        self._fixed: dict[str, Values] = {
+            "element": scene.element_ids[self._chosen],
+            "set": set_codes[self._chosen],
+            "diameter": scene.diameter[self._chosen],
+            "length": evaluation.length[self._chosen],
+        }
 
     @property
     def rows(self) -> int:
@@ -100,21 +115,18 @@ class ElementTable:
     def columns(self, part: Part) -> list[Column]:
         """The columns of the contract, then the others."""
         result = part.result
-        numbers = ("depth", "ratio", "contact", "force", "slope", "stiffness")
-        found = [
-            *self._fixed,
-            *(Column(name, kept(getattr(result, name), self._chosen)) for name in numbers),
-            Column("law", self._law(result), self._names),
-            Column("state", codes_of(result.state, self._chosen), STATES),
-        ]
-        if self._others is not None:
-            found += [Column(name, kept(values, self._chosen)) for name, values in self._others(part)]
-        return found
+        values: dict[str, Values] = self._fixed | {
+            "law": self._law(result),
+            "state": codes_of(result.state, self._chosen),
+        }
+        found = columns_of(ELEMENTS, values, self._names, lambda name: kept(getattr(result, name), self._chosen))
+        others = () if self._others is None else self._others(part)
+        return found + [Column(name, kept(values, self._chosen)) for name, values in others]
 
     def _law(self, result: ContactResult) -> Values:
         if not self._may_cut:
             return self._laws
-        return np.where(kept(result.cut, self._chosen), np.int32(len(self._names) - 2), self._laws)
+        return np.where(kept(result.cut, self._chosen), np.int32(len(self._names["law"]) - 2), self._laws)
 
 
 class Others(Protocol):
@@ -129,7 +141,7 @@ class NodeTable:
 
     def __init__(self, evaluation: Evaluation) -> None:
         self._chosen = evaluation.nodes
-        self._fixed = [Column("node", evaluation.scene.node_ids[self._chosen], over_steps=False)]
+        self._ids = evaluation.scene.node_ids[self._chosen]
 
     @property
     def rows(self) -> int:
@@ -141,20 +153,18 @@ class NodeTable:
         result, chosen = part.result, self._chosen
         axial, lateral = _by_direction(result.friction)
         axial_state, lateral_state = _by_direction(result.friction_state)
-        return [
-            *self._fixed,
-            Column("gap", kept(result.gap, chosen)),
-            Column("normal", self._normal(result.normal), vector=True),
-            Column("reaction", kept(result.reaction, chosen), vector=True),
-            Column("normal_force", kept(result.normal_force, chosen)),
-            Column("axial_force", self._force(axial)),
-            Column("lateral_force", self._force(lateral)),
-            Column("axial_state", codes_of(axial_state, chosen), SLIDING),
-            Column("lateral_state", codes_of(lateral_state, chosen), SLIDING),
-        ]
+        values: dict[str, Values] = {
+            "node": self._ids,
+            "normal": self._normal(result.normal),
+            "axial_force": self._force(axial),
+            "lateral_force": self._force(lateral),
+            "axial_state": codes_of(axial_state, chosen),
+            "lateral_state": codes_of(lateral_state, chosen),
+        }
+        return columns_of(NODES, values, {}, lambda name: kept(getattr(result, name), chosen))
 
     def _normal(self, normal: Values) -> Values:
-        """One row of nodes where all points of the bed share a normal."""
+        """One row of nodes where all points of the seabed share a normal."""
         return kept(normal, self._chosen) if any(normal.strides[:2]) else np.array(normal[0, self._chosen])
 
     def _force(self, force: Values | None) -> Values:

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from mudline.results.units import unit_names
+from mudline.results.quantities import ELEMENTS, labelled, unit_names
 
 _MARGIN = 0.15
 _LONGEST_NAME = 40
@@ -34,8 +34,8 @@ def draw(rows: list[dict[str, Any]], units: str, form: str, stream: BinaryIO) ->
     axes.axhline(0.0, color="0.4", linewidth=0.8, zorder=1)
     axes.axvline(0.0, color="0.4", linewidth=0.8, zorder=1)
     unit = unit_names(units).line_force or "force per length"
-    axes.set_xlabel("embedment ratio, depth / diameter [-]")
-    axes.set_ylabel(f"seabed force per unit length [{unit}]")
+    axes.set_xlabel(labelled(ELEMENTS["ratio"].label, "-"))
+    axes.set_ylabel(f"seabed reaction per unit length [{unit}]")
     axes.set_title("Force-embedment curves")
     axes.grid(visible=True, alpha=0.3)
     _legend(figure, handles, rows)

@@ -106,7 +106,7 @@ class Evaluation:
         Raises DeckError: a position that is not finite, a value that overflows.
         """
         clock = self.time if self.model.input.has("suction") else None
-        with _told(self.scene):
+        with _as_deck_errors(self.scene):
             for start, result in self.model.stream(
                 self.positions, present=self.present, velocities=self.velocities, times=clock
             ):
@@ -115,12 +115,12 @@ class Evaluation:
 
 
 def _forget(values: NDArray[np.floating]) -> None:
-    """Let go the pages of a file that were read: they are in memory as long as the file is mapped, and wanted once."""
-    held: object = values
-    while isinstance(held, np.ndarray):
-        held = held.base
-    if isinstance(held, mmap.mmap) and hasattr(held, "madvise"):
-        held.madvise(mmap.MADV_DONTNEED)
+    """Release the pages of a file that were read: they are in memory as long as the file is mapped, and needed once."""
+    owner: object = values
+    while isinstance(owner, np.ndarray):
+        owner = owner.base
+    if isinstance(owner, mmap.mmap) and hasattr(owner, "madvise"):
+        owner.madvise(mmap.MADV_DONTNEED)
 
 
 def evaluate_scene(scene: Scene, positions: Positions | None = None, tension: Tension = "keep") -> Evaluation:
@@ -156,13 +156,13 @@ def prepare(scene: Scene, positions: Positions | None = None, tension: Tension =
     """
     _require_elements(scene.require_evaluable(tension))
     complete, filled = _with_lengths(scene, positions)
-    with _told(complete):
+    with _as_deck_errors(complete):
         return Prepared(complete, complete.contact(tension), filled)
 
 
 @contextmanager
-def _told(scene: Scene) -> Iterator[None]:
-    """What the evaluator refuses, as an error of the deck, at the line of the element."""
+def _as_deck_errors(scene: Scene) -> Iterator[None]:
+    """Raise what the evaluator refuses as an error of the deck, at the line of the element."""
     try:
         yield
     except ElementError as error:
@@ -176,11 +176,11 @@ def _require_elements(scene: Scene) -> None:
     hint = f": *{definers[0]} may make them, and is not read; give them with --elements" if definers else ""
     if not len(scene.element_ids):
         raise _refusal(scene, f"the deck has no elements to evaluate{hint}")
-    lost = np.flatnonzero((scene.element_nodes < 0).any(axis=1))
-    if lost.size:
-        count = f"{lost.size} elements end" if lost.size > 1 else "an element ends"
+    dangling = np.flatnonzero((scene.element_nodes < 0).any(axis=1))
+    if dangling.size:
+        count = f"{dangling.size} elements end" if dangling.size > 1 else "an element ends"
         message = f"{count} at nodes that are not known{hint}"
-        raise _located(scene, message, int(scene.element_ids[lost[0]]))
+        raise _located(scene, message, int(scene.element_ids[dangling[0]]))
 
 
 def _with_lengths(scene: Scene, positions: Positions | None) -> tuple[Scene, int]:

@@ -1,4 +1,4 @@
-"""The picture of an evaluation: the line over the bed, embedment, stiffness, curves, traces over time."""
+"""The picture of an evaluation: the line over the seabed, embedment, stiffness, curves, traces over time."""
 
 from __future__ import annotations
 
@@ -7,21 +7,196 @@ from collections.abc import Callable
 from typing import BinaryIO
 
 import matplotlib as mpl
+import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
-from mudline.results.plot_data import Chosen, PlotData
-from mudline.results.plot_panels import embedment, on_curves, profile, stiffness, trace
-from mudline.results.units import unit_names
+from mudline.results.plot_data import TRACED, Chosen, PlotData, along, thinned
+from mudline.results.quantities import ELEMENTS, STEPS, headed, labelled, unit_names
+from mudline.scene.numbering import Floats, Indices
+
+_MOST = 4000
+"""Points of a line that are drawn."""
+_MOST_CURVES = 8
+_LEAST = 0.01
+"""Least span of a scale, as a part of the largest value on it."""
+COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#F0E442")
+"""Distinct for colour-blind eyes (Okabe and Ito)."""
+_SEABED = "#8c6d46"
+
+
+def profile(axes: Axes, data: PlotData, chosen: Chosen) -> None:
+    """The line over the seabed, coloured by the seabed reaction where that acts."""
+    names = unit_names(data.evaluation.scene.units)
+    distance, direction = along(chosen.positions)
+    nodes = data.evaluation.nodes
+    nodes = nodes[np.argsort(distance[nodes], kind="stable")]
+    drawn = nodes[thinned(chosen.result.gap[nodes], _MOST)]
+    with np.errstate(all="ignore"):
+        seabed = chosen.positions[drawn, 0] - chosen.result.gap[drawn] / chosen.result.normal[drawn, 0]
+    axes.plot(distance[drawn], seabed, color=_SEABED, linewidth=1.0, label="seabed", zorder=1)
+    elements = data.evaluation.elements
+    force = chosen.result.force[elements]
+    acts = np.nan_to_num(force) != 0.0
+    free, loaded = elements[~acts], elements[acts]
+    places: Floats = np.stack([distance, chosen.positions[:, 0]], axis=-1)
+    ends = data.evaluation.scene.element_nodes
+    free = free[_some(free)]
+    pale = LineCollection(
+        list(places[ends[free]]),
+        colors="0.55",
+        linewidths=1.5,
+        label="pipe, no force" if free.size else None,
+        rasterized=len(free) > _MOST,
+    )
+    axes.add_collection(pale)
+    if loaded.size:
+        loaded = loaded[thinned(chosen.result.force[loaded], _MOST)]
+        lines = LineCollection(list(places[ends[loaded]]), cmap="viridis", linewidths=4.0, zorder=3)
+        lines.set_array(chosen.result.force[loaded])
+        lines.set_clim(*widened(chosen.result.force[loaded]))
+        axes.add_collection(lines)
+        bar = axes.figure.colorbar(lines, ax=axes, pad=0.01)
+        bar.set_label(ELEMENTS["force"].axis(data.evaluation.scene.units))
+    axes.autoscale_view()
+    axes.locator_params(axis="x", nbins=6)
+    axes.set_xlabel(labelled(_distance(direction), names.length))
+    axes.set_ylabel(labelled("height X", names.length))
+    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, fontsize="small", frameon=False)
+    axes.grid(visible=True, alpha=0.3)
+
+
+def embedment(axes: Axes, data: PlotData, chosen: Chosen) -> None:
+    """Depth of the elements about the contact, downwards."""
+    _along_contact(axes, data, chosen, chosen.result.depth, COLORS[0])
+    axes.axhline(0.0, color=_SEABED, linewidth=1.0)
+    deepest = float(np.nan_to_num(chosen.result.depth).max(initial=0.0))
+    if deepest > 0.0:  # what hangs high above would hide how deep the rest lies
+        axes.set_ylim(bottom=max(axes.get_ylim()[0], -0.6 * deepest))
+    axes.invert_yaxis()
+    axes.set_ylabel(ELEMENTS["depth"].axis(data.evaluation.scene.units))
+
+
+def stiffness(axes: Axes, data: PlotData, chosen: Chosen) -> None:
+    """Stiffness of the seabed about the contact."""
+    _along_contact(axes, data, chosen, chosen.result.stiffness, COLORS[1])
+    axes.set_ylabel(ELEMENTS["stiffness"].axis(data.evaluation.scene.units))
+
+
+def _along_contact(axes: Axes, data: PlotData, chosen: Chosen, values: Floats, color: str) -> None:
+    """Values of elements over their distance, of those in contact and a few beside them."""
+    distance, direction = along(chosen.positions)
+    elements = data.evaluation.elements
+    middle = distance[data.evaluation.scene.element_nodes[elements]].mean(axis=1)
+    near = _near_contact(middle, chosen.result.contact[elements])
+    order = near[np.argsort(middle[near], kind="stable")]
+    drawn = order[thinned(values[elements[order]], _MOST)]
+    few = len(drawn) <= 60
+    axes.plot(
+        middle[drawn], values[elements[drawn]], color=color, linewidth=1.2, marker="o" if few else None, markersize=3.5
+    )
+    axes.locator_params(axis="x", nbins=6)
+    axes.set_xlabel(labelled(_distance(direction), unit_names(data.evaluation.scene.units).length))
+    axes.grid(visible=True, alpha=0.3)
+
+
+def _near_contact(middle: Floats, touching: np.ndarray[tuple[int], np.dtype[np.bool_]]) -> Indices:
+    """Elements within the stretch in contact and a tenth of it on both sides; all, when none is."""
+    if not touching.any():
+        return np.arange(len(middle))
+    low, high = float(middle[touching].min()), float(middle[touching].max())
+    margin = 0.1 * (high - low) or 1e-9 * abs(high)
+    return np.flatnonzero((middle >= low - margin) & (middle <= high + margin))
+
+
+def on_curves(axes: Axes, data: PlotData, spelled: Callable[[str], str]) -> None:
+    """Force-embedment curves with the evaluated points on them; `spelled` makes their names fit to be shown."""
+    curves = data.evaluation.model.input.curves
+    every = _points(data)
+    used = np.unique(every[0])
+    for place, index in enumerate(used.tolist()):
+        color = COLORS[place % len(COLORS)]
+        mine = every[0] == index
+        ratio, force = every[1][mine], every[2][mine]
+        curve = curves[index]
+        reach = np.array([0.0, max(float(ratio.max()), float(curve.ratios[-1]))])
+        knots = np.unique(np.concatenate([curve.ratios[(curve.ratios > reach[0]) & (curve.ratios < reach[1])], reach]))
+        label = _short(spelled(str(curve.name))) if place < _MOST_CURVES else None
+        axes.plot(knots, curve.evaluate(knots)[0], color=color, linewidth=1.2, zorder=2)
+        axes.plot(
+            ratio, force, color=color, linestyle="none", marker="o", markersize=4, alpha=0.55, zorder=3, rasterized=True
+        )
+        axes.plot([], [], color=color, marker="o", markersize=4, label=label)
+    if len(used) > _MOST_CURVES:
+        axes.plot([], [], " ", label=f"and {len(used) - _MOST_CURVES} more curves")
+    axes.set_xlabel(labelled(ELEMENTS["ratio"].label, "-"))
+    axes.set_ylabel(ELEMENTS["force"].axis(data.evaluation.scene.units))
+    axes.grid(visible=True, alpha=0.3)
+    legend = axes.legend(loc="best", fontsize="small", title="curves, evaluated points", title_fontsize="small")
+    for text in legend.get_texts():
+        text.set_parse_math(False)
+
+
+def _points(data: PlotData) -> tuple[Indices, Floats, Floats]:
+    """Points in contact of the drawn step, and some of all steps."""
+    found = list(data.points)
+    if data.chosen is not None:
+        chosen = data.on_curve[_some(data.on_curve)]
+        found.append(data.points_at(data.chosen.result, (), chosen))
+    curve, ratio, force = (np.concatenate(columns) for columns in zip(*found, strict=True))
+    known = ~np.isnan(ratio) & ((ratio > 0.0) | (force != 0.0))
+    if not known.any():
+        known = ~np.isnan(ratio)
+    return curve[known], ratio[known], force[known]
+
+
+def trace(axes: Axes, data: PlotData, name: str, label: str, *, last: bool) -> None:
+    """A figure over time; where steps are too many, the band between its least and largest values."""
+    least, most = (np.where(np.isfinite(values), values, np.nan) for values in data.traces[name])
+    times = data.bin_times
+    if np.array_equal(least, most, equal_nan=True):
+        axes.plot(times, most, color=COLORS[0], linewidth=1.2)
+    else:
+        axes.fill_between(times, least, most, color=COLORS[0], linewidth=0.6)
+    known = np.concatenate([least, most])
+    known = known[~np.isnan(known)]
+    if known.size and 0.0 < np.ptp(known) < _LEAST * np.abs(known).max():
+        axes.set_ylim(*widened(known))
+    axes.set_ylabel(label)
+    axes.grid(visible=True, alpha=0.3)
+    if last:
+        axes.set_xlabel("time [s]" if unit_names(data.evaluation.scene.units).length else "time")
+    else:
+        axes.tick_params(labelbottom=False)
+
+
+def widened(values: Floats) -> tuple[float, float]:
+    """The least and the largest value, drawn apart to a hundredth of their size: no scale shows what is rounding."""
+    low, high = float(values.min()), float(values.max())
+    margin = 0.5 * max(0.0, _LEAST * max(abs(low), abs(high)) - (high - low))
+    return low - margin, high + margin
+
+
+def _some(rows: Indices) -> Indices:
+    """Rows of many at even distances."""
+    return np.arange(0, len(rows), max(1, -(-len(rows) // _MOST)))
+
+
+def _distance(direction: Floats) -> str:
+    """What the horizontal axis is."""
+    for axis, name in enumerate("YZ"):
+        if abs(abs(direction[axis]) - 1.0) < 1e-9:
+            return f"distance along {name}"
+    return "horizontal distance along the line"
+
+
+def _short(name: str, longest: int = 30) -> str:
+    return name if len(name) <= longest else name[: longest - 3] + "..."
+
 
 _Panel = Callable[[Axes], None]
 _Spelled = Callable[[str], str]
-_TRACES = {
-    "reaction": ("total reaction", "force"),
-    "force": ("largest force\nper length", "line_force"),
-    "touching": ("elements\nin contact", ""),
-    "deepest": ("deepest\nembedment", "length"),
-}
 
 
 def draw(data: PlotData, form: str, stream: BinaryIO, spelled: _Spelled) -> None:
@@ -69,15 +244,13 @@ def _right(data: PlotData, spelled: _Spelled) -> list[tuple[_Panel, float]]:
     if data.on_curve.size:
         panels.append((lambda axes: on_curves(axes, data, spelled), 3.8))
     if data.evaluation.steps > 1:
-        names = list(_TRACES)
-        panels += [(_traced(data, name, last=name == names[-1]), 1.4) for name in names]
+        panels += [(_traced(data, name, last=name == TRACED[-1]), 1.4) for name in TRACED]
     return panels
 
 
 def _traced(data: PlotData, name: str, *, last: bool) -> _Panel:
-    label, unit = _TRACES[name]
-    named = getattr(unit_names(data.evaluation.scene.units), unit) if unit else ""
-    return lambda axes: trace(axes, data, name, f"{label}\n[{named}]" if named else label, last=last)
+    label = headed(STEPS[name].label, STEPS[name].unit_name(data.evaluation.scene.units))
+    return lambda axes: trace(axes, data, name, label, last=last)
 
 
 def _title(data: PlotData, spelled: _Spelled) -> str:

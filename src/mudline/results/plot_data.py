@@ -1,4 +1,4 @@
-"""What the picture of an evaluation shows, gathered as the steps come: memory does not grow with their number."""
+"""What the picture of an evaluation shows, collected as the steps come: memory does not grow with their number."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from mudline.contact import ContactResult, LawKind
 from mudline.results.evaluation import Evaluation, Part
-from mudline.results.traces import traces
+from mudline.results.totals import traces
 from mudline.scene.numbering import Floats, Indices
 
 _BINS = 2000
@@ -18,6 +18,7 @@ _BINS = 2000
 _POINTS = 4000
 """Evaluated points that are drawn on the curves."""
 TRACED = ("reaction", "force", "touching", "deepest")
+"""Figures of a step that are drawn over time."""
 
 
 class Points(NamedTuple):
@@ -65,10 +66,10 @@ class PlotData:
         steps = np.arange(part.start, part.start + part.count)
         where = steps * len(self.traces["reaction"][0]) // self.evaluation.steps
         for name, (least, most) in self.traces.items():
-            values: Floats = getattr(of_part, name)
+            values = of_part[name].values
             np.minimum.at(least, where, np.where(np.isnan(values), np.inf, values))
             np.maximum.at(most, where, np.where(np.isnan(values), -np.inf, values))
-        self._choose(part, of_part.reaction)
+        self._choose(part, of_part["reaction"].values)
         self._sample(part)
 
     def _choose(self, part: Part, reaction: Floats) -> None:
@@ -81,7 +82,7 @@ class PlotData:
             self.chosen = Chosen(index, whole, places)
 
     def _sample(self, part: Part) -> None:
-        """Evaluated points at even distances, those of the chosen step besides are drawn anyway."""
+        """Evaluated points at even distances; those of the chosen step are drawn anyway."""
         size = part.count * len(self._on_curve)
         taken = np.arange(-self._seen % self._every, size, self._every)
         self._seen += size

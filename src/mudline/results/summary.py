@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 
 from mudline.contact import LawKind
 from mudline.deck.model import Opaque
-from mudline.results.bed_summary import bed_summary, extension_summary, floor_summary
-from mudline.results.numbers import finite
-from mudline.results.static_embedment import static_embedment
+from mudline.results.curves import followers, static_embedment
+from mudline.results.quantities import finite
 from mudline.scene.continued import ContinuedDeck
 from mudline.scene.model import Scene
+from mudline.scene.seabed import SeabedKind, SeabedShape
 
 
 def summarise(scene: Scene) -> dict[str, Any]:
@@ -68,7 +68,6 @@ def _sets(scene: Scene) -> list[dict[str, Any]]:
 def _curves(scene: Scene) -> list[dict[str, Any]]:
     rows = []
     for index, entry in enumerate(scene.laws.curves):
-        follows = np.array([grant.curve == index for grant in scene.laws.set_laws] + [False])[scene.laws.of_element]
         curve = entry.curve
         rows.append(
             {
@@ -77,7 +76,7 @@ def _curves(scene: Scene) -> list[dict[str, Any]]:
                 "points": len(entry.points),
                 "ratios": None if curve is None else [float(curve.ratios[0]), float(curve.ratios[-1])],
                 "forces": None if curve is None else [float(curve.forces.min()), float(curve.forces.max())],
-                "elements": int(follows.sum()),
+                "elements": int(followers(scene, index).sum()),
                 "open": any(grant.curve == index and grant.set_.open for grant in scene.laws.set_laws),
             }
         )
@@ -105,3 +104,53 @@ def _laws(scene: Scene) -> list[dict[str, Any]]:
             rows.append({"law": law, "set": grant.set_.name, "elements": count, "stiffness": stiffness})
     free = int((scene.laws.of_element < 0).sum())
     return [*rows, {"law": "none", "set": None, "elements": free, "stiffness": None}] if free else rows
+
+
+_PAIRS = ("friction", "mobilisation")
+_SINGLE = ("lateral", "suction", "extent")
+
+
+def floor_summary(floor: SeabedShape) -> dict[str, Any]:
+    """The shape of the seabed; null for what its kind has not."""
+    slope = floor.kind is SeabedKind.SLOPING
+    from_points = floor.kind in (SeabedKind.PROFILE, SeabedKind.SURFACE)
+    return {
+        "kind": floor.kind.value,
+        "slope": finite(floor.slope) if slope else None,
+        "direction": finite(floor.direction) if slope or from_points else None,
+        "interpolation": floor.interpolation if from_points else None,
+        "points": len(floor.points) if from_points and not floor.missing else None,
+        "planes": len(floor.planes) or None,
+        "file": floor.file or None,
+        "missing": floor.missing or None,
+    }
+
+
+def bed_summary(scene: Scene) -> list[dict[str, Any]]:
+    """Friction, mobilisation, lateral stiffness and suction by block, with the number of elements that have them.
+
+    Friction coefficients and mobilisation lengths are longitudinal and transverse. Blocks that give none of all this
+    are left out.
+    """
+    rows = []
+    for index, (values, where) in enumerate(zip(scene.resistance.values, scene.resistance.places, strict=True)):
+        pairs = {name: [finite(value) for value in getattr(values, name)] for name in _PAIRS}
+        single = {name: finite(getattr(values, name)) for name in _SINGLE}
+        if any(value is not None for value in (*single.values(), *(one for pair in pairs.values() for one in pair))):
+            entry: Any = scene.deck.sections[where.section].blocks[where.block]
+            name = (entry.sets[where.path[1]].set_name or "ALL") if where.path[0] == "sets" else "ALL"
+            rows.append({"set": name, "elements": int((scene.resistance.of_element == index).sum()), **pairs, **single})
+    return rows
+
+
+def extension_summary(scene: Scene) -> list[dict[str, Any]]:
+    """The blocks of the extension keywords, with the elements that follow each."""
+    return [
+        {
+            "keyword": keyword,
+            "set": getattr(entry, "set_name", None),
+            "elements": int((found.of_element == index).sum()),
+        }
+        for keyword, found in scene.extensions.items()
+        for index, entry in enumerate(found.entries)
+    ]

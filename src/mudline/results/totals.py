@@ -1,24 +1,24 @@
-"""An evaluation in few figures: by law and set, and by time step."""
+"""An evaluation in few figures: by law and set, by time step, and where over all steps they are largest."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mudline.contact import ContactResult
-from mudline.results.columns import SLIDING, STATES, Names
 from mudline.results.evaluation import Evaluation, Part
-from mudline.results.numbers import finite
-from mudline.scene.numbering import Floats
+from mudline.results.quantities import SLIDING, STATES, Names, finite
+from mudline.scene.numbering import Floats, Indices
 
 
 class Total(NamedTuple):
     """Elements that share a law and the set that gave it to them, at one step.
 
-    `deepest` is the largest depth, negative above the bed, None where there is no bed; `reaction` the total normal
-    force of a law per unit length; None for springs of nodes.
+    `deepest` is the largest depth, negative above the seabed, None where there is no seabed; `reaction` the total
+    normal force of a law per unit length; None for springs of nodes.
     """
 
     law: str
@@ -60,7 +60,7 @@ def totals(evaluation: Evaluation, part: Part) -> list[Total]:
             name,
             len(members),
             int(result.contact[members].sum()),
-            _largest(result.depth[members]),
+            _deepest(result.depth[members]),
             None if law in _AT_NODES else _sum(line_forces[members]),
         )
         for (law, name), members in groups.items()
@@ -91,7 +91,7 @@ def _step(evaluation: Evaluation, part: Part, step: int) -> StepTotal:
         len(touching),
         first,
         last,
-        _largest(result.depth[chosen]),
+        _deepest(result.depth[chosen]),
         reaction(evaluation, result),
         None if result.state is None else int(np.isin(result.state, _HELD).sum()),
         None if slips is None else int((slips == SLIDING.index("slip")).any(axis=-1).sum()),
@@ -109,7 +109,7 @@ def counts(states: NDArray[np.int8], names: Names) -> list[tuple[str, int]]:
     return [(name, int(count)) for name, count in zip(names, found, strict=False) if name is not None and count]
 
 
-def _largest(depth: Floats) -> float | None:
+def _deepest(depth: Floats) -> float | None:
     known = depth[~np.isnan(depth)]
     return finite(float(known.max())) if known.size else None
 
@@ -117,3 +117,90 @@ def _largest(depth: Floats) -> float | None:
 def _sum(forces: Floats) -> float:
     with np.errstate(over="ignore", invalid="ignore"):
         return float(forces.sum())
+
+
+class Trace(NamedTuple):
+    """A figure of some steps (steps,), NaN where there is none, and the indices of its elements; -1 for none.
+
+    A figure of all elements together has no indices.
+    """
+
+    values: Floats
+    elements: Indices | None = None
+
+
+def traces(evaluation: Evaluation, part: Part) -> dict[str, Trace]:
+    """The figures of the steps of a part by the names of `STEPS`."""
+    result, chosen = part.result, evaluation.elements
+    with np.errstate(over="ignore", invalid="ignore"):
+        reaction = result.normal_force[:, evaluation.nodes].sum(axis=1)
+    force = result.force[:, chosen]
+    return {
+        "reaction": Trace(reaction),
+        "force": _largest(force, chosen, by_size=True),
+        "pull": _largest(np.maximum(0.0 - force, 0.0), chosen, by_size=False),
+        "touching": Trace(np.count_nonzero(result.contact[:, chosen], axis=1).astype(np.float64)),
+        "deepest": _largest(result.depth[:, chosen], chosen, by_size=False),
+    }
+
+
+def _largest(values: Floats, chosen: Indices, *, by_size: bool) -> Trace:
+    steps = np.arange(len(values))
+    if not values.shape[1]:
+        return Trace(np.full(len(values), np.nan), np.full(len(values), -1))
+    ranked = np.where(np.isnan(values), -np.inf, np.abs(values) if by_size else values)
+    column = ranked.argmax(axis=1)
+    found = values[steps, column]
+    return Trace(found, np.where(np.isnan(found), -1, chosen[column]))
+
+
+class Peak(NamedTuple):
+    """A largest value over all steps, when it first was, and at which element; None for all elements."""
+
+    value: float
+    step: int
+    element: int | None
+
+
+@dataclass(slots=True)
+class Peaks:
+    """Collects the largest figures as the steps come, by the names of `STEPS`."""
+
+    evaluation: Evaluation
+    found: dict[str, Peak] = field(default_factory=dict)
+
+    def take(self, part: Part) -> None:
+        """Look at some steps."""
+        for name, (values, elements) in traces(self.evaluation, part).items():
+            sizes = np.abs(values) if name == "force" else values
+            if np.isnan(sizes).all():
+                continue
+            step = int(np.nanargmax(sizes))
+            before = self.found.get(name)
+            if before is None or sizes[step] > (abs(before.value) if name == "force" else before.value):
+                element = None if elements is None else int(self.evaluation.scene.element_ids[elements[step]])
+                self.found[name] = Peak(float(values[step]), part.start + step, element)
+
+
+@dataclass
+class Digest:
+    """The first step, the figures of the first `most` steps (None: of all), and the largest of all steps."""
+
+    evaluation: Evaluation
+    most: int | None
+    first: Part | None = None
+    steps: list[StepTotal] = field(default_factory=list)
+    peaks: Peaks = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.peaks = Peaks(self.evaluation)
+
+    def take(self, part: Part) -> None:
+        """Look at some steps."""
+        if self.first is None:
+            self.first = Part(part.start, part.result.steps(0, 1))
+        left = part.count if self.most is None else min(part.count, self.most - len(self.steps))
+        if self.evaluation.time is not None and left > 0:
+            self.steps += step_totals(self.evaluation, Part(part.start, part.result.steps(0, left)))
+        if self.evaluation.time is not None:
+            self.peaks.take(part)

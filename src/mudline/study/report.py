@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any, Generic, NamedTuple, TypeAlias, TypeVar
 
 from mudline.files import write_atomically
-from mudline.results.csv_lines import csv_lines
+from mudline.results.quantities import csv_lines
 from mudline.study.picture import Picture
 from mudline.study.timing import machine
 

@@ -12,7 +12,7 @@ from mudline.cli.progress import Progress, wants_bar
 from mudline.cli.result_files import More, Sink, Written
 from mudline.results.columns import ElementTable, NodeTable
 from mudline.results.evaluation import Evaluation
-from mudline.results.npz_file import NpzFile
+from mudline.results.formats import NpzFile
 
 SUMMARY = (
     "an array of each column: (elements,) or (steps, elements), (nodes,) or (steps, nodes), "

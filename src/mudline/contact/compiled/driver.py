@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import itertools
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from typing import Any, NamedTuple, TypeVar, cast
@@ -26,18 +26,18 @@ from mudline.contact.compiled.tables import (
     NO_LINE,
     by_component,
     element_tables,
+    features_of,
     node_tables,
     read_only,
     suction_table,
     trench_tables,
-    what_there_is,
 )
-from mudline.contact.laws import NormalLaw, base
-from mudline.contact.plan import Choice
+from mudline.contact.laws import base
+from mudline.contact.plan import BackendChoice
 from mudline.contact.positions import Batch
 from mudline.contact.result import ContactResult
 from mudline.contact.seabed.base import FlatSeabed, Seabed
-from mudline.contact.tables import ContactState, Tables
+from mudline.contact.tables import ContactState, NormalRows, Tables
 
 _BATCH = 2**20
 """Nodes times steps at a time, at most."""
@@ -107,7 +107,7 @@ class _Job(NamedTuple):
 class CompiledDriver:
     """Evaluates batches of steps. Holds no state of a series; may be shared by threads."""
 
-    def __init__(self, tables: Tables, seabed: Seabed, choice: Choice) -> None:
+    def __init__(self, tables: Tables, seabed: Seabed, choice: BackendChoice) -> None:
         """Prepare the tables of the loops, and the loops, which are compiled when they are first called."""
         given = tables.given
         self._tables, self._choice, self._threads = tables, choice, choice.threads
@@ -115,17 +115,15 @@ class CompiledDriver:
         self._pool: ThreadPoolExecutor | None = None
         self._normal = None if seabed.same_normal is None else read_only(seabed.same_normal.reshape(1, 1, 3))
         self._nodes, self._elements = len(given.node_ids), len(given.element_ids)
-        has = what_there_is(tables, flat=isinstance(seabed, FlatSeabed))
+        has = features_of(tables, flat=isinstance(seabed, FlatSeabed))
         self._has = has
-        laws = tuple(_with_equation(rows.law) for rows in tables.normal if rows.curve < 0)
-        slopes = tuple(_steepest(rows.law) for rows in tables.normal if rows.curve < 0) if has.steepens else ()
+        normal = [rows for rows in tables.normal if rows.curve < 0]
+        slopes = tuple((_as_reaction(rows.steepest), len(rows.law.parameters)) for rows in normal if has.steepens)
         sources = edition(tuple(rows.law for rows in (*tables.normal, *tables.nodal)))
-        self._element_loop = _loop(elements_loop, callable_in_loops, has, laws, _choice(slopes), sources)
+        self._element_loop = _loop(elements_loop, callable_in_loops, has, _equations(normal), _choice(slopes), sources)
         self._index, self._numbers, self._knots = element_tables(tables)
         self._pulls = suction_table(tables)
-        self._node_loop = _loop(
-            nodes_loop, callable_in_loops, has, tuple(_with_equation(rows.law) for rows in tables.nodal), sources
-        )
+        self._node_loop = _loop(nodes_loop, callable_in_loops, has, _equations(tables.nodal), sources)
         self._node_index, self._node_numbers = node_tables(tables)
         self._trenches = trench_tables(tables)
         line = tables.line
@@ -293,24 +291,20 @@ def _groups(tables: Tables, elements: int, threads: int, sequence: list[_Task]) 
     return _Groups(together, [[task] for task in sequence if task not in done])
 
 
-def _with_equation(law: NormalLaw) -> tuple[Callable[..., Any], int]:
-    """The reaction of a law and how many parameters it has."""
-    if law.reaction is None:
-        raise TypeError(f"the law {law.name!r} has no equation")
-    return law.reaction, len(law.parameters)
+def _equations(laws: Iterable[NormalRows]) -> tuple[tuple[Callable[..., Any], int], ...]:
+    """The reaction of each law and how many parameters it has."""
+    return tuple((rows.reaction, len(rows.law.parameters)) for rows in laws)
 
 
 @cache
-def _steepest(law: NormalLaw) -> tuple[Callable[..., Any], int]:
+def _as_reaction(steepest: Callable[..., Any]) -> Callable[..., tuple[float, float]]:
     """The steepest slope of a law in the form of a reaction."""
-    if law.steepest is None:
-        raise TypeError(f"the law {law.name!r} does not know its steepest slope")
-    steepest = callable_in_loops(law.steepest)
+    inner = callable_in_loops(steepest)
 
     def slope(z: float, diameter: float, *parameters: float) -> tuple[float, float]:
-        return steepest(z, diameter, *parameters), 0.0
+        return inner(z, diameter, *parameters), 0.0
 
-    return slope, len(law.parameters)
+    return slope
 
 
 @cache

@@ -100,7 +100,7 @@ ROWS = (row_of_0, row_of_1, row_of_2, row_of_3, row_of_4, row_of_5, row_of_6)
 def one_of(wrap: Wrap, laws: tuple[tuple[Callable[..., Any], int], ...], first: int) -> Callable[..., Any]:
     """Return a function that evaluates the law of a kind, from 0: (kind, z, diameter, table, row).
 
-    `laws` are reactions and their numbers of parameters, which stand in a table from the column `first` on.
+    `laws` are reactions and their numbers of parameters, which are in a table from the column `first` on.
     """
     if not laws:
 
@@ -128,7 +128,7 @@ def one_of(wrap: Wrap, laws: tuple[tuple[Callable[..., Any], int], ...], first: 
     return wrap(one)  # type: ignore[no-any-return]
 
 
-def passed(points: Array, begin: int, end: int, value: float) -> int:
+def last_at_or_below(points: Array, begin: int, end: int, value: float) -> int:
     """Return the last of ascending points begin <= i < end that lies at or below a value; the first if none does."""
     count = end - begin - 1
     while count > 0:
@@ -155,7 +155,7 @@ def unit_of_span(dx: float, dy: float, dz: float) -> tuple[float, float, float]:
 Numbers = tuple[float, ...]
 
 
-def moved_line(
+def next_unloading(
     z: float, before: Numbers, virgin: tuple[float, float, float], diameter: float, stiffness: float
 ) -> tuple[Numbers, tuple[float, float, float]]:
     """Return the unloading history of an element at a penetration, and its force, slope and stiffness.
@@ -174,7 +174,7 @@ def moved_line(
     return after, reaction
 
 
-def moved_suction(
+def next_suction(
     before: tuple[bool, int, Numbers],
     uplift: float,
     pressed: bool,  # noqa: FBT001 - loops pass arguments by place
@@ -266,7 +266,7 @@ def from_laid(laid: Array, beside: Array, node: int, point: Point) -> Point:
 
 def table_resistance(rows: Array, begin: int, end: int, distance: float) -> float:
     """Return the resistance per unit length of the rows begin to end of tables at a distance."""
-    row = passed(rows[0], begin, end - 1, distance)
+    row = last_at_or_below(rows[0], begin, end - 1, distance)
     if distance > rows[0, end - 1]:
         row = end - 1
     held = np.minimum(np.maximum(distance, rows[0, begin]), rows[0, end - 1])
@@ -292,10 +292,11 @@ def from_straight(lines: Array, line: int, p: Point) -> Point:
 
 
 SHARED = (
-    passed, unit_of_span, mean_normal, on_piece, from_laid, from_straight, table_resistance, row_of_4, moved_line,
-    moved_suction, suction_law, in_limits, *(function for plane in vectors.PLANES.values() for function in plane),
-    vectors.tangent_share, vectors.span_scale, on_segment, norm, on_ellipse, in_box, in_ellipse, slip_distance,
-    lateral_force, maximum_force, trapezoid, after_cycle, breakout_uplift, next_state, suction_force, spring_suction,
-    in_table, on_wall, peak_share, share_of_piece, line_stiffness, on_line, trench_bottom,
+    last_at_or_below, unit_of_span, mean_normal, on_piece, from_laid, from_straight, table_resistance, row_of_4,
+    next_unloading, next_suction, suction_law, in_limits,
+    *(function for plane in vectors.PLANES.values() for function in plane), vectors.tangent_share, vectors.span_scale,
+    on_segment, norm, on_ellipse, in_box, in_ellipse, slip_distance, lateral_force, maximum_force, trapezoid,
+    after_cycle, breakout_uplift, next_state, suction_force, spring_suction, in_table, on_wall, peak_share,
+    share_of_piece, line_stiffness, on_line, trench_bottom,
 )  # fmt: skip
 """Functions that loops call by name."""

@@ -18,11 +18,11 @@ from mudline.contact.compiled.functions import (
     from_laid,
     from_straight,
     in_limits,
+    last_at_or_below,
     mean_normal,
-    moved_line,
-    moved_suction,
+    next_suction,
+    next_unloading,
     one_of,
-    passed,
     suction_law,
     table_resistance,
     unit_of_span,
@@ -66,7 +66,7 @@ from mudline.contact.compiled.tables import (
     TABLE_START,
     TRENCH_KIND,
     UNLOADS,
-    Has,
+    Features,
 )
 from mudline.contact.laws.curve import on_segment
 from mudline.contact.laws.friction import slip_distance
@@ -76,7 +76,11 @@ from mudline.contact.laws.trench import PEAK, WALL, on_wall, peak_share
 
 
 def elements_loop(
-    wrap: Wrap, has: Has, laws: tuple[tuple[Callable[..., Any], int], ...], steepest: Callable[..., Any], edition: int
+    wrap: Wrap,
+    has: Features,
+    laws: tuple[tuple[Callable[..., Any], int], ...],
+    steepest: Callable[..., Any],
+    edition: int,
 ) -> Loop:
     """Make the loop over elements.
 
@@ -111,7 +115,7 @@ def elements_loop(
                 s = 0.0 * diameter  # NaN without a diameter
                 segment = 0
                 if touches and curves and kind == ON_CURVE:
-                    segment = passed(knots[0], index[e, CURVE_START], index[e, CURVE_END], share)
+                    segment = last_at_or_below(knots[0], index[e, CURVE_START], index[e, CURVE_END], share)
                     s = knots[2, segment]
                     f = on_segment(share, knots[0, segment], knots[1, segment], s)
                     k = s / diameter
@@ -136,7 +140,7 @@ def elements_loop(
                     line: Numbers = (lines[0, u], lines[1, u], lines[2, u], lines[3, u])
                     if curves and cuts:
                         cut[step, e] &= z > line[0]
-                    line, (f, s, k) = moved_line(z, line, (f, s, k), diameter, steep)
+                    line, (f, s, k) = next_unloading(z, line, (f, s, k), diameter, steep)
                     lines[0, u], lines[1, u], lines[2, u], lines[3, u] = line
                     uplift, pressed = line[3] - deep, z > line[3]
 
@@ -147,7 +151,7 @@ def elements_loop(
                 if suction and index[e, PULLS] >= 0:
                     held, v = index[e, PULLS], 0.5 * speed[step, a] + 0.5 * speed[step, b]
                     was = (flags[0, held] > 0, flags[1, held], (numbers[0, held], numbers[1, held], numbers[2, held]))
-                    now, g, h, slow = moved_suction(was, uplift, pressed, v, suction_law(pulls, held))
+                    now, g, h, slow = next_suction(was, uplift, pressed, v, suction_law(pulls, held))
                     if now[1] == SUCTION:
                         f, s, k = f + g, s + h * diameter, k + h
                     flags[0, held], flags[1, held] = now[0], now[1]
@@ -195,7 +199,7 @@ def elements_loop(
     return loop
 
 
-def _trench_limit(has: Has) -> Callable[..., Any]:
+def _trench_limit(has: Features) -> Callable[..., Any]:
     """Make the function that gives what trenches add to the lateral limit of a node that is pulled to one side."""
     flat, tables = has.flat, has.tables
     dot = vectors.PLANES[2 if has.flat else 3].dot
@@ -220,7 +224,7 @@ def _trench_limit(has: Has) -> Callable[..., Any]:
     return walls
 
 
-def nodes_loop(wrap: Wrap, has: Has, laws: tuple[tuple[Callable[..., Any], int], ...], edition: int) -> Loop:
+def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], int], ...], edition: int) -> Loop:
     """Make the loop over nodes: sums of element forces, nodal springs, friction, lateral springs and reactions."""
     friction, turned, lateral, nodal, slides = has.friction, has.turned, has.lateral, has.nodal, has.slides
     flat, elliptic, trench = has.flat, has.elliptic, has.trench

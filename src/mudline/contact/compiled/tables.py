@@ -30,7 +30,7 @@ NO_LAW, ON_CURVE, FIRST_LAW = 0, 1, 2
 """Kinds of normal laws of elements; those with an equation are numbered from the last on."""
 
 
-class Has(NamedTuple):
+class Features(NamedTuple):
     """What a scene has, as far as loops differ by it."""
 
     flat: bool
@@ -50,10 +50,10 @@ class Has(NamedTuple):
     tables: bool
 
 
-def what_there_is(tables: Tables, *, flat: bool) -> Has:
+def features_of(tables: Tables, *, flat: bool) -> Features:
     """Return what a scene has, as far as the loops differ by it."""
     friction, trench, suction = tables.friction, tables.trench, tables.suction
-    return Has(
+    return Features(
         flat=flat,
         curves=any(rows.curve >= 0 for rows in tables.normal),
         cuts=tables.cuts,
@@ -105,22 +105,14 @@ def element_tables(tables: Tables) -> tuple[Any, Any, Any]:
             curve = given.curves[rows.curve]
             knots.append(_knots(curve))
             index[rows.rows, KIND] = ON_CURVE
-            index[rows.rows, CURVE_START], index[rows.rows, CURVE_END] = (
-                start,
-                start + len(curve.ratios),
-            )
+            index[rows.rows, CURVE_START] = start
             start += len(curve.ratios)
-    places = (
-        (tables.unloading, UNLOADS),
-        (tables.suction, PULLS),
-        (tables.lateral, SPRINGS_BACK),
-    )
+            index[rows.rows, CURVE_END] = start
+    places = ((tables.unloading, UNLOADS), (tables.suction, PULLS), (tables.lateral, SPRINGS_BACK))
     for some, column in places:
         if some is not None:
             index[some.rows, column] = np.arange(len(some.rows))
-    columns = (
-        (tables.unloading, (LINE,)), (tables.springs, (SPRING, EXTENT)), (tables.lateral, (LATERAL,)),
-    )  # fmt: skip
+    columns = ((tables.unloading, (LINE,)), (tables.springs, (SPRING, EXTENT)), (tables.lateral, (LATERAL,)))
     for some, names in columns:
         if some is not None:
             for column, values in zip(names, some.columns, strict=True):
@@ -159,17 +151,10 @@ def node_tables(tables: Tables) -> tuple[Any, Any]:
     friction = tables.friction
     if friction is not None:
         index[:, ACTIVE], index[:, ELLIPTIC] = friction.active, friction.elliptic
-        pairs = (
-            (MU_1, friction.coefficients),
-            (CONSTANT_1, friction.constant),
-            (RISING_1, friction.rising),
-        )
+        pairs = ((MU_1, friction.coefficients), (CONSTANT_1, friction.constant), (RISING_1, friction.rising))
         for column, values in pairs:
             numbers[:, column], numbers[:, column + 1] = values
-        numbers[friction.turned, COSINE], numbers[friction.turned, SINE] = (
-            friction.cosine,
-            friction.sine,
-        )
+        numbers[friction.turned, COSINE], numbers[friction.turned, SINE] = friction.cosine, friction.sine
     return read_only(index), read_only(numbers)
 
 

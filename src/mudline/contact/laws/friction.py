@@ -182,7 +182,7 @@ def slide(
     """Move nodes to `points` (n, 3) under normal forces `compression` (n,); one step with its derivatives.
 
     `directions` are u1 and u2, each (n, 3). A node without normal force is open and forgets its stick point; one that
-    is pressed on again gets a new one where it stands. The drivers do the same without derivatives.
+    is in contact again gets a new one where it stands. The drivers do the same without derivatives.
     """
     closed = law.active & (compression > 0.0)
     before = closed & (history.states[:, 0] > FrictionState.OPEN)

@@ -1,7 +1,7 @@
 """Seabed shapes: for points in space the signed gap to the seabed and its unit normal out of the soil.
 
 Angles are in degrees, X is up. A profile is imported when it is first asked for; the shape of scattered points needs
-scipy and stands in a module of its own: `mudline.contact.seabed.scattered`.
+scipy and has a module of its own: `mudline.contact.seabed.scattered`.
 """
 
 from __future__ import annotations

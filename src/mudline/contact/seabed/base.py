@@ -13,11 +13,11 @@ from mudline.contact.arrays import FloatArray, IndexArray
 from mudline.short_repr import outline
 
 LARGEST = 1e150
-"""Largest magnitude of a coordinate of a floor: differences and squares stay finite."""
+"""Largest magnitude of a coordinate of a seabed: differences and squares stay finite."""
 
 
 class SeabedError(ValueError):
-    """A sea floor cannot be made from the numbers given."""
+    """A seabed cannot be made from the numbers given."""
 
 
 def checked(what: str, values: ArrayLike, *shape: int | None) -> FloatArray:
@@ -37,7 +37,7 @@ def checked(what: str, values: ArrayLike, *shape: int | None) -> FloatArray:
 def checked_slope(what: str, degrees: float) -> None:
     """Raise SeabedError when a slope in degrees is not between -90 and 90, both excluded."""
     if not abs(degrees) < 90.0:
-        raise SeabedError(f"{what} is {degrees:g} degrees; expected more than -90 and less than 90: a bed has no walls")
+        raise SeabedError(f"{what} is {degrees:g} degrees; expected more than -90 and less than 90")
 
 
 _CHUNK = 8192
@@ -48,11 +48,11 @@ _QUARTERS = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))
 
 
 class Seabed(ABC):
-    """A bed given as an elevation over the horizontal plane. Holds no state; may be shared by threads.
+    """A seabed given as an elevation over the horizontal plane. Holds no state; may be shared by threads.
 
     Attributes:
-        faceted: the bed is made of planes, so inside one the gradient of the gap is exactly the normal. False for
-            curved beds, whose gap is measured to the tangent plane above or below the point: the true gradient has a
+        faceted: the seabed is made of planes, so inside one the gradient of the gap is exactly the normal. False for
+            curved seabeds, whose gap is measured to the tangent plane above or below the point: the true gradient has a
             term of curvature times gap, which a tangent with the normal held leaves out.
         same_normal: the unit normal (3,), read-only, where all points share it; None where they do not.
     """
@@ -77,21 +77,21 @@ class Seabed(ABC):
 
     @abstractmethod
     def elevation(self, y: FloatArray, z: FloatArray) -> FloatArray:
-        """Return the elevation X of the bed at `y` and `z`, arrays of one shape; NaN where there is no seabed."""
+        """Return the elevation X of the seabed at `y` and `z`, arrays of one shape; NaN where there is no seabed."""
 
     @abstractmethod
     def describe(self) -> str:
-        """Say in a line what the bed is, and what holds outside of it."""
+        """Say in a line what the seabed is, and what holds outside of it."""
 
 
 class SurfaceSeabed(Seabed):
-    """A floor that knows its elevation and gradient at points in a row."""
+    """A seabed that knows its elevation and gradient at points in a row."""
 
     chunk: ClassVar[int] = _CHUNK
 
     @abstractmethod
     def surface(self, y: FloatArray, z: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return elevation and its derivatives to Y and Z at `y` (n,) and `z` (n,); elevation is NaN without bed.
+        """Return elevation and its derivatives to Y and Z at `y` (n,) and `z` (n,); elevation is NaN without a seabed.
 
         The derivatives have magnitudes up to `STEEPEST`.
         """
@@ -140,7 +140,7 @@ _UP.setflags(write=False)
 
 
 class FlatSeabed(Seabed):
-    """The bed X = 0, everywhere."""
+    """The seabed X = 0, everywhere."""
 
     same_normal = _UP
 
@@ -158,8 +158,8 @@ class FlatSeabed(Seabed):
         return np.zeros(np.broadcast_shapes(np.shape(y), np.shape(z)))
 
     def describe(self) -> str:
-        """Say what the bed is."""
-        return "one flat bed at X = 0"
+        """Say what the seabed is."""
+        return "one flat seabed at X = 0"
 
 
 class SlopingSeabed(Seabed):
@@ -176,9 +176,9 @@ class SlopingSeabed(Seabed):
     same_normal: FloatArray
 
     def __init__(self, slope_degrees: float, direction_degrees: float = 0.0) -> None:
-        self._slope = float(checked("slope of the bed", slope_degrees))
+        self._slope = float(checked("slope of the seabed", slope_degrees))
         self._direction = float(checked("direction of the slope", direction_degrees))
-        checked_slope("slope of the bed", self._slope)
+        checked_slope("slope of the seabed", self._slope)
         angle = math.radians(self._slope)
         cosine, sine = heading(self._direction)
         self._rise = 2.0 * math.tan(angle)
@@ -203,12 +203,12 @@ class SlopingSeabed(Seabed):
             return np.asarray(level + 0.0, np.float64)
 
     def describe(self) -> str:
-        """Say what the bed is."""
+        """Say what the seabed is."""
         return f"plane through the origin, slope {self._slope:g} deg, direction {self._direction:g} deg, without end"
 
 
 class PlanesSeabed(SurfaceSeabed):
-    """Planes, each with a horizontal extent: the highest at a place is the bed, of equals the later one.
+    """Planes, each with a horizontal extent: the highest at a place is the seabed, of equals the later one.
 
     Without extents planes make valleys; a ridge needs them. A place in no plane's extent has no seabed.
 
@@ -228,7 +228,7 @@ class PlanesSeabed(SurfaceSeabed):
         self._points = checked("the planes' points", points, None, 3)
         planes = len(self._points)
         if not planes:
-            raise SeabedError("the bed has no plane; expected one or more")
+            raise SeabedError("the seabed has no plane; expected one or more")
         angles = checked("the planes' slopes", slopes, planes)
         for number, angle in enumerate(angles.tolist(), 1):
             checked_slope(f"slope of plane {number}", angle)
@@ -267,14 +267,14 @@ class PlanesSeabed(SurfaceSeabed):
         return best, plane
 
     def describe(self) -> str:
-        """Say what the bed is."""
+        """Say what the seabed is."""
         planes = len(self._points)
         bounded = int(np.isfinite(self._bounds).any(axis=1).sum())
         if planes == 1:
             extent = "no seabed outside of its bounds" if bounded else "without end"
             return f"one plane, {extent}"
         outside = "no seabed outside of all bounds" if bounded == planes else f"{planes - bounded} without end"
-        return f"{planes} planes, the highest is the bed, {outside}; depth and normal jump where two meet"
+        return f"{planes} planes, the highest is the seabed, {outside}; depth and normal jump where two meet"
 
 
 def _checked_bounds(bounds: ArrayLike | None, planes: int) -> FloatArray:

@@ -1,4 +1,4 @@
-"""The bed of a 2D profile: a curve over one horizontal direction, the same all along the other."""
+"""The seabed of a 2D profile: a curve over one horizontal direction, the same all along the other."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class ProfileSeabed(SurfaceSeabed):
         return level, slope * cosine, slope * sine
 
     def describe(self) -> str:
-        """Say what the bed is."""
+        """Say what the seabed is."""
         ends = f"Y = {self._y[0]:g} to {self._y[-1]:g}, flat beyond"
         return f"{_NAMES[self._how]} through {len(self._y)} points, {ends}, direction {self._direction:g} deg"
 

@@ -1,4 +1,4 @@
-"""The bed through scattered points, by their Delaunay triangles in the horizontal plane. Needs scipy."""
+"""The seabed through scattered points, by their Delaunay triangles in the horizontal plane. Needs scipy."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ _EDGE = 1e-12
 _INWARD = 1e-11
 """Share of the way to the middle of its triangle by which a place on the edge is moved for the cubic surface."""
 _THIN = 1e-10
-"""Below this spread of directions a triangle is a line to the differences: its plane's gradient stands in."""
+"""Below this spread of directions a triangle is a line to the differences: its plane's gradient is used."""
 
 
 class ScatteredSeabed(SurfaceSeabed):
-    """A surface through points; no seabed outside of their convex hull, whose edge belongs to the bed.
+    """A surface through points; no seabed outside of their convex hull, whose edge belongs to the seabed.
 
     LINEAR is the plane of each triangle, with its gradient. CUBIC is the surface of Clough and Tocher with continuous
     gradient, which is taken by second-order differences towards the corners of the triangle, so none leaves the hull;
@@ -36,8 +36,8 @@ class ScatteredSeabed(SurfaceSeabed):
         interpolation: LINEAR or CUBIC.
 
     Raises:
-        SeabedError: fewer than three points, all on a line, two elevations at one place, points too close to be told
-            apart, an unknown interpolation, or a value that is not finite. (A point given twice counts once.)
+        SeabedError: fewer than three points, all on a line, two elevations at one place, points too close to
+            distinguish, an unknown interpolation, or a value that is not finite. (A point given twice counts once.)
     """
 
     def __init__(self, points: ArrayLike, interpolation: Literal["LINEAR", "CUBIC"] = "LINEAR") -> None:
@@ -94,7 +94,7 @@ class ScatteredSeabed(SurfaceSeabed):
         return np.asarray(self._cubic(places) if self._cubic is not None else np.nan, np.float64)
 
     def describe(self) -> str:
-        """Say what the bed is."""
+        """Say what the seabed is."""
         how = "plane triangles" if self.faceted else "cubic triangles (Clough-Tocher)"
         count = len(self._triangles.simplices)
         return f"{count} {how} through {len(self._levels)} scattered points, no seabed outside of their convex hull"
@@ -120,7 +120,7 @@ def _triangulated(places: FloatArray) -> Delaunay:
     except QhullError as error:
         raise SeabedError("the points of the surface lie on a line; expected one beside it, or a 2D profile") from error
     if len(triangles.coplanar):
-        raise SeabedError(f"the surface has {len(triangles.coplanar)} points too close to others to be told apart")
+        raise SeabedError(f"the surface has {len(triangles.coplanar)} points too close to others to distinguish")
     return triangles
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
-from mudline.results.units import unit_names
+from mudline.results.quantities import unit_names
 from mudline.scene.model import Scene
 from mudline.study.newton import Newton
 from mudline.study.picture import Picture, Points, draw_lines, label

@@ -1,0 +1,193 @@
+"""The quantities of results with units and meaning, and how their values are written for people and for files."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import NamedTuple
+
+
+class UnitNames(NamedTuple):
+    """Names of units; empty where the deck's units are the user's own."""
+
+    length: str
+    force: str
+    line_force: str
+    """Force per length of pipe."""
+    stiffness: str
+    """Force per length of pipe and length of penetration."""
+
+
+_METRIC = UnitNames("m", "N", "N/m", "N/m2")
+_IMPERIAL = UnitNames("ft", "lbf", "lbf/ft", "lbf/ft2")
+_NONE = UnitNames("", "", "", "")
+
+
+def unit_names(units: str) -> UnitNames:
+    """The names of "metric", "imperial" or "user" units."""
+    return {"metric": _METRIC, "imperial": _IMPERIAL}.get(units, _NONE)
+
+
+Names = tuple[str | None, ...]
+
+STATES: Names = ("free", "compression", "suction", "hold", "broken", None)
+"""Of an element with suction, by number; the last one stands for -1."""
+SLIDING: Names = ("open", "stick", "slip", None)
+"""Of a direction of a node with friction."""
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """What a column of results, or a figure of a step, is.
+
+    Attributes:
+        name: of the column, the array and the key.
+        meaning: for the documentation, Markdown.
+        unit: a field of `UnitNames`; "" for none.
+        label: on the axis of a plot; the name where it is "".
+        names: the texts of a column of texts, whose values are indices; -1 is the last one, None.
+        vector: whether a value has three components.
+        over_steps: whether a step may change the value, even if nothing does in a scene.
+    """
+
+    name: str
+    meaning: str
+    unit: str = ""
+    label: str = ""
+    names: Names = ()
+    vector: bool = False
+    over_steps: bool = True
+
+    def unit_name(self, units: str) -> str:
+        """The name of the unit in a deck's units; "" for none."""
+        name: str = getattr(unit_names(units), self.unit) if self.unit else ""
+        return name
+
+    def axis(self, units: str) -> str:
+        """The label of an axis with the unit in brackets."""
+        return labelled(self.label or self.name, self.unit_name(units))
+
+
+def _by_name(*quantities: Quantity) -> dict[str, Quantity]:
+    return {quantity.name: quantity for quantity in quantities}
+
+
+ELEMENTS = _by_name(
+    Quantity("element", "its number", over_steps=False),
+    Quantity("set", "the set that gave it its law, or `null`", over_steps=False),
+    Quantity("diameter", "external diameter, or `null`", "length", over_steps=False),
+    Quantity("length", "length", "length", over_steps=False),
+    Quantity(
+        "depth",
+        "mean distance of its two nodes below the seabed; `null` where there is no seabed",
+        "length",
+        label="embedment",
+    ),
+    Quantity("ratio", "depth / diameter, or `null`", label="embedment ratio, depth / diameter"),
+    Quantity("contact", "depth > 0"),
+    Quantity(
+        "force",
+        "seabed reaction per unit length, positive upwards",
+        "line_force",
+        label="seabed reaction\nper unit length",
+    ),
+    Quantity("slope", "d force / d ratio, or `null`", "line_force"),
+    Quantity(
+        "stiffness",
+        "d force / d depth, per unit length",
+        "stiffness",
+        label="seabed stiffness\nper unit length",
+    ),
+    Quantity("law", "`curve:NAME`, `curve-cut`, `linear`, `nodal`, `rigid` or `none`"),
+    Quantity(
+        "state",
+        "of suction: `free`, `compression`, `suction`, `hold` or `broken`; `null` without a suction law",
+        names=STATES,
+    ),
+)
+"""Of an element, in the order of the columns."""
+
+NODES = _by_name(
+    Quantity("node", "its number", over_steps=False),
+    Quantity("gap", "height above the seabed, along its normal; `null` where there is no seabed", "length"),
+    Quantity(
+        "normal",
+        "normal of the seabed: x, y, z; `[null, null, null]` where there is no seabed",
+        vector=True,
+    ),
+    Quantity("reaction", "total force of the seabed on the node: x, y, z", "force", vector=True),
+    Quantity("normal_force", "the part along the normal, negative where it pulls", "force"),
+    Quantity("axial_force", "seabed reaction on the pipe along the line: friction; 0.0 without it", "force"),
+    Quantity(
+        "lateral_force",
+        "seabed reaction on the pipe across the line: friction and lateral springs; 0.0 without them",
+        "force",
+    ),
+    Quantity("axial_state", "`open`, `stick` or `slip`; `null` without a friction law", names=SLIDING),
+    Quantity("lateral_state", "the same across the line", names=SLIDING),
+)
+"""Of a node, in the order of the columns."""
+
+STEPS = _by_name(
+    Quantity("reaction", "total normal force on all nodes", "force", label="total reaction"),
+    Quantity(
+        "force",
+        "largest magnitude of an element's force per unit length, with its sign",
+        "line_force",
+        label="largest force\nper length",
+    ),
+    Quantity(
+        "pull",
+        "largest force per unit length that holds an element down, 0 where none does",
+        "line_force",
+        label="largest suction\nper length",
+    ),
+    Quantity("touching", "number of elements in contact", label="elements\nin contact"),
+    Quantity("deepest", "largest depth of an element", "length", label="deepest\nembedment"),
+)
+"""Of a step: what is followed over time."""
+
+
+def labelled(text: str, unit: str) -> str:
+    """A label of an axis: with the unit in brackets if it has one."""
+    return f"{text} [{unit}]" if unit else text
+
+
+def headed(name: str, unit: str) -> str:
+    """A heading: the name, and below it the unit in brackets if it has one."""
+    return f"{name}\n[{unit}]" if unit else name
+
+
+def shown(value: float | None, digits: int = 6) -> str:
+    """A number in the shortest common form; "" for None and NaN."""
+    if value is None or math.isnan(value):
+        return ""
+    return f"{value:.{digits}g}"
+
+
+def finite(value: float | None) -> float | None:
+    """A number that JSON can hold; None for what overflowed or is none."""
+    return value if value is not None and math.isfinite(value) else None
+
+
+def csv_lines(rows: Iterable[Iterable[object]]) -> Iterator[str]:
+    """The lines with their ends (LF); None is an empty field, numbers read back to the same double."""
+    buffer = io.StringIO()
+    writer = csv.writer(buffer, lineterminator="\n")
+    for row in rows:
+        writer.writerow([csv_value(value) for value in row])
+        yield buffer.getvalue()
+        buffer.seek(0)
+        buffer.truncate()
+
+
+def csv_value(value: object) -> str:
+    """The text of a field."""
+    if value is None:
+        return ""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return repr(value) if isinstance(value, float) else str(value)

@@ -1,0 +1,58 @@
+"""The table of quantities is what all formats and the schema of JSON have."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+import mudline
+from mudline.results.evaluation import Evaluation, evaluate_scene
+from mudline.results.quantities import ELEMENTS, NODES, Quantity
+from tests.results.written import arrays_of, csv_of, json_of
+from tests.samples import SAMPLES
+
+ROOT = Path(__file__).parents[2]
+
+
+def evaluated() -> Evaluation:
+    return evaluate_scene(mudline.read(SAMPLES / "slope-friction.keyxm").scene())
+
+
+def flat_names(quantities: dict[str, Quantity]) -> list[str]:
+    """Names of the columns, three for a vector."""
+    return [name + axis for name, each in quantities.items() for axis in (("_x", "_y", "_z") if each.vector else ("",))]
+
+
+def test_all_formats_have_the_quantities_in_their_order() -> None:
+    evaluation = evaluated()
+    written = json_of(evaluation)
+    for key, quantities in (("elements", ELEMENTS), ("nodes", NODES)):
+        assert list(written[key][0]) == list(quantities)
+        assert csv_of(evaluation, key).splitlines()[0].split(",") == flat_names(quantities)
+    assert list(arrays_of(evaluation)) == [*ELEMENTS, *NODES]
+
+
+def test_the_schema_requires_the_quantities() -> None:
+    schema = json.loads((ROOT / "docs/schemas/evaluate.json").read_text(encoding="utf-8"))
+    for key, quantities in (("elements", ELEMENTS), ("nodes", NODES)):
+        assert schema["$defs"][key]["items"]["required"] == list(quantities)
+
+
+def test_units_are_those_of_the_deck() -> None:
+    assert [ELEMENTS["stiffness"].unit_name(units) for units in ("metric", "imperial", "user")] == [
+        "N/m2",
+        "lbf/ft2",
+        "",
+    ]
+    assert ELEMENTS["depth"].axis("metric") == "embedment [m]"
+    assert (ELEMENTS["slope"].axis("user"), NODES["gap"].axis("imperial")) == ("slope", "gap [ft]")
+
+
+def test_a_new_row_is_enough_for_all_formats(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(ELEMENTS, "cut", Quantity("cut", "whether a pulling curve was cut"))
+    evaluation = evaluated()
+    assert json_of(evaluation)["elements"][0]["cut"] is False
+    assert csv_of(evaluation, "elements").splitlines()[0].endswith(",cut")
+    assert arrays_of(evaluation)["cut"].dtype == bool
