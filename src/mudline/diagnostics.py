@@ -182,3 +182,11 @@ class DeckError(ValueError):
 
     def __reduce__(self) -> tuple[type[DeckError], tuple[tuple[Diagnostic, ...]]]:
         return type(self), (self.diagnostics,)
+
+
+class PluginError(RuntimeError):
+    """Installed packages with rules that cannot be used; the message has a line for each."""
+
+    def __init__(self, faults: Sequence[str]) -> None:
+        self.faults = tuple(faults)
+        super().__init__("\n".join(faults))

@@ -27,7 +27,7 @@ def pages() -> dict[str, str]:
     """The text of every page by its path in the repository."""
     indexes = {"docs/keywords.md": keyword_index(), "docs/rules/README.md": rule_index(rules())}
     of_rules = {f"docs/rules/{rule.code.code}.md": rule_page(rule) for rule in rules()}
-    single = {"docs/laws.md": law_page(), "docs/images/layers.svg": layer_picture()}
+    single = {"docs/laws.md": law_page(), "docs/architecture.svg": layer_picture()}
     return indexes | keyword_pages() | of_rules | single | pages_with_tables()
 
 

@@ -12,9 +12,9 @@ from pathlib import Path
 import pytest
 
 import mudline
-from mudline.diagnostics import Code, Problem, Severity, Span, Where
+from mudline.diagnostics import Code, PluginError, Problem, Severity, Span, Where
 from mudline.linting.engine import lint_bytes
-from mudline.linting.plugins import Guarded, PluginError, load, origin
+from mudline.linting.plugins import Guarded, load, origin
 from mudline.linting.registry import rules
 from mudline.linting.rule import Rule
 from mudline.plugins import LintContext

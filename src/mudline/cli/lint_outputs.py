@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import KW_ONLY, dataclass, field
 from pathlib import Path
 
@@ -13,7 +13,6 @@ from mudline.cli.options import View
 from mudline.cli.streams import counted, emit, notify, write_text
 from mudline.diagnostics import Diagnostic, Severity
 from mudline.linting.output.forms import TEXT, form, form_names
-from mudline.linting.output.text import statistics_lines
 from mudline.syntax.source import Source
 
 
@@ -133,3 +132,12 @@ def fixable(found: list[Diagnostic]) -> str:
     if not safe:
         return f"{unsafe} fixable with --fix --unsafe-fixes."
     return f"{safe} fixable with --fix" + (f", {unsafe} more with --unsafe-fixes." if unsafe else ".")
+
+
+def statistics_lines(diagnostics: list[Diagnostic]) -> Iterator[str]:
+    """Findings counted by rule, the most frequent first."""
+    counts: dict[tuple[str, str], int] = {}
+    for found in diagnostics:
+        counts[found.code, found.slug] = counts.get((found.code, found.slug), 0) + 1
+    for (code, slug), count in sorted(counts.items(), key=lambda item: (-item[1], item[0])):
+        yield f"{count:6}  {code}  {slug}\n"

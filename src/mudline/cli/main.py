@@ -15,7 +15,7 @@ from click.shell_completion import shell_complete
 from mudline import __version__
 from mudline.cli import CLOSED_PIPE, FOUND, WRONG_USAGE, streams
 from mudline.cli.streams import notify, reason
-from mudline.linting.plugins import PluginError
+from mudline.diagnostics import PluginError
 from mudline.spelling import nearest
 
 COMPLETION = "_MUDLINE_COMPLETE"

@@ -216,7 +216,9 @@ class ContactModel:
         if self._compiled is None:
             from mudline.contact.compiled.driver import CompiledDriver  # noqa: PLC0415 - loads numba
 
-            self._compiled = CompiledDriver(self._tables, self._seabed, self._choice)
+            self._compiled = CompiledDriver(
+                self._tables, self._seabed, self._choice.threads, self._choice.note_compiled
+            )
         return None if self._compiled.broken else self._compiled
 
     def _blank(self, steps: int, mask: BoolArray) -> ContactResult:

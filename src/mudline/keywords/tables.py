@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 
 from mudline.codes.fields import SYN002, SYN003, SYN016
 from mudline.diagnostics import Problem, Span
 from mudline.keywords.model import Slot, columns_of, row_format
-from mudline.keywords.places import Path
+from mudline.keywords.places import Path, Places
 from mudline.keywords.table import Column, Table, from_rows
 from mudline.keywords.text import decimal_comma, in_braces, maybe_label, number_fault
 from mudline.keywords.values import Equation, Kind, Label
@@ -17,17 +17,30 @@ from mudline.syntax.fields import split
 from mudline.syntax.rows import Rows as RawRows
 from mudline.syntax.rows import line_spans, read_rows, row_fields
 
-if TYPE_CHECKING:
-    from mudline.keywords.builder import Builder
-
 MOST_FAULTS = 1000
 """Faults told one by one; more of them in one table are counted."""
+
+
+class BlockReading(Protocol):
+    """The reading of a block, which a table in it adds to."""
+
+    text: str
+    places: Places
+    problems: list[Problem]
+    lost: int
+    unclosed: Span | None
+
+    def damage(self, path: Path, problem: Problem) -> None:
+        """Note a value that could not be read."""
+
+    def short(self, path: Path, message: str, span: Span) -> None:
+        """Note a row that is too short."""
 
 
 class TableBuilder:
     """Collects the runs of one table."""
 
-    def __init__(self, builder: Builder, slot: Slot, path: Path) -> None:
+    def __init__(self, builder: BlockReading, slot: Slot, path: Path) -> None:
         self.builder = builder
         self.columns: list[Column] = columns_of(slot)
         self.path = path

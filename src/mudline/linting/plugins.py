@@ -27,14 +27,6 @@ _SLUG = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
 _ORIGINS: dict[str, str] = {}
 
 
-class PluginError(RuntimeError):
-    """Installed packages with rules that cannot be used; the message has a line for each."""
-
-    def __init__(self, faults: Sequence[str]) -> None:
-        self.faults = tuple(faults)
-        super().__init__("\n".join(faults))
-
-
 def origin(code: str) -> str:
     """The package that a rule comes from, with its version: "mudline" for mudline's own."""
     return _ORIGINS.get(code, "mudline")

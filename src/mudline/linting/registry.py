@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from functools import cache
 
 from mudline.codes import all_codes
+from mudline.diagnostics import PluginError
 from mudline.linting import plugins
 from mudline.linting.rule import RULES, Noticed, Rule, add, described_by
 from mudline.resources import modules_of
@@ -36,7 +37,7 @@ def rules() -> tuple[Rule, ...]:
     """
     found, faults = _collected()
     if faults:
-        raise plugins.PluginError(faults)
+        raise PluginError(faults)
     return found
 
 

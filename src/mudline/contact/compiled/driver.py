@@ -33,7 +33,6 @@ from mudline.contact.compiled.tables import (
     trench_tables,
 )
 from mudline.contact.laws import base
-from mudline.contact.plan import BackendChoice
 from mudline.contact.positions import Batch
 from mudline.contact.result import ContactResult
 from mudline.contact.seabed.base import FlatSeabed, Seabed
@@ -107,10 +106,13 @@ class _Job(NamedTuple):
 class CompiledDriver:
     """Evaluates batches of steps. Holds no state of a series; may be shared by threads."""
 
-    def __init__(self, tables: Tables, seabed: Seabed, choice: BackendChoice) -> None:
-        """Prepare the tables of the loops, and the loops, which are compiled when they are first called."""
+    def __init__(self, tables: Tables, seabed: Seabed, threads: int, compiled: Callable[[], None]) -> None:
+        """Prepare the tables of the loops, and the loops, which are compiled when they are first called.
+
+        `compiled` is called once they are.
+        """
         given = tables.given
-        self._tables, self._choice, self._threads = tables, choice, choice.threads
+        self._tables, self._threads, self._note_compiled = tables, threads, compiled
         self._noted = False
         self._pool: ThreadPoolExecutor | None = None
         self._normal = None if seabed.same_normal is None else read_only(seabed.same_normal.reshape(1, 1, 3))
@@ -157,7 +159,7 @@ class CompiledDriver:
             return None
         if not self._noted:
             self._noted = True
-            self._choice.note_compiled()
+            self._note_compiled()
         return None if wrong else after
 
     def _run(self, batch: Batch, job: _Job) -> int:

@@ -1,4 +1,4 @@
-"""Findings for people: the place, the message, the source line with a mark under the fault; counts by rule."""
+"""Findings for people: the place, the message, the source line with a mark under the fault."""
 
 from __future__ import annotations
 
@@ -100,12 +100,3 @@ def summary(diagnostics: list[Diagnostic], files: int) -> Text:
             text.append(", " if len(text) > len("Found ") else "")
             text.append(f"{count} {_WORDS[severity]}{plural}", style)
     return text.append(f" in {files} file{'s' * (files != 1)}.")
-
-
-def statistics_lines(diagnostics: list[Diagnostic]) -> Iterator[str]:
-    """Findings counted by rule, the most frequent first."""
-    counts: dict[tuple[str, str], int] = {}
-    for found in diagnostics:
-        counts[found.code, found.slug] = counts.get((found.code, found.slug), 0) + 1
-    for (code, slug), count in sorted(counts.items(), key=lambda item: (-item[1], item[0])):
-        yield f"{count:6}  {code}  {slug}\n"
