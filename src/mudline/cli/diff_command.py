@@ -16,8 +16,7 @@ from mudline.cli.inputs import STDIN, load, refuses_bad_decks
 from mudline.cli.options import View
 from mudline.cli.streams import counted, emit
 from mudline.comparison.comparing import compare
-from mudline.comparison.model import Difference, Value
-from mudline.comparison.spans import spans_of, text_of
+from mudline.comparison.model import Difference, Value, spans_of, text_of
 from mudline.linting.output.visible import visible
 from mudline.scene.model import resolve
 

@@ -1,17 +1,190 @@
-"""Blocks of two decks that the scene does not resolve as a whole: by keyword, record by record."""
+"""Blocks that the scene does not resolve as a whole: values by path, record by record, or else line by line."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
 from difflib import SequenceMatcher
+from typing import NamedTuple, TypeAlias, cast
 
-from mudline.comparison.flat import Flat, flatten
-from mudline.comparison.model import Difference, Tolerance
-from mudline.comparison.side import Side
+from mudline.comparison.model import Difference, Side, Tolerance, Value, plain
 from mudline.deck.model import Opaque
+from mudline.deck.parameters import folded
 from mudline.diagnostics import Where
-from mudline.keywords.model import Block
+from mudline.keywords.kept import Names
+from mudline.keywords.model import Block, ListRow, Part, Record, Rows, Slot, columns_of, layout
+from mudline.keywords.table import Cell, Table
+from mudline.keywords.values import Kind
+from mudline.keywords.writer import field_text, joined
+
+_KEYS = ("set", "name", "curve")
+
+
+class Entry(NamedTuple):
+    """A value, the form in which it compares, and its place."""
+
+    shown: Value
+    compared: object
+    where: Where
+
+
+Flat: TypeAlias = dict[str, Entry]
+
+
+def flatten(side: Side, blocks: list[tuple[Where, Block]]) -> Flat:
+    """All values of the blocks of a keyword; records with a name are found by it, whatever block they stand in."""
+    return _Flattening(side, later_wins=any(block.facts.later_wins for _, block in blocks)).blocks(blocks)
+
+
+def record_values(side: Side, record: Record, where: Where) -> Flat:
+    """The values of one record that an element follows, without the name that it is found by."""
+    flattening = _Flattening(side, later_wins=True)
+    key = key_slot(type(record))
+    found: Flat = {}
+    flattening.part(record, where, "", found, leave_out=key.name if key else "")
+    return found
+
+
+def key_slot(record: type[Record]) -> Slot | None:
+    """The field that a record of a list is found by: its set, or its own name."""
+    own = (None, Names.SET)
+    slots = (slot for slot in layout(record).slots if not slot.row and not slot.many and slot.about.names in own)
+    return next((s for s in slots if s.kind is Kind.NAME and {s.json, s.key.casefold()} & set(_KEYS)), None)
+
+
+def _identity(record: Record) -> str | None:
+    """What tells a record without a name from others: the values that it must have. None where there are none."""
+    slots = [slot for slot in layout(type(record)).slots if slot.required and not slot.record]
+    values = [getattr(record, slot.name, None) for slot in slots]
+    words = [field_text(value) for value in values if isinstance(value, float | int | str)]
+    words += [joined(_cells(value)) for value in values if isinstance(value, ListRow)]
+    return ", ".join(words) or None
+
+
+def _cells(row: ListRow) -> list[Cell]:
+    given = [getattr(row, slot.name) for slot in layout(type(row)).columns if slot.name in row.model_fields_set]
+    return cast("list[Cell]", given)
+
+
+class _Flattening:
+    def __init__(self, side: Side, *, later_wins: bool) -> None:
+        self.side = side
+        self.later_wins = later_wins
+        self.counts: dict[str, int] = {}
+
+    def blocks(self, blocks: list[tuple[Where, Block]]) -> Flat:
+        found: Flat = {}
+        carried: dict[str, Entry] = {}
+        for where, block in blocks:
+            lists = [slot for slot in layout(type(block)).slots if self._keyed(slot)]
+            own: Flat = {}
+            self.part(block, where, "", own, leave_out=lists[0].name if lists else "")
+            if not lists:
+                found |= self._apart(own)
+                continue
+            for name in block.facts.carried:
+                path = name.rstrip("_")
+                carried |= {path: own[path]} if path in own else {}
+                own = {**carried, **own}
+            slot = lists[0]
+            self._records(getattr(block, slot.name) or [], where, slot, "", found, own)
+        return found
+
+    def part(self, part: Part, where: Where, prefix: str, found: Flat, leave_out: str = "") -> None:
+        """The declared fields of a part, below a prefix."""
+        kind: type[Part] = type(part)
+        for slot in layout(kind).slots:
+            value = getattr(part, slot.name, None)
+            if slot.name == leave_out or value is None:
+                continue
+            place = where._replace(path=(*where.path, slot.json))
+            self._value(value, slot, place, prefix + slot.json, found)
+
+    def _value(self, value: object, slot: Slot, where: Where, path: str, found: Flat) -> None:
+        if isinstance(value, Table):
+            found.update(_table(value, slot, where, path))
+        elif isinstance(value, Part):
+            self.part(value, where, path + "/", found)
+        elif isinstance(value, list) and value and isinstance(value[0], Record):
+            self._records(cast("list[Record]", value), where._replace(path=where.path[:-1]), slot, path, found, {})
+        elif isinstance(value, list):
+            self._items(value, where, path, found)
+        else:
+            found[path] = self._scalar(value, where)
+
+    def _items(self, values: list[object], where: Where, path: str, found: Flat) -> None:
+        for index, item in enumerate(values):
+            place = where._replace(path=(*where.path, index))
+            if isinstance(item, Part):
+                self.part(item, place, f"{path}/{index + 1}/", found)
+            else:
+                found[f"{path}/{index + 1}"] = self._scalar(item, place)
+
+    def _scalar(self, value: object, where: Where) -> Entry:
+        if isinstance(value, float):
+            return Entry(plain(value), value, where)
+        if isinstance(value, int):
+            return Entry(value, value, where)
+        return Entry(str(value), folded(str(value)), where)
+
+    def _records(self, records: list[Record], where: Where, slot: Slot, prefix: str, found: Flat, shared: Flat) -> None:
+        """The records of a list: by name where they have one, else by position."""
+        sticky: object = None
+        start = f"{prefix}/" if prefix else ""
+        for index, record in enumerate(records):
+            place = where._replace(path=(*where.path, slot.json, index))
+            key = key_slot(type(record))
+            path = start + self._title(record, key, index, found, start)
+            values: Flat = {}
+            if record.sticky:
+                sticky = getattr(record, record.sticky, None) or sticky
+                declared = next(s for s in layout(type(record)).slots if s.name == record.sticky)
+                values[f"{path}/{declared.json}"] = self._scalar(sticky or declared.about.default, place)
+            self.part(record, place, f"{path}/", values, leave_out=key.name if key else "")
+            found[path] = Entry(None, None, place)
+            found |= {f"{path}/{name}": entry for name, entry in shared.items()} | values
+
+    def _title(self, record: Record, key: Slot | None, index: int, found: Flat, start: str) -> str:
+        name = _identity(record) if key is None else getattr(record, key.name, None)
+        title = folded(str(name)) if name is not None else "all" if key and key.json == "set" else str(index + 1)
+        self.side.names.setdefault(title, "ALL" if name is None and title == "all" else str(name or title))
+        if self.later_wins:
+            if start + title in found:
+                for path in [path for path in found if path == start + title or path.startswith(f"{start}{title}/")]:
+                    del found[path]
+            return title
+        count = self.counts[start + title] = self.counts.get(start + title, 0) + 1
+        return title if count == 1 else f"{title}#{count}"
+
+    def _apart(self, own: Flat) -> Flat:
+        """The values of a block without named records; those of a second block stand apart."""
+        count = self.counts[""] = self.counts.get("", 0) + 1
+        return own if count == 1 else {f"#{count}/{path}": entry for path, entry in own.items()}
+
+    @staticmethod
+    def _keyed(slot: Slot) -> bool:
+        return slot.many and bool(slot.record) and all(key_slot(record) for record in slot.record.values())
+
+
+def _table(table: Table, slot: Slot, where: Where, path: str) -> Iterator[tuple[str, Entry]]:
+    """The rows of a table; points in ascending order."""
+    rows = [(cells, index) for index, cells in enumerate(table.rows(columns_of(slot)))]
+    if isinstance(slot.about, Rows) and slot.about.unordered:
+        rows.sort(
+            key=lambda item: [
+                (cell is None, str(cell) if isinstance(cell, str) else "", _number(cell)) for cell in item[0]
+            ]
+        )
+    for number, (cells, index) in enumerate(rows, 1):
+        while cells and cells[-1] is None:
+            cells.pop()
+        shown: list[Value] = [plain(cell) if isinstance(cell, float) else cell for cell in cells]
+        yield f"{path}/{number}", Entry(shown, list(cells), where._replace(path=(*where.path, index)))
+
+
+def _number(cell: float | str | None) -> float:
+    return 0.0 if cell is None or isinstance(cell, str) else float(cell)
+
 
 _ONE_IN_ALL = ("MODEL", "PREPROCESSOR")
 """Sections of which several make one."""

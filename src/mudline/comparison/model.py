@@ -1,13 +1,24 @@
-"""A difference between two decks, and how values are compared."""
+"""A difference between two decks, how values are compared, and the two decks; spans of whole numbers."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Literal, TypeAlias
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Literal, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import NDArray
+
+from mudline.codes.fields import SYN002, SYN006, SYN017
+from mudline.codes.references import REF013, REF014
+from mudline.deck.model import Nowhere
+from mudline.deck.parameters import Parameters
+from mudline.deck.reading import TextOrigin
+from mudline.diagnostics import Blocks, DeckError, Problem, Where
+from mudline.keywords.model import Block
+from mudline.scene.model import Scene
 
 Value: TypeAlias = float | int | str | list["Value"] | None
 """What is told of a value; None where there is none."""
@@ -69,3 +80,121 @@ def plain(value: float) -> Value:
     if math.isfinite(value):
         return value
     return None if math.isnan(value) else str(value)
+
+
+Spans = NDArray[np.int64]
+"""First and last numbers (k, 2) in ascending order, with a gap between one span and the next."""
+
+NO_SPANS: Spans = np.zeros((0, 2), dtype=np.int64)
+_AT_ONCE = 100_000
+
+
+def spans_of(numbers: NDArray[np.int64]) -> Spans:
+    """The spans of numbers in any order."""
+    return _joined(numbers, numbers)
+
+
+def spans_of_run(start: int, end: int, step: int) -> Spans:
+    """The spans of start, start + step, ... up to end; the step is at least 1."""
+    if step == 1:
+        return np.array([(start, end)] * (start <= end), dtype=np.int64).reshape(-1, 2)
+    numbers = np.arange(start, end + 1, step, dtype=np.int64)
+    return np.broadcast_to(numbers[:, np.newaxis], (len(numbers), 2))
+
+
+def union(parts: Sequence[Spans]) -> Spans:
+    """The spans of all numbers in any of several."""
+    parts = [part for part in parts if len(part)]
+    if len(parts) == 1:
+        return parts[0]
+    return _joined(*(np.concatenate([NO_SPANS[:, end], *(part[:, end] for part in parts)]) for end in (0, 1)))
+
+
+def text_of(spans: Spans) -> str:
+    """Spans as a text: `1-20, 25`."""
+    return ", ".join(_pieces(spans))
+
+
+def _joined(firsts: NDArray[np.int64], lasts: NDArray[np.int64]) -> Spans:
+    """Spans that may overlap or touch as ones with gaps between them."""
+    if not len(firsts):
+        return NO_SPANS
+    if not (firsts[1:] >= firsts[:-1]).all():
+        alone = firsts is lasts
+        order = np.argsort(firsts, kind="stable")
+        firsts = firsts[order]
+        lasts = firsts if alone else lasts[order]
+    if firsts is lasts and (firsts[1:] - firsts[:-1] > 1).all():  # none is next to another: the numbers are the spans
+        return np.broadcast_to(firsts[:, np.newaxis], (len(firsts), 2))
+    reached = np.maximum.accumulate(lasts)
+    begins = np.flatnonzero(firsts[1:] - reached[:-1] > 1) + 1
+    ends = np.append(begins - 1, len(firsts) - 1)
+    return np.column_stack([firsts[np.append(0, begins)], reached[ends]])
+
+
+def _pieces(spans: Spans) -> Iterator[str]:
+    """Pieces of the text, each of many spans: a text for each span would take several times the memory."""
+    for start in range(0, len(spans), _AT_ONCE):
+        some = spans[start : start + _AT_ONCE].tolist()
+        yield ", ".join(str(first) if first == last else f"{first}-{last}" for first, last in some)
+
+
+_NO_VALUE = (SYN002, SYN006, SYN017, REF013, REF014)
+
+_MOST_STEPS = 1_000_000
+"""Rows that may be passed to find lines in a document: a row is found by counting from the first one of its table."""
+
+_FEW = 100
+
+
+@dataclass
+class Side:
+    """A resolved deck, its parameters, and the lines of its file."""
+
+    scene: Scene
+    names: dict[str, str] = field(default_factory=dict)
+    """Names as the deck writes them, by their folded form."""
+    _steps: int = _MOST_STEPS
+
+    def path(self, path: str) -> str:
+        """A path of folded names with the names as the deck writes them."""
+        return "/".join(self.names.get(step, step) for step in path.split("/"))
+
+    @cached_property
+    def parameters(self) -> Parameters:
+        """The parameters, evaluated."""
+        return Parameters(self.scene.deck)
+
+    def comparable(self, block: Block, where: Where) -> Block:
+        """A block, or that block as written where one of its equations has no value: then their texts compare."""
+        if (where.section, where.block) not in self._valueless:
+            return block
+        return cast("Block", self.scene.context.as_written(where))
+
+    @cached_property
+    def _valueless(self) -> set[tuple[int, int]]:
+        """Section and block of what was noticed of equations."""
+        places = (problem.where for problem in self.scene.noticed if problem.code in _NO_VALUE)
+        return {(where.section, where.block) for where in places if where is not None}
+
+    def line(self, where: Where | None) -> int | None:
+        """The line of a place; None for what stands in no line of this file, and once too many were sought."""
+        deck = self.scene.deck
+        if where is None or not 0 <= where.section < len(deck.own_sections) or isinstance(deck.origin, Nowhere):
+            return None
+        steps = 0 if isinstance(deck.origin, TextOrigin) else sum(step for step in where.path if isinstance(step, int))
+        if steps > max(self._steps, _FEW):
+            return None
+        self._steps -= steps
+        return deck.origin.place(Problem(SYN002, "", where=where)).line
+
+    def require(self) -> None:
+        """Raise DeckError for what could not be read, and for equations without a value."""
+        self.scene.deck.require()
+        unknown = [
+            problem
+            for problem in self.scene.noticed
+            if problem.code in _NO_VALUE and problem.blocking is not Blocks.NEVER
+        ]
+        if unknown:
+            raise DeckError(self.scene.deck.diagnose(unknown))

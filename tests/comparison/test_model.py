@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.comparison.comparing import compare
-from mudline.comparison.spans import NO_SPANS, Spans, spans_of, spans_of_run, text_of, union
+from mudline.comparison.model import NO_SPANS, Spans, spans_of, spans_of_run, text_of, union
 from mudline.deck.loading import load_bytes
 from mudline.scene.model import resolve
 
