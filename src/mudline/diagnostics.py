@@ -13,6 +13,12 @@ from typing import NamedTuple
 
 from mudline.short_repr import counted, outline, short_repr
 
+MOST_REPORTED = 1000
+"""Findings of one code in a deck that are reported one by one."""
+
+MORE = f"and more of the same: the first {MOST_REPORTED} are listed"
+"""The message of the finding behind them, which replaces all the others."""
+
 
 class Severity(StrEnum):
     """How bad a finding is; the order of the members is the order of badness."""

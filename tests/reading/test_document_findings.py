@@ -7,10 +7,9 @@ from typing import Any
 
 import pytest
 
-from mudline.deck.faults import MOST_TOLD
 from mudline.deck.loading import dump, load_bytes
 from mudline.deck.model import Deck, Opaque, Section
-from mudline.diagnostics import DeckError, Diagnostic
+from mudline.diagnostics import MOST_REPORTED, DeckError, Diagnostic
 from mudline.keywords.library.ocean import Ocean
 from mudline.keywords.model import Comment
 
@@ -72,15 +71,15 @@ def test_known_blocks_without_a_model_are_not_told() -> None:
 @pytest.mark.parametrize(
     "document",
     [
-        {"format": "mudline-deck/1", "sections": [5] * (2 * MOST_TOLD)},
-        made(section(*[{"keyword": "X"}] * (2 * MOST_TOLD))),
-        made(*[section(name="a\nb")] * (2 * MOST_TOLD)),
-        made(**{f"x{number}": 1 for number in range(2 * MOST_TOLD)}),
+        {"format": "mudline-deck/1", "sections": [5] * (2 * MOST_REPORTED)},
+        made(section(*[{"keyword": "X"}] * (2 * MOST_REPORTED))),
+        made(*[section(name="a\nb")] * (2 * MOST_REPORTED)),
+        made(**{f"x{number}": 1 for number in range(2 * MOST_REPORTED)}),
     ],
 )
 def test_of_very_many_faults_a_thousand_are_listed(document: Document) -> None:
     found = refused(document)
-    assert len(found) == MOST_TOLD + 1
+    assert len(found) == MOST_REPORTED + 1
     assert sum("and more of the same" in one.message for one in found) == 1
 
 

@@ -6,8 +6,8 @@ from collections import Counter
 
 import pytest
 
-from mudline.deck.findings import MOST_TOLD
 from mudline.deck.loading import load_bytes
+from mudline.diagnostics import MOST_REPORTED
 
 
 @pytest.mark.parametrize(
@@ -22,13 +22,13 @@ from mudline.deck.loading import load_bytes
 )
 def test_the_first_are_told_and_then_that_there_are_more(code: str, text: str) -> None:
     head = "$MODEL\n" if code in ("SYN008", "SYN009") else ""
-    deck = load_bytes((head + text * (MOST_TOLD + 500)).encode(), "deck.keyxm")
+    deck = load_bytes((head + text * (MOST_REPORTED + 500)).encode(), "deck.keyxm")
     told = [problem for problem in deck.problems if problem.code.code == code]
-    assert len(told) == MOST_TOLD + 1
+    assert len(told) == MOST_REPORTED + 1
     assert told[-1].message.startswith("and more")
     assert Counter(problem.code.code for problem in deck.problems)[code] == len(told)
 
 
 def test_a_thousand_are_all_told() -> None:
-    deck = load_bytes(("$MODEL\n" + "*NOBODY KNOWS\n" * MOST_TOLD).encode(), "deck.keyxm")
-    assert len(deck.problems) == MOST_TOLD
+    deck = load_bytes(("$MODEL\n" + "*NOBODY KNOWS\n" * MOST_REPORTED).encode(), "deck.keyxm")
+    assert len(deck.problems) == MOST_REPORTED

@@ -11,14 +11,11 @@ from pydantic_core import ErrorDetails
 
 from mudline.codes import DOC001, DOC002
 from mudline.deck.model import START, Deck, Nowhere, Range
-from mudline.diagnostics import DeckError, Diagnostic, Problem, Span, Where
+from mudline.diagnostics import MORE, MOST_REPORTED, DeckError, Diagnostic, Problem, Span, Where
 from mudline.keywords.values import Equation, Label
 
 DocumentPath = tuple[str | int, ...]
 Locate = Callable[[DocumentPath], Range]
-
-MOST_TOLD = 1000
-"""Faults of a document told one by one."""
 
 _LONGEST = 200
 
@@ -108,8 +105,8 @@ class Faults:
 
     def add(self, path: DocumentPath, message: str) -> None:
         """One fault; raises DeckError when it is one too many."""
-        if len(self.found) == MOST_TOLD:
-            self.found.append((self.locate(path), f"and more of the same: the first {MOST_TOLD} are listed"))
+        if len(self.found) == MOST_REPORTED:
+            self.found.append((self.locate(path), MORE))
             self._refuse()
         self.found.append((self.locate(path), f"{path_text(path)}: {message}"))
 

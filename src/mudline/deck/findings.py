@@ -6,13 +6,10 @@ from collections import Counter
 
 from mudline.codes.lines import SYN007, SYN008, SYN011
 from mudline.codes.words import SYN009, SYN010
-from mudline.diagnostics import Code, Problem, Severity, Span, Where
+from mudline.diagnostics import MORE, MOST_REPORTED, Code, Problem, Severity, Span, Where
 from mudline.keywords import catalogue
 from mudline.keywords.likeness import meant_in, meant_keyword, meant_section, words_behind
 from mudline.keywords.text import hint, instead
-
-MOST_TOLD = 1000
-"""Findings of one code about lines, blocks or sections told one by one."""
 
 
 class Findings:
@@ -71,10 +68,9 @@ class Findings:
         """Whether one more finding of a code is told: a file of another kind would have as many as it has lines."""
         self.told[code.code] += 1
         count = self.told[code.code]
-        if count == MOST_TOLD + 1:
-            message = f"and more of the same: the first {MOST_TOLD} are listed"
-            self.problems.append(Problem(code, message, span, None, where))
-        return count <= MOST_TOLD
+        if count == MOST_REPORTED + 1:
+            self.problems.append(Problem(code, MORE, span, None, where))
+        return count <= MOST_REPORTED
 
 
 def _meant(name: str, near: str) -> str:

@@ -10,8 +10,7 @@ from typing import TypeVar, cast
 
 from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin
-from mudline.diagnostics import Blocks, Code, Problem
-from mudline.scene.context import MOST_REPORTED
+from mudline.diagnostics import MOST_REPORTED, Blocks, Code, Problem
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.laws import LawTable
 from mudline.scene.model import Scene, resolve

@@ -8,8 +8,7 @@ from dataclasses import dataclass, replace
 from itertools import islice
 from textwrap import dedent
 
-from mudline.deck.findings import MOST_TOLD
-from mudline.diagnostics import Code, Problem
+from mudline.diagnostics import MORE, MOST_REPORTED, Code, Problem
 from mudline.linting.context import LintContext
 
 Check = Callable[[LintContext], Iterable[Problem]]
@@ -160,6 +159,6 @@ def _decks(code: Code, example: str) -> tuple[str, str]:
 def first_reported(problems: Iterable[Problem]) -> Iterator[Problem]:
     """As many findings as are reported one by one; the next one says that there are more."""
     found = iter(problems)
-    yield from islice(found, MOST_TOLD)
+    yield from islice(found, MOST_REPORTED)
     for further in islice(found, 1):
-        yield replace(further, message=f"and more of the same: the first {MOST_TOLD} are listed", repair=None)
+        yield replace(further, message=MORE, repair=None)

@@ -16,7 +16,7 @@ from mudline.codes.words import SYN004
 from mudline.deck.evaluation import EvaluatedDeck
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.parameters import folded
-from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
+from mudline.diagnostics import MORE, MOST_REPORTED, Blocks, Code, Problem, Severity, Where
 from mudline.keywords import catalogue
 from mudline.keywords.likeness import meant_in, meant_keyword
 from mudline.keywords.model import ListRow
@@ -32,12 +32,6 @@ from mudline.scene.opaque_names import (
 from mudline.short_repr import short_repr
 from mudline.spelling import Effort, nearest
 from mudline.syntax.tree import canonical_name, mark_of
-
-MOST_REPORTED = 1000
-"""Findings of one code that are reported; the rest is left out."""
-
-MORE = f"and more of the same: the first {MOST_REPORTED} are listed"
-"""The message of the finding behind them."""
 
 
 @dataclass

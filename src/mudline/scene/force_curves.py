@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from mudline.codes.curves import CRV001, CRV003, CRV011
-from mudline.diagnostics import Where
+from mudline.diagnostics import MOST_REPORTED, Where
 from mudline.keywords.table import Table
 from mudline.keywords.text import shown
-from mudline.scene.context import MOST_REPORTED, Context
+from mudline.scene.context import Context
 from mudline.scene.numbering import Floats, Indices, Mask
 from mudline.short_repr import short_repr
 

@@ -16,12 +16,12 @@ from mudline.codes.references import REF001, REF005, REF006, REF010
 from mudline.codes.words import SYN005
 from mudline.deck.model import Deck
 from mudline.deck.parameters import folded
-from mudline.diagnostics import Code, Severity, Where
+from mudline.diagnostics import MOST_REPORTED, Code, Severity, Where
 from mudline.keywords.kept import Names
 from mudline.keywords.model import Block, names_given
 from mudline.keywords.text import shown
 from mudline.keywords.values import Label
-from mudline.scene.context import MOST_REPORTED, Context
+from mudline.scene.context import Context
 from mudline.scene.laws import LawTable
 from mudline.scene.numbering import Numbered
 from mudline.scene.opaque_names import bare, makes_labels

@@ -9,11 +9,10 @@ from itertools import chain
 import numpy as np
 
 from mudline.deck.reading import TextOrigin
-from mudline.diagnostics import Code, Problem, Repair, Severity, Span
+from mudline.diagnostics import MOST_REPORTED, Code, Problem, Repair, Severity, Span
 from mudline.keywords.text import shown
 from mudline.linting.context import LARGEST_RATIO, LintContext
 from mudline.linting.rule import rule
-from mudline.scene.context import MOST_REPORTED
 from mudline.scene.force_curves import SceneCurve, clashes_and_repeats
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices

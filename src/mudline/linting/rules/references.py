@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING, cast
 
 from mudline.deck.parameters import folded, list_items
 from mudline.deck.reading import TextOrigin
-from mudline.diagnostics import Code, Problem, Repair, Severity, Span, Where
+from mudline.diagnostics import MOST_REPORTED, Code, Problem, Repair, Severity, Span, Where
 from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
 from mudline.linting.rule import rule
-from mudline.scene.context import MOST_REPORTED
 from mudline.scene.sets import ALL
 
 if TYPE_CHECKING:

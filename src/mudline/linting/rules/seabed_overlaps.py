@@ -10,13 +10,12 @@ import numpy as np
 
 from mudline.codes.references import REF010
 from mudline.deck.parameters import folded
-from mudline.diagnostics import Code, Problem, Severity
+from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity
 from mudline.keywords.model import Record
 from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
 from mudline.linting.rule import rule
 from mudline.linting.rules.seabed_position import first_of
-from mudline.scene.context import MOST_REPORTED
 from mudline.scene.deck_values import surfaces
 from mudline.scene.laws import SetLaw
 from mudline.scene.model import Scene

@@ -19,12 +19,11 @@ from mudline.contact.stiffest import (
     rounded_down,
     steepest_slope,
 )
-from mudline.diagnostics import Code, Problem, Severity
+from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity
 from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
 from mudline.linting.rule import rule
 from mudline.scene.assignments import given_stiffness, nodal_stiffness, suction_law
-from mudline.scene.context import MOST_REPORTED
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices

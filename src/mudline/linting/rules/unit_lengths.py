@@ -8,7 +8,7 @@ from itertools import islice
 
 import numpy as np
 
-from mudline.diagnostics import Code, Problem, Severity, Where
+from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity, Where
 from mudline.keywords.model import Part
 from mudline.linting.context import LARGEST_RATIO, LintContext
 from mudline.linting.rule import rule
@@ -27,7 +27,6 @@ from mudline.linting.rules.unit_densities import (
     rounded,
     water_density,
 )
-from mudline.scene.context import MOST_REPORTED
 from mudline.scene.deck_values import DEFAULT_DENSITY, LARGEST_MOBILISATION, number
 from mudline.scene.deck_values import LENGTH_UNIT as METRES
 from mudline.scene.force_curves import SceneCurve

@@ -12,12 +12,11 @@ import numpy as np
 from mudline.contact.input import LawKind
 from mudline.deck.model import Deck
 from mudline.deck.units import GRAVITIES
-from mudline.diagnostics import Code, Problem, Severity, Where
+from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity, Where
 from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
 from mudline.linting.rule import rule
 from mudline.linting.rules.curve_shape import swapped
-from mudline.scene.context import MOST_REPORTED
 from mudline.scene.deck_values import surfaces
 from mudline.scene.model import Scene
 

@@ -8,9 +8,8 @@ from functools import cache
 from itertools import islice
 from typing import TYPE_CHECKING
 
-from mudline.diagnostics import Code, Problem
+from mudline.diagnostics import MORE, MOST_REPORTED, Code, Problem
 from mudline.resources import modules_of
-from mudline.scene.context import MORE, MOST_REPORTED
 
 if TYPE_CHECKING:
     from mudline.scene.resolved import ResolvedDeck

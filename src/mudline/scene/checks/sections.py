@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from mudline.diagnostics import Code, Problem, Severity, Where
+from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity, Where
 from mudline.keywords.catalogue import ZERO_LENGTH
 from mudline.scene.checks.declaring import check
-from mudline.scene.context import MOST_REPORTED
 from mudline.scene.sections import format_of
 
 if TYPE_CHECKING:
