@@ -10,11 +10,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from jsonschema import Draft202012Validator
 
+from mudline.deck.document import json_schema
 from mudline.deck.faults import DocumentPath, path_text
 from mudline.deck.forms.yaml import CoreDumper
 from mudline.deck.loading import dump, load_bytes
 from mudline.deck.model import Deck
-from mudline.deck.schema import json_schema
 from mudline.diagnostics import DeckError, Diagnostic
 from tests.generated.decks import KEYWORDS, alone, block
 from tests.generated.lines import Values

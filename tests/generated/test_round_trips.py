@@ -9,9 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from jsonschema import Draft202012Validator
 
+from mudline.deck.document import json_schema
 from mudline.deck.loading import dump, load_bytes
 from mudline.deck.model import Deck
-from mudline.deck.schema import json_schema
 from tests.generated.decks import KEYWORDS, Keyword, alone, block, declared, document
 from tests.generated.lines import Values
 

@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 
 from mudline.comparison.comparing import compare
+from mudline.deck.document import json_schema
 from mudline.deck.forms.json import from_json, to_json
 from mudline.deck.forms.keyword import to_keyword
 from mudline.deck.loading import load_bytes
-from mudline.deck.schema import json_schema
 from mudline.keywords import catalogue, grammar, library
 from mudline.keywords.likeness import meant_keyword
 from mudline.linting.engine import lint_bytes

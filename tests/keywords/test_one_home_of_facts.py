@@ -25,7 +25,7 @@ ASKING = frozenset(
 CONSTANTS = frozenset({"KEYWORD", "_KEYWORD"})
 
 EXCEPTIONS = {
-    "comparison/numbered.py": "asks for the labels in the blocks of nodes and of elements",
+    "comparison/named.py": "asks for the labels in the blocks of nodes and of elements",
     "migration/migrating.py": "the blocks whose laws a migrated surface would meet",
     "migration/refusals.py": "the blocks that a bed, or a deck that continues another, has instead",
     "migration/rewriting.py": "writes these blocks",

@@ -13,9 +13,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from jsonschema import Draft202012Validator
 
+from mudline.deck.document import json_schema
 from mudline.deck.loading import dump, load_bytes
 from mudline.deck.model import Deck
-from mudline.deck.schema import json_schema
 from mudline.diagnostics import DeckError, Diagnostic
 from tests.processes import TIMEOUT
 from tests.reading.decks import deck_texts, mutated

@@ -13,9 +13,9 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 from jsonschema import Draft202012Validator
 
+from mudline.deck.document import json_schema
 from mudline.deck.loading import dump, form_of, load_bytes
 from mudline.deck.model import Deck
-from mudline.deck.schema import json_schema
 from mudline.diagnostics import Severity
 from tests.reading.decks import MODELLED, deck_texts, mutated
 from tests.samples import SAMPLES

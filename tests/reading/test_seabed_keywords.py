@@ -10,10 +10,9 @@ import numpy as np
 import pytest
 from jsonschema import Draft202012Validator
 
-from mudline.deck.document import FORMAT
+from mudline.deck.document import FORMAT, json_schema
 from mudline.deck.forms.keyword import to_keyword
 from mudline.deck.loading import dump, load_bytes
-from mudline.deck.schema import json_schema
 from mudline.diagnostics import DeckError
 from mudline.formatting.document import formatted
 from mudline.keywords.library.seabed_suction import CyclicLoading, SeabedSuction, SuctionSet

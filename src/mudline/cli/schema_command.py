@@ -6,7 +6,7 @@ import click
 
 from mudline.cli import DONE, options
 from mudline.cli.streams import emit_json
-from mudline.deck.schema import json_schema
+from mudline.deck.document import json_schema
 
 
 @click.command("schema")

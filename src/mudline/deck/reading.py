@@ -1,15 +1,16 @@
-"""Keyword text to a deck: sections, known and unknown keywords, comments that belong to what follows them."""
+"""Keyword text to a deck: sections, keywords, comments that belong to what follows them, and the unit system."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from pathlib import PurePath
+from typing import TYPE_CHECKING, cast
 
 from mudline.codes.fields import SYN002, SYN006
 from mudline.codes.lines import SYN014
 from mudline.deck.findings import Findings
 from mudline.deck.model import START, Deck, Opaque, Range, Section
-from mudline.deck.units import units_of
+from mudline.deck.parameters import Parameters
 from mudline.diagnostics import Problem, Span, Where
 from mudline.keywords import catalogue
 from mudline.keywords.model import Comment
@@ -18,6 +19,10 @@ from mudline.short_repr import short_repr
 from mudline.syntax.fields import trimmed
 from mudline.syntax.source import Source
 from mudline.syntax.tree import Kind, Leaf, RawBlock, RawSection, SyntaxTree, parse
+
+if TYPE_CHECKING:
+    from mudline.keywords.library.ocean import Ocean
+    from mudline.keywords.library.units import Units
 
 
 @dataclass
@@ -181,3 +186,30 @@ class _Reader:
             if unclosed or piece[-1:] in "+-.eEdD" or piece in ("=", "=["):
                 message = f"the file ends inside {piece!r}: it seems to be cut off, add what is missing"
                 self.problems[index] = replace(problem, code=SYN014, message=message)
+
+
+_SUFFIXES = {".keyxm": "metric", ".keyxi": "imperial"}
+GRAVITIES = {"metric": 9.81, "imperial": 32.2}
+_NEAR = 0.02
+
+
+def units_of(deck: Deck) -> str:
+    """The system, "metric", "imperial" or "user": by suffix, else `*UNITS`, else the gravity of `*OCEAN` within 2 %."""
+    suffix = PurePath(deck.source).suffix.lower()
+    if suffix in _SUFFIXES:
+        return _SUFFIXES[suffix]
+    for _, block in deck.blocks("UNITS", "ANALYSIS"):
+        if units := cast("Units", block).units:
+            return units.lower()
+    gravity = gravity_of(deck)
+    return next((name for name, g in GRAVITIES.items() if gravity and abs(gravity - g) <= _NEAR * g), "user")
+
+
+def gravity_of(deck: Deck) -> float | None:
+    """Gravity of the last `*OCEAN` that gives one, evaluated; None when there is none."""
+    parameters = Parameters(deck)
+    found: float | None = None
+    for _, ocean in deck.blocks("OCEAN"):
+        value = parameters.number(cast("Ocean", ocean).gravity)
+        found = value if value is not None else found
+    return found

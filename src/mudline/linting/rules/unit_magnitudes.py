@@ -11,7 +11,7 @@ import numpy as np
 
 from mudline.contact.input import LawKind
 from mudline.deck.model import Deck
-from mudline.deck.units import GRAVITIES
+from mudline.deck.reading import GRAVITIES
 from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity, Where
 from mudline.keywords.text import shown
 from mudline.linting.context import LintContext
