@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from mudline.keywords import catalogue
-from mudline.keywords.kept import Kept
+from mudline.keywords.facts import Kept
 from mudline.keywords.model import Block
 from tests.docs.keyword_fields import inferences, tables
 from tests.docs.keyword_format import format_lines

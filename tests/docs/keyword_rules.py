@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from functools import cache
 
 from mudline.keywords import catalogue
-from mudline.keywords.kept import Kept
+from mudline.keywords.facts import Kept
 from mudline.keywords.model import Block
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import rules

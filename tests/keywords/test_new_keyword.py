@@ -14,7 +14,7 @@ from mudline.deck.forms.json import from_json, to_json
 from mudline.deck.forms.keyword import to_keyword
 from mudline.deck.loading import load_bytes
 from mudline.keywords import catalogue, grammar, library
-from mudline.keywords.likeness import meant_keyword
+from mudline.keywords.catalogue import meant_keyword
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import rules
 from mudline.scene.model import resolve
@@ -31,7 +31,7 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from mudline.keywords.facts import Facts
-from mudline.keywords.kept import Names
+from mudline.keywords.facts import Names
 from mudline.keywords.model import Block, Record, about, setting
 from mudline.keywords.values import Name, Real
 

@@ -8,7 +8,7 @@ import pytest
 
 import mudline
 from mudline.diagnostics import Severity
-from mudline.keywords.likeness import meant_in, meant_keyword, meant_section
+from mudline.keywords.catalogue import meant_in, meant_keyword, meant_section
 from tests.reading.test_forms import read
 
 TABLE = "$MODEL\n*OCEAN\n 350.0, 1025.0, 9.81\n"

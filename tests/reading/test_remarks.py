@@ -9,7 +9,7 @@ import pytest
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import Deck
 from mudline.diagnostics import Severity
-from mudline.keywords.remarks import advice_on, remark_of
+from mudline.keywords.text import advice_on, remark_of
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import select
 from tests.growth import FOURFOLD, TWOFOLD, call_growth, growth
@@ -96,7 +96,7 @@ def test_very_many_faults_on_a_line_take_no_time() -> None:
         line = " ! ".join(["x, "] * count).replace("x", "1", 1)
         return f"$MODEL\n*ELEMENT SETS\n SET=A\n 1, {line}\n".encode()
 
-    with patch("mudline.keywords.remarks.remark_of", wraps=remark_of) as looked_for:
+    with patch("mudline.keywords.text.remark_of", wraps=remark_of) as looked_for:
         loaded(faults(100))
     assert looked_for.call_count == 1
     assert call_growth(loaded, faults(500), faults(1_000)) < TWOFOLD

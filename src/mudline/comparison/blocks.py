@@ -11,7 +11,7 @@ from mudline.comparison.model import Difference, Side, Tolerance, Value, plain
 from mudline.deck.model import Opaque
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Where
-from mudline.keywords.kept import Names
+from mudline.keywords.facts import Names
 from mudline.keywords.model import Block, ListRow, Part, Record, Rows, Slot, columns_of, layout
 from mudline.keywords.table import Cell, Table
 from mudline.keywords.values import Kind

@@ -8,7 +8,7 @@ from mudline.codes.lines import SYN007, SYN008, SYN011
 from mudline.codes.words import SYN009, SYN010
 from mudline.diagnostics import MORE, MOST_REPORTED, Code, Problem, Severity, Span, Where
 from mudline.keywords import catalogue
-from mudline.keywords.likeness import meant_in, meant_keyword, meant_section, words_behind
+from mudline.keywords.catalogue import meant_in, meant_keyword, meant_section, words_behind
 from mudline.keywords.text import hint, instead
 
 

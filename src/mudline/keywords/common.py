@@ -1,11 +1,11 @@
-"""What the keywords of the seabed share."""
+"""What several keywords of the seabed, or of lines, share."""
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, ClassVar
 
-from mudline.keywords.model import Row, about
-from mudline.keywords.values import Real
+from mudline.keywords.model import Record, Row, about, setting
+from mudline.keywords.values import Name, Real
 
 CONSTANT_FRICTION = (
     "no meaning: the manual names the field and says neither what it does nor its unit, so the value is kept and no "
@@ -34,4 +34,14 @@ class CurvePoint(Row):
             unit="F/L",
             inferred=_PER_LENGTH,
         ),
+    ]
+
+
+class AdditionalSets(Record):
+    """More sets that the elements of a section belong to."""
+
+    rule: ClassVar[str] = "additional_sets"
+    sets: Annotated[
+        list[Name],
+        setting("ADDITIONAL", "more element sets that hold this section", inferred="the line may be repeated"),
     ]

@@ -1,8 +1,10 @@
-"""What is known of a keyword besides its lines; whoever needs such a fact asks the keyword's class for it."""
+"""What is known of a keyword besides its lines: facts, and what keywords of no public format name."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import Enum
 from typing import Literal
 
 
@@ -44,3 +46,45 @@ class Facts:
     seabed_type: Literal["", "RIGID", "ELASTIC"] = ""
     soil_springs: bool = False
     computed_in: str = ""
+
+
+class Names(Enum):
+    """What the value of a `KEY=` names; the words are for a reader."""
+
+    SET = "an element set"
+    SETS = "one or more element sets"
+    CURVE = "a force-embedment curve"
+    FILE = "a file"
+    DECK = "the deck before"
+
+
+LINE_SETS: Mapping[str, Names] = {
+    "LINE": Names.SET,
+    "NAME": Names.SET,
+    "SECTION": Names.SET,
+    "ADDITIONAL": Names.SETS,
+}
+"""Settings of lines that make element sets: a line and each of its sections is one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Kept:
+    """A keyword that is known, and whose lines are kept as they are.
+
+    `example` shows what its lines may look like, not its format. `certain` and `inferred` say what we know of it and
+    what we conclude. `harvest` has the settings that give names; of a SET only the first value is a name. `labels` says
+    that any text among its lines may be the label of a node. `makes` are the keywords of what it may define: a thing of
+    these kinds that is missing may come from here. `sections_inferred` says that its section is not confirmed: in
+    another one it is not reported.
+    """
+
+    names: tuple[str, ...]
+    summary: str
+    example: str
+    certain: str
+    inferred: str
+    sections: tuple[str, ...] = ("MODEL",)
+    sections_inferred: bool = False
+    harvest: Mapping[str, Names] = field(default_factory=dict)
+    labels: bool = False
+    makes: tuple[str, ...] = ()

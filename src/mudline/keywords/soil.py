@@ -7,7 +7,7 @@ from typing import Annotated, ClassVar
 from mudline.codes.lines import SYN001
 from mudline.codes.words import SYN004, SYN005
 from mudline.diagnostics import Code
-from mudline.keywords.kept import Names
+from mudline.keywords.facts import Names
 from mudline.keywords.model import Record, Row, about, rows, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Ident, Name, Real

@@ -18,7 +18,7 @@ from mudline.deck.model import Deck, Opaque
 from mudline.deck.parameters import folded
 from mudline.diagnostics import MORE, MOST_REPORTED, Blocks, Code, Problem, Severity, Where
 from mudline.keywords import catalogue
-from mudline.keywords.likeness import meant_in, meant_keyword
+from mudline.keywords.catalogue import meant_in, meant_keyword
 from mudline.keywords.model import ListRow
 from mudline.scene.continued import ContinuedDeck
 from mudline.scene.numbering import LARGEST

@@ -12,8 +12,7 @@ import numpy as np
 from mudline.codes.references import REF001, REF005, REF008, REF009, REF010
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Severity, Where
-from mudline.keywords.remarks import advice_on
-from mudline.keywords.text import shown
+from mudline.keywords.text import advice_on, shown
 from mudline.scene.context import Context
 from mudline.scene.numbering import Ids, Indices, Numbered, constant, identity
 from mudline.scene.opaque_names import bare

@@ -13,7 +13,7 @@ from typing import NamedTuple, cast
 
 from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin
-from mudline.keywords.kept import Names
+from mudline.keywords.facts import Names
 from mudline.keywords.model import Block, names_given
 from mudline.keywords.text import shown
 from mudline.scene.deck_values import file_name, find_file

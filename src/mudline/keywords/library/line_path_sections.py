@@ -6,8 +6,8 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
+from mudline.keywords.common import AdditionalSets
 from mudline.keywords.facts import Facts
-from mudline.keywords.line_parts import AdditionalSets
 from mudline.keywords.model import Block, Record, Row, about, setting
 from mudline.keywords.values import Name, Real
 

@@ -8,7 +8,7 @@ from pydantic import Field
 
 from mudline.codes.words import SYN004
 from mudline.diagnostics import Code
-from mudline.keywords.kept import Names
+from mudline.keywords.facts import Names
 from mudline.keywords.model import Block, setting
 from mudline.keywords.values import Name
 

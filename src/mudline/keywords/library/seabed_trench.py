@@ -6,8 +6,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field, ValidationInfo, field_validator
 
-from mudline.keywords.facts import Facts
-from mudline.keywords.kept import Names
+from mudline.keywords.facts import Facts, Names
 from mudline.keywords.model import Block, Record, Row, about, rows, setting
 from mudline.keywords.table import Table
 from mudline.keywords.values import Name, Real

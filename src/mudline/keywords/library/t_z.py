@@ -7,8 +7,7 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from mudline.diagnostics import Code
-from mudline.keywords.facts import Facts
-from mudline.keywords.kept import Names
+from mudline.keywords.facts import Facts, Names
 from mudline.keywords.model import Block, Record, setting
 from mudline.keywords.soil import OTHER_FORMS, CurvesFile, SoilCurves
 from mudline.keywords.values import Name

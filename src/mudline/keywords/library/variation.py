@@ -6,8 +6,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import model_validator
 
-from mudline.keywords.facts import Facts
-from mudline.keywords.kept import Names
+from mudline.keywords.facts import Facts, Names
 from mudline.keywords.model import Block, ListRow, Record, about, setting
 from mudline.keywords.values import Name, Real
 

@@ -10,7 +10,7 @@ from mudline.codes.references import REF015
 from mudline.deck.model import Deck
 from mudline.deck.parameters import Parameters
 from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
-from mudline.keywords.kept import Names
+from mudline.keywords.facts import Names
 from mudline.keywords.model import Block, ListRow, Part, Rows, Slot, layout, names_given
 from mudline.keywords.table import Table
 from mudline.keywords.text import shown
