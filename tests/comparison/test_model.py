@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from mudline.comparison import model
 from mudline.comparison.comparing import compare
 from mudline.comparison.model import NO_SPANS, Spans, spans_of, spans_of_run, text_of, union
 from mudline.deck.loading import load_bytes
@@ -55,8 +56,32 @@ def test_text(spans: Spans, text: str) -> None:
     assert text_of(spans) == text
 
 
-def test_a_long_text_is_one_text() -> None:
-    assert text_of(spans_of_run(0, 400_000, 2)) == ", ".join(map(str, range(0, 400_001, 2)))
+def test_numbers_with_one_step_are_a_range() -> None:
+    assert text_of(spans_of_run(0, 400_000, 2)) == "0-400000 step 2"
+    assert text_of(spans_of(np.array([1, 2, 3, 5, 7, 9, 11, 13, 20, 22, 24, 30]))) == "1-3, 5-13 step 2, 20, 22, 24, 30"
+
+
+def read_back(text: str) -> list[int]:
+    """The numbers that a text of spans names, in its order."""
+    numbers: list[int] = []
+    for piece in filter(None, text.split(", ")):
+        span, _, step = piece.partition(" step ")
+        first, _, last = span.partition("-")
+        numbers += range(int(first), int(last or first) + 1, int(step or 1))
+    return numbers
+
+
+STEPPED = st.lists(st.tuples(st.integers(0, 200), st.integers(1, 60), st.sampled_from([1, 1, 2, 3, 7])), max_size=6)
+
+
+@given(STEPPED, st.sampled_from([1, 2, 3, 7]))
+def test_a_text_names_all_numbers_whatever_its_pieces(runs: list[tuple[int, int, int]], piece: int) -> None:
+    numbers = sorted({number for first, size, step in runs for number in range(first, first + size, step)})
+    text = text_of(spans_of(np.array(numbers, dtype=np.int64)))
+    assert read_back(text) == numbers
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(model, "_AT_ONCE", piece)
+        assert text_of(spans_of(np.array(numbers, dtype=np.int64))) == text
 
 
 def test_generated_sets_are_not_listed() -> None:

@@ -86,6 +86,8 @@ Spans = NDArray[np.int64]
 """First and last numbers (k, 2) in ascending order, with a gap between one span and the next."""
 
 NO_SPANS: Spans = np.zeros((0, 2), dtype=np.int64)
+_FEWEST = 5
+"""Single numbers with one step between them from which on they are written as a range with that step."""
 _AT_ONCE = 100_000
 
 
@@ -111,7 +113,7 @@ def union(parts: Sequence[Spans]) -> Spans:
 
 
 def text_of(spans: Spans) -> str:
-    """Spans as a text: `1-20, 25`."""
+    """Spans as a text: `1-20, 25, 31-99 step 2`."""
     return ", ".join(_pieces(spans))
 
 
@@ -133,7 +135,39 @@ def _joined(firsts: NDArray[np.int64], lasts: NDArray[np.int64]) -> Spans:
 
 
 def _pieces(spans: Spans) -> Iterator[str]:
-    """Pieces of the text, each of many spans: a text for each span would take several times the memory."""
+    """Pieces of the text; spans that are listed come many at once, as a text for each would take more memory."""
+    written = 0
+    for begin, end in _stepped(spans):
+        first = max(begin, written)
+        if end - first + 1 >= _FEWEST:
+            yield from _listed(spans[written:first])
+            start, following = int(spans[first, 0]), int(spans[first + 1, 0])
+            yield f"{start}-{int(spans[end, 0])} step {following - start}"
+            written = end + 1
+    yield from _listed(spans[written:])
+
+
+def _stepped(spans: Spans) -> Iterator[tuple[int, int]]:
+    """First and last index of single numbers with one step between them; neighbours may share a number."""
+    count = len(spans) - 1
+    begins = [np.zeros(1, dtype=np.intp)]
+    for start in range(0, count, _AT_ONCE):
+        steps = _steps(spans[max(start - 1, 0) : start + _AT_ONCE + 1])
+        begins.append(np.flatnonzero(steps[1:] != steps[:-1]) + max(start, 1))
+    bounds = np.append(np.concatenate(begins), count)
+    for at in np.flatnonzero(np.diff(bounds) >= _FEWEST - 2).tolist():
+        begin, end = int(bounds[at]), int(bounds[at + 1])
+        if _steps(spans[begin : begin + 2])[0]:
+            yield begin, end
+
+
+def _steps(spans: Spans) -> NDArray[np.int64]:
+    """From each span to the next, 0 beside one of several numbers."""
+    single = spans[:, 0] == spans[:, 1]
+    return np.where(single[1:] & single[:-1], spans[1:, 0] - spans[:-1, 0], 0)
+
+
+def _listed(spans: Spans) -> Iterator[str]:
     for start in range(0, len(spans), _AT_ONCE):
         some = spans[start : start + _AT_ONCE].tolist()
         yield ", ".join(str(first) if first == last else f"{first}-{last}" for first, last in some)
