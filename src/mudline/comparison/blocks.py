@@ -85,7 +85,7 @@ _Blocks = dict[_Name, list[tuple[Where, Block]]]
 def _presence(
     name: _Name, before: tuple[Side, _Blocks], after: tuple[Side, _Blocks], found: Iterable[Difference]
 ) -> Iterator[Difference]:
-    """A keyword that only one deck has is told before its values; it may have none."""
+    """A keyword that only one deck has is reported before its values; it may have none."""
     (one, first), (other, second) = before, after
     group = _group(name)
     if name not in second:

@@ -30,7 +30,7 @@ Flat: TypeAlias = dict[str, Entry]
 
 
 def flatten(side: Side, blocks: list[tuple[Where, Block]]) -> Flat:
-    """All values of the blocks of a keyword; records with a name are found by it, whatever block they stand in."""
+    """All values of the blocks of a keyword; records with a name are found by it, whatever block they are in."""
     return _Flattening(side, later_wins=any(block.facts.later_wins for _, block in blocks)).blocks(blocks)
 
 

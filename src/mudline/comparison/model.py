@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Value: TypeAlias = float | int | str | list["Value"] | None
-"""What is told of a value; None where there is none."""
+"""What is reported of a value; None where there is none."""
 
 Kind = Literal["added", "removed", "changed"]
 

@@ -18,7 +18,7 @@ DocumentPath = tuple[str | int, ...]
 Locate = Callable[[DocumentPath], Range]
 
 MOST_TOLD = 1000
-"""Faults of a document told one by one."""
+"""Faults of a document that are reported one by one."""
 
 _LONGEST = 200
 

@@ -1,4 +1,4 @@
-"""What is told of sections and keywords that are unknown or in a wrong place, whatever form the deck has."""
+"""Findings about sections and keywords that are unknown or in a wrong place, whatever form the deck has."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from mudline.keywords.likeness import meant_in, meant_keyword, meant_section, wo
 from mudline.keywords.text import hint, instead
 
 MOST_TOLD = 1000
-"""Findings of one code about lines, blocks or sections told one by one."""
+"""Findings of one code about lines, blocks or sections that are reported one by one."""
 
 
 class Findings:
@@ -27,11 +27,11 @@ class Findings:
         if not self._tells(SYN010, None, where):
             return
         near = meant_section(name)
-        message = f"section ${name} is not known{_meant(name, near)}: it is kept as it is"
+        message = f"section ${name} is not known{_meant(name, near)}: it is passed through unchanged"
         self._misspelt(SYN010, message, where, f"${near}" if near else "", head)
 
     def no_model(self, keyword: str, section: str, where: Where, head: Span | None = None) -> None:
-        """A block that is kept as it is: nothing to tell if its keyword is known and may stand in the section.
+        """A block that is passed through: no finding if its keyword is known and allowed in the section.
 
         `head` is its first line in a text.
         """
@@ -39,7 +39,7 @@ class Findings:
         if sections is None:
             if self._tells(SYN009, None, where):
                 near = meant_keyword(keyword)
-                message = f"keyword *{keyword} is not known{_meant(keyword, near)}: the block is kept as it is"
+                message = f"keyword *{keyword} is not known{_meant(keyword, near)}: it is passed through unchanged"
                 self._misspelt(SYN009, message, where, f"*{near}" if near else "", head)
         elif (
             sections and section not in sections and section in catalogue.SECTIONS and self._tells(SYN008, None, where)
@@ -64,11 +64,11 @@ class Findings:
         """Data lines of a place under no keyword, the first of which is given: one finding for all of them."""
         if self._tells(SYN011, span, where):
             lines = "1 line" if count == 1 else f"{count} lines"
-            message = f"{lines} {place} under no keyword: not read. A title can stand in a comment, C and a blank"
+            message = f"{lines} {place} under no keyword: not read; write a title as a comment, C and a space"
             self.problems.append(Problem(SYN011, message, span, None, where))
 
     def _tells(self, code: Code, span: Span | None, where: Where | None) -> bool:
-        """Whether one more finding of a code is told: a file of another kind would have as many as it has lines."""
+        """Whether one more finding of a code is reported: a file of another kind would have as many as it has lines."""
         self.told[code.code] += 1
         count = self.told[code.code]
         if count == MOST_TOLD + 1:

@@ -70,7 +70,7 @@ class Definition:
 
 
 class NoValueError(Exception):
-    """An equation without a value; `problem` is None when it has been told elsewhere."""
+    """An equation without a value; `problem` is None when it has been reported elsewhere."""
 
     def __init__(self, problem: Problem | None = None) -> None:
         self.problem = problem
@@ -137,7 +137,7 @@ class Parameters:
         for item in items:
             self._add(item.name, item.value, where)
         if rest:
-            message = f"{shown(rest)} is no item of a list: write name:value or a value"
+            message = f"{shown(rest)} is not an item of a list: write name:value or a value"
             self.problems.append(Problem(SYN006, message, None, None, where))
 
     def _add(self, name: str, value: Value, where: Where) -> None:
@@ -201,7 +201,7 @@ class Parameters:
             self._fail(name, reason.problem)
 
     def _fail(self, name: str, problem: Problem | None) -> None:
-        """A parameter without value: told once, not again for each of its users."""
+        """A parameter without value: reported once, not again for each of its users."""
         self.failed.add(name)
         if problem:
             self.problems.append(problem)

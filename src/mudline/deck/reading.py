@@ -22,7 +22,7 @@ from mudline.syntax.tree import Kind, Leaf, RawBlock, RawSection, SyntaxTree, pa
 
 @dataclass
 class TextOrigin:
-    """Where the values of a deck stand in its text."""
+    """Where the values of a deck are in its text."""
 
     tree: SyntaxTree
     heads: dict[Where, Span] = field(default_factory=dict)

@@ -34,7 +34,7 @@ def attach(comments: list[CommentLine], block: Built) -> list[str]:
             owners[id(places.record)] = places.record
         else:
             trailing.append(comment.text)
-    for owner in owners.values():  # a setting may stand in another place than it is written back to
+    for owner in owners.values():  # a setting may be read in another place than it is written back to
         owner.values["comments"].sort(key=itemgetter("before"))
     return trailing
 

@@ -30,9 +30,9 @@ class Listing:
         return self.table.rows(self.columns)
 
     def lines(self, spelled: Callable[[list[Cell]], str]) -> Iterator[str]:
-        """The rows as text, some thousand at a time, parted by line feeds.
+        """The rows as text, some thousand at a time, separated by line feeds.
 
-        Cells are parted by a comma and a blank; `spelled` writes a row that is not of numbers only.
+        Cells are separated by a comma and a space; `spelled` writes a row that is not of numbers only.
         """
         for rows, plain in self.table.parts(self.columns):
             if plain:

@@ -10,7 +10,7 @@ from pydantic import ValidationError
 from pydantic_core import CoreSchema, ErrorDetails, InitErrorDetails, PydanticCustomError, core_schema
 
 _PART = 32
-"""Entries checked at once; lists stand in lists three deep at most."""
+"""Entries checked at once; lists are nested three deep at most."""
 
 _UNCHECKED = PydanticCustomError("unchecked", "not looked at, nor what follows: mend the entries before first")
 

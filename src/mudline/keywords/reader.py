@@ -67,7 +67,7 @@ class ReadBlock:
 
     @property
     def unpublished(self) -> bool:
-        """Whether the lines may have a form that is not public, so that they are kept as they are."""
+        """Whether the lines may have a form that is not public, so that they are passed through unchanged."""
         return bool(self.problems) and self.model.other_form([problem.code for problem in self.problems])
 
 
@@ -163,7 +163,7 @@ class _Reader:
         meant = suggestion(key, sorted(self.keys)) if key else ""
         message = (
             f"{shown(line)} begins with C in column 1 and is read as a comment (inferred){meant}: "
-            "put a blank after the C, or indent the line if it is data"
+            "put a space after the C, or indent the line if it is data"
         )
         self.problems.append(Problem(SYN013, message, trimmed(self.text, *leaf.span)))
         self._comment(position, leaf)

@@ -1,4 +1,4 @@
-"""Remarks behind the data of a line, as other programs allow them: here they are data, which is told once a line."""
+"""Remarks behind the data of a line, as other programs allow them: here they are data, reported once a line."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _MARK = re.compile(r"(?<=[ \t])(?:!|(?:[#;]|//|--)[ \t])")
 _LETTER = re.compile(r"[^\W\d_]")
 _OF_FIELDS = frozenset({SYN002, SYN003, SYN005, SYN015, SYN016})
 _NO_LINE = Span(0, 0)
-_ADVICE = "no comment stands at the end of a line, put it on a line of its own, behind C and a blank"
+_ADVICE = "a line cannot end with a comment; put it on a line of its own, behind C and a space"
 
 
 def remark_of(line: str) -> str:
