@@ -14,7 +14,7 @@ _MARK = re.compile(r"(?<=[ \t])(?:!|(?:[#;]|//|--)[ \t])")
 _LETTER = re.compile(r"[^\W\d_]")
 _OF_FIELDS = frozenset({SYN002, SYN003, SYN005, SYN015, SYN016})
 _NO_LINE = Span(0, 0)
-_ADVICE = "a line cannot end with a comment; put it on a line of its own, behind C and a space"
+_ADVICE = "no comment stands at the end of a line, put it on a line of its own, behind C and a blank"
 
 
 def remark_of(line: str) -> str:

@@ -24,7 +24,7 @@ def not_whole(written: str, value: float, label: str) -> str:
     """Why a number cannot stand where a whole one belongs; `written` is how it stands there."""
     if value.is_integer():
         return f"{written} is too large: {label} needs a whole number of at most 2^53 ({LARGEST_WHOLE})"
-    return f"{written} is not a whole number: {label} needs one"
+    return f"{written} is no whole number: {label} needs one"
 
 
 class CellError(ValueError):
@@ -58,8 +58,9 @@ class Column(NamedTuple):
         """Why a field that is not a number is not allowed here, or ""."""
         if word == "":
             return f"{self.label} is missing: expected {self.kind.value}" if self.required else ""
-        valid = Label.match(word) if self.kind is Kind.IDENT else Equation.match(word)
-        return "" if valid else f"{word!r} is not a number: expected {self.kind.value} for {self.label}"
+        if self.kind is Kind.IDENT:
+            return "" if Label.match(word) else f"{word!r} is no {self.label}: expected {self.kind.value}"
+        return "" if Equation.match(word) else f"{word!r} is not a number: expected {self.kind.value} for {self.label}"
 
 
 class Table:

@@ -80,7 +80,7 @@ def _maybe_number(text: str) -> bool:
 
 
 def _looks_numeric(text: str) -> bool:
-    """Whether a text that is not a finite number was meant as one."""
+    """Whether a text that is no finite number was meant as one."""
     return _not_finite(text) or spells_number(text) or bool(_GROUPED.fullmatch(text))
 
 
@@ -155,7 +155,7 @@ def decimal_comma(values: list[Field], kinds: list[Kind | None], fewest: int) ->
 
 
 def mixed_commas(values: list[Field], kinds: list[Kind | None], fewest: int) -> Problem | None:
-    """The finding about a row in which some commas have no space beside them, between digits, and others have one.
+    """The finding about a row in which some commas have no blank beside them, between digits, and others have one.
 
     One such pair may be a slip of the fingers; two of them where real numbers belong are decimal commas.
     """
