@@ -71,13 +71,13 @@ format: $(VENV)/.developer ## put the code into its canonical layout
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 
-docs: $(VENV)/.developer ## write anew what docs/ has from the program
+docs: $(VENV)/.developer ## regenerate what docs/ takes from the program
 	$(BIN)/python -m tests.docs.make
 
-pictures: $(VENV)/.developer ## draw anew the pictures of docs/images
+pictures: $(VENV)/.developer ## redraw the pictures of docs/images
 	$(BIN)/python -m tests.docs.pictures
 
-studies: $(VENV)/.developer ## write anew the pictures and numbers of docs/studies/, minutes
+studies: $(VENV)/.developer ## regenerate the pictures and numbers of docs/studies/ (minutes)
 	@for study in precision stability pruning; do $(BIN)/mudline study $$study -o docs/studies || exit; done
 
 bench: $(VENV)/.developer ## run the benchmarks

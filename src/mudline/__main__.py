@@ -18,7 +18,7 @@ collector. By default a third of the time of a deck of many entries goes into lo
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run a command line and return its exit code. The version is told before anything else is imported."""
+    """Run a command line and return its exit code. The version is printed before anything else is imported."""
     given = list(sys.argv[1:] if arguments is None else arguments)
     if given == ["--version"]:
         sys.stdout.write(f"mudline {__version__}\n")

@@ -1,6 +1,6 @@
-"""What every room may say about a deck: codes, problems with a place, and finished diagnostics.
+"""What every package may report about a deck: codes, problems with a place, and finished diagnostics.
 
-A *problem* is what a room notices: a code, a sentence and where it is, in whatever terms the room has (a span of the
+A *problem* is what a package finds: a code, a sentence and where it is, in the terms of that package (a span of the
 text, or a path into the values). A *diagnostic* is the public form of the same thing: file, line, column, rule.
 """
 

@@ -9,7 +9,7 @@ from enum import Enum
 LONGEST = 200
 """Characters of a representation."""
 MOST_NAMES = 8
-"""Names that stand in a list of names."""
+"""Most names that a list of names shows."""
 _LONGEST_TEXT = 40
 _LONGEST_TUPLE = 4
 

@@ -96,7 +96,7 @@ def test_keyword_text_is_read_again(path: Path) -> None:
 
 
 def test_what_cannot_be_read(path: Path) -> None:
-    with pytest.raises(mudline.DeckError, match="'ten' is no number") as caught:
+    with pytest.raises(mudline.DeckError, match="'ten' is not a number") as caught:
         mudline.read(changed(path, BAD_NUMBER))
     (found,) = caught.value.diagnostics
     assert isinstance(found, mudline.Diagnostic)
@@ -142,7 +142,7 @@ def test_keyword_text(path: Path) -> None:
     assert (deck.file, deck.source, deck.folder) == ("<keyword>", "", None)
     assert mudline.from_keyword(CLEAN.encode()) == deck
     assert mudline.from_keyword(CLEAN, units="imperial").units == "imperial"
-    with pytest.raises(mudline.DeckError, match="<keyword>:6:11: SYN002 'ten' is no number"):
+    with pytest.raises(mudline.DeckError, match="<keyword>:6:11: SYN002 'ten' is not a number"):
         mudline.from_keyword(BAD_NUMBER)
     with pytest.raises(mudline.DeckError, match="SYN012"):
         mudline.from_keyword(CLEAN.encode("utf-16"))

@@ -117,7 +117,7 @@ def test_units_override(place: Place) -> None:
 def test_deck_that_cannot_be_read_is_refused(place: Place, folder: Path, target: str) -> None:
     outcome = run("convert", place(BAD_NUMBER), "-o", target, "--to", "json")
     assert (outcome.code, outcome.out) == (1, "")
-    assert outcome.err.startswith("deck.keyxm:6:11: error: SYN002 'ten' is no number")
+    assert outcome.err.startswith("deck.keyxm:6:11: error: SYN002 'ten' is not a number")
     assert not (folder / "out.json").exists()
 
 

@@ -141,7 +141,7 @@ def test_a_deck_with_an_error_is_told_and_the_others_go_on(place: Place) -> None
     outcome = run("format", place(BAD_NUMBER), "z.keyxm")
     assert (outcome.code, outcome.out) == (1, "")
     assert outcome.err.splitlines() == [
-        "deck.keyxm:6:11: error: SYN002 'ten' is no number: expected a number or an equation =[...] for y",
+        "deck.keyxm:6:11: error: SYN002 'ten' is not a number: expected a number or an equation =[...] for y",
         "1 file reformatted, 1 file not formatted",
     ]
     assert content("deck.keyxm") == BAD_NUMBER

@@ -60,7 +60,7 @@ def test_json_has_the_keys_of_the_contract(place: Place) -> None:
     outcome = run("lint", place(BAD_NUMBER), "--output-format", "json")
     (found,) = outcome.json()
     assert_fits([found], "lint")
-    assert found.pop("message").startswith("'ten' is no number")
+    assert found.pop("message").startswith("'ten' is not a number")
     assert found.pop("url").endswith("SYN002.md")
     assert found == {
         "file": "deck.keyxm",

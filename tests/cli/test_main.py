@@ -130,10 +130,10 @@ def test_machine_formats_are_utf_8_and_people_get_what_their_terminal_has(place:
     ascii_only = {"PYTHONIOENCODING": "ascii"}
     machine = process("lint", name, "--output-format", "json", env=ascii_only)
     assert (machine.code, machine.err) == (1, "")
-    assert "'z\u00e4hn' is no number" in machine.json()[0]["message"]
+    assert "'z\u00e4hn' is not a number" in machine.json()[0]["message"]
     people = process("lint", name, env=ascii_only)
     assert people.code == 1
-    assert "'z\\xe4hn' is no number" in people.out
+    assert "'z\\xe4hn' is not a number" in people.out
     assert people.output.isascii()
     table = process("curves", place(CLEAN), env=ascii_only)
     assert table.code == 0

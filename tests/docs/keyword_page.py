@@ -27,13 +27,13 @@ _FORMAT = """## Format
 {lines}
 ```
 
-How to read this: [formats](../keywords.md#formats). Where a number belongs an equation `=[...]` may stand.
+How to read this: [formats](../keywords.md#formats). Where a number belongs, an equation `=[...]` may be written.
 """
 
 _KEPT = """## Format
 
-The format of this keyword is not public. Its lines are kept as they are, in every form of the deck and through every
-change; in JSON and YAML they stand under `lines`.
+The format of this keyword is not public. Its lines are passed through unchanged, in every form of the deck
+and through every change; in JSON and YAML they are under `lines`.
 """
 
 _EXAMPLE = """## Example

@@ -29,7 +29,7 @@ Seven more codes are no rules and cannot be left out; they say why a file could 
 
 | code | slug | severity | says |
 | --- | --- | --- | --- |
-| [DOC001](DOC001.md) | `unreadable-document` | error | A deck in JSON or YAML is no JSON or YAML. |
+| [DOC001](DOC001.md) | `unreadable-document` | error | A deck in JSON or YAML is not valid JSON or YAML. |
 | [DOC002](DOC002.md) | `schema-error` | error | A deck in JSON or YAML breaks the schema of decks. |
 | [DAT001](DAT001.md) | `bad-data-file` | error | A file of positions or elements has a fault. |
 | [EXP001](EXP001.md) | `cannot-expand` | error | The decks that a deck describes cannot be made. |

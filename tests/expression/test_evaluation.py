@@ -184,7 +184,7 @@ def test_text(text: str, expected: str) -> None:
     assert value(text) == expected
 
 
-WANTS_NUMBER = "text stands where a number is wanted"
+WANTS_NUMBER = "expected a number, found text"
 TOO_LARGE = "the result is too large"
 
 

@@ -124,7 +124,7 @@ def test_a_finding_says_file_code_severity_and_place() -> None:
             code="SYN002",
             slug="bad-number",
             severity=Severity.ERROR,
-            message="'1O.0' is no number: expected a number or an equation =[...] for y",
+            message="'1O.0' is not a number: expected a number or an equation =[...] for y",
             line=6,
             column=10,
             end_line=6,

@@ -32,7 +32,7 @@ NO_RULE = {"DOC001", "DOC002", "DAT001", "EXP001", "MIG001", "RUN001"}
 
 ADVICE = re.compile(
     r"\b(expected|did you mean|write|save|put|remove|define|choose|give|must|needs?|takes|keep|correct|add|belongs? in|"
-    r"missing|superseded by|stand in)\b"
+    r"missing|superseded by)\b"
 )
 
 NOWHERE = Path("decks")

@@ -87,7 +87,7 @@ def test_names_are_those_of_files_and_rules(opened: JUnitXml) -> None:
 def test_texts_tell_place_and_message_in_both_places(opened: JUnitXml) -> None:
     (failure,) = failures(cases(opened)[1])
     assert failure.type == "error"
-    assert str(failure.message).startswith("bad & 'ü'.keyxm:6:11: 'ten' is no number")
+    assert str(failure.message).startswith("bad & 'ü'.keyxm:6:11: 'ten' is not a number")
     assert failure.text == failure.message
 
 

@@ -128,9 +128,9 @@ def test_commands_that_run_no_rules_load_no_plugin(site: Site) -> None:
 
 
 FAULTS = {
-    "fails at import": ("import nowhere_at_all", "ModuleNotFoundError: No module named 'nowhere_at_all': tell"),
-    "fails without words": ("raise ValueError", "cannot be used: ValueError: tell its authors"),
-    "ends the program": ("raise SystemExit(5)", "SystemExit: 5: tell its authors"),
+    "fails at import": ("import nowhere_at_all", "ModuleNotFoundError: No module named 'nowhere_at_all': report"),
+    "fails without words": ("raise ValueError", "cannot be used: ValueError: report it to its authors"),
+    "ends the program": ("raise SystemExit(5)", "SystemExit: 5: report it to its authors"),
     "adds nothing": ("", "it adds no rule: use the decorator mudline.plugins.rule"),
     "letters of mudline": (RULE.format(code="CRV900", slug="model", body="yield"), "CRV900 belong to mudline"),
     "letters without rules": (RULE.format(code="RUN900", slug="model", body="yield"), "RUN900 belong to mudline"),
@@ -144,7 +144,7 @@ FAULTS = {
     ),
     "docstring in no form": (
         RULE.format(code="COR001", slug="model", body="yield").replace("Example:", "Bad:"),
-        "ValueError: the docstring of COR001 must have Example: tell its authors",
+        "ValueError: the docstring of COR001 must have Example: report it to its authors",
     ),
     "code in no form": (RULE.format(code="cor-1", slug="model", body="yield"), "the code 'cor-1' must be"),
     "name in no form": (RULE.format(code="COR001", slug="The Model", body="yield"), "the name 'The Model' of COR001"),

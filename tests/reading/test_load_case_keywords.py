@@ -73,7 +73,7 @@ def test_resistance_comes_first() -> None:
         text = f"$MODEL\n*{keyword}\n SET=a\n DEPTH=2\n 1, 2, 3\n 1, x\n"
         assert faults(text) == [
             "5:2 SYN003 3 fields, expected 2 (`resistance, displacement`)",
-            "6:5 SYN002 'x' is no number: expected a number or an equation =[...] for displacement",
+            "6:5 SYN002 'x' is not a number: expected a number or an equation =[...] for displacement",
         ]
 
 
@@ -102,7 +102,7 @@ def test_a_degree_of_freedom_is_written_as_a_whole_number() -> None:
 def test_a_wrong_number_of_values_in_a_known_form_is_told() -> None:
     head = "$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n"
     assert faults(head + " 1\n")[0].startswith("4:2 SYN003 2 to 3 fields expected (`node, dof [, value]`)")
-    assert faults(head + " 1, two\n")[0].startswith("4:5 SYN002 'two' is no number")
+    assert faults(head + " 1, two\n")[0].startswith("4:5 SYN002 'two' is not a number")
 
 
 def test_time() -> None:
@@ -130,7 +130,7 @@ FAULTS = [
     ("*TIME\n", ["2:1 SYN014 the file ends too early: expected STEP="]),
     ("*TIME\n STEP=FIXED\n", ["3:2 SYN014 the file ends too early: expected a row"]),
     ("*TIME\n STEP=\n 0, 100\n", ["3:2 SYN003 STEP= has no value"]),
-    ("*TIME\n STEP=FIXED\n 0, sixty, 1\n", ["4:5 SYN002 'sixty' is no number"]),
+    ("*TIME\n STEP=FIXED\n 0, sixty, 1\n", ["4:5 SYN002 'sixty' is not a number"]),
     ("*TIME\n STEP=FIXED\n 0, 100, 1, 2, 3\n", ["4:2 SYN003 2 to 4 fields expected"]),
     ("*TIME\n STEP=FIXED\n 0, =[a\n", ["4:5 SYN006"]),
     ("*TIME\n STEP=FIXED\n 0, 1\n SPAN=2\n", ["5:2 SYN004 *TIME has no setting SPAN="]),

@@ -272,7 +272,7 @@ def test_a_block_may_take_the_place_of_another() -> None:
         ("ADD, KEYWORD=OFFSET, FILE=other.txt", "other.txt holds *OCEAN, expected *OFFSET only"),
         ("ADD, KEYWORD=OFFSET, FILE=section.txt", "section.txt opens the section $MODEL"),
         ("ADD, KEYWORD=OFFSET, FILE=utf16.txt", "utf16.txt: the file is UTF-16"),
-        ("ADD, KEYWORD=OCEAN, FILE=bad.txt", "the new deck 'a.keyxm' cannot be read: line 20: 'x' is no number"),
+        ("ADD, KEYWORD=OCEAN, FILE=bad.txt", "the new deck 'a.keyxm' cannot be read: line 20: 'x' is not a number"),
     ],
 )
 def test_actions_that_cannot_be_done(action: str, message: str, tmp_path: Path) -> None:

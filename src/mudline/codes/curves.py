@@ -66,7 +66,7 @@ CRV011 = Code(
     The distance or the slope between two points cannot be held by a floating-point number.
 
     Numbers reach to 1.8E308 and down to 2.2E-308. Beyond them a slope would become infinite or lose its digits, and
-    with it the stiffness. An exponent has a digit too many, as a rule: correct the point.
+    with it the stiffness. Usually an exponent has a digit too many: correct the point.
 
     Example:
          $MODEL

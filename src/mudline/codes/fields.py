@@ -60,8 +60,9 @@ SYN006 = Code(
     """
     A bracket, brace, slash list or quotation mark is opened and not closed on its line.
 
-    Commas between `=[` and `]`, in `{...}`, `/.../` and `"..."` part no fields. An opened one therefore swallows the
-    rest of the line, and the values behind it are lost. Close it on the same line: nothing continues on the next.
+    Commas between `=[` and `]`, in `{...}`, `/.../` and `"..."` do not separate fields. An opened one therefore
+    swallows the rest of the line, and the values behind it are lost. Close it on the same line: nothing continues on
+    the next.
 
     Example:
          $PREPROCESSOR
@@ -84,10 +85,10 @@ SYN015 = Code(
     """
     A comma may have been meant as a decimal point.
 
-    A comma parts fields, so `0,1` is the two numbers 0 and 1. A line of whole numbers, twice as many as it should have,
-    or two numbers where one belongs, was probably written with decimal commas, as a spreadsheet does in many countries.
-    Write decimal points, and look at the other lines from the same source: one whose last fields may be left out reads
-    without an error and with other values.
+    A comma separates fields, so `0,1` is the two numbers 0 and 1. A line of whole numbers, twice as many as it should
+    have, or two numbers where one belongs, was probably written with decimal commas, as a spreadsheet does in many
+    countries. Write decimal points, and look at the other lines from the same source: one whose last fields may be left
+    out reads without an error and with other values.
 
     Example:
          $MODEL
@@ -111,10 +112,10 @@ SYN016 = Code(
     "label-without-braces",
     Severity.WARNING,
     """
-    Text stands where the number or the {label} of a node or element belongs.
+    Text is given where the number or the {label} of a node or element belongs.
 
-    Nodes and elements that the lines facility makes have labels with blanks in them, and a label stands in braces
-    wherever a number could stand. The text is read as if it had them; other programs may stop here, or read on with
+    Nodes and elements that the lines facility makes have labels with spaces in them, and a label is written in braces
+    wherever a number could be. The text is read as if it had them; other programs may stop here, or read on with
     nothing. Put the braces around it.
 
     Example:

@@ -14,7 +14,7 @@ SYN001 = Code(
     The lines of a keyword come in a fixed order: a setting such as SET= opens a group, and only certain settings and
     rows of numbers may follow it. A line that fits nowhere is left out, so whatever it was meant to define is missing
     from the model. The message says which lines were expected: often a KEY= was forgotten in front of a number, or a
-    line stands one place too early or too late.
+    line is one place too early or too late.
 
     Example:
          $MODEL
@@ -33,7 +33,7 @@ SYN007 = Code(
     "keyword-outside-section",
     Severity.ERROR,
     """
-    A keyword stands before the first $SECTION.
+    A keyword comes before the first $SECTION.
 
     What a keyword means depends on its section, and before the first one it has no meaning: the whole block is not
     read. The section line may have been lost when decks were put together. Put the line that the message names, for
@@ -78,11 +78,11 @@ SYN011 = Code(
     "data-outside-keyword",
     Severity.WARNING,
     """
-    A data line stands under no keyword.
+    A data line belongs to no keyword.
 
     Lines before the first section, or between a `$SECTION` and its first keyword, belong to nothing and are not read.
     Title lines at the top of a deck are common and do no harm, but numbers there are numbers that the model lacks. Turn
-    a title into a comment (C and a blank), and put data under their keyword.
+    a title into a comment (C and a space), and put data under their keyword.
 
     Example:
         -Flowline on soft clay, as laid
@@ -105,8 +105,8 @@ SYN012 = Code(
     Letters beyond the English alphabet, in a set name for instance, are saved as different bytes by different editors.
     A file that is not UTF-8 is read as CP1252, and as Latin-1 if that cannot be: a guess, after which a set's name may
     not match the same name in another file. Control characters, such as the Ctrl-Z that old systems put at the end of a
-    file, are seen by nobody and spoil the line that they stand in (in front of a * or a $ they are read over).
-    UTF-16 and binary data are not read at all. Save the file as UTF-8, and remove what the message names.
+    file, are invisible and corrupt the line that holds them (in front of a * or a $ they are ignored). UTF-16 and
+    binary data are not read at all. Save the file as UTF-8, and remove what the message names.
 
     Example:
          $MODEL
@@ -126,10 +126,10 @@ SYN013 = Code(
     """
     The line begins with a C in column 1 and a letter: comment or data?
 
-    A C in column 1 makes a comment. Written before a blank there is no doubt, but `CURVE=` or `COMPRESSION CHECK=` in
+    A C in column 1 makes a comment. Before a space there is no doubt, but `CURVE=` or `COMPRESSION CHECK=` in
     column 1 is data to one reader and a comment to another. Here a line counts as data if it begins with a key that its
     keyword knows; any other is taken for a comment, which is our reading and not a documented rule. A misspelt `CURV=`
-    drops a whole curve in this way. Put a blank behind the C of a comment, and in front of data.
+    drops a whole curve in this way. Put a space behind the C of a comment, and in front of data.
 
     Example:
          $MODEL

@@ -11,8 +11,8 @@ REF001 = Code(
     """
     A SET= names a set that the deck does not define.
 
-    What stands below the SET= would reach no element: no stiffness, no diameter, no curve. Mostly the name is spelt
-    differently in two places: case does not count in names, but blanks do. Define the set in *ELEMENT SETS, or correct
+    What is below the SET= would reach no element: no stiffness, no diameter, no curve. Mostly the name is spelt
+    differently in two places: case does not count in names, but spaces do. Define the set in *ELEMENT SETS, or correct
     the name. Where *LINES, which makes sets of its own, or the deck that *RESTART continues could define the set, this
     is a warning. Two more names give warnings here too: a REPEAT= of *LINE PATH SECTIONS that names no group of
     *LINE SECTION GROUPS, and a LINE= there that *LINE PATHS does not name. And a VARIATIONS= of *COMBINATIONS that
@@ -211,8 +211,8 @@ REF013 = Code(
     An equation uses a parameter that is not defined.
 
     The field has no value then, and nothing that depends on it can be evaluated. Define the parameter in *PARAMETERS,
-    or correct its name. Items of a list have the name of the list in front, as in Soil_stiffness. Told too are a PARA=
-    of *VARIATION and a %name% in the names of files of *COMBINATIONS without a parameter: no deck could be made.
+    or correct its name. Items of a list have the name of the list in front, as in Soil_stiffness. Also reported are a
+    PARA= of *VARIATION and a %name% in the names of files of *COMBINATIONS without a parameter: no deck could be made.
 
     Example:
          $PREPROCESSOR

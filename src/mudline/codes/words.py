@@ -55,10 +55,10 @@ SYN009 = Code(
     """
     The keyword is not known.
 
-    There are more keywords than are known here, so this is a note: the block is kept as it is and not checked. A name
-    that differs from a known one by a letter or two, has the same beginning or has words behind it is a warning, as a
-    misspelt keyword takes its whole block out of the model. Correct the name, put a remark into a comment line, or
-    ignore this rule where the keyword is right.
+    There are more keywords than are known here, so this is a note: the block is passed through unchanged and not
+    checked. A name that differs from a known one by a letter or two, has the same beginning or has words behind it is a
+    warning, as a misspelt keyword takes its whole block out of the model. Correct the name, put a remark into a comment
+    line, or ignore this rule where the keyword is right.
 
     Example:
          $MODEL
@@ -77,7 +77,7 @@ SYN010 = Code(
     """
     The section is not known.
 
-    All that stands in it is kept as it is and not checked. This is a note, as there are sections that are not known
+    All of it is passed through unchanged and not checked. This is a note, as there are sections that are not known
     here; a name that differs from a known one by a letter or two, has the same beginning or has words behind it is a
     warning, as everything in a misspelt section is missing from the analysis. Correct the name.
 

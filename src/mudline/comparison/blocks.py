@@ -32,7 +32,7 @@ Flat: TypeAlias = dict[str, Entry]
 
 
 def flatten(side: Side, blocks: list[tuple[Where, Block]]) -> Flat:
-    """All values of the blocks of a keyword; records with a name are found by it, whatever block they stand in."""
+    """All values of the blocks of a keyword; records with a name are found by it, whatever block they are in."""
     return _Flattening(side, later_wins=any(block.facts.later_wins for _, block in blocks)).blocks(blocks)
 
 
@@ -258,7 +258,7 @@ _Blocks = dict[_Name, list[tuple[Where, Block]]]
 def _presence(
     name: _Name, before: tuple[Side, _Blocks], after: tuple[Side, _Blocks], found: Iterable[Difference]
 ) -> Iterator[Difference]:
-    """A keyword that only one deck has is told before its values; it may have none."""
+    """A keyword that only one deck has is reported before its values; it may have none."""
     (one, first), (other, second) = before, after
     group = _group(name)
     if name not in second:

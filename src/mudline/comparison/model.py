@@ -21,7 +21,7 @@ from mudline.keywords.model import Block
 from mudline.scene.model import Scene
 
 Value: TypeAlias = float | int | str | list["Value"] | None
-"""What is told of a value; None where there is none."""
+"""What is reported of a value; None where there is none."""
 
 Kind = Literal["added", "removed", "changed"]
 

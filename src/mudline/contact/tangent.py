@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 class Triples(NamedTuple):
-    """A sparse matrix (size, size): `values` (k,) at `rows` and `columns` (k,); what stands twice is added."""
+    """A sparse matrix (size, size): `values` (k,) at `rows` and `columns` (k,); duplicate entries are added."""
 
     rows: IndexArray
     columns: IndexArray

@@ -55,7 +55,7 @@ def _comments(comments: list[Comment]) -> Document:
 
 
 class DocumentOrigin(Nowhere):
-    """Where the values of a deck stand in a JSON or YAML text. A document is whole or refused."""
+    """Where the values of a deck are in a JSON or YAML text. A document is whole or refused."""
 
     def __init__(self, locate: Locate) -> None:
         self.locate = locate
@@ -150,7 +150,7 @@ class _Reader:
         return lines
 
     def _stray(self, lines: list[str], words: str, where: Where) -> tuple[list[str], list[str]]:
-        """Tell of lines that stand under no keyword or in no section; data lines, and the texts of comments."""
+        """Report lines under no keyword or in no section; data lines, and the texts of comments."""
         text = "\n".join(lines)
         tree = parse(Source("", text)).preamble
 

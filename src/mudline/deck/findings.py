@@ -1,4 +1,4 @@
-"""What is told of sections and keywords that are unknown or in a wrong place, whatever form the deck has."""
+"""Findings about sections and keywords that are unknown or in a wrong place, whatever form the deck has."""
 
 from __future__ import annotations
 
@@ -21,25 +21,28 @@ class Findings:
 
     def unknown_section(self, name: str, where: Where, head: Span | None = None) -> None:
         """A section that is not in the catalogue; `head` is its line in a text."""
-        if not self._tells(SYN010, None, where):
+        if not self._reports(SYN010, None, where):
             return
         near = meant_section(name)
-        message = f"section ${name} is not known{_meant(name, near)}: it is kept as it is"
+        message = f"section ${name} is not known{_meant(name, near)}: it is passed through unchanged"
         self._misspelt(SYN010, message, where, f"${near}" if near else "", head)
 
     def no_model(self, keyword: str, section: str, where: Where, head: Span | None = None) -> None:
-        """A block that is kept as it is: nothing to tell if its keyword is known and may stand in the section.
+        """A block that is passed through: no finding if its keyword is known and allowed in the section.
 
         `head` is its first line in a text.
         """
         sections = catalogue.sections_of(keyword)
         if sections is None:
-            if self._tells(SYN009, None, where):
+            if self._reports(SYN009, None, where):
                 near = meant_keyword(keyword)
-                message = f"keyword *{keyword} is not known{_meant(keyword, near)}: the block is kept as it is"
+                message = f"keyword *{keyword} is not known{_meant(keyword, near)}: it is passed through unchanged"
                 self._misspelt(SYN009, message, where, f"*{near}" if near else "", head)
         elif (
-            sections and section not in sections and section in catalogue.SECTIONS and self._tells(SYN008, None, where)
+            sections
+            and section not in sections
+            and section in catalogue.SECTIONS
+            and self._reports(SYN008, None, where)
         ):
             near = meant_in(keyword, section)
             message = f"*{keyword} does not belong in ${section}{hint(near)}: it belongs in {_belongs(keyword)}"
@@ -53,19 +56,19 @@ class Findings:
 
     def before_sections(self, keyword: str, span: Span | None = None, where: Where | None = None) -> None:
         """A block before the first section."""
-        if self._tells(SYN007, span, where):
+        if self._reports(SYN007, span, where):
             message = f"*{keyword} stands before any $SECTION: put it in its section, {_belongs(keyword)}"
             self.problems.append(Problem(SYN007, message, span, None, where))
 
     def stray(self, count: int, place: str, span: Span | None = None, where: Where | None = None) -> None:
         """Data lines of a place under no keyword, the first of which is given: one finding for all of them."""
-        if self._tells(SYN011, span, where):
+        if self._reports(SYN011, span, where):
             lines = "1 line" if count == 1 else f"{count} lines"
-            message = f"{lines} {place} under no keyword: not read. A title can stand in a comment, C and a blank"
+            message = f"{lines} {place} under no keyword: not read; write a title as a comment, C and a space"
             self.problems.append(Problem(SYN011, message, span, None, where))
 
-    def _tells(self, code: Code, span: Span | None, where: Where | None) -> bool:
-        """Whether one more finding of a code is told: a file of another kind would have as many as it has lines."""
+    def _reports(self, code: Code, span: Span | None, where: Where | None) -> bool:
+        """Whether one more finding of a code is reported: a file of another kind would have as many as it has lines."""
         self.told[code.code] += 1
         count = self.told[code.code]
         if count == MOST_REPORTED + 1:

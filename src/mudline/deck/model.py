@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class Opaque(Part):
-    """A block without a model: its lines are kept as they are, without their ends."""
+    """A block without a model: its lines are passed through unchanged, without their ends."""
 
     keyword: Text
     lines: list[Text]
@@ -47,7 +47,7 @@ class Range(NamedTuple):
 
 
 _LONGEST = 1000
-"""Characters of a message; names of the deck stand in it, and may be of any length."""
+"""Characters of a message; names of the deck are part of it, and may be of any length."""
 
 _INTERNAL = frozenset({"alone", "diagnose", "folder_of", "origin", "own_sections", "problems", "require"})
 """What the rest of the program uses of a deck; `dir` leaves it out."""
@@ -148,7 +148,7 @@ class Deck:
         """Return the deck as keyword text.
 
         Raises:
-            DeckError: a name, comment or raw line cannot stand in a keyword file.
+            DeckError: a name, comment or raw line cannot be written in a keyword file.
         """
         from mudline.deck.forms.keyword import to_keyword  # noqa: PLC0415 - as in to_json
 
@@ -209,7 +209,7 @@ class Deck:
         code: Code = problem.code
         place = self.origin.place(problem)
         message = problem.message if len(problem.message) <= _LONGEST else problem.message[: _LONGEST - 3] + "..."
-        if not message.isprintable():  # names of the deck stand in it as they are
+        if not message.isprintable():  # names of the deck are quoted verbatim
             message = "".join(char if char.isprintable() else "\ufffd" for char in message)
         fix = self._fix(problem.repair, code) if problem.repair else None
         blocks = problem.blocking is not Blocks.NEVER

@@ -70,7 +70,7 @@ class Definition:
 
 
 class NoValueError(Exception):
-    """An equation without a value; `problem` is None when it has been told elsewhere."""
+    """An equation without a value; `problem` is None when it has been reported elsewhere."""
 
     def __init__(self, problem: Problem | None = None) -> None:
         self.problem = problem
@@ -201,7 +201,7 @@ class Parameters:
             self._fail(name, reason.problem)
 
     def _fail(self, name: str, problem: Problem | None) -> None:
-        """A parameter without value: told once, not again for each of its users."""
+        """A parameter without value: reported once, not again for each of its users."""
         self.failed.add(name)
         if problem:
             self.problems.append(problem)

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 @dataclass
 class TextOrigin:
-    """Where the values of a deck stand in its text."""
+    """Where the values of a deck are in its text."""
 
     tree: SyntaxTree
     heads: dict[Where, Span] = field(default_factory=dict)

@@ -51,8 +51,8 @@ def evaluate(expression: Expression, lookup: Lookup) -> float | str:
     Raises:
         UndefinedName: no parameter and no constant has this name.
         UnknownFunction: a function is not in `FUNCTIONS` or `FORMS`.
-        EvaluationError: a part has no finite value, text stands where a number is wanted, or a function has too many
-            or too few arguments.
+        EvaluationError: a part has no finite value, text is found where a number is expected, or a function has
+            too many or too few arguments.
     """
     value: Value | None = None
     if isinstance(expression.content, Plain):

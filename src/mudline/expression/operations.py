@@ -42,7 +42,7 @@ class Operand(NamedTuple):
     def number(self) -> float:
         """The value as a number; text raises EvaluationError."""
         if isinstance(self.value, str):
-            raise EvaluationError("text stands where a number is wanted", *self.span)
+            raise EvaluationError("expected a number, found text", *self.span)
         return self.value
 
     @property

@@ -47,7 +47,7 @@ def parse(text: str) -> Expression:
     """Read an equation: `text` is what stands between `=[` and `]`.
 
     Raises:
-        ExpressionError: the text is no equation, is longer than 10 000 code points, or is nested more than 100 deep.
+        ExpressionError: the text is not an equation, longer than 10 000 code points, or nested more than 100 deep.
     """
     if len(text) > LONGEST:
         raise ExpressionError(f"the equation is longer than {LONGEST} characters", LONGEST, len(text))

@@ -115,7 +115,7 @@ class Builder:
             self.unclosed = problem.span
 
     def _unreadable(self, path: Path, problem: Problem) -> None:
-        """A field without a value; one with an open bracket has been told as such."""
+        """A field without a value; one with an open bracket has been reported as such."""
         if self.unclosed and problem.span and self.unclosed.start < problem.span.end:
             self.places.damaged.add(path)
         else:

@@ -165,14 +165,14 @@ _OPAQUE: dict[str, tuple[str, ...]] = {
         _ANY,
     ),
 }
-"""Keywords that are recognised and kept as they are; no sections: known to exist, section not confirmed."""
+"""Keywords that are recognised and passed through unchanged; no sections: known to exist, section not confirmed."""
 
 ZERO_LENGTH = ("FLEX JOINTS", "HINGE", "SPRING ELEMENT", "DAMPER")
 """Keywords whose elements may have no length."""
 
 
 def block_class(section: str, keyword: str) -> type[Block] | None:
-    """The declaration of a keyword in a section, or None when it is kept as it is."""
+    """The declaration of a keyword in a section, or None when it is passed through."""
     found = declared(keyword)
     return found if found is not None and section in found.sections else None
 
@@ -190,7 +190,7 @@ def load(module: str) -> type[Block]:
 
 
 def kept_of(section: str, keyword: str) -> Kept | None:
-    """What is known of a keyword that is kept as it is, or None when that is its name at most."""
+    """What is known of a keyword that is passed through, or None when that is its name at most."""
     module = _KEPT.get(keyword)
     found = _load_kept(module) if module else None
     return found if found is not None and section in found.sections else None

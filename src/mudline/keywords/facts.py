@@ -69,7 +69,7 @@ LINE_SETS: Mapping[str, Names] = {
 
 @dataclass(frozen=True, slots=True)
 class Kept:
-    """A keyword that is known, and whose lines are kept as they are.
+    """A keyword that is known, and whose lines are passed through unchanged.
 
     `example` shows what its lines may look like, not its format. `certain` and `inferred` say what we know of it and
     what we conclude. `harvest` has the settings that give names; of a SET only the first value is a name. `labels` says

@@ -12,7 +12,7 @@ from pydantic_core import CoreSchema, ErrorDetails, InitErrorDetails, PydanticCu
 from mudline.keywords.table import Cell, CellError, Column, Table, from_cells, from_text
 
 _PART = 32
-"""Entries checked at once; lists stand in lists three deep at most."""
+"""Entries checked at once; lists are nested three deep at most."""
 
 _UNCHECKED = PydanticCustomError("unchecked", "not looked at, nor what follows: mend the entries before first")
 
@@ -78,9 +78,9 @@ class Listing:
         return self.table.rows(self.columns)
 
     def lines(self, spelled: Callable[[list[Cell]], str]) -> Iterator[str]:
-        """The rows as text, some thousand at a time, parted by line feeds.
+        """The rows as text, some thousand at a time, separated by line feeds.
 
-        Cells are parted by a comma and a blank; `spelled` writes a row that is not of numbers only.
+        Cells are separated by a comma and a space; `spelled` writes a row that is not of numbers only.
         """
         for rows, plain in self.table.parts(self.columns):
             if plain:

@@ -96,7 +96,7 @@ class Rows(About):
             "description": self.meaning,
             "anyOf": [
                 {"type": "array", "items": listed},
-                {"type": "string", "description": "the same rows as text, one a line, fields parted by commas"},
+                {"type": "string", "description": "the same rows as text, one a line, fields separated by commas"},
             ],
         }
 
@@ -191,7 +191,7 @@ class ListRow(Row):
 class Record(Part):
     """Lines that belong together; `rule` is the grammar rule that says in what order they stand.
 
-    `sticky` names a field that also holds for later records of the list, until one of them gives it anew.
+    `sticky` names a field that also holds for later records of the list, until one of them gives it again.
     """
 
     rule: ClassVar[str]
@@ -228,7 +228,7 @@ class Block(Record):
     keyword: str
 
     def other_form(self, faults: Collection[Code]) -> bool:
-        """Whether the lines, of which this could be read, may have a form that is not public; `faults` were told."""
+        """Whether the lines, of which this could be read, may have an unpublished form; `faults` were reported."""
         return not set(self.unpublished).isdisjoint(faults)
 
 
@@ -341,7 +341,7 @@ def _leads_to(slot: Slot, what: Names) -> bool:
 
 
 def names_given(part: Part, what: Names) -> Iterator[tuple[tuple[str | int, ...], str]]:
-    """The names of things of a kind that a part gives, with their paths; what is not a text is no name."""
+    """The names of things of a kind that a part gives, with their paths; what is not a text is not a name."""
     for slot in _naming(type(part), what):
         value = getattr(part, slot.name, None)
         if isinstance(value, Part):

@@ -52,7 +52,7 @@ def attach(comments: list[CommentLine], block: Built) -> list[str]:
             owners[id(places.record)] = places.record
         else:
             trailing.append(comment.text)
-    for owner in owners.values():  # a setting may stand in another place than it is written back to
+    for owner in owners.values():  # a setting may be read in another place than it is written back to
         owner.values["comments"].sort(key=itemgetter("before"))
     return trailing
 
@@ -140,7 +140,7 @@ class ReadBlock:
 
     @property
     def unpublished(self) -> bool:
-        """Whether the lines may have a form that is not public, so that they are kept as they are."""
+        """Whether the lines may have a form that is not public, so that they are passed through unchanged."""
         return bool(self.problems) and self.model.other_form([problem.code for problem in self.problems])
 
 

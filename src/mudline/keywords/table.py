@@ -55,18 +55,18 @@ class Column(NamedTuple):
         return self.kind in (Kind.WHOLE, Kind.IDENT)
 
     def fault(self, word: str) -> str:
-        """Why a field that is no number cannot stand here, or ""."""
+        """Why a field that is not a number is not allowed here, or ""."""
         if word == "":
             return f"{self.label} is missing: expected {self.kind.value}" if self.required else ""
         if self.kind is Kind.IDENT:
             return "" if Label.match(word) else f"{word!r} is no {self.label}: expected {self.kind.value}"
-        return "" if Equation.match(word) else f"{word!r} is no number: expected {self.kind.value} for {self.label}"
+        return "" if Equation.match(word) else f"{word!r} is not a number: expected {self.kind.value} for {self.label}"
 
 
 class Table:
     """Rows of a fixed number of columns.
 
-    `values` (rows, columns) float64 holds NaN where there is no number; `words` says what stands there instead: an
+    `values` (rows, columns) float64 holds NaN where there is no number; `words` says what is there instead: an
     equation, a label, or None for an empty field. A NaN without a word is a field that could not be read, or one
     beyond the row's end. `lengths` (rows,) counts the fields given in each row.
     """

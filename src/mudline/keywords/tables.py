@@ -18,7 +18,7 @@ from mudline.syntax.rows import Rows as RawRows
 from mudline.syntax.rows import line_spans, read_rows, row_fields
 
 MOST_FAULTS = 1000
-"""Faults told one by one; more of them in one table are counted."""
+"""Faults reported one by one; more of them in one table are counted."""
 
 
 class BlockReading(Protocol):
@@ -102,12 +102,12 @@ class TableBuilder:
             return False
         table.words[row, column] = label
         place = row_fields(self.builder.text, line, len(self.columns))[column].span
-        message = f"{word!r} is no number: is it the label {label}? Labels stand in braces"
+        message = f"{word!r} is not a number: if it is a label, write {label}"
         self.builder.problems.append(Problem(SYN016, message, place, repair=in_braces(word, place)))
         return True
 
     def _brackets(self, line: Span) -> bool:
-        """Whether the fault of a row is an unclosed bracket, which is then told instead."""
+        """Whether the fault of a row is an unclosed bracket, which is then reported instead."""
         _, problems = split(self.builder.text, line)
         for problem in problems:
             if problem.span != self.builder.unclosed:

@@ -95,7 +95,7 @@ def cut_number(text: str) -> bool:
 
 
 def number_fault(text: str, label: str, kind: Kind | None = None) -> str:
-    """Why a text is no number, in words that say what to do."""
+    """Why a text is not a number, in words that say what to do."""
     lower = text.lower().lstrip("+-")
     if _not_finite(text):
         return f"{text!r} is not a finite number: {label} needs a number"
@@ -112,8 +112,8 @@ def number_fault(text: str, label: str, kind: Kind | None = None) -> str:
             return f"{text} is too large for a double-precision number: {label} must be below 1.8E308"
     if _GROUPED.fullmatch(text):
         whole = "".join(char for char in text if char in "+-.0123456789")
-        return f"{text!r} is no number with its digits in groups: write {whole} for {label}"
-    return f"{shown(text)} is no number: expected a number or an equation =[...] for {label}"
+        return f"{text!r} is not a number because its digits are grouped: write {whole} for {label}"
+    return f"{shown(text)} is not a number: expected a number or an equation =[...] for {label}"
 
 
 def shown(text: str) -> str:
@@ -204,7 +204,7 @@ def _ident(field: Field, number: float | None, slot: Slot, problems: list[Proble
     braced = maybe_label(field.text)
     if braced is None:
         raise UnreadableError(Problem(SYN002, number_fault(field.text, slot.label, Kind.IDENT), field.span))
-    message = f"{shown(field.text)} is no number: is it the label {braced}? Labels stand in braces"
+    message = f"{shown(field.text)} is not a number: if it is a label, write {braced}"
     problems.append(Problem(SYN016, message, field.span, repair=in_braces(field.text, field.span)))
     return braced
 

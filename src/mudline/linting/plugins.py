@@ -71,7 +71,7 @@ def _run(entry: EntryPoint) -> str:
         if not isinstance(loaded, ModuleType):
             loaded()
     except (Exception, SystemExit) as error:  # noqa: BLE001 - the code of others may fail in any way
-        return f"{_said(error)}: tell its authors"
+        return f"{_said(error)}: report it to its authors"
     return ""
 
 
@@ -105,8 +105,8 @@ class Guarded:
                 yield problem
         except Exception as error:  # noqa: BLE001 - the code of others may fail in any way
             message = (
-                f"the rule {self.code} of {self.package} failed on this deck ({_said(error)}): tell its authors, "
-                f"or leave it out with --ignore {self.code}; add what it checks by hand"
+                f"the rule {self.code} of {self.package} failed on this deck ({_said(error)}): report it to "
+                f"its authors, or leave it out with --ignore {self.code}; add what it checks by hand"
             )
             yield Problem(RUN002, message, where=Where())
 

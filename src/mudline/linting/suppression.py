@@ -158,7 +158,7 @@ def _place(directive: Directive) -> str:
     """What a comment applies to, in words."""
     if directive.scope != _NOTHING:
         return _PLACES[directive.order]
-    return "what is no block (put it below its *KEYWORD)" if directive.order == "ignore-block" else "what follows"
+    return "what is not a block (put it below its *KEYWORD)" if directive.order == "ignore-block" else "what follows"
 
 
 def _named(directive: Directive) -> set[str]:

@@ -99,7 +99,7 @@ class Context:
         return f"{place} may define it" if place else ""
 
     def misplaced(self, keyword: str) -> str:
-        """A keyword that stands where it is not read, or is misspelt, in words; "" when there is none."""
+        """A keyword in a place where it is not read, or is misspelt, in words; "" when there is none."""
         return self._misplaced.get(keyword, "")
 
     @property

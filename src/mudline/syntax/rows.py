@@ -38,7 +38,7 @@ _TOO_LONG = re.compile(rb"[^, \t\r\n]{%d}" % (_DIGITS + 1))
 class Rows(NamedTuple):
     """A run of rows.
 
-    `values` (rows, columns) holds NaN where `words` has a text that is no number ("" for an empty field).
+    `values` (rows, columns) holds NaN where `words` has a text that is not a number ("" for an empty field).
 
     `lengths` (rows,) counts the fields of each row, also those beyond the last column, which are not kept.
     """
@@ -175,9 +175,9 @@ def _json_rows(piece: bytes) -> NDArray[np.float64] | None:
 
 
 def _as_json(piece: bytes) -> bytes:
-    """Numbers as legacy tools spell them, `1.`, `.5`, `+1`, `1.D3`, parted by blanks alone, in the spelling of JSON.
+    """Numbers as legacy tools spell them, `1.`, `.5`, `+1`, `1.D3`, separated only by spaces, in the spelling of JSON.
 
-    What is no number before is none afterwards.
+    What was not a number before is not one afterwards.
     """
     piece = _NO_WHOLE.sub(b"0.", _NO_FRACTION.sub(b".0", _PLUS.sub(b"", piece.translate(_D_TO_E))))
     if b"," in piece or any(len(line) > _LONGEST_BLANK_SEPARATED for line in piece.split(b"\n")):
@@ -220,7 +220,7 @@ def row_fields(text: str, line: Span, columns: int) -> list[Field]:
 
 
 def _row_words(body: str, columns: int) -> tuple[list[str], int]:
-    """The first `columns` fields of a row, and how many it has: parted by commas, or by blanks where all is numbers.
+    """The first `columns` fields of a row, and how many it has: separated by commas, or by spaces where all is numbers.
 
     Empty fields behind the last column, as trailing commas leave them, do not count.
     """
@@ -239,7 +239,7 @@ def _row_words(body: str, columns: int) -> tuple[list[str], int]:
 
 
 def blank_separated(body: str) -> bool:
-    """Whether a line without commas is several numbers parted by blanks."""
+    """Whether a line without commas is several numbers separated by spaces."""
     if len(body) > _LONGEST_BLANK_SEPARATED:
         return False
     words = _WORD.findall(body)

@@ -111,7 +111,7 @@ def _part_fault(part: str) -> str:
         "leads out of the output folder with ..": part == "..",
         "has a part without a name": not part.strip(" ."),
         f"holds {shown}, which not every system has in names of files": bool(sign),
-        "has a part that ends with a blank or a dot, which some systems drop": part.endswith((" ", ".")),
+        "has a part that ends with a space or a dot, which some systems drop": part.endswith((" ", ".")),
         f"has the part {device}, which is a device on some systems": device.upper() in _DEVICES,
         f"has a part that is longer than {LONGEST_PART} bytes": len(part.encode(errors="replace")) > LONGEST_PART,
     }

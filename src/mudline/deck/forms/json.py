@@ -102,7 +102,7 @@ def _refuse_half_pairs(document: object, file: str, places: JsonPlaces) -> None:
         elif isinstance(value, list):
             stack += [((*path, index), item) for index, item in enumerate(value)]
         if isinstance(value, str) and not value.isascii() and _HALF_PAIR.search(value):
-            raise refusal(file, f"{path_text(path)}: \\uD800 to \\uDFFF stand in pairs only", places.locate(path))
+            raise refusal(file, f"{path_text(path)}: \\uD800 to \\uDFFF are valid in pairs only", places.locate(path))
 
 
 def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

@@ -16,7 +16,7 @@ from mudline.keywords.values import Count, Equation, Finite, Ident, Kind, Real, 
 
 _DOF = "degree of freedom: 1 vertical, 2 and 3 horizontal, 4 to 6 rotations"
 _VALUE = "displacement that is imposed: a length, of a rotation degrees"
-_OTHERS = "other types exist and are not public: a block with one is kept as it is"
+_OTHERS = "other types exist and are not public: a block with one is passed through unchanged"
 _FOUR = "of four values the last two may be increment and degree of freedom, or degree of freedom and displacement"
 
 Fixation = Annotated[

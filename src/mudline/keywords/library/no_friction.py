@@ -12,7 +12,7 @@ KEPT = Kept(
     summary="A run without seabed friction, whatever coefficients the seabed has.",
     example="*NO FRICTION\n",
     certain="Friction acts if any coefficient is not zero; this keyword suppresses it for a run.",
-    inferred="It stands in $LOAD CASE and has no lines; in another section it is not told of.",
+    inferred="It belongs in $LOAD CASE and has no lines; in another section it is not reported.",
     sections=("LOAD CASE",),
     sections_inferred=True,
 )

@@ -12,7 +12,7 @@ from mudline.keywords.model import Block, Record, setting
 from mudline.keywords.soil import OTHER_FORMS, CurvesFile, SoilCurves
 from mudline.keywords.values import Name
 
-_OTHERS = "the types of other soil models are not public: a block with one is kept as it is"
+_OTHERS = "the types of other soil models are not public: a block with one is passed through unchanged"
 
 
 class LateralSprings(Record):

@@ -11,7 +11,7 @@ from mudline.diagnostics import Code
 from mudline.keywords.model import Block, about, setting
 from mudline.keywords.values import Real
 
-_SEEN = "seen in decks of a related program; a block of another form is kept as it is"
+_SEEN = "seen in decks of a related program; a block of another form is passed through unchanged"
 
 
 class TimeSpan(Block):

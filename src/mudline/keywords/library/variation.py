@@ -33,7 +33,7 @@ class VariedParameter(Record):
     ]
     values: Annotated[
         list[Name] | None,
-        setting("VALUE", "its values, kept as they are written", inline=True, behind="PARA"),
+        setting("VALUE", "its values, as they are written", inline=True, behind="PARA"),
     ] = None
     generate: Annotated[ValueRange | None, setting("GEN", "range of numbers", inline=True, behind="PARA")] = None
 

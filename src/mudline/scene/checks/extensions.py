@@ -29,7 +29,7 @@ _LOWEST, _HIGHEST = 0.01, 0.99
 
 @check(EXT001)
 def extension_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
-    """An extension keyword stands in a model without an elastic seabed.
+    """An extension keyword is in a model without an elastic seabed.
 
     The laws of the extensions act on penetration, and nothing penetrates a rigid seabed or none at all. Write
     *SEABED PROPERTIES with TYPE=ELASTIC, or remove the keyword.
@@ -98,8 +98,8 @@ def suction_incomplete(scene: ResolvedDeck) -> Iterator[Problem]:
     """A suction law lacks a value that it needs.
 
     COHESION= gives both the largest force and the suction depth, and takes the external diameter of the elements for
-    it; without it FORCE= and DEPTH= must both stand, and these override it. The relation between cohesion and depth is
-    not dimensionally homogeneous, and the default of REGULARISATION= is in m/s: with user units neither can be
+    it; without it FORCE= and DEPTH= are both required; where given, they override it. The relation between cohesion and
+    depth is not dimensionally homogeneous, and the default of REGULARISATION= is in m/s: with user units neither can be
     converted, so that FORCE=, DEPTH= and REGULARISATION= must all be given. Give what is missing.
 
     Example:
@@ -223,7 +223,7 @@ def _may_pull(entry: SceneCurve) -> bool:
 
 @check(EXT009)
 def unloading_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
-    """Unloading stands together with smoothing or a nodal stiffness, or its stiffness is not above 0.
+    """Unloading is combined with smoothing or a nodal stiffness, or its stiffness is not above 0.
 
     Smoothing and unloading both change the reaction near the seabed, and there is no law for the two together.
     *SEABED CONTACT smooths a linear law unless it says SMOOTHING=NONE. Write that, or remove the unloading; a stiffness

@@ -168,7 +168,7 @@ def missing_embedment(scene: ResolvedDeck) -> Iterator[Problem]:
 
 @check(SBD005)
 def embedment_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
-    """*EMBEDMENT stands beside a rigid seabed, or beside none.
+    """*EMBEDMENT is used with a rigid seabed, or with none.
 
     A force-embedment curve describes how far a pipe sinks, so it holds only on an elastic seabed: *ELASTIC SURFACE, or
     *SEABED PROPERTIES with TYPE=ELASTIC. Choose the elastic seabed, or remove the curves.
@@ -305,7 +305,7 @@ def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
 
 
 def _followed(scene: ResolvedDeck) -> set[Where]:
-    """Where the names of missing curves stand that elements follow."""
+    """Where the deck names missing curves that elements follow."""
     lost = (
         i for i, set_law in enumerate(scene.laws.set_laws) if set_law.kind is LawKind.CURVE and set_law.curve == NOTHING
     )

@@ -74,7 +74,7 @@ def profile_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
 def steep_slope(scene: ResolvedDeck) -> Iterator[Problem]:
     """The slope of the seabed is steep.
 
-    A slope is an angle in degrees: one of 90 or more is no seabed at all, and one above 45 is steeper than soil stands.
+    A slope is an angle in degrees: one of 90 or more is not a seabed, and one above 45 is steeper than soil can stand.
     A gradient in percent, typed as degrees, is a common cause. Correct it.
 
     Example:
@@ -97,7 +97,7 @@ def steep_slope(scene: ResolvedDeck) -> Iterator[Problem]:
             message = f"slope {slope!r}: it must be between -90 and 90 degrees"
             yield Problem(SBD012, message, where=place)
         elif abs(slope) > _STEEP:
-            message = f"slope {slope!r} is over 45 degrees, steeper than soil stands: correct it"
+            message = f"slope {slope!r} is over 45 degrees, steeper than soil can stand: correct it"
             yield Problem(SBD012, message, None, Severity.WARNING, place)
 
 
