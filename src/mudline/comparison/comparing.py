@@ -41,7 +41,7 @@ def _differences(one: Side, other: Side, tolerance: Tolerance) -> Iterator[Diffe
     yield from elements(one, other)
     yield from sets(one, other)
     yield from curves(one, other, tolerance)
-    yield from followed(one, other, tolerance)
+    yield from _by_element(one, other, tolerance)
     yield from _floor(one, other, tolerance)
     yield from blocks(one, other, tolerance)
 
@@ -72,7 +72,7 @@ class _Followed:
     of_element: Indices
 
 
-def followed(one: Side, other: Side, tolerance: Tolerance) -> Iterator[Difference]:
+def _by_element(one: Side, other: Side, tolerance: Tolerance) -> Iterator[Difference]:
     """Elements that both decks have and that follow something else, as ranges of numbers."""
     yield from _differ("laws", one, other, _laws, tolerance)
     yield from _differ("sections", one, other, _sections, tolerance)

@@ -28,79 +28,6 @@ from mudline.syntax.rows import line_spans
 from mudline.syntax.tree import Kind, Leaf, RawBlock
 
 
-class CommentLine(NamedTuple):
-    """A comment: its position among the block's leaves, what follows the C, its place."""
-
-    position: int
-    text: str
-    span: Span
-
-
-def attach(comments: list[CommentLine], block: Built) -> list[str]:
-    """Give each comment to the innermost record whose lines stand on both sides of it, before the item it precedes.
-
-    Returns the texts of those behind the last line of the block: they belong to what follows it.
-    """
-    trailing: list[str] = []
-    whole = _Places(block)
-    owners: dict[int, Built] = {}
-    for comment in comments:
-        if block.last is not None and comment.position < block.last:
-            places = whole.owner(comment.position)
-            found = {"before": places.index(comment.position), "text": comment.text}
-            places.record.values.setdefault("comments", []).append(found)
-            owners[id(places.record)] = places.record
-        else:
-            trailing.append(comment.text)
-    for owner in owners.values():  # a setting may be read in another place than it is written back to
-        owner.values["comments"].sort(key=itemgetter("before"))
-    return trailing
-
-
-class _Places:
-    """The places for comments in a record, in tables that are made once for all of its comments."""
-
-    def __init__(self, record: Built) -> None:
-        self.record = record
-        self.within = sorted(
-            (child for children in record.children.values() for child in children if child.last is not None),
-            key=attrgetter("first"),
-        )
-        self.starts = [child.first for child in self.within]
-        self.inner: dict[int, _Places] = {}
-        self.items = sorted(record.items, key=attrgetter("position"))
-        self.positions = [item.position for item in self.items]
-        self.count, self.before = self._counts()
-
-    def _counts(self) -> tuple[int, dict[tuple[int, int], int]]:
-        """The number of items, and how many are written before those of an order and position."""
-        before: dict[tuple[int, int], int] = {}
-        count = 0
-        for item in sorted(self.record.items, key=attrgetter("order", "position")):
-            before.setdefault((item.order, item.position), count)
-            count += item.count
-        return count, before
-
-    def owner(self, position: int) -> _Places:
-        """Those of the innermost record that has lines on both sides of a position."""
-        at = bisect_left(self.starts, position) - 1
-        if at < 0:
-            return self
-        last = self.within[at].last
-        if last is None or last <= position:
-            return self
-        if at not in self.inner:
-            self.inner[at] = _Places(self.within[at])
-        return self.inner[at].owner(position)
-
-    def index(self, position: int) -> int:
-        """Index, in the order in which the record is written, of the first item behind a position, or their number."""
-        at = bisect_right(self.positions, position)
-        if at == len(self.items):
-            return self.count
-        return self.before[self.items[at].order, self.items[at].position]
-
-
 @dataclass(slots=True)
 class ReadBlock:
     """A block that was read: its model, where its values stand, what was wrong, and the comments behind its last line.
@@ -170,7 +97,7 @@ class _Reader:
         self.last = last
         self.keys = all_keys(declared)
         self.problems: list[Problem] = []
-        self.comments: list[CommentLine] = []
+        self.comments: list[_CommentLine] = []
         self.lost = 0
 
     def read(self) -> ReadBlock:
@@ -183,7 +110,7 @@ class _Reader:
         for mismatch in mismatches:
             self._report(mismatch)
         built = builder.build(self.declared, node)
-        trailing = attach(self.comments, built) if self.comments else []
+        trailing = _attach(self.comments, built) if self.comments else []
         self.lost += builder.lost
         model = self._model(built, builder)
         return ReadBlock(model, places, one_a_line(self.text, self.problems), trailing, self.lost)
@@ -224,7 +151,7 @@ class _Reader:
 
     def _comment(self, position: int, leaf: Leaf) -> None:
         line = self.text[slice(*leaf.span)].rstrip("\r\n")
-        self.comments.append(CommentLine(position, line[1:], leaf.span))
+        self.comments.append(_CommentLine(position, line[1:], leaf.span))
 
     def _undecided(self, position: int, leaf: Leaf, contents: list[Content]) -> None:
         """A line with C and a letter in column 1: a known key makes it data, else it is a comment, with a warning."""
@@ -282,6 +209,79 @@ class _Reader:
             formats = dict.fromkeys(row_formats(self.declared))
             return "a row " + " or ".join(f"`{shape}`" for shape in formats)
         return next(f"{key}=" for key in self.keys if grammar.terminal_of(key) == terminal)
+
+
+class _CommentLine(NamedTuple):
+    """A comment: its position among the block's leaves, what follows the C, its place."""
+
+    position: int
+    text: str
+    span: Span
+
+
+def _attach(comments: list[_CommentLine], block: Built) -> list[str]:
+    """Give each comment to the innermost record whose lines stand on both sides of it, before the item it precedes.
+
+    Returns the texts of those behind the last line of the block: they belong to what follows it.
+    """
+    trailing: list[str] = []
+    whole = _CommentPlaces(block)
+    owners: dict[int, Built] = {}
+    for comment in comments:
+        if block.last is not None and comment.position < block.last:
+            places = whole.owner(comment.position)
+            found = {"before": places.index(comment.position), "text": comment.text}
+            places.record.values.setdefault("comments", []).append(found)
+            owners[id(places.record)] = places.record
+        else:
+            trailing.append(comment.text)
+    for owner in owners.values():  # a setting may be read in another place than it is written back to
+        owner.values["comments"].sort(key=itemgetter("before"))
+    return trailing
+
+
+class _CommentPlaces:
+    """The places for comments in a record, in tables that are made once for all of its comments."""
+
+    def __init__(self, record: Built) -> None:
+        self.record = record
+        self.within = sorted(
+            (child for children in record.children.values() for child in children if child.last is not None),
+            key=attrgetter("first"),
+        )
+        self.starts = [child.first for child in self.within]
+        self.inner: dict[int, _CommentPlaces] = {}
+        self.items = sorted(record.items, key=attrgetter("position"))
+        self.positions = [item.position for item in self.items]
+        self.count, self.before = self._counts()
+
+    def _counts(self) -> tuple[int, dict[tuple[int, int], int]]:
+        """The number of items, and how many are written before those of an order and position."""
+        before: dict[tuple[int, int], int] = {}
+        count = 0
+        for item in sorted(self.record.items, key=attrgetter("order", "position")):
+            before.setdefault((item.order, item.position), count)
+            count += item.count
+        return count, before
+
+    def owner(self, position: int) -> _CommentPlaces:
+        """Those of the innermost record that has lines on both sides of a position."""
+        at = bisect_left(self.starts, position) - 1
+        if at < 0:
+            return self
+        last = self.within[at].last
+        if last is None or last <= position:
+            return self
+        if at not in self.inner:
+            self.inner[at] = _CommentPlaces(self.within[at])
+        return self.inner[at].owner(position)
+
+    def index(self, position: int) -> int:
+        """Index, in the order in which the record is written, of the first item behind a position, or their number."""
+        at = bisect_right(self.positions, position)
+        if at == len(self.items):
+            return self.count
+        return self.before[self.items[at].order, self.items[at].position]
 
 
 def _label(part: type[Part], place: tuple[str | int, ...]) -> str:
