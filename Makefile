@@ -8,7 +8,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 INSTALLATION := pyproject.toml src/mudline/__init__.py
 OUT := demo-output
 BENCHMARKS := $(sort $(wildcard tests/benchmarks/*.py))
-CORE := $(addprefix tests/,syntax expression keywords curves contact scene comparison migration formatting)
+CORE := $(addprefix tests/,syntax expression keywords curves contact scene comparison)
 # More arguments for pytest: make test ARGS="-k curves --no-cov"
 ARGS ?=
 

@@ -37,6 +37,8 @@ from tests.contact.builders import (
 from tests.contact.comparison import Scene, Sizes, compare
 from tests.contact.random_scenes import LARGEST, LAWS, SUBSETS, main, random_scene
 
+pytestmark = pytest.mark.slow
+
 SEABEDS: list[Seabed] = [
     FlatSeabed(),
     SlopingSeabed(2.0, 30.0),

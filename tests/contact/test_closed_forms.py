@@ -13,6 +13,8 @@ from mudline.contact.laws.friction import FrictionState
 from mudline.contact.seabed import SlopingSeabed
 from tests.contact.builders import LINEAR, NONE, at_depths, chain, friction, on
 
+pytestmark = pytest.mark.slow
+
 MASS, G, K = 500.0, 9.81, 5e4
 
 

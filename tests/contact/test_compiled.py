@@ -22,6 +22,8 @@ from mudline.contact.positions import Batch
 from tests.contact.builders import CURVE, LINEAR, at_depths, chain, everything, friction, journey
 from tests.processes import TIMEOUT
 
+pytestmark = pytest.mark.slow
+
 LONG, LONGER = 2_000_000, 15_000_000
 """Nodes times steps from which on loops are loaded if they were compiled before, and compiled if not."""
 

@@ -13,6 +13,8 @@ from mudline.contact import ContactModel, ContactResult, ElementError, PositionE
 from mudline.contact.seabed import FlatSeabed, PlanesSeabed, ProfileSeabed, Seabed, SlopingSeabed
 from tests.contact.builders import changed, everything, journey, without
 
+pytestmark = pytest.mark.slow
+
 LEAST = 5e-324
 sizes = st.sampled_from([0.0, LEAST, 1e-300, 1e-160, 1e-12, 1e-3, 1.0, 1e3, 1e12, 1e150, 1e160, 1e300, 1.7e308])
 SEABEDS: list[Seabed] = [

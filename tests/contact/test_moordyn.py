@@ -15,6 +15,8 @@ from mudline.contact import ContactModel
 from mudline.contact.arrays import FloatArray
 from tests.contact.builders import LINEAR, NONE, chain, on
 
+pytestmark = pytest.mark.slow
+
 moordyn = pytest.importorskip("moordyn", reason="MoorDyn's Python package is not installed")
 
 DIAMETER, STIFFNESS, WATER, SEGMENTS, LENGTH = 0.1, 3.0e4, 50.0, 35, 70.0

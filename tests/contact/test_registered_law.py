@@ -38,6 +38,8 @@ from tests.contact.comparison import Scene, Sizes, compare
 from tests.contact.hyperbolic import HYPERBOLIC
 from tests.contact.single import COMPRESSION, DEPTH, FORCE, SUCTION
 
+pytestmark = pytest.mark.slow
+
 K, Z0 = 5e4, 0.04
 HELD = {"stiffness": K, "reference": Z0}
 

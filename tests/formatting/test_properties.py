@@ -20,6 +20,8 @@ from tests.growth import FOURFOLD, TWOFOLD, call_growth, calls, growth
 from tests.reading.decks import deck_texts, mutated
 from tests.samples import SAMPLES
 
+pytestmark = pytest.mark.slow
+
 FILES = sorted(path for path in SAMPLES.iterdir() if path.is_file())
 DECKS = [path for path in FILES if path.suffix.startswith(".key") and path.stem != "broken"]
 BOM = b"\xef\xbb\xbf"

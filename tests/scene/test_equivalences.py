@@ -5,11 +5,14 @@ from __future__ import annotations
 import random
 
 import numpy as np
+import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from mudline.scene.model import Scene
 from tests.scene.decks import ends_of, members, nodes_of, scene_of
+
+pytestmark = pytest.mark.slow
 
 _COORDINATES = st.floats(-1e6, 1e6).map(lambda value: value + 0.0)
 _STARTS = st.integers(1, 50)

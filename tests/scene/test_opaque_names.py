@@ -125,6 +125,7 @@ def test_a_line_of_very_many_names() -> None:
     assert len(sets_of(f"*LINES\n ADDITIONAL={some}\n")) == 5000
 
 
+@pytest.mark.slow
 def test_a_hundred_thousand_lines() -> None:
     section = " SECTION=Joint {0}, 12.2, ADDITIONAL=Riser, Joints {0}\n"
 

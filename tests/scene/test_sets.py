@@ -130,6 +130,7 @@ def test_a_diamond_is_no_circle() -> None:
     assert sets_of(lines)["a"] == [4]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("forward", [True, False])
 def test_a_long_chain(forward: bool) -> None:
     """Neither the depth of the chain nor the size of what it holds is paid for at every step."""

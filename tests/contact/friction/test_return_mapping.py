@@ -15,6 +15,8 @@ from mudline.contact.arrays import FloatArray
 from mudline.contact.laws.friction import ExtraLimit, FrictionHistory, FrictionLaw, FrictionState, slide
 from tests.contact.single import OPEN, SLIP, STICK, U1, U2, anchored, coulomb, move, place_at
 
+pytestmark = pytest.mark.slow
+
 COULOMB = coulomb((0.5, 0.8), 1.0e5)
 PATH = [
     (0.0, 0.0, 0.0, STICK),

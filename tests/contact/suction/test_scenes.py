@@ -22,6 +22,8 @@ from tests.contact.builders import (
 )
 from tests.contact.single import BROKEN, COMPRESSION, DEPTH, FORCE, FREE, SUCTION
 
+pytestmark = pytest.mark.slow
+
 TABLE = [
     # D, c_u, v, F_max / L, Delta_B, dF/dv
     (0.3, 5000.0, 0.1, 1378.5656595, 0.16156501691, 2481.4181871),
