@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from mudline.deck.loading import load_bytes
@@ -103,6 +103,7 @@ def test_scene_takes_the_elements(file: Path) -> None:
 ALPHABET = st.sampled_from([*"0123456789.,-;eE \n\r\"'AB", "\x00", "\u00e4", "1,1,2,0.5,1,A\n"])
 
 
+@example(text="\r\r0 1,1,2,0.5,1,A\n")
 @given(text=st.lists(ALPHABET, max_size=60).map("".join))
 def test_any_text_is_read_or_refused(tmp_path_factory: pytest.TempPathFactory, text: str) -> None:
     try:

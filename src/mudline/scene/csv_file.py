@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Iterator, Sequence
+from itertools import islice
 from pathlib import Path
 from typing import NamedTuple
 
@@ -50,7 +51,8 @@ class CsvTable(NamedTuple):
 
     def _column(self, line: int, field: int) -> int:
         """Where a field of a line begins; 1 where quotation marks hide it."""
-        parts = self.text.split("\n")[line - 1].split(",")
+        written = next(islice(io.StringIO(self.text, newline=""), line - 1, None))  # lines as the reader counts them
+        parts = written.rstrip("\r\n").split(",")
         if len(parts) != len(self.columns):
             return 1
         blanks = len(parts[field]) - len(parts[field].lstrip())
