@@ -110,7 +110,7 @@ def _of_model(block: type[Block]) -> Iterator[str]:
 
 def _of_kept(kept: Kept) -> Iterator[str]:
     yield _KEPT
-    if kept.harvest or kept.labels:
+    if kept.name_settings or kept.labels:
         yield "\n".join(["## Names", "", *_names(kept), ""])
     yield (
         _EXAMPLE.format(example=kept.example.rstrip("\n")) + "\nWhat its lines may look like, no definition of them.\n"
@@ -120,11 +120,11 @@ def _of_kept(kept: Kept) -> Iterator[str]:
 
 
 def _names(kept: Kept) -> Iterator[str]:
-    if kept.harvest:
+    if kept.name_settings:
         yield from ("| setting | names |", "| --- | --- |")
-        yield from (f"| `{key}=` | {what.value} |" for key, what in kept.harvest.items())
+        yield from (f"| `{key}=` | {what.value} |" for key, what in kept.name_settings.items())
     if kept.labels:
-        yield from (*([""] if kept.harvest else []), "Any text among its lines may be the label of a node.")
+        yield from (*([""] if kept.name_settings else []), "Any text among its lines may be the label of a node.")
 
 
 def _rules(declared: Declared) -> str:

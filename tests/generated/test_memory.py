@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from mudline.deck.loading import load_bytes
 from mudline.deck.reading import TextOrigin
-from mudline.keywords.memory import LONGEST, MOST, BlockMemory
+from mudline.linting.engine import LONGEST_BLOCK, MOST_BLOCKS, BlockMemory
 from tests.generated.test_bytes import texts
 from tests.reading.decks import mutated
 
@@ -49,7 +49,7 @@ def test_places_are_those_of_the_text_that_was_asked() -> None:
 
 def test_long_blocks_are_read_each_time() -> None:
     memory = BlockMemory()
-    rows = "".join(f" {number}, 0.0, 0.0\n" for number in range(1, LONGEST // 10))
+    rows = "".join(f" {number}, 0.0, 0.0\n" for number in range(1, LONGEST_BLOCK // 10))
     first, second = (load_bytes(f"$MODEL\n*NODE\n{rows}".encode(), "a", read=memory.read) for _ in range(2))
     assert first == second
     assert first.sections[0].blocks[0] is not second.sections[0].blocks[0]
@@ -57,7 +57,7 @@ def test_long_blocks_are_read_each_time() -> None:
 
 def test_what_was_not_read_for_long_is_forgotten() -> None:
     memory = BlockMemory()
-    ocean = [f"$MODEL\n*OCEAN\n {depth}.0, 1025.0, 9.81\n".encode() for depth in range(1, MOST + 2)]
+    ocean = [f"$MODEL\n*OCEAN\n {depth}.0, 1025.0, 9.81\n".encode() for depth in range(1, MOST_BLOCKS + 2)]
     first = load_bytes(ocean[0], "a", read=memory.read).sections[0].blocks[0]
     assert load_bytes(ocean[0], "a", read=memory.read).sections[0].blocks[0] is first
     for data in ocean[1:]:

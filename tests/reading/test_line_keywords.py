@@ -151,8 +151,8 @@ def test_what_a_kept_keyword_says_of_itself(kept: Kept) -> None:
     assert name in catalogue.kept_keywords("MODEL")
     assert all(words.endswith(".") for words in (kept.summary, kept.certain, kept.inferred))
     assert set(kept.makes) <= {"NODE", "ELEMENT", "ELEMENT SETS"}
-    assert all(key in kept.inferred for key in (f"{key}=" for key in kept.harvest))
-    assert ("ELEMENT SETS" in kept.makes) <= (Names.SET in kept.harvest.values())
+    assert all(key in kept.inferred for key in (f"{key}=" for key in kept.name_settings))
+    assert ("ELEMENT SETS" in kept.makes) <= (Names.SET in kept.name_settings.values())
 
 
 @pytest.mark.parametrize("kept", KEPT, ids=lambda kept: kept.names[0])

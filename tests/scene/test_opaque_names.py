@@ -142,13 +142,13 @@ def test_no_line_takes_long(unit: str) -> None:
     def line(count: int) -> Deck:
         return deck_of(f"*LINES\n LINE={unit * count}\n LINE=SCR\n")
 
-    def harvested(deck: Deck) -> list[dict[str, str]]:
+    def opaque_sets(deck: Deck) -> list[dict[str, str]]:
         return [opaque_set_names(deck), opaque_labels(deck)]
 
-    assert call_growth(harvested, line(2_500), line(5_000)) < TWOFOLD
-    assert growth(harvested, line(5_000), line(20_000)) < FOURFOLD
-    assert growth(harvested, line(100_000), line(400_000)) < FOURFOLD  # too many for the reader of fields
-    assert ["scr" in found for found in harvested(line(200_000))] == [True, True]
+    assert call_growth(opaque_sets, line(2_500), line(5_000)) < TWOFOLD
+    assert growth(opaque_sets, line(5_000), line(20_000)) < FOURFOLD
+    assert growth(opaque_sets, line(100_000), line(400_000)) < FOURFOLD  # too many for the reader of fields
+    assert ["scr" in found for found in opaque_sets(line(200_000))] == [True, True]
 
 
 # -------------------------------------------------------------------------------------------------- sets that are named

@@ -19,7 +19,7 @@ from mudline.linting.registry import rules, select
 from mudline.scene import restart
 from mudline.scene.continued import ContinuedDeck
 from mudline.scene.model import Scene, resolve
-from tests.lint.findings import CLAY, CURVES, PIPE, PROPERTIES
+from tests.linting.findings import CLAY, CURVES, PIPE, PROPERTIES
 from tests.samples import sample
 
 STATIC = PIPE + "*ELEMENT SETS\n SET=Buried\n GEN=1, 4\n" + PROPERTIES + " STIFFNESS=Clay\n*SEABED STIFFNESS\n" + CLAY

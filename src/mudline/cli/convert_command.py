@@ -63,8 +63,8 @@ def _form_of_output(output: str | None) -> str:
         raise click.UsageError("unknown format to write: give -o OUT with a suffix, or --to")
     form, suffix = form_of(output), PurePath(output).suffix.lower()
     if form == "keyword" and suffix not in SUFFIXES:
-        known = ", ".join(sorted(SUFFIXES | {".json", ".yaml"}))
-        raise click.UsageError(f"{output}: unknown file format (known: {known}): give --to keyword, json or yaml")
+        known = ", ".join(sorted({*SUFFIXES, *(f".{name}" for name in FORMS if name != form)}))
+        raise click.UsageError(f"{output}: unknown file format (known: {known}): give --to {', '.join(FORMS)}")
     return form
 
 

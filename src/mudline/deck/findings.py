@@ -17,7 +17,7 @@ class Findings:
 
     def __init__(self, problems: list[Problem]) -> None:
         self.problems = problems
-        self.told: Counter[str] = Counter()
+        self.reported: Counter[str] = Counter()
 
     def unknown_section(self, name: str, where: Where, head: Span | None = None) -> None:
         """A section that is not in the catalogue; `head` is its line in a text."""
@@ -69,8 +69,8 @@ class Findings:
 
     def _reports(self, code: Code, span: Span | None, where: Where | None) -> bool:
         """Whether one more finding of a code is reported: a file of another kind would have as many as it has lines."""
-        self.told[code.code] += 1
-        count = self.told[code.code]
+        self.reported[code.code] += 1
+        count = self.reported[code.code]
         if count == MOST_REPORTED + 1:
             self.problems.append(Problem(code, MORE, span, None, where))
         return count <= MOST_REPORTED

@@ -137,7 +137,7 @@ class Parameters:
         for item in items:
             self._add(item.name, item.value, where)
         if rest:
-            message = f"{shown(rest)} is no item of a list: write name:value or a value"
+            message = f"{shown(rest)} is not an item of a list: write name:value or a value"
             self.problems.append(Problem(SYN006, message, None, None, where))
 
     def _add(self, name: str, value: Value, where: Where) -> None:

@@ -72,8 +72,8 @@ class Kept:
     """A keyword that is known, and whose lines are passed through unchanged.
 
     `example` shows what its lines may look like, not its format. `certain` and `inferred` say what we know of it and
-    what we conclude. `harvest` has the settings that give names; of a SET only the first value is a name. `labels` says
-    that any text among its lines may be the label of a node. `makes` are the keywords of what it may define: a thing of
+    what we conclude. `name_settings` has the settings that give names; of a SET only the first value is a name.
+    `labels` says that any text among its lines may be the label of a node. `makes` are the keywords of what it may define: a thing of
     these kinds that is missing may come from here. `sections_inferred` says that its section is not confirmed: in
     another one it is not reported.
     """
@@ -85,6 +85,6 @@ class Kept:
     inferred: str
     sections: tuple[str, ...] = ("MODEL",)
     sections_inferred: bool = False
-    harvest: Mapping[str, Names] = field(default_factory=dict)
+    name_settings: Mapping[str, Names] = field(default_factory=dict)
     labels: bool = False
     makes: tuple[str, ...] = ()

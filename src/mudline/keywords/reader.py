@@ -163,7 +163,7 @@ class _Reader:
         meant = suggestion(key, sorted(self.keys)) if key else ""
         message = (
             f"{shown(line)} begins with C in column 1 and is read as a comment (inferred){meant}: "
-            "put a blank after the C, or indent the line if it is data"
+            "put a space after the C, or indent the line if it is data"
         )
         self.problems.append(Problem(SYN013, message, trimmed(self.text, *leaf.span)))
         self._comment(position, leaf)

@@ -24,7 +24,7 @@ def not_whole(written: str, value: float, label: str) -> str:
     """Why a number cannot stand where a whole one belongs; `written` is how it stands there."""
     if value.is_integer():
         return f"{written} is too large: {label} needs a whole number of at most 2^53 ({LARGEST_WHOLE})"
-    return f"{written} is no whole number: {label} needs one"
+    return f"{written} is not a whole number: {label} needs one"
 
 
 class CellError(ValueError):

@@ -77,22 +77,22 @@ class TableBuilder:
     def _report(self, span: Span, raw: RawRows, table: Table, faults: dict[tuple[int, int], str]) -> None:
         lines = list(line_spans(self.builder.text, span))
         short = {row for row, column in faults if column < 0}
-        told = 0
+        reported = 0
         broken: set[int] = set()
         for (row, column), fault in sorted(faults.items()):
             if row in short and column >= 0:
                 continue
             if self._label(table, raw, lines[row], row, column):
                 continue
-            told += 1
-            if told > MOST_FAULTS:
+            reported += 1
+            if reported > MOST_FAULTS:
                 continue
             if row not in broken and self._brackets(lines[row]):
                 broken.add(row)
             if row not in broken:
                 self._fault(lines[row], row, column, fault, raw)
-        if told > MOST_FAULTS:
-            message = f"{told - MOST_FAULTS} more faulty rows or fields in this table"
+        if reported > MOST_FAULTS:
+            message = f"{reported - MOST_FAULTS} more faulty rows or fields in this table"
             self.builder.damage(self.path[:-1], Problem(SYN002, message, lines[-1]))
 
     def _label(self, table: Table, raw: RawRows, line: Span, row: int, column: int) -> bool:

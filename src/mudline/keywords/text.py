@@ -81,7 +81,7 @@ def _maybe_number(text: str) -> bool:
 
 
 def _looks_numeric(text: str) -> bool:
-    """Whether a text that is no finite number was meant as one."""
+    """Whether a text that is not a finite number was meant as one."""
     return _not_finite(text) or spells_number(text) or bool(_GROUPED.fullmatch(text))
 
 
@@ -156,7 +156,7 @@ def decimal_comma(values: list[Field], kinds: list[Kind | None], fewest: int) ->
 
 
 def mixed_commas(values: list[Field], kinds: list[Kind | None], fewest: int) -> Problem | None:
-    """The finding about a row in which some commas have no blank beside them, between digits, and others have one.
+    """The finding about a row in which some commas have no space beside them, between digits, and others have one.
 
     One such pair may be a slip of the fingers; two of them where real numbers belong are decimal commas.
     """
@@ -213,7 +213,7 @@ _MARK = re.compile(r"(?<=[ \t])(?:!|(?:[#;]|//|--)[ \t])")
 _LETTER = re.compile(r"[^\W\d_]")
 _OF_FIELDS = frozenset({SYN002, SYN003, SYN005, SYN015, SYN016})
 _NO_LINE = Span(0, 0)
-_ADVICE = "no comment stands at the end of a line, put it on a line of its own, behind C and a blank"
+_ADVICE = "a line cannot end with a comment; put it on a line of its own, behind C and a space"
 
 
 def remark_of(line: str) -> str:
@@ -245,12 +245,12 @@ def one_a_line(text: str, problems: list[Problem]) -> list[Problem]:
         if rank >= ranks.get(remark, rank):
             blamed[remark], ranks[remark] = problem, rank
     kept: list[Problem] = []
-    told: set[Span] = set()
+    reported: set[Span] = set()
     for problem, remark in zip(problems, remarks, strict=True):
         if remark is None or remark not in blamed:
             kept.append(problem)
-        elif remark not in told:
-            told.add(remark)
+        elif remark not in reported:
+            reported.add(remark)
             message = f"{shown(text[slice(*remark)])} is read as data: {_ADVICE}"
             kept.append(replace(blamed[remark], message=message, span=remark, repair=None))
     return kept

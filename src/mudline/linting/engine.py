@@ -79,14 +79,14 @@ def unsuppressed(context: LintContext, problems: list[Problem], chosen: Sequence
     return problems if found is None else found.split(problems, chosen)[0]
 
 
-_LONGEST = 4096
+LONGEST_BLOCK = 4096
 """Characters of a block that is remembered."""
 
-_MOST_BLOCKS = 512
+MOST_BLOCKS = 512
 """Blocks that are remembered."""
 
 
-class _BlockMemory:
+class BlockMemory:
     """The last few hundred short blocks, as they were read.
 
     A block that comes again shares its model with the one before: for decks that are looked at and not changed.
@@ -99,14 +99,14 @@ class _BlockMemory:
         """What `read_block` gives for the block."""
         start = raw.head.span.start
         end = (raw.leaves[-1] if raw.leaves else raw.head).span.end
-        if end - start > _LONGEST:
+        if end - start > LONGEST_BLOCK:
             return read_block(text, raw, declared, last=last)
         piece = text[start:end]
         key = (declared, last, piece)
         known = self._known.get(key)
         if known is None:
             known = self._known[key] = read_block(piece, _moved(raw, -start), declared, last=last)
-            if len(self._known) > _MOST_BLOCKS:
+            if len(self._known) > MOST_BLOCKS:
                 self._known.popitem(last=False)
         else:
             self._known.move_to_end(key)
@@ -127,7 +127,7 @@ def _reported_at(problem: Problem, by: int) -> Problem:
     return replace(problem, span=span, repair=repair)
 
 
-_MEMORY = _BlockMemory()
+_MEMORY = BlockMemory()
 """Rules look at decks and do not change them."""
 
 

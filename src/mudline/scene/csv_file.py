@@ -88,7 +88,7 @@ def whole_numbers(file: str, name: str, column: Floats, lines: Sequence[int] | N
 
 
 def _first_broken(column: Floats) -> int | None:
-    """The first row that is no whole number, or one larger than a double counts exactly."""
+    """The first row that is not a whole number, or one larger than a double counts exactly."""
     with np.errstate(invalid="ignore"):
         good = (column == np.floor(column)) & (np.abs(column) <= LARGEST)
     return None if good.all() else int(np.argmin(good))

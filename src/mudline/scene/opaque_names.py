@@ -91,8 +91,8 @@ def _sets(block: Block | Opaque) -> Iterator[str]:
     """The element sets that a block of lines names."""
     if isinstance(block, Opaque):
         kept = catalogue.kept_of("MODEL", block.keyword)
-        if kept and kept.harvest:
-            yield from _given_in_lines(block.lines, kept.harvest)
+        if kept and kept.name_settings:
+            yield from _given_in_lines(block.lines, kept.name_settings)
     elif block.facts.makes:
         yield from _given_in_parts(block)
 

@@ -73,7 +73,7 @@ def scalar(node: yaml.ScalarNode) -> Any:
         case "float":
             value = float(text) if "n" not in text.lower() else math.nan
             if not math.isfinite(value):
-                raise ValueError(f"{text} is no finite number")
+                raise ValueError(f"{text} is not a finite number")
             return value
     raise ValueError(f"the tag {node.tag} is not used in a deck")
 

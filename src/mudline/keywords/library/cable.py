@@ -13,6 +13,6 @@ KEPT = Kept(
     example="*CABLE\n 1, 41, 565.6\n",
     certain="Nodes can be given by their distance along a cable; *LINES supersedes it, and it is still legal.",
     inferred="It may define nodes, elements and element sets, these by LINE=, NAME=, SECTION= and ADDITIONAL=.",
-    harvest=LINE_SETS,
+    name_settings=LINE_SETS,
     makes=("NODE", "ELEMENT", "ELEMENT SETS"),
 )

@@ -26,9 +26,9 @@ class _Resistance(Row):
     suction_stiffness: Annotated[
         Real | None, about("suction stiffness", unit="F/L2", at_least=0, inferred=SUCTION_STIFFNESS)
     ] = None
-    suction_extent: Annotated[Real | None, about("height of the suction zone above the bed", unit="L", at_least=0)] = (
-        None
-    )
+    suction_extent: Annotated[
+        Real | None, about("height of the suction zone above the seabed", unit="L", at_least=0)
+    ] = None
 
 
 class ElasticProperties(FrictionLengths, _Resistance, FrictionCoefficients, _Stiffness):  # the last base's fields first

@@ -42,7 +42,7 @@ class ElementSet(Record):
     """A set."""
 
     rule: ClassVar[str] = "element_set"
-    name: Annotated[Name, setting("SET", "set name: up to 256 characters, case does not count, blanks do")]
+    name: Annotated[Name, setting("SET", "set name: up to 256 characters, case does not count, spaces do")]
     members: list[SetList | SetGenerate | SetSubset] = []
 
 

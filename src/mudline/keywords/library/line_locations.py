@@ -13,7 +13,7 @@ KEPT = Kept(
     example="*LINE LOCATIONS\n LINE=Umbilical\n Touchdown, 200.0\n",
     certain="It gives labels to nodes at a distance along a line.",
     inferred="LINE= names a line, which is an element set too; any other text in its lines may be a label.",
-    harvest={"LINE": Names.SET},
+    name_settings={"LINE": Names.SET},
     labels=True,
     makes=("NODE",),
 )

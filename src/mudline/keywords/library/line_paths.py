@@ -14,9 +14,9 @@ KEPT = Kept(
     certain="It defines the lines that *LINE PATH SECTIONS divides into sections, with bends.",
     inferred=(
         "LINE= or NAME= gives the line's name, which is an element set too; SECTION= and ADDITIONAL= give such sets if "
-        "they stand here; a line makes nodes, elements and labels as those of *LINES do; any text may be a label."
+        "they belong here; a line makes nodes, elements and labels as those of *LINES do; any text may be a label."
     ),
-    harvest=LINE_SETS,
+    name_settings=LINE_SETS,
     labels=True,
     makes=("NODE", "ELEMENT", "ELEMENT SETS"),
 )

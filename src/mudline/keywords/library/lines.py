@@ -19,7 +19,7 @@ KEPT = Kept(
         "LINE= or NAME= gives the line's name and SECTION= that of a section, each as the first value, ADDITIONAL= has "
         "names only; any text in its lines may be a label."
     ),
-    harvest=LINE_SETS,
+    name_settings=LINE_SETS,
     labels=True,
     makes=("NODE", "ELEMENT", "ELEMENT SETS"),
 )

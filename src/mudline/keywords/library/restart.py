@@ -31,7 +31,7 @@ class Restart(Block):
         setting(
             "LAST",
             "file of the deck before, beside this one; its suffix may be left out",
-            inferred="the model of that deck stands before what this deck has of its own",
+            inferred="the model of that deck comes before what this deck has of its own",
             names=Names.DECK,
         ),
     ]

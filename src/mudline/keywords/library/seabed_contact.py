@@ -38,7 +38,7 @@ class ContactSet(Record):
     ] = None
     form: Annotated[
         Literal["CENTRED", "ONE-SIDED"] | None,
-        setting("FORM", "place of the quadratic zone: about the bed, or below it", default="CENTRED"),
+        setting("FORM", "place of the quadratic zone: about the seabed, or below it", default="CENTRED"),
     ] = None
 
 

@@ -38,7 +38,7 @@ class FrictionSet(Record):
         Real | Literal["AXIAL"] | None,
         setting(
             "DIRECTIONS",
-            "AXIAL: u1 along the line in the plane of the bed; an angle: u1 from +Y about the normal of the bed",
+            "AXIAL: u1 along the line in the plane of the seabed; an angle: u1 from +Y about its normal",
             unit="deg",
             default="AXIAL",
         ),

@@ -1,4 +1,4 @@
-"""`*SEABED PLANES`: a sea floor of several plane surfaces (extension)."""
+"""`*SEABED PLANES`: a seabed of several plane surfaces (extension)."""
 
 from __future__ import annotations
 
@@ -53,12 +53,12 @@ class Plane(Record):
 
 
 class SeabedPlanes(Block):
-    """Plane surfaces; the highest of those that hold a point is the bed there."""
+    """Plane surfaces; the highest of those that hold a point is the seabed there."""
 
     rule: ClassVar[str] = "seabed_planes"
     names: ClassVar[tuple[str, ...]] = ("SEABED PLANES",)
     facts: ClassVar[Facts] = Facts(extension=True, computed_in="shapes-of-the-seabed")
-    summary: ClassVar[str] = "A sea floor of several plane surfaces: the highest one at a place is the bed (extension)."
+    summary: ClassVar[str] = "A seabed of several plane surfaces: the highest one at a place holds (extension)."
     example: ClassVar[str] = (
         "*SEABED PLANES\n PLANE=shelf\n POINT=0.0, 0.0, 0.0\n SLOPE=0.0\n"
         " PLANE=slope\n POINT=0.0, 200.0, 0.0\n SLOPE=5.0, DIRECTION=0.0\n BOUNDS=200.0, 900.0, -500.0, 500.0\n"

@@ -1,4 +1,4 @@
-"""`*SEABED PROFILE`: a bed that is not flat."""
+"""`*SEABED PROFILE`: a seabed that is not flat."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class SeabedProfile(Block):
     rule: ClassVar[str] = "seabed_profile"
     names: ClassVar[tuple[str, ...]] = ("SEABED PROFILE",)
     facts: ClassVar[Facts] = Facts(supersedes=True, computed_in="shapes-of-the-seabed")
-    summary: ClassVar[str] = "A bed that is not flat: a uniform slope, or a profile from a file; without it X = 0."
+    summary: ClassVar[str] = "A seabed that is not flat: a uniform slope, or a profile from a file; without it X = 0."
     example: ClassVar[str] = "*SEABED PROFILE\n TYPE=SLOPING\n DIRECTION=30.0\n SLOPE=2.5\n"
 
     keyword: Literal["SEABED PROFILE"] = "SEABED PROFILE"
@@ -42,9 +42,7 @@ class SeabedProfile(Block):
             default="0",
             inline=True,
             behind="INTERPOLATION",
-            inferred=(
-                "the profile is taken at Y cos + Z sin, from `counter-clockwise about X`; described for an elastic bed"
-            ),
+            inferred=("the profile is taken at Y cos + Z sin, from `counter-clockwise about X`; for an elastic seabed"),
         ),
     ] = None
     slope: Annotated[

@@ -48,7 +48,7 @@ class SeabedSuction(Row):
     extent: Annotated[
         Real | None,
         about(
-            "height of the suction zone above the bed",
+            "height of the suction zone above the seabed",
             unit="L",
             above=0,
             inferred="it is above 0, as a zone without a height holds nothing; the manual gives no range",

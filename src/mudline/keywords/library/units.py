@@ -1,4 +1,4 @@
-"""`*UNITS`: the unit system of decks whose suffix does not tell it."""
+"""`*UNITS`: the unit system of decks whose suffix does not say it."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Units(Block):
             "unit system of all values in the deck",
             inferred=(
                 "the keyword is seen in decks of a sister dialect and described nowhere: its words are taken for the "
-                "systems of the suffixes .keyxm and .keyxi, and a suffix that tells the system goes before it"
+                "systems of the suffixes .keyxm and .keyxi, and a suffix that says the system takes precedence"
             ),
         ),
     ]

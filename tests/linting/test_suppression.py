@@ -14,7 +14,7 @@ from mudline.deck.loading import load_bytes
 from mudline.linting.engine import Fixing, LintSettings, lint_bytes
 from mudline.linting.fixing import fix_bytes
 from mudline.linting.registry import rules, select
-from tests.lint.findings import CURVES, found
+from tests.linting.findings import CURVES, found
 
 FALLING = f"{CURVES} CURVE=Clay\n 0.0, 0.0\n 0.1, 1200.0\n 0.5, 900.0\n 1.0, 2000.0\n"
 """A CRV005 at 6:2 and a REF003 at 3:8."""

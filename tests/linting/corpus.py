@@ -1,6 +1,6 @@
 """The golden corpus: decks under tests/corpus, and beside each of them what the linter finds in it.
 
-`python -m tests.lint.corpus` writes the findings anew, prints what changed, and tells which rules no deck shows.
+`python -m tests.linting.corpus` writes the findings anew, prints what changed, and tells which rules no deck shows.
 """
 
 from __future__ import annotations
@@ -143,7 +143,7 @@ def rewrite() -> list[str]:
 def main(arguments: list[str] | None = None) -> None:
     """Write the findings anew, and tell what changed."""
     summary = "Write the findings beside every deck of the corpus anew. There are no arguments."
-    argparse.ArgumentParser(prog="python -m tests.lint.corpus", description=summary).parse_args(arguments)
+    argparse.ArgumentParser(prog="python -m tests.linting.corpus", description=summary).parse_args(arguments)
     for line in rewrite():
         sys.stdout.write(f"{line}\n")
     sys.stdout.write(f"{len(decks())} decks; rules that none of them shows: {sorted(codes_not_shown())}\n")

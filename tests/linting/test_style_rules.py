@@ -17,7 +17,7 @@ from mudline.linting.fixing import Fixed, fix_bytes
 from mudline.linting.registry import select
 from mudline.linting.rule import first_reported
 from tests.growth import FOURFOLD, TWOFOLD, call_growth, growth
-from tests.lint.findings import CLAY, CURVES, found, messages
+from tests.linting.findings import CLAY, CURVES, found, messages
 
 CODES = [f"STY00{number}" for number in range(1, 10)]
 STYLE = select(CODES)

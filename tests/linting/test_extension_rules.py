@@ -6,7 +6,7 @@ import pytest
 
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import select
-from tests.lint.findings import CLAY, PIPE, PROPERTIES, RESTART, found, messages
+from tests.linting.findings import CLAY, PIPE, PROPERTIES, RESTART, found, messages
 
 LINEAR = PROPERTIES + " STIFFNESS=5000\n"
 UNLOADING = "*SEABED UNLOADING\n SET=ALL\n STIFFNESS=9000\n"

@@ -6,7 +6,7 @@ import pytest
 
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import select
-from tests.lint.findings import ON_CLAY, PIPE, PROPERTIES, found, messages
+from tests.linting.findings import ON_CLAY, PIPE, PROPERTIES, found, messages
 
 
 @pytest.mark.parametrize(

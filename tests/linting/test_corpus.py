@@ -15,7 +15,7 @@ from mudline.diagnostics import DeckError, Diagnostic, Severity
 from mudline.formatting.document import formatted
 from mudline.linting.engine import Fixing, LintSettings
 from mudline.linting.fixing import fix_bytes
-from tests.lint import corpus
+from tests.linting import corpus
 
 DECKS = corpus.decks()
 GOOD = [deck for deck in DECKS if corpus.name_of(deck).startswith("good/")]
@@ -61,7 +61,7 @@ def errors(found: Iterable[Diagnostic]) -> int:
 
 @each_deck
 def test_a_deck_gives_the_findings_beside_it(deck: Path) -> None:
-    assert corpus.beside(deck).exists(), "python -m tests.lint.corpus writes it"
+    assert corpus.beside(deck).exists(), "python -m tests.linting.corpus writes it"
     given = corpus.expected(deck)
     assert corpus.lines(found_in(deck), deck) == given.findings
     assert corpus.beside(deck).read_text(encoding="utf-8") == given.text()

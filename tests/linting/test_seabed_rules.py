@@ -6,7 +6,7 @@ import pytest
 
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import select
-from tests.lint.findings import PIPE, PROPERTIES, RESTART, found
+from tests.linting.findings import PIPE, PROPERTIES, RESTART, found
 
 
 @pytest.mark.parametrize(

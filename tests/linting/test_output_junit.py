@@ -13,7 +13,7 @@ from junitparser import Failure, JUnitXml, TestCase, TestSuite
 from mudline.linting.output.forms import form
 from tests.cli.decks import BAD_NUMBER, CLEAN
 from tests.cli.runner import run
-from tests.lint.outputs import finding
+from tests.linting.outputs import finding
 
 ODD = CLEAN.replace(" 100.0, 1025.0, 9.81", " 100.0, 10\x1b[31m\x00<&\"']]>, 9.81é")
 

@@ -8,7 +8,7 @@ import pytest
 
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import select
-from tests.lint.findings import PIPE, PROPERTIES, RESTART, found, messages
+from tests.linting.findings import PIPE, PROPERTIES, RESTART, found, messages
 
 LAW = PROPERTIES + " STIFFNESS=60000.0\n"
 OCEAN = "*OCEAN\n 420.0, 1025.0, 9.81\n"

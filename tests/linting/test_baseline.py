@@ -11,7 +11,7 @@ from jsonschema import Draft202012Validator
 from mudline.linting.baseline import Baseline, BaselineError, read_baseline
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import select
-from tests.lint.findings import CLAY, CURVES, curve
+from tests.linting.findings import CLAY, CURVES, curve
 
 DECK = f"{CURVES}{CLAY}{curve('Sand', (0.0, 0.0), (0.5, 4000.0))}"
 """Two REF003."""

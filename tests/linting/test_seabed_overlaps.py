@@ -8,7 +8,7 @@ import pytest
 
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import select
-from tests.lint.findings import PIPE, PROPERTIES, RESTART, found, messages
+from tests.linting.findings import PIPE, PROPERTIES, RESTART, found, messages
 
 SETS = "*ELEMENT SETS\n SET=A\n GEN=1, 4\n SET=B\n GEN=3, 6\n SET=C\n GEN=3, 4\n SET=D\n GEN=1, 4\n"
 MODEL = PIPE + SETS + "*SEABED PROPERTIES\n TYPE=ELASTIC\n"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.lint.findings import ON_CLAY, PIPE, PROPERTIES, curve, found, in_units
+from tests.linting.findings import ON_CLAY, PIPE, PROPERTIES, curve, found, in_units
 
 
 @pytest.mark.parametrize(

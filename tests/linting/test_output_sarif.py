@@ -20,7 +20,7 @@ from mudline.linting.output.forms import form
 from mudline.linting.registry import find, rules
 from tests.cli.decks import BAD_NUMBER, CLEAN, UNSORTED
 from tests.cli.runner import Json, Outcome, run
-from tests.lint.outputs import finding, plugin_lint
+from tests.linting.outputs import finding, plugin_lint
 
 DATA = Path(__file__).parents[1] / "data"
 SCHEMA = json.loads((DATA / "sarif-schema-2.1.0.json").read_text(encoding="utf-8"))

@@ -10,7 +10,7 @@ from mudline.deck.forms.json import to_json
 from mudline.deck.loading import load_bytes
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import select
-from tests.lint.findings import PIPE, PROPERTIES, curve
+from tests.linting.findings import PIPE, PROPERTIES, curve
 
 CODES = ("UNT002", "UNT004", "UNT005", "UNT006")
 IMPERIAL = PIPE.replace("207.0E9, 79.6E9, 0.25, 0.22, 7850.0", "4.32E9, 1.66E9, 0.82, 0.72, 15.23")

@@ -8,7 +8,7 @@ from mudline.deck.forms.json import to_json
 from mudline.deck.loading import load_bytes
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import select
-from tests.lint.findings import CLAY, CURVES, PIPE, PROPERTIES, RESTART, curve, found, messages, repaired
+from tests.linting.findings import CLAY, CURVES, PIPE, PROPERTIES, RESTART, curve, found, messages, repaired
 
 
 def test_unused_curves_are_told_each_once() -> None:

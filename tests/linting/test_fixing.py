@@ -17,8 +17,8 @@ from mudline.linting.lint_file import lint_one
 from mudline.linting.registry import rules
 from mudline.linting.rule import Rule
 from mudline.linting.suppression import STY010
-from tests.lint.findings import CLAY, CURVES, PIPE, PROPERTIES
-from tests.lint.made_rules import replacing
+from tests.linting.findings import CLAY, CURVES, PIPE, PROPERTIES
+from tests.linting.made_rules import replacing
 
 DECK = f"C A riser\n{PIPE}{PROPERTIES} STIFFNESS=Clay\n*SEABED STIFFNESS\n{CLAY}"
 TABS = replacing(r"\t", " ")

@@ -15,8 +15,8 @@ from mudline.linting.engine import Fixing, LintSettings, lint_bytes
 from mudline.linting.fixing import fix_bytes
 from mudline.linting.registry import select
 from mudline.migration.migrating import Migration, legacy_blocks, migrate
-from tests.lint import corpus
-from tests.lint.findings import CURVES, PIPE, PROPERTIES
+from tests.linting import corpus
+from tests.linting.findings import CURVES, PIPE, PROPERTIES
 
 SURFACE = "*ELASTIC SURFACE\n 50000.0, 0.3, 0.5\n"
 CLAY = f"$MODEL\n{PROPERTIES} STIFFNESS=Clay\n*SEABED STIFFNESS\n CURVE=Clay\n"

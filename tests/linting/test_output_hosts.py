@@ -16,7 +16,7 @@ from mudline.linting.output.visible import visible
 from mudline.linting.registry import rules
 from tests.cli.decks import BAD_NUMBER
 from tests.cli.runner import run
-from tests.lint.outputs import finding
+from tests.linting.outputs import finding
 
 TEXTS = st.text(st.characters(codec="utf-8"), min_size=1, max_size=20)
 

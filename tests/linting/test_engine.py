@@ -17,7 +17,7 @@ from mudline.diagnostics import Diagnostic, Severity
 from mudline.linting.context import LintContext
 from mudline.linting.engine import lint_bytes, lint_context, lint_deck
 from mudline.linting.registry import rules, select
-from tests.lint.findings import CLAY, PIPE, PROPERTIES, RESTART, found
+from tests.linting.findings import CLAY, PIPE, PROPERTIES, RESTART, found
 
 # A line and, behind the bar, the codes that are found in it.
 FAULTY = """\
