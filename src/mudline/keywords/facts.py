@@ -73,9 +73,9 @@ class Kept:
 
     `example` shows what its lines may look like, not its format. `certain` and `inferred` say what we know of it and
     what we conclude. `name_settings` has the settings that give names; of a SET only the first value is a name.
-    `labels` says that any text among its lines may be the label of a node. `makes` are the keywords of what it may define: a thing of
-    these kinds that is missing may come from here. `sections_inferred` says that its section is not confirmed: in
-    another one it is not reported.
+    `labels` says that any text among its lines may be the label of a node. `makes` are the keywords of what it may
+    define: a thing of these kinds that is missing may come from here. `sections_inferred` says that its section is not
+    confirmed: in another one it is not reported.
     """
 
     names: tuple[str, ...]
