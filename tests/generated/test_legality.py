@@ -78,3 +78,10 @@ def test_a_rule_that_advises_never_blocks() -> None:
     context = LintContext(load_bytes(CUTOFF.encode(), "deck.keyxm"), dialect="flexcom")
     chosen = [rule for rule in rules() if rule.advises]
     assert {problem.blocking.value for problem in problems_in(context, chosen)} == {"never"}
+
+
+def test_a_section_of_a_set_that_something_else_may_define() -> None:
+    """Deck 904341 once had no finding and was refused all the same: a `*CABLE` may have defined the set."""
+    found = outcome(deck(904341).encode())
+    assert {code for code, _, _ in found.blocking} == {"SBD009"}
+    assert found.agrees

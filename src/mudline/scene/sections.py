@@ -65,15 +65,17 @@ def read_sections(
     """The sections, and the one of each element: the later entry wins, a diameter from a file over all."""
     sections: list[Section] = []
     holders: list[NamedSet | None] = []
+    elsewhere = False
     for where, block in context.deck.blocks("GEOMETRIC SETS"):
         for index, entry in enumerate(cast("GeometricSets", block).sets):
             place = where.inside("sets", index)
             name = cast("str | None", entry.set_name)
             holders.append(None if name is None else sets.find(name))
+            elsewhere |= name is not None and holders[-1] is None and bool(context.possible_definition("ELEMENT SETS"))
             sections.append(_section(context, entry, place))
     of_element = later_wins(holders, len(elements))
     diameter = looked_up(np.array([*(section.diameter for section in sections), math.nan]), of_element)
-    unread = None in holders or "GEOMETRIC SETS" in context.unread
+    unread = (None in holders and not elsewhere) or "GEOMETRIC SETS" in context.unread
     faulty = looked_up(np.array([*(section.faulty for section in sections), unread]), of_element)
     if external is not None:
         diameter, faulty = diameter.copy(), faulty.copy()
@@ -81,7 +83,7 @@ def read_sections(
         given = ~np.isnan(external.diameter)
         diameter[at[given]] = external.diameter[given]
         faulty[at[given]] = False
-    is_open = any(holder.open for holder in holders if holder)
+    is_open = elsewhere or any(holder.open for holder in holders if holder)
     return SectionTable(tuple(sections), of_element, diameter, faulty, is_open)
 
 
