@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from mudline.codes import MIG001
-from mudline.deck.forms.keyword import to_keyword
+from mudline.deck.forms.keyword import as_text
 from mudline.deck.loading import dump, form_of, load_path
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.reading import TextOrigin, read_source
@@ -92,10 +92,10 @@ def migrate(deck: Deck, continued_by: Sequence[str] = ()) -> Migration:
     before = resolve(deck).require()
     if problems := list(refusals(deck, continued_by)):
         raise DeckError(deck.diagnose(problems))
-    text = _as_text(deck)
+    text = as_text(deck)
     made = rewrite(text)
     origin = text.origin
-    assert isinstance(origin, TextOrigin)  # noqa: S101 - `_as_text` gives no other
+    assert isinstance(origin, TextOrigin)  # noqa: S101 - `as_text` gives no other
     content = edited_bytes(origin.source, made.edits)
     changed = read_source(Source.from_bytes(content, deck.file), units=deck.units)
     changed = replace(changed, source=deck.source, folder=deck.folder)
@@ -104,14 +104,6 @@ def migrate(deck: Deck, continued_by: Sequence[str] = ()) -> Migration:
         content = dump(changed, form_of(deck.file)).encode()
     files = {name: lines.encode() for name, lines in made.files.items()}
     return Migration(before, after, changed, content, files, legacy_blocks(deck))
-
-
-def _as_text(deck: Deck) -> Deck:
-    """The deck as read from keyword text; a JSON or YAML deck is written as text first."""
-    if isinstance(deck.origin, TextOrigin):
-        return deck
-    source = Source.from_bytes(to_keyword(deck).encode(), deck.file)
-    return replace(read_source(source, units=deck.units), source=deck.source, folder=deck.folder)
 
 
 def _checked(deck: Deck, before: Scene, changed: Deck, made: Rewriting) -> Scene:

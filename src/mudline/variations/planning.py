@@ -10,6 +10,7 @@ from pathlib import PurePath
 from typing import TYPE_CHECKING
 
 from mudline.codes import EXP001
+from mudline.deck.forms.keyword import as_text
 from mudline.deck.model import Deck
 from mudline.deck.reading import read_source
 from mudline.diagnostics import DeckError, Problem, Severity, Where
@@ -26,7 +27,6 @@ from mudline.variations.rewriting import (
     Rewriter,
     Targets,
     Values,
-    as_text,
 )
 
 if TYPE_CHECKING:
@@ -62,7 +62,7 @@ def plan(deck: Deck) -> ExpansionPlan:
 class _Planner:
     def __init__(self, deck: Deck) -> None:
         self.deck = deck
-        self.text = as_text(deck)
+        self.text = as_text(deck).require()
         self.targets = Targets(self.text)
         self.namer = Namer(deck, self.targets)
         self.rewriter = Rewriter(self.text, self.targets)

@@ -6,7 +6,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, cast
 
-from mudline.deck.forms.keyword import to_keyword
 from mudline.deck.loading import dump, form_of
 from mudline.deck.model import Deck
 from mudline.deck.parameters import Parameters, folded, list_items
@@ -161,14 +160,6 @@ def parameter_field(text: str) -> str | None:
     if alone and (unquoted(text) != text or not (set(text) & set(' \t"') or text[0] in "/=")):
         return text
     return None if '"' in text else f'"{text}"'
-
-
-def as_text(deck: Deck) -> Deck:
-    """The deck as read from keyword text. Raises DeckError for a JSON or YAML deck that cannot be said in it."""
-    if isinstance(deck.origin, TextOrigin):
-        return deck
-    source = Source.from_bytes(to_keyword(deck).encode(), deck.file)
-    return replace(read_source(source, units=deck.units), source=deck.source, folder=deck.folder).require()
 
 
 class Rewriter:

@@ -11,7 +11,7 @@ import numpy as np
 from mudline.codes import DOC002
 from mudline.deck.faults import DocumentPath, document_path, path_text, shown
 from mudline.deck.model import Deck, Opaque, Section
-from mudline.deck.reading import read_source
+from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import DeckError, Problem, Where
 from mudline.keywords.model import Block, Comment, Part, layout
 from mudline.keywords.table import Table
@@ -42,6 +42,17 @@ def _require_survival(deck: Deck) -> None:
         one, two = next(pair for pair in lines if pair[0] != pair[1])
         message = f"the line {shown(one)} cannot be said in keyword text: {shown(two)} would be read there"
         raise DeckError(deck.diagnose([Problem(DOC002, message)]))
+
+
+def as_text(deck: Deck) -> Deck:
+    """Return the deck as read from keyword text; one from JSON or YAML is written first.
+
+    Raises DeckError as `to_keyword` does.
+    """
+    if isinstance(deck.origin, TextOrigin):
+        return deck
+    source = Source.from_bytes(to_keyword(deck).encode(), deck.file)
+    return replace(read_source(source, units=deck.units), source=deck.source, folder=deck.folder)
 
 
 def write(deck: Deck) -> str:
