@@ -15,8 +15,7 @@ import pytest
 from mudline.cli.main import COMMANDS, mudline
 from mudline.codes import all_codes
 from mudline.expression import FORMS, FUNCTIONS
-from mudline.linting.plugins import RUN002
-from mudline.linting.registry import rules
+from mudline.linting.registry import RUN002, rules
 from tests.docs.blocks import Page, agree
 from tests.docs.commands import output, run
 from tests.docs.make import BY_HAND, ROOT, documents, made_files, pages

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from mudline.diagnostics import Code, Problem, Repair, Severity, Span, Where
-from mudline.linting.context import LintContext
-from mudline.linting.rule import rule
+from mudline.linting.rule import LintContext, rule
 
 __all__ = ["Code", "LintContext", "Problem", "Repair", "Severity", "Span", "Where", "rule"]

@@ -8,9 +8,8 @@ import pytest
 
 from mudline.cli.lint_outputs import statistics_lines
 from mudline.diagnostics import Diagnostic, Edit, Fix, Severity
-from mudline.linting.output.forms import form
+from mudline.linting.output import LONGEST, form, visible, visible_lines
 from mudline.linting.output.text import Screen, excerpt, findings, summary
-from mudline.linting.output.visible import LONGEST, visible, visible_lines
 from mudline.syntax.source import Source
 from tests.cli.runner import assert_fits
 

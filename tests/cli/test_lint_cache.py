@@ -14,7 +14,7 @@ from mudline.diagnostics import Diagnostic
 from mudline.linting import cache
 from mudline.linting.cache import packed, unpacked
 from mudline.linting.engine import LintSettings
-from mudline.linting.lint_file import FileReport, lint_one
+from mudline.linting.fixing import FileReport, lint_one
 from mudline.linting.registry import rules
 from tests.cli.conftest import Place
 from tests.cli.decks import BAD_NUMBER, CLEAN, UNSORTED

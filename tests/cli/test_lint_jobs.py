@@ -12,7 +12,7 @@ import pytest
 from mudline.cli import lint_jobs, lint_pool
 from mudline.cli.inputs import Input
 from mudline.linting.engine import LintSettings
-from mudline.linting.lint_file import FileReport
+from mudline.linting.fixing import FileReport
 from mudline.linting.registry import rules
 from tests.cli.conftest import Place
 from tests.cli.decks import BAD_NUMBER, CLEAN, UNSORTED

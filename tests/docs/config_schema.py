@@ -6,8 +6,7 @@ import json
 from typing import Any
 
 from mudline.linting.configuration import _OF_CODES, _SEVERITIES, KEYS, LISTS, WORDS
-from mudline.linting.plugins import origin
-from mudline.linting.registry import rules
+from mudline.linting.registry import origin, rules
 
 CONFIG_SCHEMA = "docs/schemas/config.json"
 

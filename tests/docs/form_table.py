@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from mudline.cli.result_files import result_file, result_forms
-from mudline.linting.output.forms import TEXT, TEXT_SUMMARY, form_module, form_names
+from mudline.linting.output import TEXT, TEXT_SUMMARY, form_module, form_names
 from mudline.results.quantities import ELEMENTS, NODES, Quantity
 
 _ROOT = Path(__file__).parents[2]

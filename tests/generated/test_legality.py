@@ -9,10 +9,10 @@ from hypothesis import given, settings
 
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Severity
-from mudline.linting.context import LintContext
 from mudline.linting.engine import LintSettings, lint_bytes, problems_in
-from mudline.linting.lint_file import lint_one
+from mudline.linting.fixing import lint_one
 from mudline.linting.registry import rules
+from mudline.linting.rule import LintContext
 from mudline.scene.model import resolve
 from tests.generated.decks import document
 from tests.generated.legality import deck, outcome

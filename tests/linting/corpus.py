@@ -14,7 +14,7 @@ from pathlib import Path
 
 from mudline.diagnostics import Diagnostic
 from mudline.linting.engine import lint_bytes
-from mudline.linting.output.visible import visible
+from mudline.linting.output import visible
 from mudline.linting.registry import rules, select
 from mudline.linting.rule import Rule
 

@@ -6,8 +6,7 @@ import re
 from collections.abc import Iterator
 
 from mudline.diagnostics import Code, Problem, Repair, Severity, Span
-from mudline.linting.context import LintContext
-from mudline.linting.rule import Rule
+from mudline.linting.rule import LintContext, Rule
 
 
 def replacing(

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import Problem
-from mudline.linting.context import MOST_POINTS, LintContext, odd_curves
 from mudline.linting.registry import rules
+from mudline.linting.rule import MOST_POINTS, LintContext, odd_curves
 
 HEAD = "$MODEL\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=Clay\n*SEABED STIFFNESS\n CURVE=Clay\n"
 CLAY = [(0.0, 0.0), (0.1, 1200.0), (0.5, 4200.0)]
@@ -42,6 +42,7 @@ def curves(draw: st.DrawFn) -> Points:
 
 
 @given(curves())
+@example([(5e-324, 0.0), *CLAY])
 @settings(max_examples=300)
 def test_nothing_is_missed(points: Points) -> None:
     every = context(points)

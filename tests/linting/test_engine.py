@@ -14,9 +14,9 @@ from mudline.deck.forms.json import to_json
 from mudline.deck.forms.yaml import to_yaml
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import Diagnostic, Severity
-from mudline.linting.context import LintContext
 from mudline.linting.engine import lint_bytes, lint_context, lint_deck
 from mudline.linting.registry import rules, select
+from mudline.linting.rule import LintContext
 from tests.linting.findings import CLAY, PIPE, PROPERTIES, RESTART, found
 
 # A line and, behind the bar, the codes that are found in it.

@@ -15,11 +15,10 @@ from mudline.deck.forms.json import to_json
 from mudline.deck.forms.yaml import to_yaml
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import Code, Problem, Severity
-from mudline.linting.context import LintContext
 from mudline.linting.engine import LintSettings, lint_bytes
 from mudline.linting.fixing import FixState, Reader
 from mudline.linting.registry import rules
-from mudline.linting.rule import Rule, described_by, rule
+from mudline.linting.rule import LintContext, Rule, described_by, rule
 
 ROW = re.compile(r"\| \[([A-Z]+[0-9]+)\]\(\1\.md\) \| `([a-z0-9-]+)` \| (\w+)(, off)? \| (\w*) \| .+ \|")
 PAGE = Path(__file__).parents[2] / "docs" / "rules" / "README.md"

@@ -9,9 +9,9 @@ import pytest
 
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import Where
-from mudline.linting.context import LintContext
 from mudline.linting.engine import problems_in
 from mudline.linting.registry import rules
+from mudline.linting.rule import LintContext
 from mudline.scene import numbering
 from mudline.scene.model import resolve
 from mudline.scene.numbering import blocks_of, constant, identity, looked_up, one_index

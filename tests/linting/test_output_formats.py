@@ -10,8 +10,8 @@ import click
 import pytest
 
 from mudline.cli.lint_outputs import complete
-from mudline.linting.output import forms
-from mudline.linting.output.forms import form_module, form_names
+from mudline.linting import output
+from mudline.linting.output import form_module, form_names
 from tests.cli.decks import BAD_NUMBER
 from tests.docs.form_table import form_table
 from tests.processes import TIMEOUT
@@ -26,11 +26,11 @@ def write(diagnostics, run):
 """
 WITH_TOY = """
 import sys
-from mudline.linting.output import forms
-forms.__path__.append({folder!r})
+from mudline.linting import output
+output.__path__.append({folder!r})
 from mudline.__main__ import main
 code = main(sys.argv[1:])
-names = [name.rpartition(".")[2] for name in sys.modules if name.startswith(forms.__name__ + ".")]
+names = [name.rpartition(".")[2] for name in sys.modules if name.startswith(output.__name__ + ".")]
 print(*sorted(names), file=sys.stderr)
 sys.exit(code)
 """
@@ -62,13 +62,13 @@ def test_it_is_offered(toy: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert "sarif, toy;" in " ".join(run(toy, "lint", "--help").stdout.split())
     refused = run(toy, "lint", ".", "--output-format", "tot")
     assert "'tot' is not one of text, concise, github, gitlab, json, jsonl, junit, sarif, toy" in refused.stderr
-    monkeypatch.setattr(forms, "__path__", [*forms.__path__, str(toy)])
+    monkeypatch.setattr(output, "__path__", [*output.__path__, str(toy)])
     context = click.Context(click.Command("lint"))
     assert complete(context, click.Option(["--output-format"]), "t") == ["text", "toy"]
     try:
         assert form_table().splitlines()[-1] == "| `toy` | a toy |"
     finally:
-        sys.modules.pop(f"{forms.__name__}.toy", None)
+        sys.modules.pop(f"{output.__name__}.toy", None)
 
 
 @pytest.mark.parametrize("name", form_names())

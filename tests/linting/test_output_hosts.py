@@ -11,8 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.diagnostics import Severity
-from mudline.linting.output.forms import form
-from mudline.linting.output.visible import visible
+from mudline.linting.output import form, visible
 from mudline.linting.registry import rules
 from tests.cli.decks import BAD_NUMBER
 from tests.cli.runner import run

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from mudline.linting import plugins
-from mudline.linting.output.finding_fields import address, page
+from mudline.linting import registry
+from mudline.linting.registry import address, page
 
 TOLD = (
     ("", None),
@@ -23,7 +23,7 @@ TOLD = (
 
 
 def come_from(package: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(plugins._ORIGINS, "ACM001", package)
+    monkeypatch.setitem(registry._ORIGINS, "ACM001", package)
 
 
 def test_a_code_of_mudline_has_a_page_in_its_repository_and_no_address() -> None:

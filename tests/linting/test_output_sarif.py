@@ -16,7 +16,7 @@ from jsonschema import Draft202012Validator
 
 from mudline.diagnostics import Diagnostic, Severity
 from mudline.linting.engine import lint_bytes
-from mudline.linting.output.forms import form
+from mudline.linting.output import form
 from mudline.linting.registry import find, rules
 from tests.cli.decks import BAD_NUMBER, CLEAN, UNSORTED
 from tests.cli.runner import Json, Outcome, run

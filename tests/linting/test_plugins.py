@@ -14,8 +14,7 @@ import pytest
 import mudline
 from mudline.diagnostics import Code, PluginError, Problem, Severity, Span, Where
 from mudline.linting.engine import lint_bytes
-from mudline.linting.plugins import Guarded, load, origin
-from mudline.linting.registry import rules
+from mudline.linting.registry import Guarded, load, origin, rules
 from mudline.linting.rule import Rule
 from mudline.plugins import LintContext
 from tests.processes import TIMEOUT

@@ -8,9 +8,8 @@ import pytest
 
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.linting import registry
-from mudline.linting.context import LintContext
 from mudline.linting.registry import UnknownRule, rules, select
-from mudline.linting.rule import Rule, rule
+from mudline.linting.rule import LintContext, Rule, rule
 
 
 def _codes(chosen: tuple[Rule, ...]) -> list[str]:

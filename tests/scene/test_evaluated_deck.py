@@ -18,9 +18,9 @@ from mudline.keywords.library.boundary import Boundary
 from mudline.keywords.model import Part
 from mudline.keywords.table import Table
 from mudline.keywords.values import Equation
-from mudline.linting.context import LintContext
 from mudline.linting.engine import problems_in
 from mudline.linting.registry import rules
+from mudline.linting.rule import LintContext
 from mudline.scene.model import Scene, resolve
 from tests.generated.legality import NAME
 from tests.generated.legality import deck as random_deck

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 
 from mudline.cli.options import View
 from mudline.cli.streams import emit
-from mudline.linting.output.visible import visible_lines
+from mudline.linting.output import visible_lines
 
 _NO_END = "\\ No newline at end of file\n"
 _STYLES = {"+++": "bold", "---": "bold", "@@ ": "cyan", "+": "green", "-": "red"}

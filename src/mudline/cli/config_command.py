@@ -14,7 +14,7 @@ from mudline.cli import DONE, options
 from mudline.cli.lint_settings import Configured
 from mudline.cli.streams import emit
 from mudline.linting.configuration import KEYS, TABLES, Configuration
-from mudline.linting.output.visible import visible
+from mudline.linting.output import visible
 
 _DEFAULTS = {"fail-on": "warning", "dialect": "mudline"}
 

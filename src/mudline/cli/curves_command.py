@@ -11,7 +11,7 @@ from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import load, refuses_bad_decks
 from mudline.cli.options import View
 from mudline.cli.streams import emit, emit_json, notify, notify_missing, writing
-from mudline.linting.output.visible import visible
+from mudline.linting.output import visible
 from mudline.results.curves import curve_rows, diameters, point_table, static_table, used_curves, value_table
 from mudline.results.quantities import UnitNames, csv_lines, headed, shown, unit_names
 from mudline.scene.model import Scene, resolve

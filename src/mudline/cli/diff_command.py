@@ -17,7 +17,7 @@ from mudline.cli.options import View
 from mudline.cli.streams import counted, emit
 from mudline.comparison.comparing import compare
 from mudline.comparison.model import Difference, Value, spans_of, text_of
-from mudline.linting.output.visible import visible
+from mudline.linting.output import visible
 from mudline.scene.model import resolve
 
 FORMAT = "mudline-diff/1"

@@ -13,7 +13,7 @@ from mudline.cli.options import View
 from mudline.cli.progress import Progress, wants_bar
 from mudline.cli.result_files import ResultConsumer, Sink, as_text, result_file
 from mudline.cli.streams import emit, notify, notify_missing, writing
-from mudline.linting.output.visible import visible
+from mudline.linting.output import visible
 from mudline.results.columns import ElementTable
 from mudline.results.evaluation import Evaluation
 from mudline.results.formats import TextForm

@@ -23,9 +23,8 @@ from mudline.files import write_atomically
 from mudline.linting.baseline import Baseline, BaselineError, read_baseline
 from mudline.linting.configuration import Configuration
 from mudline.linting.engine import Fixing
-from mudline.linting.lint_file import FileReport, lint_one
-from mudline.linting.output.forms import TEXT, form_names
-from mudline.linting.output.visible import visible
+from mudline.linting.fixing import FileReport, lint_one
+from mudline.linting.output import TEXT, form_names, visible
 from mudline.syntax.source import Source
 
 _CODES = "CODE[,CODE...]"

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from mudline.cli.inputs import Input, Inputs
 from mudline.linting.engine import Fixing, LintSettings
-from mudline.linting.lint_file import FileReport, lint_one
+from mudline.linting.fixing import FileReport, lint_one
 
 if TYPE_CHECKING:  # both are imported by runs that are large enough
     from mudline.cli.lint_pool import Arguments, Pool, Promise

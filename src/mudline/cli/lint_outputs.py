@@ -12,7 +12,7 @@ from mudline import __version__
 from mudline.cli.options import View
 from mudline.cli.streams import counted, emit, notify, write_text
 from mudline.diagnostics import Diagnostic, Severity
-from mudline.linting.output.forms import TEXT, form, form_names
+from mudline.linting.output import TEXT, form, form_names
 from mudline.syntax.source import Source
 
 

@@ -19,7 +19,7 @@ from typing import NamedTuple, Self
 import click
 
 from mudline.linting.engine import LintSettings
-from mudline.linting.lint_file import FileReport, lint_one
+from mudline.linting.fixing import FileReport, lint_one
 from mudline.linting.registry import rules
 from mudline.linting.rule import Rule
 

@@ -16,7 +16,7 @@ from mudline.cli.inputs import GITIGNORE, STDIN, is_deck
 from mudline.cli.lint_outputs import Outputs
 from mudline.cli.options import View
 from mudline.cli.streams import notify
-from mudline.linting.output.forms import TEXT
+from mudline.linting.output import TEXT
 
 WAIT = 0.3
 """Seconds between two checks; more where a check takes long, so that waiting costs little."""

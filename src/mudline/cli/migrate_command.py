@@ -13,7 +13,7 @@ from mudline.cli.options import View
 from mudline.cli.streams import counted, emit_deck, notify, notify_diagnostics, write_bytes
 from mudline.deck.loading import dump, form_of, load_bytes
 from mudline.diagnostics import DeckError
-from mudline.linting.output.visible import visible
+from mudline.linting.output import visible
 from mudline.migration.migrating import Continuations, Migration, legacy_blocks, migrate
 from mudline.migration.verification import Verdict, verify
 from mudline.syntax.source import Source

@@ -14,8 +14,8 @@ from rich.console import Console
 from rich.text import Text
 
 from mudline.diagnostics import Diagnostic
+from mudline.linting.output import visible
 from mudline.linting.output.text import STYLES, Screen, findings, summary
-from mudline.linting.output.visible import visible
 from mudline.results.quantities import shown
 from mudline.syntax.source import Source
 

@@ -11,9 +11,8 @@ import click
 from mudline.cli import DONE, options
 from mudline.cli.options import View
 from mudline.cli.streams import emit_json
-from mudline.linting.output.visible import visible_lines
-from mudline.linting.plugins import origin
-from mudline.linting.registry import UnknownRule, rules, select
+from mudline.linting.output import visible_lines
+from mudline.linting.registry import UnknownRule, origin, rules, select
 from mudline.linting.rule import Rule
 
 _PAGE = 100

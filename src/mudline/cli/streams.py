@@ -14,7 +14,7 @@ from typing import BinaryIO
 import click
 
 from mudline.diagnostics import Diagnostic
-from mudline.linting.output.visible import visible, visible_lines
+from mudline.linting.output import visible, visible_lines
 from mudline.syntax.source import Source
 
 MOST_REPORTED = 20

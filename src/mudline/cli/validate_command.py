@@ -18,10 +18,10 @@ from mudline.cli.progress import Progress, wants_bar
 from mudline.cli.streams import counted, emit, reason
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Diagnostic, Severity
-from mudline.linting.context import LintContext
 from mudline.linting.engine import problems_in
-from mudline.linting.output.finding_fields import as_object
+from mudline.linting.output.json import as_object
 from mudline.linting.registry import rules
+from mudline.linting.rule import LintContext
 from mudline.results.quantities import csv_lines
 from mudline.syntax.source import Source
 

@@ -23,8 +23,8 @@ from mudline.deck.loading import form_of
 from mudline.diagnostics import Diagnostic, Edit, Fix, Severity
 from mudline.files import write_atomically
 from mudline.linting.engine import LintSettings
-from mudline.linting.lint_file import FileReport
-from mudline.linting.plugins import Guarded, origin
+from mudline.linting.fixing import FileReport
+from mudline.linting.registry import Guarded, origin
 from mudline.linting.rule import Rule
 from mudline.resources import grammar_file
 

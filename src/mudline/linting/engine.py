@@ -13,8 +13,7 @@ from mudline.deck.model import Deck
 from mudline.diagnostics import Blocks, DeckError, Diagnostic, Problem, Severity
 from mudline.keywords.model import Block
 from mudline.keywords.reader import ReadBlock, read_block
-from mudline.linting.context import LintContext
-from mudline.linting.rule import Rule
+from mudline.linting.rule import LintContext, Rule
 from mudline.linting.suppression import suppressions
 from mudline.scene.continued import of_base
 from mudline.syntax.tree import Leaf, RawBlock

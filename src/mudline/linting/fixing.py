@@ -1,20 +1,24 @@
-"""Fixes: the repairs of findings are made in passes, each of which is read again and dropped if the deck got worse."""
+"""One file linted and fixed: a pure function of its content and its settings, which may run in another process.
+
+The repairs of findings are made in passes, each of which is read again and dropped if the deck got worse.
+"""
 
 from __future__ import annotations
 
 from bisect import bisect_left, insort
 from collections import Counter
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import islice
 from pathlib import Path
 
+from mudline.deck.loading import form_of
 from mudline.deck.model import Deck
 from mudline.deck.reading import read_source
 from mudline.diagnostics import Diagnostic, Problem, Repair, Severity, Span
-from mudline.linting.context import LintContext
-from mudline.linting.engine import LintSettings, problems_in, unsuppressed
+from mudline.linting.engine import Fixing, LintSettings, lint_bytes, problems_in, unsuppressed
+from mudline.linting.rule import LintContext
 from mudline.linting.suppression import MARK
 from mudline.syntax.edits import TextEdit, edited_bytes
 from mudline.syntax.source import Source
@@ -25,6 +29,45 @@ MOST_PASSES = 20
 
 _MOST_TRIES = 200
 """Times that a deck is read while it is fixed: bad repairs among good ones are found by halving."""
+
+
+@dataclass(frozen=True, slots=True)
+class FileReport:
+    """What came out for one file.
+
+    `found` are the findings in the content as it is after fixing, in their order; `fixed` those that are gone.
+    `changed` is the new content, or None where it is the old one. `note` says why fixes were not made, or "";
+    a deck in JSON or YAML has none.
+    """
+
+    file: str
+    found: tuple[Diagnostic, ...]
+    fixed: tuple[Diagnostic, ...] = ()
+    changed: bytes | None = None
+    note: str = ""
+
+
+def lint_one(name: str, data: bytes, settings: LintSettings, folder: Path | None = None) -> FileReport:
+    """Lint the content of a file, and fix it if the settings ask for it; writes nothing and never raises for content.
+
+    `folder` is where files that the deck names are; without it none of them is looked for.
+    """
+    result = Fixed(None, (), "")
+    if settings.fixing is not Fixing.NONE and form_of(name) == "keyword":
+        result = fix_bytes(data, name, settings, folder)
+    content = data if result.changed is None else result.changed
+    found = lint_bytes(content, name, settings.rules, units=settings.units, folder=folder, dialect=settings.dialect)
+    fixed = _with_severities(result.fixed, settings)
+    return FileReport(name, _with_severities(found, settings), fixed, result.changed, result.note)
+
+
+def _with_severities(found: Iterable[Diagnostic], settings: LintSettings) -> tuple[Diagnostic, ...]:
+    """The findings with the severities that the settings give them."""
+    given = settings.severities
+    return tuple(replace(one, severity=given[one.code]) if one.code in given else one for one in found)
+
+
+# -------------------------------------------------------------------------------------------------------------- fixes
 
 
 @dataclass(frozen=True, slots=True)

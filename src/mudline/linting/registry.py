@@ -1,17 +1,37 @@
-"""All rules: the checks of reading and resolving, rules that only advise, and those of plugins; choosing among them."""
+"""All rules: the checks of reading and resolving, rules that only advise, and those of plugins; choosing among them.
+
+Rules of other packages are found through the entry point group `mudline.rules`, and loaded when rules are asked for.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import cache
+from types import ModuleType
+from typing import TYPE_CHECKING
 
 from mudline.codes import all_codes
-from mudline.diagnostics import PluginError
-from mudline.linting import plugins
-from mudline.linting.rule import RULES, Noticed, Rule, add, described_by
+from mudline.diagnostics import Code, PluginError, Problem, Severity, Where
+from mudline.linting.rule import RULES, Check, LintContext, Noticed, Rule, add, described_by
 from mudline.resources import modules_of
 from mudline.scene.checks.declaring import all_checks
 from mudline.spelling import nearest
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
+
+GROUP = "mudline.rules"
+
+RUN002 = Code("RUN002", "rule-failed", Severity.ERROR)
+
+RESERVED = {"DOC", "DAT", "EXP", "MIG", "RUN"}
+"""Letters of mudline's codes that no rule has; those of its rules are kept from others too."""
+
+_CODE = re.compile(r"[A-Z]{2,8}[0-9]{3}")
+_SLUG = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
+_ORIGINS: dict[str, str] = {}
 
 
 class UnknownRule(ValueError):  # noqa: N818 - the name of the fault, as callers catch it
@@ -26,7 +46,7 @@ def _collected() -> tuple[tuple[Rule, ...], tuple[str, ...]]:
     for code, page in declared.values():
         add(described_by(code, Noticed(code), page))
     modules_of("mudline.linting.rules")
-    faults = plugins.load(RULES)
+    faults = load(RULES)
     return tuple(RULES[code] for code in sorted(RULES)), faults
 
 
@@ -81,3 +101,135 @@ def _hint(word: str) -> str:
     slugs = [rule.code.slug for rule in rules()]
     near = nearest(word, slugs) or nearest(word, codes)
     return f": did you mean {near}?" if near else ": `mudline rules` lists all rules"
+
+
+# ------------------------------------------------------------------------------------------- rules of other packages
+
+
+def load(known: dict[str, Rule]) -> tuple[str, ...]:
+    """Let every installed plugin add its rules to the known ones; returns what is wrong with those that cannot.
+
+    A plugin with a fault adds nothing. Rules that were added find no way to end a run: see `Guarded`.
+    """
+    own = RESERVED | {code.rstrip("0123456789") for code in known}
+    faults: list[str] = []
+    for entry in sorted(_entries(), key=lambda entry: (entry.name, entry.value)):
+        before = dict(known)
+        package = _package(entry)
+        fault = _run(entry) or _fault_of([rule for code, rule in known.items() if code not in before], own)
+        if fault:
+            known.clear()
+            known.update(before)
+            faults.append(f"the plugin {entry.name} of {package} cannot be used: {fault}, or uninstall the package")
+        for code in known.keys() - before.keys():
+            known[code] = replace(known[code], check=Guarded(known[code].check, code, package))
+            _ORIGINS[code] = package
+    return tuple(faults)
+
+
+def _entries() -> Sequence[EntryPoint]:
+    """The entry points of the group, each once however often its package is on the path."""
+    from importlib.metadata import entry_points  # noqa: PLC0415 - commands that run no rules do without it
+
+    return list({(entry.name, entry.value): entry for entry in entry_points(group=GROUP)}.values())
+
+
+def _package(entry: EntryPoint) -> str:
+    return f"{entry.dist.name} {entry.dist.version}" if entry.dist else entry.value
+
+
+def _run(entry: EntryPoint) -> str:
+    """Import what an entry point names, and call it unless it is a module; returns what went wrong."""
+    try:
+        loaded = entry.load()
+        if not isinstance(loaded, ModuleType):
+            loaded()
+    except (Exception, SystemExit) as error:  # noqa: BLE001 - the code of others may fail in any way
+        return f"{_said(error)}: report it to its authors"
+    return ""
+
+
+def _fault_of(added: Sequence[Rule], own: set[str]) -> str:
+    """What is wrong with the rules that a plugin added."""
+    if not added:
+        return "it adds no rule: use the decorator mudline.plugins.rule in it"
+    for code in (rule.code for rule in added):
+        if not _CODE.fullmatch(code.code):
+            return f"the code {code.code!r} must be 2 to 8 capital letters and 3 digits, as ACM001: change it"
+        if code.code.rstrip("0123456789") in own:
+            return f"codes like {code.code} belong to mudline: choose other letters"
+        if not _SLUG.fullmatch(code.slug):
+            return f"the name {code.slug!r} of {code.code} must be words in lower case with hyphens: change it"
+    return ""
+
+
+@dataclass(frozen=True, slots=True)
+class Guarded:
+    """The function of a plugin's rule: if it fails on a deck, that is a finding, and the run goes on."""
+
+    check: Check
+    code: str
+    package: str
+
+    def __call__(self, context: LintContext) -> Iterator[Problem]:
+        """What the rule finds, as far as it comes; then RUN002 if it failed."""
+        try:
+            for problem in self.check(context):
+                self._examine(problem, context)
+                yield problem
+        except Exception as error:  # noqa: BLE001 - the code of others may fail in any way
+            message = (
+                f"the rule {self.code} of {self.package} failed on this deck ({_said(error)}): report it to "
+                f"its authors, or leave it out with --ignore {self.code}; add what it checks by hand"
+            )
+            yield Problem(RUN002, message, where=Where())
+
+    def _examine(self, problem: Problem, context: LintContext) -> None:
+        """Fail now, in the guard, for what would fail later: another rule's code, a place that the deck has not."""
+        if problem.code.code != self.code:
+            raise ValueError(f"it gave a finding of {problem.code.code}")
+        context.deck.diagnose([problem])
+
+
+def _said(error: BaseException) -> str:
+    """An error in one line."""
+    words = " ".join(str(error).split())[:200]
+    return f"{type(error).__name__}: {words}" if words else type(error).__name__
+
+
+# ---------------------------------------------------------------------------------------------------- pages of rules
+
+
+def origin(code: str) -> str:
+    """The package that a rule comes from, with its version: "mudline" for mudline's own."""
+    return _ORIGINS.get(code, "mudline")
+
+
+def page(code: str) -> str | None:
+    """The page of a code of mudline, in its repository; the documentation of the package of a plugin, if it gives one.
+
+    The first is a path, the second an address on the web.
+    """
+    package = origin(code)
+    return f"docs/rules/{code}.md" if package == "mudline" else _documentation(package)
+
+
+def address(code: str) -> str | None:
+    """The same, where it is an address on the web."""
+    found = page(code)
+    return found if found and found.startswith(("https://", "http://")) else None
+
+
+@cache
+def _documentation(package: str) -> str | None:
+    """The address of the documentation of an installed package, given as "name version"."""
+    from importlib.metadata import PackageNotFoundError, metadata  # noqa: PLC0415 - only plugins need it
+
+    name, _, _ = package.rpartition(" ")
+    try:
+        given = metadata(name).get_all("Project-URL") or []
+    except (PackageNotFoundError, ValueError):  # a plugin that is no installed package has no name
+        return None
+    addresses = {label.strip().lower(): url.strip() for label, _, url in (text.partition(",") for text in given)}
+    found = next((addresses[label] for label in ("documentation", "homepage") if label in addresses), "")
+    return found if found.startswith(("https://", "http://")) else None

@@ -9,7 +9,7 @@ from rich.cells import cell_len
 from rich.text import Text
 
 from mudline.diagnostics import Diagnostic, Severity, Span
-from mudline.linting.output.visible import visible
+from mudline.linting.output import visible
 from mudline.syntax.source import Source
 
 STYLES = {Severity.ERROR: "bold red", Severity.WARNING: "bold yellow", Severity.INFO: "bold blue"}

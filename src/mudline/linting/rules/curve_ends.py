@@ -9,8 +9,7 @@ import numpy as np
 from mudline.curves import ForceCurve, QueryError
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.text import shown
-from mudline.linting.context import STEEPEST, LintContext
-from mudline.linting.rule import rule
+from mudline.linting.rule import STEEPEST, LintContext, rule
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.seabed import SeabedKind
 

@@ -13,8 +13,7 @@ from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Code, Problem, Repair, Severity, Span, Where
 from mudline.keywords.reader import all_keys
 from mudline.keywords.text import shown
-from mudline.linting.context import LintContext
-from mudline.linting.rule import rule
+from mudline.linting.rule import LintContext, rule
 from mudline.linting.suppression import MARK
 from mudline.syntax.fields import first_key
 from mudline.syntax.rows import read_number

@@ -11,8 +11,7 @@ import numpy as np
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import MOST_REPORTED, Code, Problem, Repair, Severity, Span
 from mudline.keywords.text import shown
-from mudline.linting.context import LARGEST_RATIO, LintContext
-from mudline.linting.rule import rule
+from mudline.linting.rule import LARGEST_RATIO, LintContext, rule
 from mudline.scene.force_curves import SceneCurve, clashes_and_repeats
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices

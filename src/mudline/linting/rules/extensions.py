@@ -9,8 +9,7 @@ import numpy as np
 from mudline.contact.input import LawKind
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.catalogue import is_extension
-from mudline.linting.context import LintContext
-from mudline.linting.rule import rule
+from mudline.linting.rule import LintContext, rule
 from mudline.scene.deck_values import number
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats

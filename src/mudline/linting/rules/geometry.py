@@ -14,8 +14,7 @@ from mudline.deck.model import Deck
 from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity, Where
 from mudline.keywords.catalogue import holds_in_soil
 from mudline.keywords.text import shown
-from mudline.linting.context import LintContext
-from mudline.linting.rule import rule
+from mudline.linting.rule import LintContext, rule
 from mudline.linting.rules.seabed_position import depths
 from mudline.scene.deck_values import number
 from mudline.scene.model import Scene

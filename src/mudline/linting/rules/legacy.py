@@ -6,8 +6,7 @@ from collections.abc import Callable, Iterator
 
 from mudline.diagnostics import Code, Problem, Repair, Severity, Where
 from mudline.keywords.catalogue import is_superseded, supersedes
-from mudline.linting.context import LintContext
-from mudline.linting.rule import rule
+from mudline.linting.rule import LintContext, rule
 from mudline.syntax.edits import with_line_ends
 
 LEG001 = Code("LEG001", "superseded-keyword", Severity.INFO)

@@ -10,8 +10,7 @@ from mudline.deck.parameters import folded, list_items
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import MOST_REPORTED, Code, Problem, Repair, Severity, Span, Where
 from mudline.keywords.text import shown
-from mudline.linting.context import LintContext
-from mudline.linting.rule import rule
+from mudline.linting.rule import LintContext, rule
 from mudline.scene.sets import ALL
 
 if TYPE_CHECKING:

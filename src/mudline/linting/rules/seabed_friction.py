@@ -9,8 +9,7 @@ import numpy as np
 
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Code, Problem, Severity, Where
-from mudline.linting.context import LintContext
-from mudline.linting.rule import rule
+from mudline.linting.rule import LintContext, rule
 from mudline.scene.deck_values import surfaces
 from mudline.scene.extensions import Extension
 from mudline.scene.laws import typed_blocks

@@ -13,8 +13,7 @@ from mudline.deck.parameters import folded
 from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity
 from mudline.keywords.model import Record
 from mudline.keywords.text import shown
-from mudline.linting.context import LintContext
-from mudline.linting.rule import rule
+from mudline.linting.rule import LintContext, rule
 from mudline.linting.rules.seabed_position import first_of
 from mudline.scene.deck_values import surfaces
 from mudline.scene.laws import SetLaw

@@ -10,8 +10,7 @@ import numpy as np
 from mudline.contact.input import LawKind
 from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity, Where
 from mudline.keywords.catalogue import holds_in_soil, is_superseded
-from mudline.linting.context import LintContext
-from mudline.linting.rule import rule
+from mudline.linting.rule import LintContext, rule
 from mudline.scene.checks.laws import SBD004
 from mudline.scene.model import Scene
 from mudline.scene.numbering import LARGEST, Floats, Indices, Mask, blocks_of

@@ -21,8 +21,7 @@ from mudline.contact.stiffest import (
 )
 from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity
 from mudline.keywords.text import shown
-from mudline.linting.context import LintContext
-from mudline.linting.rule import rule
+from mudline.linting.rule import LintContext, rule
 from mudline.scene.assignments import given_stiffness, nodal_stiffness, suction_law
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene

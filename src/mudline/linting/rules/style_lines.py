@@ -10,8 +10,7 @@ from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.keywords import catalogue
 from mudline.keywords.reader import ReadBlock, all_keys
-from mudline.linting.context import LintContext
-from mudline.linting.rule import first_reported, rule
+from mudline.linting.rule import LintContext, first_reported, rule
 from mudline.linting.suppression import STY010, suppressions
 from mudline.syntax.fields import first_key, trimmed
 from mudline.syntax.tree import Kind, Leaf, canonical_name

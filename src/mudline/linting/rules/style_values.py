@@ -10,8 +10,7 @@ from mudline.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.keywords.model import Part, layout
 from mudline.keywords.places import Path
 from mudline.keywords.reader import ReadBlock
-from mudline.linting.context import LintContext
-from mudline.linting.rule import first_reported, rule
+from mudline.linting.rule import LintContext, first_reported, rule
 from mudline.linting.rules.style_lines import data_leaves, first_of_lines, line_around, placed_leaves
 from mudline.syntax.fields import Group, read_line, trimmed
 from mudline.syntax.rows import blank_separated, row_fields

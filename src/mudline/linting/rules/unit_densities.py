@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from mudline.codes.fields import SYN015
 from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity, Where
 from mudline.keywords.model import Part
-from mudline.linting.context import LintContext
-from mudline.linting.rule import rule
+from mudline.linting.rule import LintContext, rule
 from mudline.linting.rules.geometry import section_entries
 from mudline.scene.deck_values import FOOT, POUND, number
 from mudline.scene.deck_values import LENGTH_UNIT as METRES

@@ -10,8 +10,7 @@ import numpy as np
 
 from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity, Where
 from mudline.keywords.model import Part
-from mudline.linting.context import LARGEST_RATIO, LintContext
-from mudline.linting.rule import rule
+from mudline.linting.rule import LARGEST_RATIO, LintContext, rule
 from mudline.linting.rules.seabed_friction import given
 from mudline.linting.rules.seabed_position import depths
 from mudline.linting.rules.unit_densities import (
@@ -251,9 +250,9 @@ def _ratios(curve: SceneCurve) -> Floats:
 
 def _is_round(values: Floats) -> Mask:
     """Which numbers have two significant digits, as far as rounding in the deck lets that be seen."""
-    with np.errstate(divide="ignore", over="ignore", under="ignore"):
-        digits = np.abs(values) / 10.0 ** np.floor(np.log10(np.abs(values)))
-    return np.abs(digits - digits.round(1)) <= ROUNDING * digits
+    with np.errstate(divide="ignore", over="ignore", under="ignore", invalid="ignore"):
+        digits = np.abs(values) / 10.0 ** np.floor(np.log10(np.abs(values)))  # inf for the smallest floats
+        return np.abs(digits - digits.round(1)) <= ROUNDING * digits
 
 
 def _elements(context: LintContext) -> Iterator[Problem]:

@@ -14,8 +14,7 @@ from mudline.deck.model import Deck
 from mudline.deck.reading import GRAVITIES
 from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity, Where
 from mudline.keywords.text import shown
-from mudline.linting.context import LintContext
-from mudline.linting.rule import rule
+from mudline.linting.rule import LintContext, rule
 from mudline.linting.rules.curve_shape import swapped
 from mudline.scene.deck_values import surfaces
 from mudline.scene.model import Scene

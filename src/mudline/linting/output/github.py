@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from mudline.diagnostics import Diagnostic, Severity
-from mudline.linting.output.forms import LintRun
-from mudline.linting.output.visible import visible
+from mudline.linting.output import LintRun, visible
 
 SUMMARY = "workflow commands, shown as annotations of a change"
 

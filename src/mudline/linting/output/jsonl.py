@@ -6,8 +6,8 @@ import json
 from collections.abc import Iterable, Iterator
 
 from mudline.diagnostics import Diagnostic
-from mudline.linting.output.finding_fields import as_object
-from mudline.linting.output.forms import LintRun
+from mudline.linting.output import LintRun
+from mudline.linting.output.json import as_object
 
 SUMMARY = "the same objects, one a line"
 

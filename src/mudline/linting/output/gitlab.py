@@ -9,9 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from mudline.diagnostics import Diagnostic, Severity
-from mudline.linting.output.finding_fields import Fingerprints
-from mudline.linting.output.forms import LintRun
-from mudline.linting.output.visible import visible
+from mudline.linting.output import Fingerprints, LintRun, visible
 
 SUMMARY = "a code quality report; fingerprints do not depend on line numbers"
 

@@ -10,10 +10,8 @@ from typing import Any
 from urllib.parse import quote
 
 from mudline.diagnostics import Diagnostic, Edit, Severity
-from mudline.linting.output.finding_fields import Fingerprints, address
-from mudline.linting.output.forms import LintRun
-from mudline.linting.output.visible import visible
-from mudline.linting.registry import rules
+from mudline.linting.output import Fingerprints, LintRun, visible
+from mudline.linting.registry import address, rules
 from mudline.linting.rule import Rule
 
 SUMMARY = "SARIF 2.1.0: rules with help, levels, regions in code points, fixes and fingerprints"

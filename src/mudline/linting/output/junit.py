@@ -9,8 +9,7 @@ from collections.abc import Iterable, Iterator
 from xml.sax.saxutils import escape, quoteattr
 
 from mudline.diagnostics import Diagnostic
-from mudline.linting.output.forms import LintRun
-from mudline.linting.output.visible import visible
+from mudline.linting.output import LintRun, visible
 
 SUMMARY = (
     "XML of test reports: a suite a file, a failed case a finding, "
