@@ -9,8 +9,7 @@ import pytest
 
 from mudline.deck.loading import dump, load_bytes
 from mudline.diagnostics import DeckError
-from mudline.formatting.blocks import Reading
-from mudline.formatting.document import formatted
+from mudline.formatting.document import Reading, formatted
 from tests.docs.blocks import Page
 
 
