@@ -9,8 +9,8 @@ import pytest
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import Deck
 from mudline.diagnostics import DeckError, Diagnostic
+from mudline.variations.files import ExpansionPlan
 from mudline.variations.planning import plan
-from mudline.variations.rewriting import ExpansionPlan
 
 MODEL = """\
 $MODEL

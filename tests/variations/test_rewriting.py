@@ -15,9 +15,9 @@ from mudline.diagnostics import DeckError
 from mudline.keywords.values import Equation
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import select
-from mudline.variations.files import path_fault
+from mudline.variations.cases import parameter_field
+from mudline.variations.files import ExpansionPlan, path_fault
 from mudline.variations.planning import plan
-from mudline.variations.rewriting import ExpansionPlan, parameter_field
 from tests.samples import SAMPLES
 from tests.variations.decks import MODEL, PARAMETERS, deck, only, refused, text
 

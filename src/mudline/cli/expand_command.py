@@ -11,9 +11,8 @@ from mudline.cli import DONE, options
 from mudline.cli.inputs import STDIN, load, refuses_bad_decks
 from mudline.cli.options import View
 from mudline.cli.streams import counted, emit, notify, reason, write_bytes, write_text
-from mudline.variations.files import MANIFEST, conflicts, lacking, manifest_text
+from mudline.variations.files import MANIFEST, ExpansionPlan, PlannedDeck, conflicts, lacking, manifest_text
 from mudline.variations.planning import plan
-from mudline.variations.rewriting import ExpansionPlan, PlannedDeck
 
 _MOST_REPORTED = 5
 _COLUMNS = ("file", "case", "values")

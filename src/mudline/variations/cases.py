@@ -1,9 +1,9 @@
-"""`*VARIATION` to cases: the values of its parameters in each case, and the blocks that actions add or remove."""
+"""The parameters of a deck, and `*VARIATION` to cases: their values, and the blocks that actions add or remove."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from decimal import Decimal
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
@@ -11,25 +11,149 @@ from typing import TYPE_CHECKING, cast
 from mudline.codes import EXP001
 from mudline.codes.references import REF013
 from mudline.deck.model import Deck
-from mudline.deck.parameters import NoValueError
+from mudline.deck.parameters import NoValueError, Parameters, folded, list_items
 from mudline.deck.reading import TextOrigin
-from mudline.diagnostics import Problem, Severity, Where
+from mudline.diagnostics import Problem, Severity, Span, Where
 from mudline.keywords import catalogue
+from mudline.keywords.model import Block
 from mudline.keywords.text import shown, suggestion
 from mudline.keywords.values import Equation
 from mudline.scene.deck_values import find_file
+from mudline.spelling import Effort
+from mudline.syntax.fields import split
+from mudline.syntax.rows import read_number
 from mudline.syntax.source import Source
 from mudline.syntax.tree import Kind, canonical_name, parse
-from mudline.variations.names import name_key, unquoted
-from mudline.variations.rewriting import MOST_DECKS, Action, Addition, Removal, Target, Targets
+from mudline.variations.names import name_key, undefined_parameter, unquoted
 
 if TYPE_CHECKING:
+    from mudline.keywords.library.parameters import Parameters as Block_
     from mudline.keywords.library.variation import NamedVariation, ValueRange, VariedBlock, VariedParameter
+
+MOST_DECKS = 100_000
+"""Decks that one deck may describe; more are refused, as they are a mistake."""
 
 _PLANNING = "PREPROCESSOR"
 """The section of keywords that describe the decks; actions do not add or remove them."""
 
 _LARGEST = 64 * 2**20
+
+Values = Mapping[str, str]
+"""Values as they are written in `*PARAMETERS`, by the name of the parameter there."""
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """A parameter: its name and the text of its value, both as written, and the place of the value."""
+
+    name: str
+    text: str
+    span: Span
+    in_list: bool = False
+
+    def field(self, value: str) -> str | None:
+        """A value as it is written in the place of the old one, or None when it cannot be written there."""
+        field = parameter_field(value)
+        bare = field is not None and field == unquoted(field) and Equation.match(field) is None
+        if not self.in_list or not bare or read_number(value) is not None:
+            return field
+        return f'"{field}"'  # a colon or a slash would mean something else in a list
+
+
+class Targets:
+    """The parameters of a deck that was read from text; of several with one name the last, which holds."""
+
+    def __init__(self, deck: Deck) -> None:
+        self.deck = deck
+        self.parameters = Parameters(deck)
+        self._targets: dict[str, Target] = {}
+        self._effort = Effort()
+        for where, block in deck.blocks("PARAMETERS", "PREPROCESSOR"):
+            for index, parameter in enumerate(cast("Block_", block).parameters):
+                place = where.inside("parameters", index, "value")
+                self._targets |= {folded(target.name): target for target in self._written(parameter.name, place)}
+
+    def _written(self, name: str, where: Where) -> Iterator[Target]:
+        """The parameters that a line of `*PARAMETERS` defines."""
+        origin = cast("TextOrigin", self.deck.origin)
+        span = origin.read[where.section, where.block].places.find(where.path)
+        text = origin.source.text[slice(*span)]
+        if not text.startswith("/"):
+            yield Target(name, text, span)
+            return
+        for item in list_items(name, text)[0]:
+            start = span.start + item.start
+            yield Target(item.name, item.value, Span(start, start + len(item.value)), in_list=True)
+
+    def target(self, name: str) -> Target:
+        """A parameter that is known to exist."""
+        return self._targets[folded(name)]
+
+    def undefined(self, name: str, where: Where) -> Problem | None:
+        """The problem of a name that is not a parameter, else None."""
+        if folded(name) in self._targets:
+            return None
+        return undefined_parameter(name, (target.name for target in self._targets.values()), self._effort, where)
+
+    def in_a_name(self, name: str, values: Values) -> str | None:
+        """A parameter's value for the name of a file: as written, without quotes; None where an equation has none."""
+        key = folded(name)
+        given = next((text for other, text in values.items() if folded(other) == key), self._targets[key].text)
+        if Equation.match(given) is None:
+            return unquoted(given)
+        found = Parameters(with_values(self.deck, values)).values.get(key)
+        if isinstance(found, float) and found.is_integer() and abs(found) < 1e15:
+            return str(int(found))
+        return None if found is None else str(found)
+
+
+def with_values(deck: Deck, values: Values) -> Deck:
+    """The deck with other parameter values, for its equations only: its text is not that of the new one.
+
+    They are defined again after all others, as the last definition of a parameter applies.
+    """
+    where, block = [found for found in deck.blocks("PARAMETERS", "PREPROCESSOR") if found[1].parameters][-1]
+    known = cast("Block_", block).parameters
+    more = [known[-1].model_copy(update={"name": name, "value": text}) for name, text in values.items()]
+    sections = list(deck.sections)
+    blocks = list(sections[where.section].blocks)
+    blocks[where.block] = cast("Block", block).model_copy(update={"parameters": [*known, *more]})
+    sections[where.section] = replace(sections[where.section], blocks=blocks)
+    return replace(deck, sections=sections)
+
+
+def parameter_field(text: str) -> str | None:
+    """A value as a field of `*PARAMETERS`, a text with blanks or commas in quotes; None when it cannot be written."""
+    if read_number(text) is not None or Equation.match(text):
+        return text
+    if not text:
+        return None
+    fields, problems = split(text, Span(0, len(text)))
+    alone = len(fields) == 1 and not problems and fields[0].text == text
+    if alone and (unquoted(text) != text or not (set(text) & set(' \t"') or text[0] in "/=")):
+        return text
+    return None if '"' in text else f'"{text}"'
+
+
+# -------------------------------------------------------------------------------------------------------------- actions
+
+
+@dataclass(frozen=True, slots=True)
+class Removal:
+    """Blocks to leave out, by section and block."""
+
+    blocks: frozenset[tuple[int, int]]
+
+
+@dataclass(frozen=True, slots=True)
+class Addition:
+    """Lines to put at the end of a section, each with a LF."""
+
+    section: int
+    text: str
+
+
+Action = Removal | Addition
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,11 +284,11 @@ class CaseReader:
         found: dict[str, Cases] = {}
         for where, block in self.deck.blocks("VARIATION", "PREPROCESSOR"):
             for index, variation in enumerate(block.variations):
-                place = where._replace(path=("variations", index))
+                place = where.inside("variations", index)
                 cases = self._cases(variation, place)
                 if name_key(cases.name) in found:
                     message = f"there is a variation {shown(cases.name)} already: choose another name"
-                    self._report(message, place._replace(path=(*place.path, "name")))
+                    self._report(message, place.inside("name"))
                 found[name_key(cases.name)] = cases
         return found
 
@@ -175,7 +299,7 @@ class CaseReader:
         name = unquoted(variation.name)
         columns: dict[str, list[str]] = {}
         for index, varied in enumerate(variation.parameters):
-            place = where._replace(path=(*where.path, "parameters", index))
+            place = where.inside("parameters", index)
             if problem := self.targets.undefined(unquoted(varied.parameter), place):
                 self.problems.append(problem)
                 continue
@@ -190,7 +314,7 @@ class CaseReader:
 
     def _actions(self, variation: NamedVariation, where: Where) -> Iterator[Action]:
         for index, varied in enumerate(variation.blocks):
-            action = action_of(self.deck, varied, where._replace(path=(*where.path, "blocks", index)))
+            action = action_of(self.deck, varied, where.inside("blocks", index))
             if isinstance(action, Problem):
                 self.problems.append(action)
             else:
@@ -210,12 +334,12 @@ class CaseReader:
     def _values(self, varied: VariedParameter, target: Target, where: Where) -> list[str]:
         """The values as fields of `*PARAMETERS`; none when they are faulty."""
         if varied.generate is not None:
-            return self._range(varied.generate, where._replace(path=(*where.path, "generate")))
+            return self._range(varied.generate, where.inside("generate"))
         if not varied.values:
             self._report(f"PARA={varied.parameter} has no value", where)
         values: list[str] = []
         for index, text in enumerate(varied.values or []):
-            place = where._replace(path=(*where.path, "values", index))
+            place = where.inside("values", index)
             field = target.field(text)
             if field is None:
                 self._report(

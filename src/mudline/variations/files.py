@@ -1,4 +1,4 @@
-"""The files of an expansion: paths of the new decks, the manifest, files that they need, and files in the way."""
+"""The files of an expansion: their paths, the text of each new deck, the manifest, and files in the way."""
 
 from __future__ import annotations
 
@@ -6,21 +6,29 @@ import json
 import os
 import re
 import unicodedata
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from itertools import chain
 from pathlib import Path, PurePath
 from typing import NamedTuple, cast
 
+from mudline.deck.loading import dump, form_of
 from mudline.deck.model import Deck
-from mudline.deck.reading import TextOrigin
+from mudline.deck.reading import TextOrigin, read_source
+from mudline.diagnostics import Span
+from mudline.keywords import catalogue
 from mudline.keywords.facts import Names
 from mudline.keywords.model import Block, names_given
+from mudline.keywords.reader import all_keys
 from mudline.keywords.text import shown
 from mudline.scene.deck_values import file_name, find_file
-from mudline.syntax.fields import read_line
-from mudline.syntax.tree import Kind, RawBlock
+from mudline.short_repr import short_repr
+from mudline.syntax.edits import TextEdit, edited_bytes
+from mudline.syntax.fields import first_key, read_line
+from mudline.syntax.source import Source
+from mudline.syntax.tree import Kind, Leaf, RawBlock
+from mudline.variations.cases import Action, Removal, Targets, Values
 from mudline.variations.names import filled
-from mudline.variations.rewriting import ExpansionPlan, PlannedDeck, Targets, Values
 
 _FORBIDDEN = re.compile(r'[\x00-\x1f\x7f<>:"|?*]')
 _DRIVE = re.compile(r"[A-Za-z]:")
@@ -182,6 +190,115 @@ def _in_lines(text: str, block: RawBlock) -> Iterator[str]:
         if leaf.kind is Kind.SETTING:
             groups = read_line(text, leaf.span).groups
             yield from (group.fields[0].text for group in groups if group.key in _KEYS and group.fields)
+
+
+# ------------------------------------------------------------------------------------------------ the text of each deck
+
+
+@dataclass(frozen=True, slots=True)
+class PlannedDeck:
+    """A deck to write: its path with `/` in the output folder, and its description.
+
+    `variations` are the names of those combined in it, `values` its varied parameters as they will be written.
+    """
+
+    path: str
+    description: str
+    variations: Sequence[str]
+    values: Mapping[str, str]
+    actions: Sequence[Action] = field(default=(), repr=False)
+
+    __repr__ = short_repr
+
+
+class Rewriter:
+    """Makes the decks of a source that was read from text."""
+
+    def __init__(self, deck: Deck, targets: Targets) -> None:
+        self.deck = deck
+        self.targets = targets
+        origin = cast("TextOrigin", deck.origin)
+        self.source = origin.source
+        self.tree = origin.tree
+        self._left_out = frozenset(
+            (index, number)
+            for index, section in enumerate(self.tree.sections)
+            if section.name == "PREPROCESSOR"
+            for number, block in enumerate(section.blocks)
+            if (declared := catalogue.block_class(section.name, block.name)) and declared.facts.plans_decks
+        )
+
+    def content(self, planned: PlannedDeck) -> bytes:
+        """A new deck, in the form of its path's suffix."""
+        content = edited_bytes(self.source, self.edits(planned))
+        form = form_of(planned.path)
+        if form == "keyword":
+            return content
+        read = read_source(Source.from_bytes(content, self.deck.file), units=self.deck.units)
+        return dump(replace(read, source=planned.path.rpartition("/")[2]), form).encode()
+
+    def edits(self, planned: PlannedDeck) -> list[TextEdit]:
+        """What is changed in the text of the source."""
+        edits: list[TextEdit] = []
+        for name, text in planned.values.items():
+            target = self.targets.target(name)
+            if text != target.text:
+                edits.append(TextEdit(target.span, text))
+        gone = set(self._left_out)
+        for action in planned.actions:
+            if isinstance(action, Removal):
+                gone |= action.blocks
+            else:
+                edits.append(self._insertion(action.section, action.text))
+        edits += (TextEdit(self._lines_of(*place), "") for place in sorted(gone))
+        return edits
+
+    def _lines_of(self, section: int, number: int) -> Span:
+        """A block without the comments and blank lines behind it, which belong to what follows."""
+        block = self.tree.sections[section].blocks[number]
+        return Span(block.head.span.start, self._end(section, block))
+
+    def _insertion(self, section: int, text: str) -> TextEdit:
+        """Lines inserted after the last ones of a section that are not a comment."""
+        raw = self.tree.sections[section]
+        head = cast("Leaf", raw.head)
+        at = self._end(section, raw.blocks[-1]) if raw.blocks else max(leaf.span.end for leaf in (head, *raw.leaves))
+        lacks_end = not self.source.unified.endswith("\n", 0, at)
+        return TextEdit(Span(at, at), f"\n{text}" if lacks_end else text)
+
+    def _end(self, section: int, block: RawBlock) -> int:
+        declared = catalogue.block_class(self.tree.sections[section].name, block.name)
+
+        def is_data(leaf: Leaf) -> bool:
+            if leaf.kind is Kind.UNDECIDED:
+                return declared is None or first_key(self.source.unified, leaf.span) in all_keys(declared)
+            return leaf.kind not in (Kind.COMMENT, Kind.BLANK)
+
+        return max(leaf.span.end for leaf in (block.head, *block.leaves) if leaf is block.head or is_data(leaf))
+
+
+@dataclass(frozen=True, slots=True)
+class ExpansionPlan:
+    """The decks in the order of `*COMBINATIONS`, and the rewriter that makes their texts.
+
+    `source` is the name of the file that they come from, `notes` are remarks for a reader. `companions` are files
+    beside the source that the new decks name too.
+    """
+
+    source: str
+    decks: Sequence[PlannedDeck]
+    rewriter: Rewriter
+    notes: Sequence[str] = ()
+    companions: Sequence[str] = ()
+
+    __repr__ = short_repr
+
+    def content(self, planned: PlannedDeck) -> bytes:
+        """The content of a planned deck."""
+        return self.rewriter.content(planned)
+
+
+# ------------------------------------------------------------------------------------------------------ what is written
 
 
 FORMAT = "mudline-expand/1"

@@ -105,7 +105,7 @@ def misspelt_keywords(deck: Deck) -> Iterator[Problem]:
         name = canonical_name("*" + ",".join(map(unquoted, words)))
         if near := _similar(name, catalogue.keywords(), effort):
             message = f"keyword *{name} is not known{hint(near)}: correct it"
-            yield Problem(SYN009, message, None, Severity.WARNING, where._replace(path=(*where.path, "keyword", 0)))
+            yield Problem(SYN009, message, None, Severity.WARNING, where.inside("keyword", 0))
 
 
 def misspelt_sections(deck: Deck) -> Iterator[Problem]:
@@ -115,7 +115,7 @@ def misspelt_sections(deck: Deck) -> Iterator[Problem]:
         name = canonical_name("$" + unquoted(varied.section or "").removeprefix("$"))
         if near := _similar(name, catalogue.SECTIONS, effort):
             message = f"section ${name} is not known{hint(near)}: correct it"
-            yield Problem(SYN010, message, None, Severity.WARNING, where._replace(path=(*where.path, "section")))
+            yield Problem(SYN010, message, None, Severity.WARNING, where.inside("section"))
 
 
 def _similar(name: str, known: Collection[str], effort: Effort) -> str:
@@ -127,7 +127,7 @@ def _actions(deck: Deck) -> Iterator[tuple[VariedBlock, Where]]:
     for where, block in _variations(deck):
         for i, variation in enumerate(block.variations):
             for j, varied in enumerate(variation.blocks):
-                yield varied, where._replace(path=("variations", i, "blocks", j))
+                yield varied, where.inside("variations", i, "blocks", j)
 
 
 def _variations(deck: Deck) -> Iterable[tuple[Where, Variation]]:
@@ -144,21 +144,20 @@ def _varied(deck: Deck) -> Iterator[_Named]:
         for i, variation in enumerate(block.variations):
             for j, varied in enumerate(variation.parameters):
                 if cast("str | None", varied.parameter) is not None:
-                    path = ("variations", i, "parameters", j, "parameter")
-                    yield _Named(unquoted(varied.parameter), where._replace(path=path))
+                    place = where.inside("variations", i, "parameters", j, "parameter")
+                    yield _Named(unquoted(varied.parameter), place)
 
 
 def _in_names(deck: Deck) -> Iterator[_Named]:
     """The parameters in names of folders and files."""
     for where, block in _combinations(deck):
-        given: list[tuple[str | None, tuple[str | int, ...]]] = [(block.directory, ("directory",))]
+        given = [(block.directory, where.inside("directory"))]
         for i, combination in enumerate(block.combinations):
-            path = ("combinations", i)
-            given.append((combination.subdirectory, (*path, "subdirectory")))
-            given.append((combination.filename, (*path, "filename")))
+            place = where.inside("combinations", i)
+            given.append((combination.subdirectory, place.inside("subdirectory")))
+            given.append((combination.filename, place.inside("filename")))
         for text, place in given:
-            for name in placeholders(unquoted(text or "")):
-                yield _Named(name, where._replace(path=place))
+            yield from (_Named(name, place) for name in placeholders(unquoted(text or "")))
 
 
 def _called(deck: Deck) -> Iterator[_Named]:
@@ -167,8 +166,7 @@ def _called(deck: Deck) -> Iterator[_Named]:
         for i, combination in enumerate(block.combinations):
             for j, line in enumerate(combination.variations):
                 for number, name in enumerate(cast("list[str] | None", line.names) or ()):
-                    path = ("combinations", i, "variations", j, "names", number)
-                    yield _Named(name, where._replace(path=path))
+                    yield _Named(name, where.inside("combinations", i, "variations", j, "names", number))
 
 
 def _parameters(deck: Deck) -> dict[str, str] | None:

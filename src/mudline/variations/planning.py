@@ -17,17 +17,9 @@ from mudline.diagnostics import DeckError, Problem, Severity, Where
 from mudline.keywords.text import shown
 from mudline.spelling import Effort
 from mudline.syntax.source import Source
-from mudline.variations.cases import CaseReader, Cases
-from mudline.variations.files import MANIFEST, Namer, Taken, Template, companions
+from mudline.variations.cases import MOST_DECKS, CaseReader, Cases, Targets, Values
+from mudline.variations.files import MANIFEST, ExpansionPlan, Namer, PlannedDeck, Rewriter, Taken, Template, companions
 from mudline.variations.names import name_key, placeholders, undefined_variation, unquoted
-from mudline.variations.rewriting import (
-    MOST_DECKS,
-    ExpansionPlan,
-    PlannedDeck,
-    Rewriter,
-    Targets,
-    Values,
-)
 
 if TYPE_CHECKING:
     from mudline.keywords.library.combinations import Combination
@@ -108,7 +100,7 @@ class _Planner:
     def _groups(self, variations: dict[str, Cases]) -> Iterator[_Group]:
         for where, block in self.text.blocks("COMBINATIONS", "PREPROCESSOR"):
             for index, combination in enumerate(block.combinations):
-                place = where._replace(path=("combinations", index))
+                place = where.inside("combinations", index)
                 names = (block.directory, combination.subdirectory, combination.filename)
                 template = Template(*(name if name is None else unquoted(name) for name in names))
                 yield _Group(place, combination, template, self._called(combination, place, variations))
@@ -125,7 +117,7 @@ class _Planner:
                     called |= variations
                 else:
                     known = (cases.name for cases in variations.values())
-                    place = where._replace(path=(*where.path, "variations", index, "names", number))
+                    place = where.inside("variations", index, "names", number)
                     found = undefined_variation(name, known, self.effort, place)
                     self.problems.append(replace(found, code=EXP001))
         return list((called if combination.variations else variations).values())
