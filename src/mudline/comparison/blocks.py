@@ -97,7 +97,7 @@ class _Flattening:
             value = getattr(part, slot.name, None)
             if slot.name == leave_out or value is None:
                 continue
-            place = where._replace(path=(*where.path, slot.json))
+            place = where.inside(slot.json)
             self._value(value, slot, place, prefix + slot.json, found)
 
     def _value(self, value: object, slot: Slot, where: Where, path: str, found: Flat) -> None:
@@ -114,7 +114,7 @@ class _Flattening:
 
     def _items(self, values: list[object], where: Where, path: str, found: Flat) -> None:
         for index, item in enumerate(values):
-            place = where._replace(path=(*where.path, index))
+            place = where.inside(index)
             if isinstance(item, Part):
                 self.part(item, place, f"{path}/{index + 1}/", found)
             else:
@@ -132,7 +132,7 @@ class _Flattening:
         sticky: object = None
         start = f"{prefix}/" if prefix else ""
         for index, record in enumerate(records):
-            place = where._replace(path=(*where.path, slot.json, index))
+            place = where.inside(slot.json, index)
             key = key_slot(type(record))
             path = start + self._title(record, key, index, found, start)
             values: Flat = {}
@@ -179,7 +179,7 @@ def _table(table: Table, slot: Slot, where: Where, path: str) -> Iterator[tuple[
         while cells and cells[-1] is None:
             cells.pop()
         shown: list[Value] = [plain(cell) if isinstance(cell, float) else cell for cell in cells]
-        yield f"{path}/{number}", Entry(shown, list(cells), where._replace(path=(*where.path, index)))
+        yield f"{path}/{number}", Entry(shown, list(cells), where.inside(index))
 
 
 def _number(cell: float | str | None) -> float:

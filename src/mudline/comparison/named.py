@@ -99,7 +99,7 @@ def _label_rows(side: Side, keyword: str, name: str) -> dict[tuple[str, ...], tu
                 numbers = enumerate(table.values[row, : table.lengths[row]].tolist())
                 cells: list[Value] = [table.words.get((row, column)) or plain(number) for column, number in numbers]
                 key = tuple(str(cell).casefold() for cell in cells)
-                found[key] = (cells, where._replace(path=("entries", index, name, row)))
+                found[key] = (cells, where.inside("entries", index, name, row))
     return found
 
 

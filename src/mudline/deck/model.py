@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, Self
 
 from mudline.diagnostics import Blocks, Code, DeckError, Diagnostic, Edit, Fix, Problem, Repair, Severity, Where
-from mudline.keywords.model import Block, Comment, Part
+from mudline.keywords.model import Block, Comment, Part, layout
 from mudline.keywords.values import Text
 from mudline.short_repr import counted, cut, listed, outline
 
@@ -229,3 +229,20 @@ class Deck:
 
     def _errors(self) -> list[Problem]:
         return [problem for problem in self.problems if problem.weight is Severity.ERROR]
+
+
+def comment_texts(deck: Deck) -> Iterator[str]:
+    """The text of every comment of a deck, without its mark."""
+    yield from deck.preamble
+    yield from (comment.text for comment in deck.comments)
+    for section in deck.sections:
+        yield from (comment.text for comment in section.comments)
+        for block in section.blocks:
+            yield from _comments_in(block)
+
+
+def _comments_in(part: Part) -> Iterator[str]:
+    yield from (comment.text for comment in getattr(part, "comments", ()))
+    for slot in layout(type(part)).slots:
+        for record in (getattr(part, slot.name, None) or ()) if slot.record else ():
+            yield from _comments_in(record)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, wraps
 from itertools import chain, islice, pairwise
 from textwrap import dedent
 from typing import TypeVar, cast
@@ -189,6 +189,16 @@ def rule(code: Code, *, off: bool = False) -> Callable[[Check], Check]:
         return check
 
     return register
+
+
+def limited(check: Check) -> Check:
+    """Give the first findings of a rule, as many as are reported one by one."""
+
+    @wraps(check)
+    def first(context: LintContext) -> Iterator[Problem]:
+        yield from islice(check(context), MOST_REPORTED)
+
+    return first
 
 
 def add(described: Rule) -> None:

@@ -10,12 +10,12 @@ import re
 from bisect import bisect_right
 from collections.abc import Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import chain
 
 from mudline.deck.forms.keyword import to_keyword
-from mudline.deck.model import Deck, Opaque
+from mudline.deck.model import Deck, Opaque, comment_texts
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import Code, DeckError, Problem, Repair, Severity, Span, Where
-from mudline.keywords.model import Part, layout
 from mudline.linting.registry import find, rules
 from mudline.linting.rule import Rule, first_reported
 from mudline.spelling import nearest
@@ -177,7 +177,8 @@ def suppressions(deck: Deck) -> Suppressions | None:
     """
     if isinstance(deck.origin, TextOrigin):
         return _read(deck.origin, own_text=True) if deck.origin.source.readable else None
-    if not any("mudline" in text.lower() for text in _comments(deck)):
+    lines = (block.lines for section in deck.sections for block in section.blocks if isinstance(block, Opaque))
+    if not any("mudline" in text.lower() for text in chain(comment_texts(deck), *lines)):
         return None
     try:
         text = to_keyword(deck)
@@ -185,23 +186,6 @@ def suppressions(deck: Deck) -> Suppressions | None:
         return None
     written = read_source(Source.from_bytes(text.encode(errors="replace"), deck.file), units=deck.units)
     return _read(written.origin, own_text=False) if isinstance(written.origin, TextOrigin) else None
-
-
-def _comments(deck: Deck) -> Iterator[str]:
-    yield from deck.preamble
-    yield from (comment.text for comment in deck.comments)
-    for section in deck.sections:
-        yield from (comment.text for comment in section.comments)
-        for block in section.blocks:
-            yield from block.lines if isinstance(block, Opaque) else _within(block)
-
-
-def _within(part: Part) -> Iterator[str]:
-    yield from (comment.text for comment in getattr(part, "comments", ()))
-    for slot in layout(type(part)).slots:
-        if slot.record:
-            for record in getattr(part, slot.name, None) or ():
-                yield from _within(record)
 
 
 def _read(origin: TextOrigin, *, own_text: bool) -> Suppressions | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -12,13 +12,11 @@ import numpy as np
 from mudline.codes import MIG001
 from mudline.deck.forms.keyword import as_text
 from mudline.deck.loading import dump, form_of, load_path
-from mudline.deck.model import Deck, Opaque
+from mudline.deck.model import Deck, comment_texts
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import DeckError, Problem
 from mudline.keywords.catalogue import is_superseded, supersedes
-from mudline.keywords.model import Record
-from mudline.migration.refusals import refusals, superseded_blocks
-from mudline.migration.rewriting import Rewriting, rewrite
+from mudline.migration.rewriting import Rewriting, refusals, rewrite, superseded_blocks
 from mudline.scene.model import Scene, resolve
 from mudline.scene.restart import decks_before
 from mudline.syntax.edits import edited_bytes
@@ -110,7 +108,7 @@ def _checked(deck: Deck, before: Scene, changed: Deck, made: Rewriting) -> Scene
     """The scene of the new deck; raises DeckError when it lost anything or has new faults."""
     after = resolve(changed)
     faults = [problem.message for problem in after.errors()]
-    lost = Counter(_comments(deck)) - Counter(_comments(changed))
+    lost = Counter(comment_texts(deck)) - Counter(comment_texts(changed))
     faults += [f"the comment {text!r} would be lost or read as data" for text in lost]
     if _others(deck) != _others(changed):
         faults.append("a block of another keyword would change")
@@ -135,23 +133,3 @@ def _others(deck: Deck) -> list[object]:
         for block in section.blocks
         if section.name != "MODEL" or not (is_superseded(block.keyword) or supersedes(block.keyword))
     ]
-
-
-def _comments(deck: Deck) -> Iterator[str]:
-    """The text of every comment."""
-    yield from deck.preamble
-    yield from (comment.text for comment in deck.comments)
-    for section in deck.sections:
-        yield from (comment.text for comment in section.comments)
-        for block in section.blocks:
-            if not isinstance(block, Opaque):
-                yield from _record_comments(block)
-
-
-def _record_comments(record: Record) -> Iterator[str]:
-    yield from (comment.text for comment in record.comments)
-    for name in type(record).model_fields:
-        value = getattr(record, name)
-        for item in value if isinstance(value, list) else ():
-            if isinstance(item, Record):
-                yield from _record_comments(item)

@@ -32,6 +32,11 @@ def _at_zero(curve: ForceCurve) -> float:
     return force if abs(force) > _SMALL * float(np.abs(curve.forces).max()) else 0.0
 
 
+def _deepest(curve: SceneCurve) -> int:
+    """Index of the point with the largest ratio."""
+    return int(np.argmax(curve.points[:, 0]))
+
+
 @rule(CRV007)
 def force_at_zero(context: LintContext) -> Iterator[Problem]:
     """The force at ratio 0 is not 0.
@@ -106,17 +111,11 @@ def curve_pulls(context: LintContext) -> Iterator[Problem]:
                 message = f"the force just above ratio 0 is {force:.6g}: the seabed pulls the pipe down; correct it"
                 yield Problem(CRV012, message, where=entry.where)
             if entry.curve.slopes[-1] < 0.0:
-                last = int(np.argmax(entry.points[:, 0]))
                 message = (
                     "the force keeps decreasing beyond the last point, until the seabed pulls the pipe down: "
                     "add a point whose force does not decrease"
                 )
-                yield Problem(CRV012, message, where=entry.point(last))
-
-
-def _deepest(curve: SceneCurve) -> int:
-    """Index of the point with the largest ratio."""
-    return int(np.argmax(curve.points[:, 0]))
+                yield Problem(CRV012, message, where=entry.point(_deepest(entry)))
 
 
 @rule(CRV008)

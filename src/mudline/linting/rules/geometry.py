@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from itertools import islice
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
 from mudline.contact.input import LawKind
 from mudline.deck.model import Deck
-from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity, Where
+from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.catalogue import holds_in_soil
 from mudline.keywords.text import shown
-from mudline.linting.rule import LintContext, rule
+from mudline.linting.rule import LintContext, limited, rule
 from mudline.linting.rules.seabed_position import depths
 from mudline.scene.deck_values import number
 from mudline.scene.model import Scene
@@ -175,10 +174,11 @@ def section_entries(deck: Deck) -> Iterator[tuple[Where, GeometricSet]]:
     """Every entry of *GEOMETRIC SETS with its place."""
     for where, block in deck.blocks("GEOMETRIC SETS"):
         for index, entry in enumerate(cast("GeometricSets", block).sets):
-            yield where._replace(path=("sets", index)), entry
+            yield where.inside("sets", index), entry
 
 
 @rule(GEO002)
+@limited
 def number_and_curve(context: LintContext) -> Iterator[Problem]:
     """A stiffness is given twice: as a number, and by a curve.
 
@@ -195,11 +195,7 @@ def number_and_curve(context: LintContext) -> Iterator[Problem]:
 
     Finds: 5:2
     """
-    yield from islice(_given_twice(context.deck), MOST_REPORTED)
-
-
-def _given_twice(deck: Deck) -> Iterator[Problem]:
-    for where, entry in section_entries(deck):
+    for where, entry in section_entries(context.deck):
         if entry.mooring is not None:
             continue  # its format has no field for a curve, and EA must be given
         for curve, (key, numbers) in _CURVES.items():
@@ -208,7 +204,7 @@ def _given_twice(deck: Deck) -> Iterator[Problem]:
             if given := [name for name in numbers if getattr(entry.section, name, None) is not None]:
                 names = " and ".join(_NAMES[name] for name in given)
                 message = f"{names} is given as a number, and {key}= names a curve for it: remove one of them"
-                place = where._replace(path=(*where.path, format_of(entry), _NAMES[given[0]]))
+                place = where.inside(format_of(entry), _NAMES[given[0]])
                 yield Problem(GEO002, message, where=place)
 
 
@@ -258,7 +254,7 @@ def drag_diameter_assumed(context: LintContext) -> Iterator[Problem]:
                 f"the embedment ratio of {elements} on a curve is computed with Dd = {section.diameter:g}, as the "
                 "section has no Do: give Do"
             )
-            yield Problem(GEO003, message, where=section.where._replace(path=(*section.where.path, "flexible", "Dd")))
+            yield Problem(GEO003, message, where=section.where.inside("flexible", "Dd"))
 
 
 @rule(GEO006)
@@ -310,7 +306,7 @@ def repeated_section(context: LintContext) -> Iterator[Problem]:
             f"SET={shown(section.name)} already has a section, and SET={shown(bare[0])} has none: correct one of the "
             "two names"
         )
-        yield Problem(GEO006, message, where=section.where._replace(path=(*section.where.path, "set")))
+        yield Problem(GEO006, message, where=section.where.inside("set"))
 
 
 def _repeated(sections: Iterable[Section]) -> list[Section]:

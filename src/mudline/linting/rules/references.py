@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import islice
 from typing import TYPE_CHECKING, cast
 
 from mudline.deck.parameters import folded, list_items
 from mudline.deck.reading import TextOrigin
-from mudline.diagnostics import MOST_REPORTED, Code, Problem, Repair, Severity, Span, Where
+from mudline.diagnostics import Code, Problem, Repair, Severity, Span, Where
 from mudline.keywords.text import shown
-from mudline.linting.rule import LintContext, rule
+from mudline.linting.rule import LintContext, limited, rule
 from mudline.scene.sets import ALL
 
 if TYPE_CHECKING:
-    from mudline.keywords.library.element_sets import ElementSets, SetList
+    from mudline.deck.model import Deck
+    from mudline.keywords.library.element_sets import ElementSet, ElementSets, SetList
     from mudline.keywords.library.parameters import Parameter
 
 REF011 = Code("REF011", "long-name", Severity.WARNING)
@@ -49,15 +49,22 @@ def long_name(context: LintContext) -> Iterator[Problem]:
 
     Finds: 8:6
     """
-    for where, block in context.scene.deck.blocks("ELEMENT SETS"):
+    for where, entry in _sets(context.scene.deck):
+        length = len(cast("str | None", entry.name) or "")
+        if length > LONGEST_NAME:
+            message = f"a set name of {length} characters: it must not be longer than {LONGEST_NAME}"
+            yield Problem(REF011, message, where=where.inside("name"))
+
+
+def _sets(deck: Deck) -> Iterator[tuple[Where, ElementSet]]:
+    """Every entry of *ELEMENT SETS with its place."""
+    for where, block in deck.blocks("ELEMENT SETS"):
         for index, entry in enumerate(cast("ElementSets", block).sets):
-            length = len(cast("str | None", entry.name) or "")
-            if length > LONGEST_NAME:
-                message = f"a set name of {length} characters: it must not be longer than {LONGEST_NAME}"
-                yield Problem(REF011, message, where=where._replace(path=("sets", index, "name")))
+            yield where.inside("sets", index), entry
 
 
 @rule(REF012)
+@limited
 def long_list(context: LintContext) -> Iterator[Problem]:
     """A line of a set lists more than 20 elements.
 
@@ -81,20 +88,17 @@ def long_list(context: LintContext) -> Iterator[Problem]:
 
     Finds: 11:73
     """
-    for where, count in islice(_long(context), MOST_REPORTED):
-        message = f"{count} elements on a line: the language allows {LONGEST_LIST}; put the rest on lines of their own"
-        repair = _split(context.text, where, count) if context.text else None
-        yield Problem(REF012, message, where=where._replace(path=(*where.path, LONGEST_LIST)), repair=repair)
-
-
-def _long(context: LintContext) -> Iterator[tuple[Where, int]]:
-    """Lists that are too long, and how many elements they have."""
-    for where, block in context.deck.blocks("ELEMENT SETS"):
-        for index, entry in enumerate(cast("ElementSets", block).sets):
-            for number, member in enumerate(entry.members):
-                count = len(cast("SetList", member).elements) if member.rule == "set_list" else 0
-                if count > LONGEST_LIST:
-                    yield where._replace(path=("sets", index, "members", number, "elements")), count
+    for where, entry in _sets(context.deck):
+        for number, member in enumerate(entry.members):
+            count = len(cast("SetList", member).elements) if member.rule == "set_list" else 0
+            if count > LONGEST_LIST:
+                place = where.inside("members", number, "elements")
+                message = (
+                    f"{count} elements on a line: the language allows {LONGEST_LIST}; put the rest on lines of their "
+                    "own"
+                )
+                repair = _split(context.text, place, count) if context.text else None
+                yield Problem(REF012, message, where=place.inside(LONGEST_LIST), repair=repair)
 
 
 def _split(text: TextOrigin, where: Where, count: int) -> Repair | None:
@@ -103,7 +107,7 @@ def _split(text: TextOrigin, where: Where, count: int) -> Repair | None:
     edits: list[tuple[Span, str]] = []
     line_break = _line_break(text.source.text, text.span(where))
     for following in range(LONGEST_LIST, count, LONGEST_LIST):
-        places = [where._replace(path=(*where.path, at)) for at in (following - 1, following)]
+        places = [where.inside(at) for at in (following - 1, following)]
         before, behind = (text.span(place) for place in places)
         if before is None or behind is None or not all(text.written(place) for place in places):
             return None
@@ -124,6 +128,7 @@ def _line_break(text: str, line: Span | None) -> str:
 
 
 @rule(REF016)
+@limited
 def repeated_set(context: LintContext) -> Iterator[Problem]:
     """A set is defined twice: it holds the elements of both definitions.
 
@@ -150,24 +155,19 @@ def repeated_set(context: LintContext) -> Iterator[Problem]:
 
     Finds: 14:6
     """
-    yield from islice(_repeated_sets(context), MOST_REPORTED)
-
-
-def _repeated_sets(context: LintContext) -> Iterator[Problem]:
-    known = {ALL}
-    for where, block in context.deck.blocks("ELEMENT SETS"):
-        for index, entry in enumerate(cast("ElementSets", block).sets):
-            name = cast("str | None", entry.name)
-            if name is None:
-                continue
-            key = folded(name)
-            if key in known and key != ALL:
-                message = f"set {shown(name)} is already defined, and this adds to it: put its elements under one SET="
-                yield Problem(REF016, message, where=where._replace(path=("sets", index, "name")))
-            known.add(key)
+    known: set[str] = set()
+    for where, entry in _sets(context.deck):
+        name = cast("str | None", entry.name)
+        if name is None or (key := folded(name)) == ALL:
+            continue
+        if key in known:
+            message = f"set {shown(name)} is already defined, and this adds to it: put its elements under one SET="
+            yield Problem(REF016, message, where=where.inside("name"))
+        known.add(key)
 
 
 @rule(REF017)
+@limited
 def repeated_parameter(context: LintContext) -> Iterator[Problem]:
     """A parameter is defined twice: the later value applies everywhere.
 
@@ -188,7 +188,6 @@ def repeated_parameter(context: LintContext) -> Iterator[Problem]:
     Finds: 5:2
     """
     known: set[str] = set()
-    reported = 0
     for where, block in context.deck.blocks("PARAMETERS", "PREPROCESSOR"):
         for index, parameter in enumerate(cast("list[Parameter]", block.parameters)):
             repeated: list[str] = []
@@ -197,14 +196,13 @@ def repeated_parameter(context: LintContext) -> Iterator[Problem]:
                 if key in known:
                     repeated.append(name)
                 known.add(key)
-            if repeated and reported < MOST_REPORTED:
-                reported += 1
+            if repeated:
                 others = f" (and {len(repeated) - 1} more of this list)" if len(repeated) > 1 else ""
                 message = (
                     f"parameter {shown(repeated[0])}{others} is defined twice, and this value overrides the earlier "
                     "one: remove one of them"
                 )
-                yield Problem(REF017, message, where=where._replace(path=("parameters", index, "name")))
+                yield Problem(REF017, message, where=where.inside("parameters", index, "name"))
 
 
 def _names(parameter: Parameter) -> list[str]:

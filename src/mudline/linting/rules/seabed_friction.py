@@ -139,7 +139,7 @@ def _of_load_cases(context: LintContext) -> Iterator[Problem]:
                     f"the {direction} friction stiffness is unused: the seabed has no {direction} coefficient; give "
                     "one, or remove it"
                 )
-                yield Problem(SBD014, message, where=where._replace(path=(direction,)))
+                yield Problem(SBD014, message, where=where.inside(direction))
 
 
 @rule(SBD015)
@@ -272,7 +272,7 @@ def short_mobilisation(context: LintContext) -> Iterator[Problem]:
             path = (name,) if where.path[0] == "properties" else ("friction", name)
             value = bed.values[index].mobilisation[side]
             message = f"mobilisation length {value!r} is under 1e-4 diameters of the pipe: give a longer one"
-            yield Problem(SBD019, message, where=where._replace(path=(*where.path, *path)))
+            yield Problem(SBD019, message, where=where.inside(*path))
 
 
 class Given(NamedTuple):
@@ -285,7 +285,7 @@ class Given(NamedTuple):
 
     def place(self, name: str) -> Where:
         """The place of a value; names are those of the fields of *ELASTIC SURFACE."""
-        return self.where._replace(path=(*self.where.path, *self._path(name)))
+        return self.where.inside(*self._path(name))
 
     def value(self, name: str) -> float | None:
         """A value: None where the deck gives none, NaN where it could not be read."""
@@ -309,7 +309,7 @@ def _found(context: LintContext) -> list[Given]:
     found = [
         Given(
             getattr(surface, "properties", None),
-            where._replace(path=("properties",)),
+            where.inside("properties"),
             surface.facts.seabed_type,
             legacy=True,
         )
@@ -317,7 +317,7 @@ def _found(context: LintContext) -> list[Given]:
     ]
     for where, properties, type_ in typed_blocks(context.scene.context):
         for index, entry in enumerate(properties.sets):
-            found.append(Given(entry, where._replace(path=("sets", index)), type_, legacy=False))
+            found.append(Given(entry, where.inside("sets", index), type_, legacy=False))
     return found
 
 

@@ -151,7 +151,7 @@ def _unused_surfaces(context: LintContext) -> Iterator[Problem]:
         message = (
             f"these values apply to no element, as a later *{surface.keyword} overrides them: remove one of the two"
         )
-        yield Problem(SBD025, message, where=where._replace(path=("properties",)))
+        yield Problem(SBD025, message, where=where.inside("properties"))
 
 
 class _Overlap(NamedTuple):

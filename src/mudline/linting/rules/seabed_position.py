@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from mudline.contact.input import LawKind
-from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity, Where
+from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.catalogue import holds_in_soil, is_superseded
-from mudline.linting.rule import LintContext, rule
+from mudline.linting.rule import LintContext, limited, rule
 from mudline.scene.checks.laws import SBD004
 from mudline.scene.model import Scene
 from mudline.scene.numbering import LARGEST, Floats, Indices, Mask, blocks_of
@@ -267,6 +267,7 @@ def deep_node(context: LintContext) -> Iterator[Problem]:
 
 
 @rule(SBD021)
+@limited
 def one_constrained_dof(context: LintContext) -> Iterator[Problem]:
     """Only one of the degrees of freedom 1 and 2 is constrained at a node on a sloping rigid seabed.
 
@@ -307,11 +308,9 @@ def one_constrained_dof(context: LintContext) -> Iterator[Problem]:
     for _, dof, nodes in held:
         given[dof - 1, nodes] = True
     alone = (given[0] != given[1]) & _on_slope(scene)
-    reported = 0
     for where, dof, nodes in held:
         found = nodes[alone[nodes]]
-        if found.size and reported < MOST_REPORTED:
-            reported += 1
+        if found.size:
             which = first_of("node", scene.node_ids[found[0]], found.size)
             message = (
                 f"of degrees of freedom 1 and 2 only {dof} is constrained at {which} on a sloping rigid seabed, and "
@@ -337,7 +336,7 @@ def _held(scene: Scene) -> Iterator[tuple[Where, int, Indices]]:
     for where, block in scene.deck.blocks("BOUNDARY", "LOAD CASE"):
         for i, type_ in enumerate(cast("Boundary", block).types):
             for j, entry in enumerate(type_.entries):
-                place = where._replace(path=("types", i, "entries", j))
+                place = where.inside("types", i, "entries", j)
                 generated = getattr(entry, "generate", None)
                 if generated is None:
                     yield from _single(scene, cast("FixedNode", entry), place)
@@ -349,7 +348,7 @@ def _single(scene: Scene, entry: FixedNode, where: Where) -> Iterator[tuple[Wher
     node, dof = entry.node, entry.dof
     if isinstance(node, int) and abs(node) <= LARGEST and dof in _IN_PLANE:
         found = np.flatnonzero(scene.node_ids == node)
-        yield where._replace(path=(*where.path, "dof")), int(dof), found
+        yield where.inside("dof"), int(dof), found
 
 
 def _range(scene: Scene, entry: FixedRange, where: Where) -> Iterator[tuple[Where, int, Indices]]:
@@ -368,4 +367,4 @@ def _range(scene: Scene, entry: FixedRange, where: Where) -> Iterator[tuple[Wher
     if step > 0:
         ids = scene.node_ids
         found = np.flatnonzero((ids >= start) & (ids <= end) & ((ids - start) % step == 0))
-        yield where._replace(path=(*where.path, "generate")), int(dof), found
+        yield where.inside("generate"), int(dof), found

@@ -23,6 +23,7 @@ from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity
 from mudline.keywords.text import shown
 from mudline.linting.rule import LintContext, rule
 from mudline.scene.assignments import given_stiffness, nodal_stiffness, suction_law
+from mudline.scene.deck_values import number
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices
@@ -30,6 +31,7 @@ from mudline.scene.numbering import Floats, Indices
 if TYPE_CHECKING:
     from mudline.keywords.library.time import TimeSpan
 
+EXT008 = Code("EXT008", "soft-unloading", Severity.WARNING)
 STB001 = Code("STB001", "suction-snap", Severity.INFO)
 STB002 = Code("STB002", "coarse-time-step", Severity.INFO)
 STB003 = Code("STB003", "stiff-jump", Severity.WARNING)
@@ -169,7 +171,7 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
                 f"omega = {frequency:.4g} rad/s): {effect}; give a step of {advised:.3g} or less "
                 "(inferred: the third value is the step)"
             )
-            yield Problem(STB002, message, where=where._replace(path=("increment",)))
+            yield Problem(STB002, message, where=where.inside("increment"))
 
 
 def _stiffness(scene: Scene) -> Floats:
@@ -177,9 +179,9 @@ def _stiffness(scene: Scene) -> Floats:
     grants = scene.laws.set_laws
     linear = np.array([*(grant.stiffness for grant in grants), np.nan])[scene.laws.of_element]
     steepest = np.full(len(linear), np.nan)
-    for number, entry in enumerate(scene.laws.curves):
+    for index, entry in enumerate(scene.laws.curves):
         if entry.curve is not None and entry.whole:
-            steepest[scene.laws.followers(number)] = steepest_slope(entry.curve.ratios, entry.curve.slopes)
+            steepest[scene.laws.followers(index)] = steepest_slope(entry.curve.ratios, entry.curve.slopes)
     found = np.where(scene.law == LawKind.CURVE, steepest / scene.diameter, linear)
     if "SEABED UNLOADING" in scene.extensions:
         found = np.where(np.isnan(found), np.nan, np.fmax(found, given_stiffness(scene.extensions["SEABED UNLOADING"])))
@@ -308,3 +310,65 @@ def _neighbours(scene: Scene) -> tuple[Indices, Indices]:
     one, other = np.append(one, other), np.append(other, one)
     wanted = (law[one] == LawKind.LINEAR) & (law[other] == LawKind.CURVE)
     return one[wanted], other[wanted]
+
+
+@rule(EXT008)
+def soft_unloading(context: LintContext) -> Iterator[Problem]:
+    """The unloading stiffness is below the steepest slope of the loading law.
+
+    Soil unloads at least as stiffly as it was loaded: with a softer return path a cycle would give energy back, and the
+    trench would lie above the seabed. The stiffness is raised to the slope reached. Give a higher one.
+
+    Example:
+         $MODEL
+         *NODE
+          1, -0.05, 0.0
+          5, -0.05, 40.0
+          GEN=1, 5
+         *ELEMENT
+          1, 1, 2
+          GEN=1, 4
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+         *SEABED UNLOADING
+          SET=ALL
+        - STIFFNESS=20000.0
+        + STIFFNESS=500000.0
+
+    Finds: 15:12
+    """
+    scene = context.scene
+    extension = scene.extensions.get("SEABED UNLOADING")
+    if extension is None:
+        return
+    steepest = np.where(scene.nodal, np.nan, _steepest(scene))
+    for index, (entry, where) in enumerate(zip(extension.entries, extension.places, strict=True)):
+        stiffness = number(entry, "stiffness")
+        softer = np.flatnonzero((extension.of_element == index) & (steepest > stiffness))
+        if stiffness > 0.0 and softer.size:
+            message = (
+                f"unloading stiffness {stiffness!r} is below the steepest slope of the loading law of "
+                f"{softer.size} elements (first: {scene.element_ids[softer[0]]}), "
+                f"{float(steepest[softer].max()):.6g}: it is raised to that; give at least as much"
+            )
+            yield Problem(EXT008, message, where=where.inside("stiffness"))
+
+
+def _steepest(scene: Scene) -> Floats:
+    """Steepest slope of each element's law below the mudline, per unit of penetration; NaN where it is not known."""
+    linear = np.array([*(np.nan if grant.unknown else grant.stiffness for grant in scene.laws.set_laws), np.nan])
+    slopes = np.array([*(_curve_slope(scene, grant.curve) for grant in scene.laws.set_laws), np.nan])
+    found = scene.laws.of_element
+    with np.errstate(over="ignore"):
+        steep: Floats = np.where(scene.law == LawKind.LINEAR, linear[found], slopes[found] / scene.diameter)
+    return steep
+
+
+def _curve_slope(scene: Scene, index: int) -> float:
+    curve = scene.laws.curves[index].curve if index >= 0 else None
+    if curve is None:
+        return float("nan")
+    ratios = scene.laws.curves[index].points[:, 0]
+    return float(curve.evaluate(np.append(ratios[ratios > 0.0], 0.0))[1].max())

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import wraps
 from typing import NamedTuple
 
 from mudline.deck.reading import TextOrigin
@@ -33,6 +34,26 @@ _HEAD_BELOW = re.compile(rf"\n{_INDENTED_HEAD.pattern}")
 _SMALL_HEAD = re.compile(r"[ \t]*+[*$][^\na-z]*+[a-z]")
 _SMALL_BELOW = re.compile(rf"\n{_SMALL_HEAD.pattern}")
 _UPPER = {code: code - 32 for code in range(ord("a"), ord("z") + 1)}
+
+
+def rule_of_text(
+    code: Code, gate: Callable[[str], object], *, off: bool = False
+) -> Callable[[Callable[[TextOrigin, str], Iterator[Problem]]], object]:
+    """Register a function of a text and its unified source as a rule: decks in JSON and YAML have nothing of its kind.
+
+    `gate` looks at the whole source, quickly: without a match the function is not called.
+    """
+
+    def register(find: Callable[[TextOrigin, str], Iterator[Problem]]) -> object:
+        @rule(code, off=off)
+        @wraps(find)
+        def check(context: LintContext) -> Iterator[Problem]:
+            if context.text and gate(source := context.text.source.unified):
+                yield from first_reported(find(context.text, source))
+
+        return check
+
+    return register
 
 
 class Placed(NamedTuple):
@@ -84,8 +105,8 @@ def line_around(source: str, offset: int) -> Span:
     return Span(source.rfind("\n", 0, offset) + 1, len(source) if end < 0 else end)
 
 
-@rule(STY002)
-def lower_case_comment(context: LintContext) -> Iterator[Problem]:
+@rule_of_text(STY002, lambda source: "\nc" in source or source.startswith("c"))
+def lower_case_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
     """A comment begins with a lower-case c.
 
     The mark of a comment is a capital C in column 1. A lower-case c is accepted here, but stricter programs read the
@@ -100,14 +121,6 @@ def lower_case_comment(context: LintContext) -> Iterator[Problem]:
 
     Finds: 3:1
     """
-    if context.text:
-        source = context.text.source.unified
-        if "\nc" in source or source.startswith("c"):
-            yield from first_reported(_lower_case(context.text))
-
-
-def _lower_case(text: TextOrigin) -> Iterator[Problem]:
-    source = text.source.unified
     for leaf, _, kept in placed_leaves(text):
         start = leaf.span.start
         if leaf.kind is Kind.COMMENT and source[start] == "c" and not kept:
@@ -116,8 +129,8 @@ def _lower_case(text: TextOrigin) -> Iterator[Problem]:
             yield Problem(STY002, "the comment begins with a lower-case c: write a capital C", mark, repair=repair)
 
 
-@rule(STY008)
-def key_like_comment(context: LintContext) -> Iterator[Problem]:
+@rule_of_text(STY008, _KEY_LIKE.search)
+def key_like_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
     """A setting such as CURVE= begins in column 1, where a C makes a comment.
 
     It is read as data here, since its keyword knows the setting. Programs that read any line with a C in column 1 as a
@@ -137,12 +150,6 @@ def key_like_comment(context: LintContext) -> Iterator[Problem]:
 
     Finds: 3:1
     """
-    if context.text and _KEY_LIKE.search(context.text.source.unified):
-        yield from first_reported(_key_like(context.text))
-
-
-def _key_like(text: TextOrigin) -> Iterator[Problem]:
-    source = text.source.unified
     for leaf, read, _ in placed_leaves(text):
         start = leaf.span.start
         if read is not None and source[start] in "Cc" and is_setting(source, leaf, read):
@@ -152,8 +159,8 @@ def _key_like(text: TextOrigin) -> Iterator[Problem]:
             yield Problem(STY008, message, Span(start, source.index("=", start) + 1), repair=repair)
 
 
-@rule(STY009)
-def indented_comment(context: LintContext) -> Iterator[Problem]:
+@rule_of_text(STY009, lambda source: _COMMENT_BELOW.search(source) or _INDENTED_COMMENT.match(source))
+def indented_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
     """A line that looks like a comment is indented, and so it is data.
 
     Only a C in column 1 makes a comment; the manual mentions no other (inferred). With a space before it the line is
@@ -169,14 +176,6 @@ def indented_comment(context: LintContext) -> Iterator[Problem]:
 
     Finds: 3:3
     """
-    if context.text:
-        source = context.text.source.unified
-        if _COMMENT_BELOW.search(source) or _INDENTED_COMMENT.match(source):
-            yield from first_reported(_indented_comments(context.text))
-
-
-def _indented_comments(text: TextOrigin) -> Iterator[Problem]:
-    source = text.source.unified
     for leaf, read, kept in placed_leaves(text):
         if kept or leaf.kind not in (Kind.TEXT, Kind.SETTING) or not _INDENTED_COMMENT.match(source, *leaf.span):
             continue
@@ -185,8 +184,8 @@ def _indented_comments(text: TextOrigin) -> Iterator[Problem]:
             yield Problem(STY009, message, trimmed(source, *leaf.span))
 
 
-@rule(STY005)
-def indented_keyword(context: LintContext) -> Iterator[Problem]:
+@rule_of_text(STY005, lambda source: _HEAD_BELOW.search(source) or _INDENTED_HEAD.match(source))
+def indented_keyword(text: TextOrigin, source: str) -> Iterator[Problem]:
     """A keyword or a section does not begin in column 1.
 
     Spaces before the `*` or the `$` are ignored here, but a program that expects the mark in column 1 reads the line as
@@ -200,14 +199,6 @@ def indented_keyword(context: LintContext) -> Iterator[Problem]:
 
     Finds: 2:3
     """
-    if context.text:
-        source = context.text.source.unified
-        if _HEAD_BELOW.search(source) or _INDENTED_HEAD.match(source):
-            yield from first_reported(_indented_heads(context.text))
-
-
-def _indented_heads(text: TextOrigin) -> Iterator[Problem]:
-    source = text.source.unified
     for start, head in _heads(text):
         if start < head.start:
             mark = source[head.start]
@@ -217,8 +208,8 @@ def _indented_heads(text: TextOrigin) -> Iterator[Problem]:
             yield Problem(STY005, message, head, repair=repair)
 
 
-@rule(STY006)
-def keyword_case(context: LintContext) -> Iterator[Problem]:
+@rule_of_text(STY006, lambda source: _SMALL_BELOW.search(source) or _SMALL_HEAD.match(source))
+def keyword_case(text: TextOrigin, source: str) -> Iterator[Problem]:
     """The name of a keyword or a section is not in upper case.
 
     Case is ignored here. Manuals and other decks write these names in upper case, though, and a search of many decks
@@ -232,14 +223,6 @@ def keyword_case(context: LintContext) -> Iterator[Problem]:
 
     Finds: 2:1
     """
-    if context.text:
-        source = context.text.source.unified
-        if _SMALL_BELOW.search(source) or _SMALL_HEAD.match(source):
-            yield from first_reported(_small(context.text))
-
-
-def _small(text: TextOrigin) -> Iterator[Problem]:
-    source = text.source.unified
     for _, head in _heads(text):
         written = source[slice(*head)]
         if _SMALL.search(written) and _known(written):

@@ -10,8 +10,7 @@ from mudline.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.keywords.model import Part, layout
 from mudline.keywords.places import Path
 from mudline.keywords.reader import ReadBlock
-from mudline.linting.rule import LintContext, first_reported, rule
-from mudline.linting.rules.style_lines import data_leaves, first_of_lines, line_around, placed_leaves
+from mudline.linting.rules.style_lines import data_leaves, first_of_lines, line_around, placed_leaves, rule_of_text
 from mudline.syntax.fields import Group, read_line, trimmed
 from mudline.syntax.rows import blank_separated, row_fields
 from mudline.syntax.tree import Kind, Leaf
@@ -42,8 +41,8 @@ _MOST_COLUMNS = 64
 _TO_E = str.maketrans("dD", "eE")
 
 
-@rule(STY001)
-def tab_character(context: LintContext) -> Iterator[Problem]:
+@rule_of_text(STY001, lambda source: "\t" in source)
+def tab_character(text: TextOrigin, source: str) -> Iterator[Problem]:
     """A data line contains a TAB.
 
     Programs treat it differently: as one space, as the spaces that an editor shows, as a character of a name, or as an
@@ -64,12 +63,6 @@ def tab_character(context: LintContext) -> Iterator[Problem]:
 
     Finds: 4:6
     """  # noqa: D301 - a TAB that an editor cannot take away
-    if context.text and "\t" in context.text.source.unified:
-        yield from first_reported(_tabs(context.text))
-
-
-def _tabs(text: TextOrigin) -> Iterator[Problem]:
-    source = text.source.unified
     for leaf, read in data_leaves(text):
         for match in first_of_lines(_TABS, source, leaf.span):
             line = line_around(source, match.start())
@@ -100,8 +93,8 @@ def _holds_tab(source: str, group: Group) -> bool:
     return within and not (len(group.fields) == 1 and blank_separated(group.fields[0].text))
 
 
-@rule(STY004)
-def blank_separated_row(context: LintContext) -> Iterator[Problem]:
+@rule_of_text(STY004, lambda source: _GATE.search(source) or _BEHIND_KEY.search(source))
+def blank_separated_row(text: TextOrigin, source: str) -> Iterator[Problem]:
     """The numbers of a row are separated only by spaces.
 
     They are read as if there were commas between them, but the language separates fields by commas, and an empty field
@@ -121,14 +114,6 @@ def blank_separated_row(context: LintContext) -> Iterator[Problem]:
 
     Finds: 4:2
     """
-    if context.text:
-        source = context.text.source.unified
-        if _GATE.search(source) or _BEHIND_KEY.search(source):
-            yield from first_reported(_without_commas(context.text))
-
-
-def _without_commas(text: TextOrigin) -> Iterator[Problem]:
-    source = text.source.unified
     last: ReadBlock | None = None
     values: set[Span] = set()
     for leaf, read in data_leaves(text):
@@ -152,8 +137,10 @@ def _rows(source: str, leaf: Leaf, values: set[Span]) -> Iterator[Span]:
             yield row
 
 
-@rule(STY007, off=True)
-def trailing_blank(context: LintContext) -> Iterator[Problem]:
+@rule_of_text(
+    STY007, lambda source: any(blank in source for blank in _ENDINGS) or source.endswith((" ", "\t")), off=True
+)
+def trailing_blank(text: TextOrigin, source: str) -> Iterator[Problem]:
     """A line ends with spaces or TABs.
 
     They are invisible, and an editor that removes them changes lines in the history of the deck. Remove them. Lines of
@@ -167,14 +154,6 @@ def trailing_blank(context: LintContext) -> Iterator[Problem]:
 
     Finds: 2:7
     """  # noqa: D301 - a blank that an editor cannot take away
-    if context.text:
-        source = context.text.source.unified
-        if any(ending in source for ending in _ENDINGS) or source.endswith((" ", "\t")):
-            yield from first_reported(_trailing(context.text))
-
-
-def _trailing(text: TextOrigin) -> Iterator[Problem]:
-    source = text.source.unified
     for span in sorted(_own_lines(text)):
         for match in first_of_lines(_TRAILING, source, span):
             blanks = Span(*match.span())
@@ -191,8 +170,8 @@ def _own_lines(text: TextOrigin) -> Iterator[Span]:
             yield leaf.span
 
 
-@rule(STY003)
-def fortran_exponent(context: LintContext) -> Iterator[Problem]:
+@rule_of_text(STY003, lambda source: any(gate.search(source) for gate in _GATES))
+def fortran_exponent(text: TextOrigin, source: str) -> Iterator[Problem]:
     """A number has the exponent D of Fortran's double precision.
 
     It is read as E here, but the language has only E, and other programs stop at the D or read the number without its
@@ -208,12 +187,6 @@ def fortran_exponent(context: LintContext) -> Iterator[Problem]:
 
     Finds: 5:12
     """
-    if context.text and any(gate.search(context.text.source.unified) for gate in _GATES):
-        yield from first_reported(_exponents(context.text))
-
-
-def _exponents(text: TextOrigin) -> Iterator[Problem]:
-    source = text.source.unified
     numbers = _Numbers()
     for leaf, read in data_leaves(text):
         for match in first_of_lines(_SEEN, source, leaf.span):

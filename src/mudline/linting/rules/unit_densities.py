@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from mudline.codes.fields import SYN015
 from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity, Where
 from mudline.keywords.model import Part
-from mudline.linting.rule import LintContext, rule
+from mudline.linting.rule import LintContext, limited, rule
 from mudline.linting.rules.geometry import section_entries
 from mudline.scene.deck_values import FOOT, POUND, number
 from mudline.scene.deck_values import LENGTH_UNIT as METRES
@@ -141,7 +141,7 @@ def readable_sections(context: LintContext) -> Iterator[tuple[Where, GeometricSe
     text = context.text
     commas = {text.place(problem).line for problem in context.problems_of(SYN015)} if text else set()
     for where, entry in section_entries(context.scene.deck):
-        line = where._replace(path=(*where.path, format_of(entry)))
+        line = where.inside(format_of(entry))
         if not commas or not text or text.place(Problem(SYN015, "", where=line)).line not in commas:
             yield where, entry
 
@@ -181,7 +181,7 @@ def _water(scene: Scene, unit: str) -> Iterator[Problem]:
         density, depth = number(block, "density"), number(block, "depth")
         if not density > 0.0 or WATER.holds(density * factor) or AIR.holds(density * factor):
             continue
-        place = where._replace(path=("density",))
+        place = where.inside("density")
         seen = f"a water density of {density!r} {unit}, expected {WATER.words(factor, unit)}"
         likely = likely_units(density, DENSITIES, unit, USUAL_WATER)
         if USUAL_WATER.holds(depth * factor) and density >= SHALLOWEST:
@@ -211,7 +211,7 @@ def _walls(context: LintContext, unit: str) -> Iterator[Problem]:
         what = f"{density!r} looks like {likely}, write it in {unit}" if likely else "correct it"
         expected = f"{WALL.words(factor, unit)} (steel {rounded(STEEL / factor)})"
         message = f"a wall density of {density!r} {unit}, expected {expected}: {what}"
-        yield Problem(UNT004, message, where=where._replace(path=(*where.path, "rigid", "density")))
+        yield Problem(UNT004, message, where=where.inside("rigid", "density"))
 
 
 def _is_light_steel(section: Part | None, density: float, scene: Scene) -> bool:
@@ -232,7 +232,7 @@ def _ratios(context: LintContext) -> Iterator[Problem]:
                     f"the wall is {ratio:.3g} times as dense as the water, expected 7 to 8.4 times for steel: it looks "
                     f"like a unit 1000 times {which} than that of *OCEAN, write both in one unit"
                 )
-                yield Problem(UNT004, message, where=where._replace(path=(*where.path, "rigid", "density")))
+                yield Problem(UNT004, message, where=where.inside("rigid", "density"))
 
 
 def is_metal(section: Part | None, scene: Scene, lightest: float) -> bool:
@@ -249,6 +249,7 @@ def is_metal(section: Part | None, scene: Scene, lightest: float) -> bool:
 
 
 @rule(UNT005)
+@limited
 def suspicious_modulus(context: LintContext) -> Iterator[Problem]:
     """Young's modulus or the shear modulus looks as if it were in another unit, or the two do not fit each other.
 
@@ -269,13 +270,9 @@ def suspicious_modulus(context: LintContext) -> Iterator[Problem]:
 
     Finds: 5:2
     """
-    yield from islice(_suspicious(context), MOST_REPORTED)
-
-
-def _suspicious(context: LintContext) -> Iterator[Problem]:
     for where, entry in readable_sections(context):
         if entry.rigid is not None:
-            place = where._replace(path=(*where.path, "rigid"))
+            place = where.inside("rigid")
             yield from islice(_of_section(context.scene, entry.rigid, place), 1)
 
 
@@ -294,7 +291,7 @@ def _of_section(scene: Scene, section: Part, where: Where) -> Iterator[Problem]:
                 range_ = least if value * MODULI[unit] < SOFTEST else f"{steel_range} for steel"
                 what = f"{value!r} looks like {likely}, write it in {unit}" if likely else "correct it"
                 message = f"{name} {key} is {value!r} {unit}, expected {range_}: {what}"
-                yield Problem(UNT005, message, where=where._replace(path=(*where.path, key)))
+                yield Problem(UNT005, message, where=where.inside(key))
     if not is_placeholder(young) and not is_placeholder(shear):
         yield from _poisson(scene, section, young, shear, where)
 
@@ -318,10 +315,10 @@ def _poisson(scene: Scene, section: Part, young: float, shear: float, where: Whe
     seen = f"E {young!r} and G {shear!r} give Poisson's ratio {ratio:.3g}, expected 0 to 0.5"
     if EXCHANGED.holds(shear / young):
         message = f"{seen}: the two seem to be exchanged, write E first"
-        yield Problem(UNT005, message, where=where._replace(path=(*where.path, "E")))
+        yield Problem(UNT005, message, where=where.inside("E"))
     else:
         message = f"{seen}: correct one of them (with 0.3, G = {young / 2.6:.3g})"
-        yield Problem(UNT005, message, where=where._replace(path=(*where.path, "G")))
+        yield Problem(UNT005, message, where=where.inside("G"))
 
 
 def _is_isotropic(scene: Scene, section: Part, young: float) -> bool:

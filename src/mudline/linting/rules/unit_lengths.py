@@ -74,14 +74,14 @@ def odd_diameters(context: LintContext) -> Iterator[tuple[Where, str]]:
         width = number(section, source.lower())
         if section is None or not 0.0 < width < math.inf:
             continue
-        place = where._replace(path=(*where.path, format_of(entry)))
+        place = where.inside(format_of(entry))
         message = _width(scene, section, width, source)
         if entry.rigid is None:
             message = message or _mass(scene, section, width, source)
         elif not message and (message := _bore(scene, section, width)):
             source = "Di"
         if message:
-            yield place._replace(path=(*place.path, source)), message
+            yield place.inside(source), message
 
 
 def _width(scene: Scene, section: Part, width: float, source: str) -> str:
@@ -311,4 +311,4 @@ def _ocean(context: LintContext) -> Iterator[Problem]:
             f"node {scene.node_ids[below.argmin()]} lies {height:.5g} high in water {depth!r} deep, expected "
             "little more than the depth: write both in one unit (km, feet or mm?), and heights as X"
         )
-        yield Problem(UNT006, message, where=where._replace(path=("depth",)))
+        yield Problem(UNT006, message, where=where.inside("depth"))

@@ -14,7 +14,7 @@ from mudline.deck.model import Deck
 from mudline.deck.reading import GRAVITIES
 from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity, Where
 from mudline.keywords.text import shown
-from mudline.linting.rule import LintContext, rule
+from mudline.linting.rule import LintContext, limited, rule
 from mudline.linting.rules.curve_shape import swapped
 from mudline.scene.deck_values import surfaces
 from mudline.scene.model import Scene
@@ -82,7 +82,7 @@ def gravity_mismatch(context: LintContext) -> Iterator[Problem]:
             f"gravity {gravity!r}{other}, in a deck in {scene.units} units, expected about {expected} "
             f"{_LENGTHS[scene.units]}: correct it, or the suffix of the file"
         )
-        yield Problem(UNT001, message, where=where._replace(path=("gravity",)))
+        yield Problem(UNT001, message, where=where.inside("gravity"))
 
 
 def _near(gravity: float, expected: float) -> bool:
@@ -147,10 +147,11 @@ def _fluid(scene: Scene, least: _Least) -> Iterator[Problem]:
                 f"a cohesion of {cohesion!r} {least.pressure_unit}, expected at least {least.cohesion:g}: write it in "
                 f"{least.pressure_unit} ({least.pressure_thousands}?)"
             )
-            yield Problem(UNT002, message, where=where._replace(path=(*where.path, "cohesion")))
+            yield Problem(UNT002, message, where=where.inside("cohesion"))
 
 
 @rule(UNT003)
+@limited
 def large_friction(context: LintContext) -> Iterator[Problem]:
     """A friction coefficient is above 2.
 
@@ -169,27 +170,23 @@ def large_friction(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:11
     """
-    yield from islice(_large(context.scene.deck), MOST_REPORTED)
-
-
-def _large(deck: Deck) -> Iterator[Problem]:
-    for where, values, names in _coefficients(deck):
+    for where, values, names in _coefficients(context.scene.deck):
         for name in names:
             value = getattr(values, name, None)
             if isinstance(value, int | float) and value > ROUGHEST:
                 message = f"a friction coefficient of {value!r} ({name}): correct it, coefficients are seldom above 1"
-                yield Problem(UNT003, message, where=where._replace(path=(*where.path, name)))
+                yield Problem(UNT003, message, where=where.inside(name))
 
 
 def _coefficients(deck: Deck) -> Iterator[tuple[Where, object, tuple[str, str]]]:
     """What holds friction coefficients, and the names of the two."""
     both = ("longitudinal", "transverse")
     for where, surface in surfaces(deck):
-        yield where._replace(path=("properties",)), surface.properties, both
+        yield where.inside("properties"), surface.properties, both
     for where, block in deck.blocks("SEABED PROPERTIES"):
         for index, entry in enumerate(cast("SeabedProperties", block).sets):
-            yield where._replace(path=("sets", index, "friction")), entry.friction, both
+            yield where.inside("sets", index, "friction"), entry.friction, both
     for where, block in deck.blocks("SEABED FRICTION"):
         for index, given in enumerate(cast("SeabedFriction", block).sets):
-            place = where._replace(path=("sets", index, "coefficients"))
+            place = where.inside("sets", index, "coefficients")
             yield place, getattr(given, "coefficients", None), ("first", "second")

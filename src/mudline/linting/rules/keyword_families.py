@@ -1,16 +1,17 @@
-"""Superseded keywords, and decks that mix them with newer ones."""
+"""Superseded keywords, decks that mix them with newer ones, and extension keywords in decks for Flexcom."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
 from mudline.diagnostics import Code, Problem, Repair, Severity, Where
-from mudline.keywords.catalogue import is_superseded, supersedes
+from mudline.keywords.catalogue import is_extension, is_superseded, supersedes
 from mudline.linting.rule import LintContext, rule
 from mudline.syntax.edits import with_line_ends
 
 LEG001 = Code("LEG001", "superseded-keyword", Severity.INFO)
 SBD016 = Code("SBD016", "mixed-families", Severity.WARNING)
+SBD018 = Code("SBD018", "extension-keyword", Severity.ERROR)
 
 
 @rule(LEG001)
@@ -49,12 +50,9 @@ def _migration(context: LintContext) -> Repair | None:
     deck, text = context.deck, context.text
     if text is None or context.scene.errors():
         return None
-    from mudline.migration.refusals import refusals, surfaces  # noqa: PLC0415 - few decks need it
-    from mudline.migration.rewriting import rewrite  # noqa: PLC0415 - few decks need it
+    from mudline.migration.rewriting import refusals, rewrite, surfaces  # noqa: PLC0415 - few decks need it
 
-    if any(refusals(deck)):
-        return None
-    if any(surface.profile is not None for _, surface in surfaces(deck)):
+    if any(refusals(deck)) or any(surface.profile is not None for _, surface in surfaces(deck)):
         return None
     edits = with_line_ends(text.source, rewrite(deck).edits)
     return Repair("unsafe", "write the newer keywords", tuple((edit.span, edit.text) for edit in edits))
@@ -96,3 +94,33 @@ def _first(context: LintContext, fact: Callable[[str], bool]) -> tuple[Where, st
     deck = context.scene.deck
     names = filter(fact, deck.keywords())
     return min(((where, name) for name in names for where, _ in deck.blocks(name)), default=None)
+
+
+@rule(SBD018)
+def extension_keyword(context: LintContext) -> Iterator[Problem]:
+    """An extension keyword is used in a deck for Flexcom.
+
+    The keyword belongs to mudline alone: Flexcom does not know it and will not run the deck. It is reported only where
+    the deck is checked for that dialect. Remove it, or keep a copy of the deck for Flexcom.
+
+    Example:
+         $MODEL
+         *SEABED PROPERTIES
+          TYPE=ELASTIC
+          SET=ALL
+          STIFFNESS=50000.0
+        -*SEABED SUCTION
+        - SET=ALL
+        - COHESION=5000.0
+        + SUCTION=8000.0, 0.15
+
+    Finds: 6:1
+    Dialect: flexcom
+    """
+    if context.dialect != "flexcom":
+        return
+    for i, section in enumerate(context.deck.sections):
+        for j, block in enumerate(section.blocks):
+            if is_extension(block.keyword):
+                message = f"*{block.keyword} is an extension that Flexcom does not know: remove it for that program"
+                yield Problem(SBD018, message, where=Where(i, j))
