@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from difflib import SequenceMatcher
 from typing import NamedTuple, TypeAlias, cast
 
-from mudline.comparison.model import Difference, Side, Tolerance, Value, plain
+from mudline.comparison.model import Difference, Pair, Side, Value, plain
 from mudline.deck.model import Opaque
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Where
@@ -121,10 +121,8 @@ class _Flattening:
                 found[f"{path}/{index + 1}"] = self._scalar(item, place)
 
     def _scalar(self, value: object, where: Where) -> Entry:
-        if isinstance(value, float):
+        if isinstance(value, float | int):
             return Entry(plain(value), value, where)
-        if isinstance(value, int):
-            return Entry(value, value, where)
         return Entry(str(value), folded(str(value)), where)
 
     def _records(self, records: list[Record], where: Where, slot: Slot, prefix: str, found: Flat, shared: Flat) -> None:
@@ -178,8 +176,7 @@ def _table(table: Table, slot: Slot, where: Where, path: str) -> Iterator[tuple[
     for number, (cells, index) in enumerate(rows, 1):
         while cells and cells[-1] is None:
             cells.pop()
-        shown: list[Value] = [plain(cell) if isinstance(cell, float) else cell for cell in cells]
-        yield f"{path}/{number}", Entry(shown, list(cells), where.inside(index))
+        yield f"{path}/{number}", Entry([plain(cell) for cell in cells], list(cells), where.inside(index))
 
 
 def _number(cell: float | str | None) -> float:
@@ -195,35 +192,29 @@ _MOST_MATCHED = 2000
 _Name = tuple[str, str]
 
 
-def blocks(one: Side, other: Side, tolerance: Tolerance) -> Iterator[Difference]:
+def blocks(pair: Pair) -> Iterator[Difference]:
     """Modelled blocks by their values, the others by their data lines."""
-    first, second = _modelled(one), _modelled(other)
+    first, second = _modelled(pair.one), _modelled(pair.other)
     for name in dict.fromkeys([*first, *second]):
-        before = flatten(one, first.get(name, []))
-        after = flatten(other, second.get(name, []))
-        found = flat_differences(_group(name), (one, before), (other, after), tolerance)
-        yield from _presence(name, (one, first), (other, second), found)
-    lines, others = _lines(one), _lines(other)
+        group = _group(name)
+        before, after = first.get(name, []), second.get(name, [])
+        if not before or not after:  # reported before its values, as it may have none
+            yield pair.difference(group, group, *((None, found[0][0]) if found else None for found in (before, after)))
+        yield from flat_differences(group, flatten(pair.one, before), flatten(pair.other, after), pair)
+    lines, others = _lines(pair.one), _lines(pair.other)
     for name in dict.fromkeys([*lines, *others]):
-        yield from _opaque(name, (one, lines.get(name)), (other, others.get(name)))
+        yield from _opaque(name, lines.get(name, []), others.get(name, []), pair)
 
 
-def flat_differences(
-    group: str, before: tuple[Side, Flat], after: tuple[Side, Flat], tolerance: Tolerance
-) -> Iterator[Difference]:
+def flat_differences(group: str, before: Flat, after: Flat, pair: Pair) -> Iterator[Difference]:
     """Values by path that differ, or that only one of two decks has."""
-    (one, first), (other, second) = before, after
-    for path in dict.fromkeys([*first, *second]):
-        old, new = first.get(path), second.get(path)
-        where = f"{group}/{(one if old is not None else other).path(path)}"
-        if old is not None and new is not None:
-            if not tolerance.values(old.compared, new.compared):
-                lines = one.line(old.where), other.line(new.where)
-                yield Difference("changed", group, where, old.shown, new.shown, *lines)
-        elif old is not None:
-            yield Difference("removed", group, where, old.shown, None, one.line(old.where), None)
-        elif new is not None:
-            yield Difference("added", group, where, None, new.shown, None, other.line(new.where))
+    for path in dict.fromkeys([*before, *after]):
+        old, new = before.get(path), after.get(path)
+        if old and new and pair.tolerance.values(old.compared, new.compared):
+            continue
+        where = f"{group}/{(pair.one if old else pair.other).path(path)}"
+        held, found = ((entry.shown, entry.where) if entry else None for entry in (old, new))
+        yield pair.difference(group, where, held, found)
 
 
 def _group(name: _Name) -> str:
@@ -252,22 +243,6 @@ def _titles(side: Side) -> list[str]:
     return titles
 
 
-_Blocks = dict[_Name, list[tuple[Where, Block]]]
-
-
-def _presence(
-    name: _Name, before: tuple[Side, _Blocks], after: tuple[Side, _Blocks], found: Iterable[Difference]
-) -> Iterator[Difference]:
-    """A keyword that only one deck has is reported before its values; it may have none."""
-    (one, first), (other, second) = before, after
-    group = _group(name)
-    if name not in second:
-        yield Difference("removed", group, group, before_line=one.line(first[name][0][0]))
-    if name not in first:
-        yield Difference("added", group, group, after_line=other.line(second[name][0][0]))
-    yield from found
-
-
 _Lines = list[tuple[str, Where]]
 
 
@@ -294,17 +269,13 @@ def _data(lines: list[str]) -> Iterator[str]:
     return (line for line in stripped if line)
 
 
-def _opaque(name: _Name, before: tuple[Side, _Lines | None], after: tuple[Side, _Lines | None]) -> Iterator[Difference]:
-    (one, first), (other, second) = before, after
+def _opaque(name: _Name, before: _Lines, after: _Lines, pair: Pair) -> Iterator[Difference]:
     section, keyword = name
     title = _group(name) if keyword else f"${section}" if section else "before the first section"
-    for tag, i, i_end, j, j_end in _changes([line for line, _ in first or []], [line for line, _ in second or []]):
-        if tag == "equal":
-            continue
-        for line, where in (first or [])[i:i_end]:
-            yield Difference("removed", title, f"{title}/lines", line, None, one.line(where), None)
-        for line, where in (second or [])[j:j_end]:
-            yield Difference("added", title, f"{title}/lines", None, line, None, other.line(where))
+    for tag, i, i_end, j, j_end in _changes([line for line, _ in before], [line for line, _ in after]):
+        if tag != "equal":
+            yield from (pair.difference(title, f"{title}/lines", held, None) for held in before[i:i_end])
+            yield from (pair.difference(title, f"{title}/lines", None, held) for held in after[j:j_end])
 
 
 def _changes(one: list[str], other: list[str]) -> list[tuple[str, int, int, int, int]]:

@@ -1,23 +1,26 @@
-"""The differences of two decks, among them what each element follows of the blocks that go by set."""
+"""The differences of two decks: what has a name or a number, and what each element follows of the blocks by set."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, cast
 
 import numpy as np
 
 from mudline.comparison.blocks import blocks, record_values
-from mudline.comparison.model import Difference, Side, Tolerance, Value, plain, spans_of, text_of
-from mudline.comparison.named import common, curves, elements, nodes, parameters, sets
+from mudline.comparison.model import Difference, Members, Pair, Side, Tolerance, Value, plain, spans_of, text_of
 from mudline.contact.input import LawKind
+from mudline.deck.parameters import Definition, folded
 from mudline.diagnostics import Where
 from mudline.keywords.model import Record
+from mudline.keywords.table import Table
+from mudline.keywords.values import Label
+from mudline.scene.force_curves import SceneCurve
 from mudline.scene.laws import SetLaw
 from mudline.scene.model import Scene
-from mudline.scene.numbering import Indices
+from mudline.scene.numbering import MOST_GENERATED, Floats, Indices, Numbered
 from mudline.scene.seabed import SeabedShape
 
 
@@ -27,38 +30,227 @@ def compare(before: Scene, after: Scene, tolerance: float = 0.0) -> list[Differe
     `tolerance` is how far two numbers may be apart, relative to the larger one. Raises DeckError for a deck of which
     something could not be read, or in which an equation has no value.
     """
-    one, other = Side(before), Side(after)
-    one.require()
-    other.require()
-    return list(_differences(one, other, Tolerance(tolerance)))
+    pair = Pair(Side(before), Side(after), Tolerance(tolerance))
+    pair.one.require()
+    pair.other.require()
+    groups = (_units, _parameters, _nodes, _elements, _sets, _curves, _by_element, _floor, blocks)
+    return [found for differences in groups for found in differences(pair)]
 
 
-def _differences(one: Side, other: Side, tolerance: Tolerance) -> Iterator[Difference]:
-    if one.scene.units != other.scene.units:
-        yield Difference("changed", "units", "units", one.scene.units, other.scene.units)
-    yield from parameters(one, other, tolerance)
-    yield from nodes(one, other, tolerance)
-    yield from elements(one, other)
-    yield from sets(one, other)
-    yield from curves(one, other, tolerance)
-    yield from _by_element(one, other, tolerance)
-    yield from _floor(one, other, tolerance)
-    yield from blocks(one, other, tolerance)
+def _units(pair: Pair) -> Iterator[Difference]:
+    old, new = pair.one.scene.units, pair.other.scene.units
+    if old != new:
+        yield Difference("changed", "units", "units", old, new)
 
 
-def _floor(one: Side, other: Side, tolerance: Tolerance) -> Iterator[Difference]:
+def _floor(pair: Pair) -> Iterator[Difference]:
     """The points of the bed that files hold; what the deck itself says of it is among its blocks."""
-    old, new = one.scene.seabed, other.scene.seabed
-    same = old.points.shape == new.points.shape and bool(tolerance.arrays(_sorted(old), _sorted(new)).all())
+    old, new = pair.one.scene.seabed, pair.other.scene.seabed
+    same = old.points.shape == new.points.shape and bool(pair.tolerance.arrays(_sorted(old), _sorted(new)).all())
     if not same and (old.file or new.file):
-        lines = one.line(old.where), other.line(new.where)
-        counts = f"{len(old.points)} points", f"{len(new.points)} points"
-        yield Difference("changed", "seabed", "seabed/points", *counts, *lines)
+        held = ((f"{len(floor.points)} points", floor.where) for floor in (old, new))
+        yield pair.difference("seabed", "seabed/points", *held)
 
 
 def _sorted(floor: SeabedShape) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
     return floor.points[np.lexsort(floor.points.T[::-1])] if len(floor.points) else floor.points
 
+
+# ------------------------------------------------------------------------------------------ what has a name or a number
+
+
+def _nodes(pair: Pair) -> Iterator[Difference]:
+    """Coordinates of the nodes."""
+    yield from _numbered("nodes", pair.one.scene.nodes, pair.other.scene.nodes, pair)
+    yield from _labelled("NODE", "nodes", pair)
+
+
+def _elements(pair: Pair) -> Iterator[Difference]:
+    """Nodes of the elements; numbers are names here, so no tolerance holds."""
+    tables = pair.one.scene.table.numbered, pair.other.scene.table.numbered
+    yield from _numbered("elements", *tables, replace(pair, tolerance=Tolerance()))
+    yield from _labelled("ELEMENT", "elements", pair)
+
+
+def _common(one: Numbered, other: Numbered) -> tuple[Indices, Indices]:
+    """Indices in each of the numbers that both have."""
+    if np.array_equal(one.ids, other.ids):
+        same = np.arange(len(one.ids), dtype=np.intp)
+        return same, same
+    at = other.indices(one.ids)
+    here = np.flatnonzero(at >= 0)
+    return here, at[here]
+
+
+def _numbered(group: str, first: Numbered, second: Numbered, pair: Pair) -> Iterator[Difference]:
+    here, there = _common(first, second)
+    differing = np.flatnonzero(~pair.tolerance.arrays(first.values[here], second.values[there]).all(axis=1))
+    for i, j in zip(here[differing].tolist(), there[differing].tolist(), strict=True):
+        yield pair.difference(group, f"{group}/{first.ids[i]}", _held(group, first, i), _held(group, second, j))
+    for i in np.flatnonzero(second.indices(first.ids) < 0).tolist():
+        yield pair.difference(group, f"{group}/{first.ids[i]}", _held(group, first, i), None)
+    for j in np.flatnonzero(first.indices(second.ids) < 0).tolist():
+        yield pair.difference(group, f"{group}/{second.ids[j]}", None, _held(group, second, j))
+
+
+def _held(group: str, table: Numbered, index: int) -> tuple[Value, Where]:
+    """Coordinates of a node, or the whole numbers of an element's nodes; their place."""
+    values = [plain(value) for value in table.values[index].tolist()]
+    if group == "elements":
+        values = [int(value) if isinstance(value, float) else value for value in values]
+    return values, table.where(index)
+
+
+def _labelled(keyword: str, group: str, pair: Pair) -> Iterator[Difference]:
+    """Rows with a {label}, which have no place among the numbers."""
+    first, second = _label_rows(pair.one, keyword, group), _label_rows(pair.other, keyword, group)
+    for key in sorted(first.keys() - second.keys()):
+        yield pair.difference(group, f"{group}/{first[key][0][0]}", first[key], None)
+    for key in sorted(second.keys() - first.keys()):
+        yield pair.difference(group, f"{group}/{second[key][0][0]}", None, second[key])
+
+
+def _label_rows(side: Side, keyword: str, name: str) -> dict[tuple[str, ...], tuple[list[Value], Where]]:
+    found: dict[tuple[str, ...], tuple[list[Value], Where]] = {}
+    for where, block in side.scene.deck.blocks(keyword):
+        for index, entry in enumerate(block.entries):
+            table = getattr(entry, name, None)
+            if not isinstance(table, Table):
+                continue
+            rows = sorted({row for (row, _), word in table.words.items() if isinstance(word, Label)})
+            for row in rows:
+                numbers = enumerate(table.values[row, : table.lengths[row]].tolist())
+                cells: list[Value] = [table.words.get((row, column)) or plain(number) for column, number in numbers]
+                key = tuple(str(cell).casefold() for cell in cells)
+                found[key] = (cells, where.inside("entries", index, name, row))
+    return found
+
+
+_KINDS = {False: "curves", True: "curves of sets"}
+
+
+def _parameters(pair: Pair) -> Iterator[Difference]:
+    """Values of the parameters."""
+    first, second = pair.one.parameters, pair.other.parameters
+    for name in dict.fromkeys([*first.values, *second.values]):
+        old, new = first.values.get(name), second.values.get(name)
+        if old is None or new is None or not pair.tolerance.values(old, new):
+            held = (_value(old, first.definitions.get(name)), _value(new, second.definitions.get(name)))
+            yield pair.difference("parameters", f"parameters/{name}", *held)
+
+
+def _value(value: float | str | None, definition: Definition | None) -> tuple[Value, Where | None] | None:
+    return None if value is None else (plain(value), definition.where if definition else None)
+
+
+_NO_MEMBERS = Members()
+
+
+def _sets(pair: Pair) -> Iterator[Difference]:
+    """Members of the element sets; ALL is what the elements are."""
+    first, second = pair.one.scene.set_table.named, pair.other.scene.set_table.named
+    written, others = _written(pair.one), _written(pair.other)
+    for name in dict.fromkeys([*first, *second]):
+        if name == "all":
+            continue
+        old, new = first.get(name), second.get(name)
+        before = Members([pair.one.scene.element_ids[old.elements]]) if old else None
+        after = Members([pair.other.scene.element_ids[new.elements]]) if new else None
+        if old and new and (old.open or new.open or not (len(old.elements) and len(new.elements))):
+            before, after = written.get(name, _NO_MEMBERS), others.get(name, _NO_MEMBERS)
+        if before is None or after is None or not before.same(after):
+            title = old.name if old else new.name if new else name
+            sides = (before, old), (after, new)
+            held = ((_text(members), found.where) if members and found else None for members, found in sides)
+            yield pair.difference("element sets", f"element sets/{title}", *held)
+
+
+def _text(members: Members) -> str:
+    return ", ".join(filter(None, [text_of(members.spans), *sorted(members.words)]))
+
+
+def _written(side: Side) -> dict[str, Members]:
+    """What sets hold by their lines: for those with elements that the deck does not show."""
+    found: dict[str, Members] = {}
+    for _, block in side.scene.deck.blocks("ELEMENT SETS"):
+        for entry in block.sets:
+            members = found.setdefault(folded(str(entry.name)), Members())
+            for member in entry.members:
+                if subset := getattr(member, "subset", None):
+                    members.words.add(f"SUBSET={folded(str(subset))}")
+                if listed := getattr(member, "elements", None):
+                    members.words |= {folded(item) for item in listed if isinstance(item, Label)}
+                    whole = [item for item in listed if isinstance(item, int)]
+                    members.arrays.append(np.array(whole, dtype=np.int64))
+                if given := getattr(member, "generate", None):
+                    members.ranges += _generated(given.start, given.end, given.increment)
+    return found
+
+
+def _generated(start: object, end: object, step: object) -> list[tuple[int, int, int]]:
+    """The range of a GEN=; none where it is not one."""
+    step = 1 if step is None else step
+    if not (isinstance(start, int) and isinstance(end, int) and isinstance(step, int)) or step < 1:
+        return []
+    return [(start, min(end, start + MOST_GENERATED * step), step)]
+
+
+def _curves(pair: Pair) -> Iterator[Difference]:
+    """Points of the force-embedment curves; the later curve of a name holds."""
+    first, second = _by_name(pair.one), _by_name(pair.other)
+    for name in dict.fromkeys([*first, *second]):
+        old, new = first.get(name), second.get(name)
+        if old and new:
+            yield from _points_differ(_title(old), old, new, pair)
+        elif old:
+            yield pair.difference("curves", _title(old), (_shown(_points(old)), old.where), None)
+        elif new:
+            yield pair.difference("curves", _title(new), None, (_shown(_points(new)), new.where))
+
+
+def _points_differ(name: str, old: SceneCurve, new: SceneCurve, pair: Pair) -> Iterator[Difference]:
+    first, second = _points(old), _points(new)
+    same = pair.tolerance.arrays
+    if first.shape == second.shape:
+        if same(first, second).all():
+            return
+        if same(first[:, 0], second[:, 0]).all():
+            for i in np.flatnonzero(~same(first[:, 1], second[:, 1])).tolist():
+                yield pair.difference(
+                    "curves", f"{name}/{first[i, 0].item()!r}", _force(old, first[i]), _force(new, second[i])
+                )
+            return
+    mine, theirs = set(map(tuple, first.tolist())), set(map(tuple, second.tolist()))
+    for point in sorted(mine - theirs):
+        yield pair.difference("curves", f"{name}/{point[0]!r}", _force(old, np.array(point)), None)
+    for point in sorted(theirs - mine):
+        yield pair.difference("curves", f"{name}/{point[0]!r}", None, _force(new, np.array(point)))
+
+
+def _title(curve: SceneCurve) -> str:
+    return f"{_KINDS[curve.embedment]}/{curve.name}"
+
+
+def _by_name(side: Side) -> dict[str, SceneCurve]:
+    return {f"{_KINDS[curve.embedment]}/{folded(curve.name)}": curve for curve in side.scene.laws.curves}
+
+
+def _points(curve: SceneCurve) -> Floats:
+    """The points in ascending order, each once."""
+    return np.unique(curve.points, axis=0) if len(curve.points) else curve.points
+
+
+def _shown(points: Floats) -> Value:
+    return [[plain(value) for value in row] for row in points.tolist()]
+
+
+def _force(curve: SceneCurve, point: Floats) -> tuple[Value, Where]:
+    """The force of a point, and its place."""
+    at = np.flatnonzero((curve.points == point).all(axis=1))
+    return point[1].item(), curve.point(int(at[0])) if len(at) else curve.where
+
+
+# ------------------------------------------------------------------------------------------------- what elements follow
 
 _Values = dict[str, object]
 
@@ -72,33 +264,33 @@ class _Followed:
     of_element: Indices
 
 
-def _by_element(one: Side, other: Side, tolerance: Tolerance) -> Iterator[Difference]:
+def _by_element(pair: Pair) -> Iterator[Difference]:
     """Elements that both decks have and that follow something else, as ranges of numbers."""
-    yield from _differ("laws", one, other, _laws, tolerance)
-    yield from _differ("sections", one, other, _sections, tolerance)
-    yield from _differ("bed", one, other, _bed, tolerance)
-    names = dict.fromkeys([*one.scene.extensions, *other.scene.extensions])
-    for keyword in names:
-        yield from _differ(keyword.lower(), one, other, partial(_extension, keyword=keyword), tolerance)
+    yield from _differ("laws", _laws, pair)
+    yield from _differ("sections", _sections, pair)
+    yield from _differ("bed", _bed, pair)
+    for keyword in dict.fromkeys([*pair.one.scene.extensions, *pair.other.scene.extensions]):
+        yield from _differ(keyword.lower(), partial(_extension, keyword=keyword), pair)
 
 
-def _differ(
-    group: str, one: Side, other: Side, read: Callable[[Side], _Followed], tolerance: Tolerance
-) -> Iterator[Difference]:
-    here, there = common(one.scene.table.numbered, other.scene.table.numbered)
+def _differ(group: str, read: Callable[[Side], _Followed], pair: Pair) -> Iterator[Difference]:
+    one, other = pair.one, pair.other
+    here, there = _common(one.scene.table.numbered, other.scene.table.numbered)
     if not len(here):
         return
     first, second = read(one), read(other)
     width = len(second.entries) + 1
-    pairs = (first.of_element[here] + 1) * width + second.of_element[there] + 1
-    starts = np.append(0, np.flatnonzero(pairs[1:] != pairs[:-1]) + 1)  # neighbours mostly follow the same
-    for pair in sorted(set(pairs[starts].tolist())):
-        i, j = pair // width - 1, pair % width - 1
+    followed = (first.of_element[here] + 1) * width + second.of_element[there] + 1
+    starts = np.append(0, np.flatnonzero(followed[1:] != followed[:-1]) + 1)  # neighbours mostly follow the same
+    for both in sorted(set(followed[starts].tolist())):
+        i, j = both // width - 1, both % width - 1
         old, new = _entry(first, i), _entry(second, j)
-        names = [name for name in dict.fromkeys([*old, *new]) if not tolerance.values(old.get(name), new.get(name))]
+        names = [
+            name for name in dict.fromkeys([*old, *new]) if not pair.tolerance.values(old.get(name), new.get(name))
+        ]
         if not names:
             continue
-        elements = text_of(spans_of(one.scene.element_ids[here[pairs == pair]]))
+        elements = text_of(spans_of(one.scene.element_ids[here[followed == both]]))
         lines = (one.line(first.places[i]) if i >= 0 else None, other.line(second.places[j]) if j >= 0 else None)
         for name in names:
             where = f"elements {elements}/{group}" + (f"/{name}" if name else "")

@@ -1,4 +1,4 @@
-"""A difference between two decks, how values are compared, and the two decks; spans of whole numbers."""
+"""A difference between two decks, how values are compared, and the two decks; whole numbers as spans."""
 
 from __future__ import annotations
 
@@ -19,6 +19,7 @@ from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Blocks, DeckError, Problem, Where
 from mudline.keywords.model import Block
 from mudline.scene.model import Scene
+from mudline.scene.numbering import Ids
 
 Value: TypeAlias = float | int | str | list["Value"] | None
 """What is reported of a value; None where there is none."""
@@ -75,9 +76,9 @@ def _is_number(value: object) -> bool:
     return isinstance(value, int | float)
 
 
-def plain(value: float) -> Value:
-    """A number as JSON can hold it; None for NaN, a text for an infinite one."""
-    if math.isfinite(value):
+def plain(value: float | str | None) -> Value:
+    """A value as JSON can hold it; None for NaN, a text for an infinite number."""
+    if value is None or isinstance(value, str) or math.isfinite(value):
         return value
     return None if math.isnan(value) else str(value)
 
@@ -173,6 +174,37 @@ def _listed(spans: Spans) -> Iterator[str]:
         yield ", ".join(str(first) if first == last else f"{first}-{last}" for first, last in some)
 
 
+@dataclass(slots=True)
+class Members:
+    """What a set holds: numbers, and words for what has none.
+
+    The numbers are those of several arrays and of ranges (first, last, step). They become spans only where two sets do
+    not hold the same arrays and ranges: most sets of two versions of a deck do.
+    """
+
+    arrays: list[Ids] = field(default_factory=list)
+    ranges: list[tuple[int, int, int]] = field(default_factory=list)
+    words: set[str] = field(default_factory=set)
+    _spans: Spans | None = None
+
+    @property
+    def spans(self) -> Spans:
+        """The numbers."""
+        if self._spans is None:
+            self._spans = union([*map(spans_of, self.arrays), *(spans_of_run(*given) for given in self.ranges)])
+        return self._spans
+
+    def same(self, other: Members) -> bool:
+        """Whether another set holds the same."""
+        return self.words == other.words and (self._given_alike(other) or np.array_equal(self.spans, other.spans))
+
+    def _given_alike(self, other: Members) -> bool:
+        """Whether the same arrays and ranges are given."""
+        if self.ranges != other.ranges or len(self.arrays) != len(other.arrays):
+            return False
+        return all(np.array_equal(one, two) for one, two in zip(self.arrays, other.arrays, strict=True))
+
+
 _NO_VALUE = (SYN002, SYN006, SYN017, REF013, REF014)
 
 _MOST_STEPS = 1_000_000
@@ -232,3 +264,22 @@ class Side:
         ]
         if unknown:
             raise DeckError(self.scene.deck.diagnose(unknown))
+
+
+_Held: TypeAlias = tuple[Value, Where | None] | None
+"""A value in one of the decks and its place; None where that deck has none."""
+
+
+@dataclass(frozen=True, slots=True)
+class Pair:
+    """The two decks that are compared."""
+
+    one: Side
+    other: Side
+    tolerance: Tolerance
+
+    def difference(self, group: str, where: str, before: _Held, after: _Held) -> Difference:
+        """What only one of the decks has, or what is another value in the second."""
+        kind: Kind = "added" if before is None else "removed" if after is None else "changed"
+        (old, place), (new, other_place) = before or (None, None), after or (None, None)
+        return Difference(kind, group, where, old, new, self.one.line(place), self.other.line(other_place))
