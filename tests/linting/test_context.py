@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import Problem
 from mudline.linting.registry import rules
-from mudline.linting.rule import MOST_POINTS, LintContext, odd_curves
+from mudline.linting.rule import MOST_POINTS, LintContext
 
 HEAD = "$MODEL\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=Clay\n*SEABED STIFFNESS\n CURVE=Clay\n"
 CLAY = [(0.0, 0.0), (0.1, 1200.0), (0.5, 4200.0)]
@@ -56,5 +56,5 @@ def test_a_good_curve_is_not_looked_at() -> None:
 
 def test_long_curves_are_left_to_the_rules() -> None:
     long = [(index / 100.0, 10.0 * index) for index in range(MOST_POINTS + 1)]
-    assert [number for number, _ in odd_curves(context(long).scene.laws)] == [0]
-    assert odd_curves(context(long[:-1]).scene.laws) == []
+    assert [number for number, _ in context(long).odd_curves] == [0]
+    assert context(long[:-1]).odd_curves == []

@@ -14,7 +14,7 @@ from mudline.deck.forms.json import to_json
 from mudline.deck.forms.yaml import to_yaml
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import Diagnostic, Severity
-from mudline.linting.engine import lint_bytes, lint_context, lint_deck
+from mudline.linting.engine import lint_bytes, lint_context
 from mudline.linting.registry import rules, select
 from mudline.linting.rule import LintContext
 from tests.linting.findings import CLAY, PIPE, PROPERTIES, RESTART, found
@@ -142,8 +142,8 @@ def test_only_the_chosen_rules_speak() -> None:
 
 def test_findings_stand_in_the_order_of_the_file_whatever_the_order_of_the_rules() -> None:
     deck = load_bytes(FAULTY.replace("|", "").encode(), "deck.keyxm")
-    found = lint_deck(deck, rules())
-    assert found == lint_deck(deck, rules()[::-1])
+    found = lint_context(LintContext(deck), rules())
+    assert found == lint_context(LintContext(deck), rules()[::-1])
     assert found == lint_context(LintContext(deck), rules())
     assert [one.sort_key for one in found] == sorted(one.sort_key for one in found)
 

@@ -11,8 +11,9 @@ from mudline.deck.forms.json import to_json
 from mudline.deck.forms.yaml import to_yaml
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import Deck
-from mudline.linting.engine import lint_deck
+from mudline.linting.engine import lint_context
 from mudline.linting.registry import rules
+from mudline.linting.rule import LintContext
 from mudline.migration.migrating import Migration, legacy_blocks, migrate
 from mudline.migration.verification import verify
 from tests.migration.decks import PIPE, deck_of, legacy_decks
@@ -92,8 +93,8 @@ def test_every_field_goes_to_its_place() -> None:
 
 
 def test_the_new_deck_is_clean_where_the_old_one_was() -> None:
-    codes = {one.code for one in lint_deck(deck_of(MIGRATED), rules())}
-    assert codes <= {one.code for one in lint_deck(deck_of(SAMPLE), rules())}
+    codes = {one.code for one in lint_context(LintContext(deck_of(MIGRATED)), rules())}
+    assert codes <= {one.code for one in lint_context(LintContext(deck_of(SAMPLE)), rules())}
     assert "LEG001" not in codes
 
 

@@ -9,7 +9,6 @@ from enum import StrEnum
 from pathlib import Path
 
 from mudline.deck.loading import load_bytes
-from mudline.deck.model import Deck
 from mudline.diagnostics import Blocks, DeckError, Diagnostic, Problem, Severity
 from mudline.keywords.model import Block
 from mudline.keywords.reader import ReadBlock, read_block
@@ -48,13 +47,8 @@ class LintSettings:
     unfixable: frozenset[str] = frozenset()
 
 
-def lint_deck(deck: Deck, chosen: Sequence[Rule]) -> list[Diagnostic]:
-    """All findings of the chosen rules, in the order of the file, without those that its comments suppress."""
-    return lint_context(LintContext(deck), chosen)
-
-
 def lint_context(context: LintContext, chosen: Sequence[Rule]) -> list[Diagnostic]:
-    """The same for a deck whose scene is needed for more than the findings."""
+    """All findings of the chosen rules in a deck, in the order of the file, without those that comments suppress."""
     return context.deck.diagnose(unsuppressed(context, problems_in(context, chosen), chosen))
 
 

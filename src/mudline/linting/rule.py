@@ -14,7 +14,6 @@ from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import MORE, MOST_REPORTED, Blocks, Code, Problem
 from mudline.scene.force_curves import SceneCurve
-from mudline.scene.laws import LawTable
 from mudline.scene.model import Scene, resolve
 from mudline.variations.names import misspelt_keywords, misspelt_sections, undefined_parameters, undefined_variations
 
@@ -52,8 +51,12 @@ class LintContext:
 
     @cached_property
     def odd_curves(self) -> list[tuple[int, SceneCurve]]:
-        """The curves that rules about the shape of a curve have to look at, with their index in the table of laws."""
-        return odd_curves(self.scene.laws)
+        """The curves that rules about the shape of a curve have to look at, with their index in the table of laws.
+
+        The others are as they should be: all their points were read, they begin at (0, 0) and rise in order, with
+        slopes that differ by a factor of 100 at most, to a ratio of 5 at most.
+        """
+        return [(number, entry) for number, entry in enumerate(self.scene.laws.curves) if not _ordinary(entry)]
 
     @cached_property
     def _by_code(self) -> dict[str, list[Problem]]:
@@ -78,15 +81,6 @@ def _of_variations(deck: Deck) -> Iterator[Problem]:
     for find in (undefined_parameters, undefined_variations, misspelt_keywords, misspelt_sections):
         for problem in islice(find(deck), MOST_REPORTED):
             yield replace(problem, blocks=Blocks.NEVER)
-
-
-def odd_curves(laws: LawTable) -> list[tuple[int, SceneCurve]]:
-    """The curves that are not as they should be, with their index in the table of laws.
-
-    As they should be are curves whose points were all read, begin at (0, 0) and rise in order, with slopes that differ
-    by a factor of 100 at most, to a ratio of 5 at most.
-    """
-    return [(number, entry) for number, entry in enumerate(laws.curves) if not _ordinary(entry)]
 
 
 def _ordinary(entry: SceneCurve) -> bool:

@@ -56,9 +56,8 @@ def verify(migration: Migration) -> Verdict:
     differences = [*_seabed_shapes(before.seabed, after.seabed, migration.files)]
     kinds, positions, found = _compare(before, after, {})
     differences += found
-    probes = ProbeElements(_sets(before))
-    external = probes.elements()
-    _, more, found = _compare(resolve(before.deck, external), resolve(after.deck, external), probes.names())
+    external, names = _representatives(_sets(before))
+    _, more, found = _compare(resolve(before.deck, external), resolve(after.deck, external), names)
     return Verdict(len(before.element_ids), kinds, positions + more, len(external.ids), (*differences, *found))
 
 
@@ -213,38 +212,31 @@ _DIAMETERS = (0.2731, 0.5)
 _FIRST = 2**40
 
 
-class ProbeElements:
+def _representatives(sets: Sequence[str]) -> tuple[ExternalElements, dict[int, str]]:
     """Elements of two diameters in no set, each set, and two sets; of many sets only those that follow each other.
 
     The last block that holds an element wins. That is an order of the blocks; it is the same in two decks when it is
-    the same for every two blocks that follow each other.
+    the same for every two blocks that follow each other. Each element has two nodes of its own; the second result is
+    what it is called, by its number.
     """
-
-    def __init__(self, sets: Sequence[str]) -> None:
-        self.sets = sets
-        pairs = combinations(sets, 2) if len(sets) <= _ALL_PAIRS else pairwise(sets)
-        memberships: list[tuple[str, ...]] = [(), *((name,) for name in sets), *pairs]
-        self.memberships = [membership for membership in memberships for _ in _DIAMETERS]
-
-    def elements(self) -> ExternalElements:
-        """The elements, each with two nodes of its own."""
-        count = len(self.memberships)
-        members: dict[str, list[int]] = {name: [] for name in self.sets}
-        for number, membership in enumerate(self.memberships, _FIRST):
-            for name in membership:
-                members[name].append(number)
-        return ExternalElements(
-            "representative elements",
-            _FIRST + np.arange(count),
-            _FIRST + np.arange(2 * count).reshape(count, 2),
-            np.resize(_DIAMETERS, count),
-            np.ones(count),
-            {name: np.array(ids, dtype=np.int64) for name, ids in members.items()},
-        )
-
-    def names(self) -> dict[int, str]:
-        """What each element is called, by its number."""
-        return {
-            number: f"an element of {' and '.join(membership)}" if membership else "an element of no set but ALL"
-            for number, membership in enumerate(self.memberships, _FIRST)
-        }
+    pairs = combinations(sets, 2) if len(sets) <= _ALL_PAIRS else pairwise(sets)
+    given: list[tuple[str, ...]] = [(), *((name,) for name in sets), *pairs]
+    memberships = dict(enumerate((membership for membership in given for _ in _DIAMETERS), _FIRST))
+    members: dict[str, list[int]] = {name: [] for name in sets}
+    for number, membership in memberships.items():
+        for name in membership:
+            members[name].append(number)
+    count = len(memberships)
+    elements = ExternalElements(
+        "representative elements",
+        _FIRST + np.arange(count),
+        _FIRST + np.arange(2 * count).reshape(count, 2),
+        np.resize(_DIAMETERS, count),
+        np.ones(count),
+        {name: np.array(ids, dtype=np.int64) for name, ids in members.items()},
+    )
+    names = {
+        number: f"an element of {' and '.join(membership)}" if membership else "an element of no set but ALL"
+        for number, membership in memberships.items()
+    }
+    return elements, names

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from typing import Any
 from urllib.parse import quote
 
@@ -33,7 +33,7 @@ def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:
         "name": "mudline",
         "version": run.version,
         "semanticVersion": run.version,
-        "rules": [described(first[code], LEVELS, address(code)) for code in codes],
+        "rules": [_descriptor(first[code]) for code in codes],
     }
     head = {"$schema": SCHEMA, "version": "2.1.0"}
     log = {
@@ -94,23 +94,21 @@ def _edit(edit: Edit) -> dict[str, Any]:
     return {"deletedRegion": _region(edit.start, edit.end), "insertedContent": {"text": edit.text}}
 
 
-def described(found: Diagnostic, levels: Mapping[Severity, str], address: str | None) -> dict[str, Any]:
-    """The reporting descriptor of the code of a finding.
-
-    `address` is that of its help on the web: SARIF wants a whole address, not the path of a page.
-    """
+def _descriptor(found: Diagnostic) -> dict[str, Any]:
+    """The reporting descriptor of the code of a finding."""
     rule = next((rule for rule in rules() if rule.code.code == found.code), None)
     title = rule.title if rule else f"{found.slug.replace('-', ' ').capitalize()}."
     why = rule.why if rule else _NO_RULE
     severity = rule.code.severity if rule else found.severity
+    help_uri = address(found.code)  # SARIF wants a whole address, not the path of a page
     return {
         "id": found.code,
         "name": "".join(word.capitalize() for word in found.slug.split("-")),
         "shortDescription": {"text": title},
         "fullDescription": {"text": why},
-        "defaultConfiguration": {"level": levels[severity], "enabled": not (rule and rule.off)},
+        "defaultConfiguration": {"level": LEVELS[severity], "enabled": not (rule and rule.off)},
         "help": {"text": f"{title}\n\n{why}"} | ({"markdown": _markdown(rule)} if rule else {}),
-        **({"helpUri": address} if address else {}),
+        **({"helpUri": help_uri} if help_uri else {}),
     }
 
 

@@ -10,7 +10,9 @@ from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Code, Problem, Repair, Severity, Span, Where
 from mudline.keywords.text import shown
 from mudline.linting.rule import LintContext, limited, rule
+from mudline.linting.rules.style_lines import line_around
 from mudline.scene.sets import ALL
+from mudline.syntax.edits import TextEdit, with_line_ends
 
 if TYPE_CHECKING:
     from mudline.deck.model import Deck
@@ -103,28 +105,20 @@ def long_list(context: LintContext) -> Iterator[Problem]:
 
 def _split(text: TextOrigin, where: Where, count: int) -> Repair | None:
     """A line break after every 20 elements, indented as the line is; None where more than commas is between them."""
-    source = text.source.unified
-    edits: list[tuple[Span, str]] = []
-    line_break = _line_break(text.source.text, text.span(where))
+    source, line = text.source.unified, text.span(where)
+    indentation = source[line_around(source, line.start).start : line.start] if line else ""
+    edits: list[TextEdit] = []
     for following in range(LONGEST_LIST, count, LONGEST_LIST):
         places = [where.inside(at) for at in (following - 1, following)]
         before, behind = (text.span(place) for place in places)
         if before is None or behind is None or not all(text.written(place) for place in places):
             return None
-        between = source[before.end : behind.start]
-        if between.strip(" \t") not in ("", ","):
+        between = Span(before.end, behind.start)
+        if source[slice(*between)].strip(" \t") not in ("", ","):
             return None
-        edits.append((Span(before.end, behind.start), line_break))
-    return Repair("safe", f"put at most {LONGEST_LIST} elements on a line", tuple(edits))
-
-
-def _line_break(text: str, line: Span | None) -> str:
-    """A line end as the file has them, and the indentation of a line; at least a space."""
-    at = line.start if line else 0
-    start = max(text.rfind("\n", 0, at), text.rfind("\r", 0, at)) + 1
-    end = "\r\n" if "\r\n" in text else "\n" if "\n" in text else "\r" if "\r" in text else "\n"
-    indentation = text[start:at]
-    return end + (indentation or " ")
+        edits.append(TextEdit(between, f"\n{indentation or ' '}"))
+    ended = with_line_ends(text.source, edits)
+    return Repair("safe", f"put at most {LONGEST_LIST} elements on a line", tuple((it.span, it.text) for it in ended))
 
 
 @rule(REF016)

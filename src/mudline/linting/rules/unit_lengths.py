@@ -8,7 +8,7 @@ from itertools import islice
 
 import numpy as np
 
-from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity, Where
+from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity
 from mudline.keywords.model import Part
 from mudline.linting.rule import LARGEST_RATIO, LintContext, rule
 from mudline.linting.rules.seabed_friction import given
@@ -65,8 +65,8 @@ TALLEST = 500.0
 """m that a model may rise above the sea, as no wind turbine does."""
 
 
-def odd_diameters(context: LintContext) -> Iterator[tuple[Where, str]]:
-    """The place of each diameter that does not fit its section, and what is wrong, in words."""
+def _diameters(context: LintContext) -> Iterator[Problem]:
+    """Diameters that do not fit their sections."""
     scene = context.scene
     for where, entry in readable_sections(context):
         source, _ = entry.diameter
@@ -81,7 +81,7 @@ def odd_diameters(context: LintContext) -> Iterator[tuple[Where, str]]:
         elif not message and (message := _bore(scene, section, width)):
             source = "Di"
         if message:
-            yield place.inside(source), message
+            yield Problem(UNT006, message, where=place.inside(source))
 
 
 def _width(scene: Scene, section: Part, width: float, source: str) -> str:
@@ -172,11 +172,6 @@ def suspicious_length(context: LintContext) -> Iterator[Problem]:
     """
     for kind in (_diameters, _mobilisation, _curves, _elements, _ocean):
         yield from islice(kind(context), MOST_REPORTED)
-
-
-def _diameters(context: LintContext) -> Iterator[Problem]:
-    for where, message in odd_diameters(context):
-        yield Problem(UNT006, message, where=where)
 
 
 def _mobilisation(context: LintContext) -> Iterator[Problem]:
