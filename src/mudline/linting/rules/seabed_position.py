@@ -254,11 +254,7 @@ def deep_node(context: LintContext) -> Iterator[Problem]:
     if thinnest > 0.0 and np.fmax.reduce(depth, initial=-np.inf) <= _DEEPEST * thinnest:
         return
     with np.errstate(over="ignore", invalid="ignore"):
-        ends = scene.element_nodes
-        known = (ends >= 0).all(axis=1) & (scene.diameter > 0.0)
-        limit = np.zeros(len(depth))
-        for side in (0, 1):
-            np.maximum.at(limit, ends[known, side], _DEEPEST * scene.diameter[known])
+        limit = _DEEPEST * _widest(scene)
         deep = np.flatnonzero((limit > 0.0) & (depth > limit))
     if deep.size:
         which = f"{first_of('node', scene.node_ids[deep[0]], deep.size)} lie{'s' * (deep.size == 1)}"
@@ -319,15 +315,20 @@ def one_constrained_dof(context: LintContext) -> Iterator[Problem]:
             yield Problem(SBD021, message, where=where)
 
 
-def _on_slope(scene: Scene) -> Mask:
-    """Nodes within a diameter of a seabed that is not level."""
-    reach = np.zeros(len(scene.node_ids))
+def _widest(scene: Scene) -> Floats:
+    """The largest diameter (n,) of the elements at each node; 0 where none is known."""
+    widest = np.zeros(len(scene.node_ids))
     ends = scene.element_nodes
     known = (ends >= 0).all(axis=1) & (scene.diameter > 0.0)
     for side in (0, 1):
-        np.maximum.at(reach, ends[known, side], scene.diameter[known])
+        np.maximum.at(widest, ends[known, side], scene.diameter[known])
+    return widest
+
+
+def _on_slope(scene: Scene) -> Mask:
+    """Nodes within a diameter of a seabed that is not level."""
     near = 1e-6 * np.abs(scene.coordinates).max(axis=1, initial=0.0)  # coordinates are rounded when they are written
-    sloping: Mask = (steepness(scene) > 0.0) & (depths(scene) >= -np.maximum(reach, near))
+    sloping: Mask = (steepness(scene) > 0.0) & (depths(scene) >= -np.maximum(_widest(scene), near))
     return sloping
 
 

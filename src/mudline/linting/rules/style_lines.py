@@ -199,12 +199,13 @@ def indented_keyword(text: TextOrigin, source: str) -> Iterator[Problem]:
 
     Finds: 2:3
     """
-    for start, head in _heads(text):
-        if start < head.start:
+    for line in head_lines(text):
+        head = trimmed(source, *line)
+        if line.start < head.start:
             mark = source[head.start]
             what = "section" if mark == "$" else "keyword"
             message = f"the {what} is indented: put its {mark} in column 1"
-            repair = Repair("safe", "remove the indentation", ((Span(start, head.start), ""),))
+            repair = Repair("safe", "remove the indentation", ((Span(line.start, head.start), ""),))
             yield Problem(STY005, message, head, repair=repair)
 
 
@@ -223,7 +224,8 @@ def keyword_case(text: TextOrigin, source: str) -> Iterator[Problem]:
 
     Finds: 2:1
     """
-    for _, head in _heads(text):
+    for line in head_lines(text):
+        head = trimmed(source, *line)
         written = source[slice(*head)]
         if _SMALL.search(written) and _known(written):
             what = "section" if written[0] == "$" else "keyword"
@@ -237,13 +239,10 @@ def _known(head: str) -> bool:
     return canonical_name(head) in (catalogue.SECTIONS if head[0] == "$" else catalogue.keywords())
 
 
-def _heads(text: TextOrigin) -> Iterator[tuple[int, Span]]:
-    """The start of every line that begins a section or a keyword, and its text without surrounding white space."""
-    source = text.source.unified
+def head_lines(text: TextOrigin) -> Iterator[Span]:
+    """Every line that begins a section or a keyword."""
     for section in (text.tree.preamble, *text.tree.sections):
-        for head in (section.head, *(block.head for block in section.blocks)):
-            if head is not None:
-                yield head.span.start, trimmed(source, *head.span)
+        yield from (head.span for head in (section.head, *(block.head for block in section.blocks)) if head)
 
 
 @rule(STY010)

@@ -10,7 +10,14 @@ from mudline.diagnostics import Code, Problem, Repair, Severity, Span
 from mudline.keywords.model import Part, layout
 from mudline.keywords.places import Path
 from mudline.keywords.reader import ReadBlock
-from mudline.linting.rules.style_lines import data_leaves, first_of_lines, line_around, placed_leaves, rule_of_text
+from mudline.linting.rules.style_lines import (
+    data_leaves,
+    first_of_lines,
+    head_lines,
+    line_around,
+    placed_leaves,
+    rule_of_text,
+)
 from mudline.syntax.fields import Group, read_line, trimmed
 from mudline.syntax.rows import blank_separated, row_fields
 from mudline.syntax.tree import Kind, Leaf
@@ -163,8 +170,7 @@ def trailing_blank(text: TextOrigin, source: str) -> Iterator[Problem]:
 
 def _own_lines(text: TextOrigin) -> Iterator[Span]:
     """All lines but the data of blocks without a model, and of no block."""
-    for section in (text.tree.preamble, *text.tree.sections):
-        yield from (head.span for head in (section.head, *(block.head for block in section.blocks)) if head)
+    yield from head_lines(text)
     for leaf, read, kept in placed_leaves(text):
         if not kept and (read is not None or leaf.kind in (Kind.COMMENT, Kind.BLANK)):
             yield leaf.span
