@@ -46,13 +46,6 @@ SUFFIXES = (".keyx", ".keyxm", ".keyxi", ".das", ".json", ".yaml", ".yml")
 """What a file name of a deck ends with; another name gets the suffix of the source."""
 
 
-class NewPath(NamedTuple):
-    """A path with `/` in the output folder, and why it may not be used, "" when it may."""
-
-    path: str
-    fault: str
-
-
 class Template(NamedTuple):
     """The names that a combination gives its files, without quotes; None where it gives none."""
 
@@ -70,8 +63,10 @@ class Namer:
         self.suffix = self.source.suffix or ".keyx"
         self.targets = targets
 
-    def path(self, template: Template, values: Values, counter: str) -> NewPath:
-        """The path of a deck; `counter` distinguishes decks whose combination gives no name at all.
+    def path(self, template: Template, values: Values, counter: str) -> tuple[str, str]:
+        """The path of a deck with `/` in the output folder, and why it may not be used, "" when it may.
+
+        `counter` distinguishes decks whose combination gives no name at all.
 
         A deck without a name of its own has that of the source, in a folder of its own or with the counter behind it.
         """
@@ -91,12 +86,12 @@ class Namer:
         file = name if name.lower().endswith(SUFFIXES) else name + self.suffix
         path = "/".join([*(folder.removesuffix("/") or "/" for folder in folders), file])
         if missing:
-            return NewPath(path, f"needs the value of {shown(missing[0])}, which has none")
+            return path, f"needs the value of {shown(missing[0])}, which has none"
         if "/" in name:
-            return NewPath(path, "has a / in FILENAME=: folders belong in SUBDIRECTORY=")
+            return path, "has a / in FILENAME=: folders belong in SUBDIRECTORY="
         if "" in folders:
-            return NewPath(path, "has a folder without a name")
-        return NewPath(path, path_fault(name) or path_fault(path))
+            return path, "has a folder without a name"
+        return path, path_fault(name) or path_fault(path)
 
 
 def path_fault(path: str) -> str:

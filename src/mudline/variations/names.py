@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import TYPE_CHECKING, cast
 
 from mudline.codes.references import REF001, REF013
 from mudline.codes.words import SYN009, SYN010
@@ -62,11 +62,8 @@ def undefined_variation(name: str, known: Iterable[str], effort: Effort, where: 
 _SECTION = "PREPROCESSOR"
 
 
-class _Named(NamedTuple):
-    """A name, and where it stands."""
-
-    name: str
-    where: Where
+_Named = tuple[str, Where]
+"""A name, and where it stands."""
 
 
 def undefined_parameters(deck: Deck) -> Iterator[Problem]:
@@ -145,7 +142,7 @@ def _varied(deck: Deck) -> Iterator[_Named]:
             for j, varied in enumerate(variation.parameters):
                 if cast("str | None", varied.parameter) is not None:
                     place = where.inside("variations", i, "parameters", j, "parameter")
-                    yield _Named(unquoted(varied.parameter), place)
+                    yield unquoted(varied.parameter), place
 
 
 def _in_names(deck: Deck) -> Iterator[_Named]:
@@ -157,7 +154,7 @@ def _in_names(deck: Deck) -> Iterator[_Named]:
             given.append((combination.subdirectory, place.inside("subdirectory")))
             given.append((combination.filename, place.inside("filename")))
         for text, place in given:
-            yield from (_Named(name, place) for name in placeholders(unquoted(text or "")))
+            yield from ((name, place) for name in placeholders(unquoted(text or "")))
 
 
 def _called(deck: Deck) -> Iterator[_Named]:
@@ -166,7 +163,7 @@ def _called(deck: Deck) -> Iterator[_Named]:
         for i, combination in enumerate(block.combinations):
             for j, line in enumerate(combination.variations):
                 for number, name in enumerate(cast("list[str] | None", line.names) or ()):
-                    yield _Named(name, where.inside("combinations", i, "variations", j, "names", number))
+                    yield name, where.inside("combinations", i, "variations", j, "names", number)
 
 
 def _parameters(deck: Deck) -> dict[str, str] | None:

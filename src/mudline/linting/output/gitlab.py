@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -10,6 +9,7 @@ from typing import Any
 
 from mudline.diagnostics import Diagnostic, Severity
 from mudline.linting.output import Fingerprints, LintRun, visible
+from mudline.linting.output.json import array
 
 SUMMARY = "a code quality report; fingerprints do not depend on line numbers"
 
@@ -19,12 +19,8 @@ _SEVERITIES = {Severity.ERROR: "major", Severity.WARNING: "minor", Severity.INFO
 def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:  # noqa: ARG001 - the same for every form
     """One array, an object a line; `[]` when there is nothing."""
     fingerprints = Fingerprints()
-    mark = "["
-    for given in diagnostics:
-        found = replace(given, file=_path(given.file))
-        yield f"{mark}\n {json.dumps(_issue(found, fingerprints.of(found)), ensure_ascii=False)}"
-        mark = ","
-    yield "[]\n" if mark == "[" else "\n]\n"
+    placed = (replace(found, file=_path(found.file)) for found in diagnostics)
+    return array(_issue(found, fingerprints.of(found)) for found in placed)
 
 
 def _issue(found: Diagnostic, fingerprint: str) -> dict[str, Any]:

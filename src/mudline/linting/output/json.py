@@ -15,9 +15,14 @@ SUMMARY = "an [array of objects](json.md#findings)"
 
 def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:  # noqa: ARG001 - the same for every form
     """One array, an object a line; `[]` when there is nothing."""
+    return array(map(as_object, diagnostics))
+
+
+def array(objects: Iterable[dict[str, Any]]) -> Iterator[str]:
+    """The text of an array, in pieces."""
     mark = "["
-    for found in diagnostics:
-        yield f"{mark}\n {json.dumps(as_object(found), ensure_ascii=False)}"
+    for found in objects:
+        yield f"{mark}\n {json.dumps(found, ensure_ascii=False)}"
         mark = ","
     yield "[]\n" if mark == "[" else "\n]\n"
 
