@@ -39,7 +39,7 @@ _UPPER = {code: code - 32 for code in range(ord("a"), ord("z") + 1)}
 def rule_of_text(
     code: Code, gate: Callable[[str], object], *, off: bool = False
 ) -> Callable[[Callable[[TextOrigin, str], Iterator[Problem]]], object]:
-    """Register a function of a text and its unified source as a rule: decks in JSON and YAML have nothing of its kind.
+    """Make a function of a text and its unified source a rule: decks in JSON and YAML have nothing of its kind.
 
     `gate` looks at the whole source, quickly: without a match the function is not called.
     """
