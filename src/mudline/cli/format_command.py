@@ -8,10 +8,9 @@ from pathlib import Path
 import click
 
 from mudline.cli import DONE, FOUND, options
-from mudline.cli.changes import print_diff
 from mudline.cli.inputs import Input, Inputs, collect
-from mudline.cli.options import View
 from mudline.cli.streams import counted, emit, emit_deck, notify, notify_diagnostics, reason
+from mudline.cli.view import View, print_diff
 from mudline.diagnostics import DeckError
 from mudline.files import write_atomically
 from mudline.formatting.changes import unified_diff

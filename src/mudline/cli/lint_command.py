@@ -9,14 +9,13 @@ from pathlib import Path
 import click
 
 from mudline.cli import DONE, FOUND, options
-from mudline.cli.changes import print_changes
 from mudline.cli.inputs import Input, Inputs, collect
 from mudline.cli.lint_jobs import Effort, SettingsOf, lint_all
 from mudline.cli.lint_outputs import Report, complete, outputs
 from mudline.cli.lint_settings import Configured, Given, merged
 from mudline.cli.lint_watch import Watched, refuse, watched
-from mudline.cli.options import View
 from mudline.cli.streams import counted, emit_deck, notify, reason, write_text
+from mudline.cli.view import View, print_changes
 from mudline.deck.loading import form_of
 from mudline.diagnostics import Diagnostic, Severity
 from mudline.files import write_atomically

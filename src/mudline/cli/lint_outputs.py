@@ -9,8 +9,8 @@ from pathlib import Path
 import click
 
 from mudline import __version__
-from mudline.cli.options import View
 from mudline.cli.streams import counted, emit, notify, write_text
+from mudline.cli.view import View
 from mudline.diagnostics import Diagnostic, Severity
 from mudline.linting.output.forms import TEXT, form, form_names
 from mudline.syntax.source import Source

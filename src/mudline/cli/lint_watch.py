@@ -14,8 +14,8 @@ import click
 
 from mudline.cli.inputs import GITIGNORE, STDIN, is_deck
 from mudline.cli.lint_outputs import Outputs
-from mudline.cli.options import View
 from mudline.cli.streams import notify
+from mudline.cli.view import View
 from mudline.linting.output.forms import TEXT
 
 WAIT = 0.3

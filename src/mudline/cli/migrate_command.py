@@ -7,10 +7,9 @@ from pathlib import Path
 import click
 
 from mudline.cli import DONE, FOUND, options
-from mudline.cli.changes import print_changes
 from mudline.cli.inputs import Input, collect
-from mudline.cli.options import View
 from mudline.cli.streams import counted, emit_deck, notify, notify_diagnostics, write_bytes
+from mudline.cli.view import View, print_changes
 from mudline.deck.loading import dump, form_of, load_bytes
 from mudline.diagnostics import DeckError
 from mudline.linting.output.visible import visible

@@ -13,9 +13,8 @@ import click
 
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import Input, Inputs, collect_any_form
-from mudline.cli.options import View
-from mudline.cli.progress import Progress, wants_bar
 from mudline.cli.streams import counted, emit, reason
+from mudline.cli.view import Progress, View, wants_bar
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Diagnostic, Severity
 from mudline.linting.context import LintContext
