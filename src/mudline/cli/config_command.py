@@ -18,14 +18,7 @@ from mudline.cli import DONE, options
 from mudline.cli.inputs import Input, is_deck
 from mudline.cli.streams import emit, reason
 from mudline.diagnostics import Severity
-from mudline.linting.configuration import (
-    KEYS,
-    TABLES,
-    Configuration,
-    ConfigurationError,
-    Search,
-    read_configuration,
-)
+from mudline.linting.configuration import KEYS, TABLES, Configuration, ConfigurationError, Search, read_configuration
 from mudline.linting.engine import Fixing, LintSettings
 from mudline.linting.output.visible import visible
 from mudline.linting.registry import UnknownRule, rules, select

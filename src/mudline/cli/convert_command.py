@@ -24,13 +24,7 @@ from mudline.keywords.table import Table
 @click.option("--sorted", "in_order", is_flag=True, help="Write curves with their points sorted by ratio.")
 @takes_deck
 def command(
-    *,
-    deck: GivenDeck,
-    output: str | None,
-    source: str | None,
-    target: str | None,
-    in_order: bool,
-    view: View,
+    *, deck: GivenDeck, output: str | None, source: str | None, target: str | None, in_order: bool, view: View
 ) -> int:
     """Convert a deck between keyword text, JSON and YAML.
 

@@ -46,14 +46,7 @@ _MARKS = {"added": ("+", "green"), "removed": ("-", "red"), "changed": ("~", "ye
 @options.common
 @refuses_bad_decks
 def command(
-    *,
-    before: str,
-    after: str,
-    tolerance: float,
-    output_format: str,
-    stdin_name: str,
-    units: str | None,
-    view: View,
+    *, before: str, after: str, tolerance: float, output_format: str, stdin_name: str, units: str | None, view: View
 ) -> int:
     """Compare two decks semantically, whatever their formats, layout and order.
 

@@ -26,15 +26,7 @@ _NOT_COPIED = "{}: the deck names it and it is not copied: put it beside the new
 @click.option("--force", is_flag=True, help="Overwrite existing files.")
 @options.output_format("text", "json")
 @takes_deck
-def command(
-    *,
-    deck: GivenDeck,
-    output: str | None,
-    dry_run: bool,
-    force: bool,
-    output_format: str,
-    view: View,
-) -> int:
+def command(*, deck: GivenDeck, output: str | None, dry_run: bool, force: bool, output_format: str, view: View) -> int:
     """Write the decks that *VARIATION and *COMBINATIONS describe.
 
     Each new deck is the text of DECK with other values of its parameters and without the two keywords. All names are

@@ -18,6 +18,7 @@ from mudline.cli.streams import notify, notify_diagnostics, reason
 from mudline.deck.loading import form_of, load_bytes
 from mudline.deck.model import Deck
 from mudline.diagnostics import DeckError
+from mudline.files import write_atomically
 from mudline.patterns import Pattern, read_pattern
 
 GITIGNORE = ".gitignore"
@@ -67,8 +68,17 @@ class Inputs:
                 continue
             yield file, data
 
+    def replaced(self, file: Input, content: bytes) -> bool:
+        """Whether a file has its new content; if not, that is reported."""
+        try:
+            write_atomically(Path(file.path or file.name), content)
+        except OSError as error:
+            self.fail(f"{file.name}: cannot be written: {reason(error)}")
+            return False
+        return True
+
     def fail(self, message: str) -> None:
-        """Report a path that cannot be read."""
+        """Report a path that cannot be read or written."""
         notify(message)
         self.code = WRONG_USAGE
 

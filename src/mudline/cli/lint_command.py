@@ -18,7 +18,6 @@ from mudline.cli.streams import counted, emit, emit_deck, notify, reason, write_
 from mudline.cli.view import View, print_changes
 from mudline.deck.loading import form_of
 from mudline.diagnostics import Diagnostic, Severity
-from mudline.files import write_atomically
 from mudline.linting.baseline import Baseline, BaselineError, read_baseline
 from mudline.linting.configuration import Configuration
 from mudline.linting.engine import Fixing
@@ -226,16 +225,11 @@ class Run:
         if self.diff:
             if content != data:
                 self.differs = True
-                old, new = (Source.from_bytes(text, file.name).text for text in (data, content))
-                print_changes(old, new, visible(file.name), self.report.view)
+                print_changes(data, content, visible(file.name), self.report.view)
         elif file.path is None:
             emit_deck(content)
         elif content != data:
-            try:
-                write_atomically(Path(file.path), content)
-            except OSError as error:
-                self.inputs.fail(f"{file.name}: cannot be written: {reason(error)}")
-                return False
+            return self.inputs.replaced(file, content)
         return True
 
 

@@ -15,7 +15,6 @@ from mudline.diagnostics import DeckError
 from mudline.linting.output.visible import visible
 from mudline.migration.migrating import Continuations, Migration, legacy_blocks, migrate
 from mudline.migration.verification import Verdict, verify
-from mudline.syntax.source import Source
 
 _MOST_REPORTED = 20
 
@@ -112,12 +111,10 @@ class _Run:
         return not verdict.differences
 
     def _print_changes(self, content: bytes, migration: Migration) -> None:
-        name = visible(self.file.name)
-        old, new = (Source.from_bytes(data, self.file.name).text for data in (self.data, content))
-        print_changes(old, new, name, self.view)
+        print_changes(self.data, content, visible(self.file.name), self.view)
         for beside, data in migration.files.items():
             path = Path(self.file.name).with_name(beside).as_posix()
-            print_changes("", data.decode(), visible(path), self.view, created=True)
+            print_changes(b"", data, visible(path), self.view, created=True)
 
     def _write(self, content: bytes, files: dict[str, bytes], replaced: str = "") -> int:
         if self.target is None:

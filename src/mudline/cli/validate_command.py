@@ -42,13 +42,7 @@ _SHORTEST = 20
 @options.units
 @options.common
 def command(
-    *,
-    paths: tuple[str, ...],
-    output_format: str,
-    every_file: bool,
-    stdin_name: str,
-    units: str | None,
-    view: View,
+    *, paths: tuple[str, ...], output_format: str, every_file: bool, stdin_name: str, units: str | None, view: View
 ) -> int:
     """Validate decks: print the errors of each, then a table with a row per deck.
 

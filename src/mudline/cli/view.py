@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Self, TypeVar
 
 from mudline.cli.streams import emit
 from mudline.linting.output.visible import visible_lines
+from mudline.syntax.source import Source
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Bar, Printer
@@ -50,16 +51,16 @@ class View:
 # ----------------------------------------------------------------------------------------- what would change in a file
 
 
-def print_changes(old: str, new: str, name: str, view: View, *, created: bool = False) -> None:
-    """Print how a text changes, as a unified diff in which only LF ends a line; `created`: the file is new."""
+def print_changes(old: bytes, new: bytes, name: str, view: View, *, created: bool = False) -> None:
+    """Print how a deck changes, as a unified diff in which only LF ends a line; `created`: the file is new."""
     from difflib import unified_diff  # noqa: PLC0415 - most runs change nothing
 
-    lines = unified_diff(_lines(old), _lines(new), "/dev/null" if created else name, name)
+    lines = unified_diff(_lines(old, name), _lines(new, name), "/dev/null" if created else name, name)
     print_diff((line if line.endswith("\n") else f"{line}\n{_NO_END}" for line in lines), view)
 
 
-def _lines(text: str) -> list[str]:
-    *lines, last = text.split("\n")
+def _lines(data: bytes, name: str) -> list[str]:
+    *lines, last = Source.from_bytes(data, name).text.split("\n")
     return [f"{line}\n" for line in lines] + ([last] if last else [])
 
 
