@@ -7,7 +7,7 @@ from collections import Counter
 import click
 
 from mudline.cli import DONE, FOUND, options
-from mudline.cli.inputs import Input, collect
+from mudline.cli.inputs import Input, Inputs, collect
 from mudline.cli.streams import counted, emit, emit_deck, notify, notify_diagnostics
 from mudline.cli.view import View, print_diff
 from mudline.diagnostics import DeckError
@@ -32,34 +32,34 @@ def command(*, paths: tuple[str, ...], check: bool, diff: bool, every_file: bool
     is printed. A deck with an error is reported and left unchanged.
     """
     inputs = collect(paths, stdin_name, gitignore=not every_file)
-
-    def outcome(file: Input, data: bytes) -> str:
-        """Write, print or name the formatted deck; "" for one that is printed."""
-        new = _formatted(file, data)
-        if new is None:
-            return _FAILED
-        if file.path is None and not (check or diff):
-            emit_deck(new)
-            return ""
-        if new == data:
-            return _SAME
-        if check:
-            emit([f"would reformat: {file.name}\n"])
-        if diff:
-            old, after = (Source.from_bytes(text, file.name).text for text in (data, new))
-            print_diff(unified_diff(old, after, file.name), view)
-        if not (check or diff):
-            if not inputs.replaced(file, new):
-                return _FAILED
-            if view.verbose:
-                notify(f"{file.name}: reformatted")
-        return _CHANGED
-
-    outcomes = Counter(outcome(file, data) for file, data in inputs.contents())
+    outcomes = Counter(_outcome(inputs, *each, view, check=check, diff=diff) for each in inputs.contents())
     if not view.quiet:
         _notify_counts(outcomes, "would be " if check or diff else "")
     found = outcomes[_FAILED] or (outcomes[_CHANGED] and (check or diff))
     return max(inputs.code, FOUND if found else DONE)
+
+
+def _outcome(inputs: Inputs, file: Input, data: bytes, view: View, *, check: bool, diff: bool) -> str:
+    """Write, print or name the formatted deck; "" for one that is printed."""
+    new = _formatted(file, data)
+    if new is None:
+        return _FAILED
+    if file.path is None and not (check or diff):
+        emit_deck(new)
+        return ""
+    if new == data:
+        return _SAME
+    if check:
+        emit([f"would reformat: {file.name}\n"])
+    if diff:
+        old, after = (Source.from_bytes(text, file.name).text for text in (data, new))
+        print_diff(unified_diff(old, after, file.name), view)
+    if not (check or diff):
+        if not inputs.replaced(file, new):
+            return _FAILED
+        if view.verbose:
+            notify(f"{file.name}: reformatted")
+    return _CHANGED
 
 
 def _formatted(file: Input, data: bytes) -> bytes | None:
