@@ -14,9 +14,7 @@ from numpy.typing import NDArray
 
 from mudline.results.columns import ElementTable, NodeTable, Table
 from mudline.results.evaluation import Evaluation
-from mudline.results.forms import Output, Sink, Write, npz
-from mudline.results.forms.csv import CsvText
-from mudline.results.forms.json import JsonText
+from mudline.results.forms import Output, Sink, Write, npz, text_form
 from mudline.results.totals import Digest, StepTotal, Total, totals
 
 Json: TypeAlias = Any
@@ -36,7 +34,7 @@ def pieces(evaluation: Evaluation, form: Callable[[Write], Sink]) -> Iterator[st
 
 def json_pieces(evaluation: Evaluation) -> Iterator[str]:
     """The JSON as it is written."""
-    return pieces(evaluation, lambda write: JsonText(evaluation, ElementTable(evaluation), write))
+    return pieces(evaluation, lambda write: text_form("json")(evaluation, ElementTable(evaluation), write))
 
 
 def json_of(evaluation: Evaluation) -> Json:
@@ -47,7 +45,7 @@ def json_of(evaluation: Evaluation) -> Json:
 def csv_pieces(evaluation: Evaluation, table: str) -> Iterator[str]:
     """The CSV of `elements` or `nodes` as it is written."""
     make: Callable[[Evaluation], Table] = ElementTable if table == "elements" else NodeTable
-    return pieces(evaluation, lambda write: CsvText(evaluation, make(evaluation), write))
+    return pieces(evaluation, lambda write: text_form("csv")(evaluation, make(evaluation), write))
 
 
 def csv_of(evaluation: Evaluation, table: str) -> str:

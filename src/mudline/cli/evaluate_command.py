@@ -24,7 +24,7 @@ from mudline.linting.output.visible import visible
 from mudline.results.against import Comparison, read_reference
 from mudline.results.columns import ElementTable, NodeTable
 from mudline.results.evaluation import Evaluation, Part, Prepared, Tension, evaluate_scene, prepare
-from mudline.results.forms import Output, ResultConsumer, Sink, Together, form_module, form_names, plan_rows
+from mudline.results.forms import Output, ResultConsumer, Sink, Together, form_module, form_names, plan_rows, text_form
 from mudline.results.quantities import csv_lines
 from mudline.results.totals import Digest, PlotData
 from mudline.scene.external_elements import read_external
@@ -191,14 +191,9 @@ def _sink(
     elements = ElementTable(evaluation, None if comparison is None else comparison.others)
     if output:
         return _files(evaluation, elements, Path(output), view)
-    if shown == "json":
-        from mudline.results.forms.json import JsonText  # noqa: PLC0415 - a form is imported when it is asked for
-
-        return nullcontext(JsonText(evaluation, elements, emit))
-    if shown == "csv":
-        from mudline.results.forms.csv import CsvText  # noqa: PLC0415 - as above
-
-        return nullcontext(CsvText(evaluation, elements if table == "elements" else NodeTable(evaluation), emit))
+    if shown in {"json", "csv"}:
+        rows = NodeTable(evaluation) if (shown, table) == ("csv", "nodes") else elements
+        return nullcontext(text_form(shown)(evaluation, rows, emit))
     return nullcontext(Together())
 
 

@@ -108,6 +108,11 @@ def form_module(name: str) -> FormModule:
 # ----------------------------------------------------------------------------------------------------- rows as text
 
 
+def text_form(name: str) -> Callable[[Evaluation, Table, Write], Sink]:
+    """Return what writes a table (JSON: that of elements, and the nodes) as text: "csv" or "json"."""
+    return cast("Callable[[Evaluation, Table, Write], Sink]", import_module(f"{__name__}.{name}").Text)
+
+
 def text_into(stream: BinaryIO) -> Write:
     """Return what writes text into a file as UTF-8; half a surrogate pair, as a name may hold, is escaped."""
     return lambda pieces: stream.writelines(piece.encode("utf-8", "backslashreplace") for piece in pieces)

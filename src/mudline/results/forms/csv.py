@@ -25,10 +25,10 @@ _SPELLING = Spelling(_quoted, "")
 def opened(output: Output) -> AbstractContextManager[Sink]:
     """What takes the results."""
     pairs = zip(output.tables, output.streams, strict=True)
-    return nullcontext(Together([CsvText(output.evaluation, table, text_into(stream)) for table, stream in pairs]))
+    return nullcontext(Together([Text(output.evaluation, table, text_into(stream)) for table, stream in pairs]))
 
 
-class CsvText:
+class Text:
     """The rows of a table as CSV, with a column `time` in front when there are times."""
 
     def __init__(self, evaluation: Evaluation, table: Table, write: Write) -> None:

@@ -19,10 +19,10 @@ _SPELLING = Spelling(partial(json.dumps, ensure_ascii=False), "null")
 
 def opened(output: Output) -> AbstractContextManager[Sink]:
     """What takes the results."""
-    return nullcontext(JsonText(output.evaluation, output.elements, text_into(output.streams[0])))
+    return nullcontext(Text(output.evaluation, output.elements, text_into(output.streams[0])))
 
 
-class JsonText:
+class Text:
     """The JSON of the contract, a row on a line; with times, the rows are under `steps`."""
 
     def __init__(self, evaluation: Evaluation, elements: Table, write: Write) -> None:
