@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mudline.cli import result_files
+from mudline.results import forms
 from tests.cli.conftest import Place
 from tests.cli.decks import CLEAN, PULLING
 from tests.cli.runner import SAMPLES, assert_fits, no_constant, run
@@ -30,9 +30,9 @@ class Toy:
         self.stream.write(f"{self.steps} step\\n".encode())
 
 @contextmanager
-def opened(evaluation, elements, streams, folder, view):
+def opened(output):
     toy = Toy()
-    toy.stream = streams[0]
+    toy.stream = output.streams[0]
     yield toy
 """
 STEPS = """\
@@ -288,12 +288,12 @@ def test_a_module_is_a_form_of_files(place: Place, folder: Path, monkeypatch: py
     toy = folder / "forms"
     toy.mkdir()
     (toy / "toy.py").write_text(TOY, encoding="utf-8")
-    monkeypatch.setattr(result_files, "__path__", [*result_files.__path__, str(toy)])
-    for name in [name for name in sys.modules if name.startswith(f"{result_files.__name__}.")]:
+    monkeypatch.setattr(forms, "__path__", [*forms.__path__, str(toy)])
+    for name in [name for name in sys.modules if name.startswith(f"{forms.__name__}.")]:
         monkeypatch.delitem(sys.modules, name)
     assert run("evaluate", place(), "-o", "out.toy", "-q").code == 0
     assert Path("out.toy").read_text(encoding="utf-8") == "1 step\n"
     assert "are written as .csv, .json, .npz, .parquet or .toy" in run("evaluate", place(), "-o", "out.xls").err
-    imported = {name for name in sys.modules if name.startswith(f"{result_files.__name__}.")}
-    monkeypatch.delitem(sys.modules, f"{result_files.__name__}.toy")
-    assert imported == {f"{result_files.__name__}.toy"}
+    imported = {name for name in sys.modules if name.startswith(f"{forms.__name__}.")}
+    monkeypatch.delitem(sys.modules, f"{forms.__name__}.toy")
+    assert imported == {f"{forms.__name__}.toy"}

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 from unittest.mock import patch
@@ -13,7 +12,7 @@ import pytest
 
 from mudline.contact import ContactModel
 from mudline.contact.model import Stepped
-from mudline.results import parquet_file
+from mudline.results.forms import parquet
 from tests.cli.conftest import Place
 from tests.cli.decks import CLEAN
 from tests.cli.runner import run
@@ -56,7 +55,7 @@ def _spelled(value: object) -> str:
 
 
 def test_parquet_has_groups_of_rows(place: Place, long: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(parquet_file, "GROUP", 10_000)
+    monkeypatch.setattr(parquet, "GROUP", 10_000)
     assert run("evaluate", place(), "--positions", long, "-o", "out.parquet", "-q").code == 0
     file = pq.ParquetFile(folder / "out.parquet")
     assert file.metadata.num_rows == 24_000
@@ -66,8 +65,7 @@ def test_parquet_has_groups_of_rows(place: Place, long: str, folder: Path, monke
 
 
 def test_without_pyarrow(place: Place, folder: Path) -> None:
-    with patch.dict("sys.modules", {"mudline.results.parquet_file": None}):
-        sys.modules.pop("mudline.cli.result_files.parquet", None)
+    with patch.dict("sys.modules", {"mudline.results.forms.parquet": None}):
         outcome = run("evaluate", place(), "-o", "out.parquet")
     assert (outcome.code, outcome.out) == (1, "")
     assert outcome.err == "mudline: .parquet needs pyarrow: pip install 'mudline[parquet]'\n"
@@ -106,7 +104,7 @@ def test_fault_in_a_late_step_leaves_no_file(place: Place, long: str, folder: Pa
 
 
 def test_bar_on_a_terminal(place: Place, long: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mudline.cli.progress.DELAY", 0.0)
+    monkeypatch.setattr("mudline.cli.view.DELAY", 0.0)
     monkeypatch.delenv("CI", raising=False)
     options = ("evaluate", place(), "--positions", long, "-o", "out.npz")
     assert "/12000" in run(*options, terminal=True).err

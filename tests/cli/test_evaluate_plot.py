@@ -8,7 +8,7 @@ from unittest.mock import patch
 import numpy as np
 import pytest
 
-from mudline.results.plot_data import along, thinned
+from mudline.results.plots import along, thinned
 from tests.cli.conftest import Place
 from tests.cli.decks import CLEAN, LINEAR
 from tests.cli.runner import SAMPLES, run
@@ -99,7 +99,7 @@ def test_other_forms_are_wrong_usage(place: Place, name: str) -> None:
 
 
 def test_without_matplotlib(place: Place, folder: Path) -> None:
-    with patch.dict("sys.modules", {"mudline.results.evaluation_plot": None}):
+    with patch.dict("sys.modules", {"mudline.results.plots": None}):
         outcome = run("evaluate", place(), "--plot", "p.png")
     assert (outcome.code, outcome.out) == (1, "")
     assert outcome.err == "mudline: .png needs matplotlib: pip install 'mudline[plot]'\n"

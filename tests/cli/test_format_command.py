@@ -76,7 +76,7 @@ def test_quiet(place: Place) -> None:
 
 def test_a_file_that_does_not_change_is_not_written(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
     written = Mock()
-    monkeypatch.setattr("mudline.cli.format_command.write_atomically", written)
+    monkeypatch.setattr("mudline.cli.inputs.write_atomically", written)
     assert run("format", place(PRETTY)).code == 0
     assert written.call_count == 0
 
@@ -157,7 +157,7 @@ def test_paths_that_cannot_be_read_or_written(place: Place, monkeypatch: pytest.
     assert "gone.keyxm: no such file or directory" in outcome.err
     assert content("z.keyxm") == PRETTY
     full = OSError(errno.ENOSPC, "No space left on device")
-    monkeypatch.setattr("mudline.cli.format_command.write_atomically", Mock(side_effect=full))
+    monkeypatch.setattr("mudline.cli.inputs.write_atomically", Mock(side_effect=full))
     outcome = run("format", place(UGLY), place(UGLY, "b.keyxm"))
     assert outcome.code == 2
     assert "mudline: deck.keyxm: cannot be written: no space left on device\n" in outcome.err

@@ -89,7 +89,7 @@ def test_a_file_that_cannot_be_written_keeps_its_findings(place: Place, monkeypa
     def refuse(path: Path, data: bytes) -> None:
         raise PermissionError(13, "Permission denied", str(path), len(data))
 
-    monkeypatch.setattr("mudline.cli.lint_command.write_atomically", refuse)
+    monkeypatch.setattr("mudline.cli.inputs.write_atomically", refuse)
     outcome = run("lint", place(IDLE), "--fix")
     assert outcome.code == 2
     assert outcome.err == "mudline: deck.keyxm: cannot be written: permission denied\n"

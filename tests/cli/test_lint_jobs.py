@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from mudline.cli import lint_jobs, lint_pool
+from mudline.cli import lint_jobs
 from mudline.cli.inputs import Input
 from mudline.linting.engine import LintSettings
 from mudline.linting.fixing import FileReport
@@ -53,7 +53,7 @@ def end(orders: Sequence[object]) -> list[FileReport]:
 
 @pytest.mark.usefixtures("eager")
 def test_process_that_dies_is_told(decks: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(lint_pool, "lint_orders", end)
+    monkeypatch.setattr(lint_jobs, "lint_orders", end)
     outcome = run("lint", decks, "--jobs", "2", "--no-cache", "-q")
     assert outcome.code == 2
     assert "a process that linted decks has ended early" in outcome.err
@@ -74,12 +74,12 @@ def test_run_that_ends_early_ends_its_processes(decks: str, monkeypatch: pytest.
 
 @pytest.mark.usefixtures("eager")
 def test_fixing_stays_in_one_process(decks: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(lint_pool, "Pool", None)
+    monkeypatch.setattr(lint_jobs, "pool", None)
     assert "20 fixed" in run("lint", decks, "--fix", "--jobs", "2").out
 
 
 def test_small_runs_stay_in_one_process(decks: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(lint_pool, "Pool", None)
+    monkeypatch.setattr(lint_jobs, "pool", None)
     monkeypatch.setattr(lint_jobs, "PAYS", float("inf"))
     assert run("lint", decks, "--jobs", "2", "--no-cache").code == 1
 
@@ -87,9 +87,9 @@ def test_small_runs_stay_in_one_process(decks: str, monkeypatch: pytest.MonkeyPa
 def test_workers_do_what_is_done_here(place: Place) -> None:
     name = place(BAD_NUMBER)
     one = lint_jobs.Task(Input(name, name), BAD_NUMBER.encode(), LintSettings(rules()))
-    order = lint_pool._order(*one.arguments)
+    order, codes = lint_jobs._order(one)
     assert order.settings.rules == ()
-    assert lint_pool.lint_orders([order]) == [one.lint()]
+    assert lint_jobs.lint_orders([(order, codes)]) == [one.lint()]
 
 
 def test_number_of_processes() -> None:

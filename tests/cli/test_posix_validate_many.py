@@ -12,10 +12,10 @@ from unittest.mock import patch
 import pytest
 
 from mudline.__main__ import main
-from mudline.cli import progress
-from mudline.cli.options import View
+from mudline.cli import view
 from mudline.cli.printing import elided
 from mudline.cli.validate_command import Total, Verdict
+from mudline.cli.view import View
 from tests.cli.conftest import Place
 from tests.cli.decks import CLEAN, ILLEGAL
 from tests.cli.runner import Outcome, Stream, assert_fits, run
@@ -45,8 +45,8 @@ def decks(place: Place, folder: Path) -> str:
 @pytest.fixture
 def _bar(monkeypatch: pytest.MonkeyPatch) -> None:
     """A bar from the first deck on, as in a long run."""
-    monkeypatch.setattr(progress, "DELAY", 0.0)
-    monkeypatch.setattr(progress, "_PAUSE", 0.0)
+    monkeypatch.setattr(view, "DELAY", 0.0)
+    monkeypatch.setattr(view, "_PAUSE", 0.0)
     monkeypatch.delenv("CI", raising=False)
 
 
@@ -216,13 +216,13 @@ def test_no_bar_when_quiet_for_one_deck_or_between_lines_for_programs(decks: str
 
 def test_no_bar_in_a_short_run(decks: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("CI", raising=False)
-    monkeypatch.setattr(progress, "monotonic", lambda: 0.0)
+    monkeypatch.setattr(view, "monotonic", lambda: 0.0)
     assert on_error_only("validate", decks).err == "mudline: decks/gone.keyxm: no such file or directory\n"
 
 
 def test_nobody_looks_at_a_file() -> None:
     with patch.object(sys, "stderr", Stream("utf-8", terminal=False)):
-        assert not progress.wants_bar(View())
+        assert not view.wants_bar(View())
 
 
 # -------------------------------------------------------------------------------------------------------------- table

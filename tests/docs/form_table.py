@@ -6,8 +6,9 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
-from mudline.cli.result_files import result_file, result_forms
 from mudline.linting.output import TEXT, TEXT_SUMMARY, form_module, form_names
+from mudline.results.forms import form_module as result_module
+from mudline.results.forms import form_names as result_names
 from mudline.results.quantities import ELEMENTS, NODES, Quantity
 
 _ROOT = Path(__file__).parents[2]
@@ -29,7 +30,7 @@ def form_table() -> str:
 
 def result_table() -> str:
     """A row a form of result files."""
-    return _RESULTS + "".join(f"| `.{name}` | {result_file(name).SUMMARY} |\n" for name in result_forms())
+    return _RESULTS + "".join(f"| `.{name}` | {result_module(name).SUMMARY} |\n" for name in result_names())
 
 
 def quantity_rows(quantities: Iterable[Quantity]) -> str:

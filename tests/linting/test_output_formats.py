@@ -9,7 +9,7 @@ from pathlib import Path
 import click
 import pytest
 
-from mudline.cli.lint_outputs import complete
+from mudline.cli.lint_command import complete
 from mudline.linting import output
 from mudline.linting.output import form_module, form_names
 from tests.cli.decks import BAD_NUMBER

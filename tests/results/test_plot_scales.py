@@ -8,8 +8,8 @@ from matplotlib.figure import Figure
 
 import mudline
 from mudline.results.evaluation import evaluate_scene
-from mudline.results.evaluation_plot import trace, widened
-from mudline.results.plot_data import PlotData
+from mudline.results.plots import trace, widened
+from mudline.results.totals import PlotData
 from mudline.scene.positions import read_positions
 from tests.samples import SAMPLES
 

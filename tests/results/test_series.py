@@ -11,7 +11,7 @@ import pytest
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError
 from mudline.results.evaluation import Evaluation, Tension, evaluate_scene, prepare
-from mudline.results.formats import plan_rows
+from mudline.results.forms import plan_rows
 from mudline.results.totals import StepTotal, Total
 from mudline.scene.model import Scene, resolve
 from mudline.scene.positions import Positions

@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.results.columns import coded
-from mudline.results.formats import Spelling
+from mudline.results.forms import Spelling
 from mudline.results.quantities import csv_lines, finite, headed, shown, unit_names
 
 JSON = Spelling(json.dumps, "null")

@@ -14,22 +14,27 @@ from numpy.typing import NDArray
 
 from mudline.results.columns import ElementTable, NodeTable, Table
 from mudline.results.evaluation import Evaluation
-from mudline.results.formats import CsvForm, JsonForm, NpzFile, TextForm
+from mudline.results.forms import Output, Sink, Write, npz, text_form
 from mudline.results.totals import Digest, StepTotal, Total, totals
 
 Json: TypeAlias = Any
 
 
-def pieces(evaluation: Evaluation, form: TextForm) -> Iterator[str]:
-    """All of a form."""
+def pieces(evaluation: Evaluation, form: Callable[[Write], Sink]) -> Iterator[str]:
+    """All that a form writes, piece by piece as it comes."""
+    written: list[Iterator[str]] = []
+    sink = form(written.append)
     for part in evaluation.parts():
-        yield from form.body(part)
-    yield from form.tail({})
+        sink.take(part)
+        yield from written.pop()
+    sink.finish({})
+    for rest in written:
+        yield from rest
 
 
 def json_pieces(evaluation: Evaluation) -> Iterator[str]:
     """The JSON as it is written."""
-    return pieces(evaluation, JsonForm(evaluation, ElementTable(evaluation)))
+    return pieces(evaluation, lambda write: text_form("json")(evaluation, ElementTable(evaluation), write))
 
 
 def json_of(evaluation: Evaluation) -> Json:
@@ -39,8 +44,8 @@ def json_of(evaluation: Evaluation) -> Json:
 
 def csv_pieces(evaluation: Evaluation, table: str) -> Iterator[str]:
     """The CSV of `elements` or `nodes` as it is written."""
-    make: Callable[[Evaluation], ElementTable | NodeTable] = ElementTable if table == "elements" else NodeTable
-    return pieces(evaluation, CsvForm(evaluation, make(evaluation)))
+    make: Callable[[Evaluation], Table] = ElementTable if table == "elements" else NodeTable
+    return pieces(evaluation, lambda write: text_form("csv")(evaluation, make(evaluation), write))
 
 
 def csv_of(evaluation: Evaluation, table: str) -> str:
@@ -51,11 +56,13 @@ def csv_of(evaluation: Evaluation, table: str) -> str:
 def arrays_of(evaluation: Evaluation) -> dict[str, NDArray[Any]]:
     """What the NPZ archive holds."""
     stream = io.BytesIO()
-    tables: list[Table] = [ElementTable(evaluation), NodeTable(evaluation)]
-    with TemporaryDirectory() as folder, NpzFile(evaluation, tables, Path(folder)) as file:
+    with (
+        TemporaryDirectory() as folder,
+        npz.opened(Output(evaluation, ElementTable(evaluation), [stream], Path(folder))) as sink,
+    ):
         for part in evaluation.parts():
-            file.take(part)
-        file.write(stream, lambda: None)
+            sink.take(part)
+        sink.finish({})
     with np.load(io.BytesIO(stream.getvalue()), allow_pickle=False) as archive:
         return dict(archive)
 

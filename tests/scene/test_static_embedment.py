@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from mudline.results.curves import static_embedment
+from mudline.results.summary import static_embedment
 from tests.scene.contact_decks import METRIC, deck
 from tests.scene.decks import scene_of
 from tests.scene.test_contact_input import CURVE, LINEAR, WEIGHT

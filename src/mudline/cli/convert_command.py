@@ -7,10 +7,10 @@ from pathlib import Path, PurePath
 import click
 import numpy as np
 
-from mudline.cli import DONE, options
-from mudline.cli.inputs import STDIN, SUFFIXES, load, refuses_bad_decks
-from mudline.cli.options import View
+from mudline.cli import DONE
+from mudline.cli.inputs import STDIN, SUFFIXES, GivenDeck, takes_deck
 from mudline.cli.streams import emit, notify, write_text
+from mudline.cli.view import View
 from mudline.deck.loading import FORMS, dump, form_of
 from mudline.deck.model import Deck
 from mudline.keywords.model import Comment
@@ -18,32 +18,20 @@ from mudline.keywords.table import Table
 
 
 @click.command("convert")
-@options.deck
 @click.option("-o", "--output", metavar="OUT", help="File to write; without it, or with -, standard output.")
 @click.option("--from", "source", type=click.Choice(FORMS), help="Format of DECK, instead of that of its suffix.")
 @click.option("--to", "target", type=click.Choice(FORMS), help="Format to write, instead of that of the suffix of OUT.")
 @click.option("--sorted", "in_order", is_flag=True, help="Write curves with their points sorted by ratio.")
-@options.stdin_name
-@options.units
-@options.common
-@refuses_bad_decks
+@takes_deck
 def command(
-    *,
-    deck: str,
-    output: str | None,
-    source: str | None,
-    target: str | None,
-    in_order: bool,
-    stdin_name: str,
-    units: str | None,
-    view: View,
+    *, deck: GivenDeck, output: str | None, source: str | None, target: str | None, in_order: bool, view: View
 ) -> int:
     """Convert a deck between keyword text, JSON and YAML.
 
     Only blank lines and the spelling of numbers are lost.
     """
     form = target or _form_of_output(output)
-    read = load(deck, form=source, units=units, stdin_name=stdin_name).require()
+    read = deck.load(source).require()
     if in_order:
         for name in sort_curves(read):
             notify(f"curve {name} keeps its order: a ratio in it is an equation")

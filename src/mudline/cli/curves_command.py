@@ -1,19 +1,23 @@
-"""`mudline curves`."""
+"""`mudline curves`: the force-embedment curves as evaluated, as rows, tables and texts."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
+import numpy as np
 
 from mudline.cli import DONE, FOUND, options
-from mudline.cli.inputs import load, refuses_bad_decks
-from mudline.cli.options import View
+from mudline.cli.inputs import GivenDeck, takes_deck
 from mudline.cli.streams import emit, emit_json, notify, notify_missing, writing
+from mudline.cli.view import View
+from mudline.curves import ForceCurve
 from mudline.linting.output import visible
-from mudline.results.curves import curve_rows, diameters, point_table, static_table, used_curves, value_table
-from mudline.results.quantities import UnitNames, csv_lines, headed, shown, unit_names
+from mudline.results.quantities import UnitNames, csv_lines, finite, headed, shown, unit_names
+from mudline.results.summary import CURVE_SIDES, followers
+from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene, resolve
 
 if TYPE_CHECKING:
@@ -21,11 +25,11 @@ if TYPE_CHECKING:
 
 _MOST_DIAMETERS = 3
 _AT = ("ratio", "force", "slope", "segment", "extrapolated")
+_OF_DIAMETER = ("diameter", "depth", "stiffness")
 _GOES_ON = "Below its first and above its last point a curve goes on with the slope of its end segment."
 
 
 @click.command("curves")
-@options.deck
 @click.option(
     "--at", "ratios", type=float, multiple=True, metavar="RATIO", help="Value at an embedment ratio; repeatable."
 )
@@ -37,19 +41,14 @@ _GOES_ON = "Below its first and above its last point a curve goes on with the sl
 )
 @click.option("--plot", "picture", metavar="FILE.png|svg", help="Draw the curves (needs the extra mudline[plot]).")
 @options.output_format("text", "json", "csv")
-@options.stdin_name
-@options.units
-@options.common
-@refuses_bad_decks
+@takes_deck
 def command(
     *,
-    deck: str,
+    deck: GivenDeck,
     ratios: tuple[float, ...],
     weight: float | None,
     picture: str | None,
     output_format: str,
-    stdin_name: str,
-    units: str | None,
     view: View,
 ) -> int:
     """Show each force-embedment curve as evaluated: sorted, with slope and stiffness of every segment.
@@ -58,19 +57,20 @@ def command(
     """
     if output_format == "csv" and ratios and weight is not None:
         raise click.UsageError("CSV holds one table: give --at or --weight, not both")
-    if picture and _picture_form(picture) not in {"png", "svg"}:
+    form = "" if picture is None else Path(picture).suffix.lower().removeprefix(".")
+    if picture and form not in {"png", "svg"}:
         raise click.UsageError(f"{picture}: a plot is a .png or a .svg")
-    scene = resolve(load(deck, units=units, stdin_name=stdin_name)).require()
+    scene = resolve(deck.load()).require()
     try:
-        rows = curve_rows(scene, ratios, weight)
+        rows = _curve_rows(scene, ratios, weight)
     except ValueError as error:
         raise click.UsageError(str(error)) from error
-    if picture and not _plot(scene, rows, picture):
+    if picture and not _plot(scene, rows, Path(picture), form):
         return FOUND
     if output_format == "json":
         emit_json(rows)
     elif output_format == "csv":
-        emit(csv_lines(value_table(rows) if ratios else point_table(rows) if weight is None else static_table(rows)))
+        emit(csv_lines(_csv_rows(rows, ratios, weight)))
     elif rows:
         _print_curves(scene, rows, view)
     else:
@@ -78,19 +78,103 @@ def command(
     return DONE
 
 
-def _picture_form(picture: str) -> str:
-    return Path(picture).suffix.lower().removeprefix(".")
+# ------------------------------------------------------------------------------------------------------------ rows
 
 
-def _plot(scene: Scene, rows: list[dict[str, Any]], picture: str) -> bool:
+def _curve_rows(scene: Scene, ratios: tuple[float, ...], weight: float | None) -> list[dict[str, Any]]:
+    """Each usable curve with the keys of the contract; `static` only when a weight per unit length is given.
+
+    Raises ValueError for a ratio at which a force overflows, and for a ratio or a weight that is not finite.
+    """
+    return [
+        _curve_row(entry.name, curve, _diameters(scene, index), ratios, weight)
+        for index, entry, curve in _used_curves(scene)
+    ]
+
+
+def _used_curves(scene: Scene) -> list[tuple[int, SceneCurve, ForceCurve]]:
+    """The curves that can be evaluated, with their indices."""
+    return [(index, entry, entry.curve) for index, entry in enumerate(scene.laws.curves) if entry.curve is not None]
+
+
+def _diameters(scene: Scene, curve: int) -> list[float]:
+    """The different external diameters of the elements that follow a curve."""
+    found = scene.diameter[followers(scene, curve)]
+    return [float(value) for value in np.unique(found[~np.isnan(found)])]
+
+
+def _curve_row(
+    name: str, curve: ForceCurve, sizes: list[float], ratios: tuple[float, ...], weight: float | None
+) -> dict[str, Any]:
+    points = np.column_stack([curve.ratios, curve.forces]).tolist()
+    slopes = curve.slopes.tolist()
+    row: dict[str, Any] = {
+        "name": name,
+        "points": points,
+        "segments": [{"from": points[i][0], "to": points[i + 1][0], "slope": slope} for i, slope in enumerate(slopes)],
+        "at": [_value_at(curve, ratio) for ratio in ratios],
+    }
+    if weight is not None:
+        row["static"] = [_static(curve, ratio, sizes) for ratio in curve.ratios_at_force(weight)]
+    return row
+
+
+def _value_at(curve: ForceCurve, ratio: float) -> dict[str, Any]:
+    """Force, slope, segment and whether the curve is extrapolated at a ratio."""
+    force, slope = curve.evaluate(ratio)
+    return {
+        "ratio": ratio,
+        "force": float(force),
+        "slope": float(slope),
+        "segment": int(curve.segment(ratio)),
+        "extrapolated": CURVE_SIDES[int(curve.extrapolated(ratio))],
+    }
+
+
+def _static(curve: ForceCurve, ratio: float, sizes: list[float]) -> dict[str, Any]:
+    """Static embedment: where the curve carries the weight; depth and stiffness there for each diameter."""
+    values = _value_at(curve, ratio)
+    slope = values["slope"]
+    return {
+        **values,
+        "stiffness": [
+            {"diameter": size, "depth": finite(ratio * size), "stiffness": finite(slope / size)} for size in sizes
+        ],
+    }
+
+
+def _csv_rows(
+    rows: list[dict[str, Any]], ratios: tuple[float, ...], weight: float | None
+) -> Iterator[Sequence[object]]:
+    """One table of all curves under its heading: values at ratios, static embedments by diameter, or points."""
+    if ratios:
+        yield ("curve", *_AT)
+        yield from ((row["name"], *value.values()) for row in rows for value in row["at"])
+    elif weight is not None:
+        yield ("curve", *_AT, *_OF_DIAMETER)
+        for row in rows:
+            for static in row["static"]:
+                *values, sizes = static.values()
+                yield from ((row["name"], *values, *each.values()) for each in sizes or [dict.fromkeys(_OF_DIAMETER)])
+    else:
+        yield ("curve", "ratio", "force", "slope")
+        for row in rows:
+            slopes = [*(segment["slope"] for segment in row["segments"]), None]
+            yield from ((row["name"], *point, slope) for point, slope in zip(row["points"], slopes, strict=True))
+
+
+# ---------------------------------------------------------------------------------------------------------- output
+
+
+def _plot(scene: Scene, rows: list[dict[str, Any]], path: Path, form: str) -> bool:
     try:
-        from mudline.results.curve_plot import draw  # noqa: PLC0415 - needs the extra `plot`
+        from mudline.results.plots import draw_curves  # noqa: PLC0415 - needs the extra `plot`
     except ImportError:
         notify_missing("--plot", "matplotlib", "plot")
         return False
     named = [{**row, "name": visible(row["name"])} for row in rows]
-    with writing(Path(picture)) as stream:
-        draw(named, scene.units, _picture_form(picture), stream)
+    with writing(path) as stream:
+        draw_curves(named, scene.units, form, stream)
     return True
 
 
@@ -100,17 +184,15 @@ def _print_curves(scene: Scene, rows: list[dict[str, Any]], view: View) -> None:
     names = unit_names(scene.units)
     force, slope = headed("force", names.line_force), headed("slope", names.line_force)
     ends = ("from\nratio", "to\nratio", *(headed(f"{end}\nforce", names.line_force) for end in ("from", "to")))
-    for (index, entry, _), row in zip(used_curves(scene), rows, strict=True):
-        sizes = diameters(scene, index)
+    for (index, entry, _), row in zip(_used_curves(scene), rows, strict=True):
+        sizes = _diameters(scene, index)
         drawn = sizes if view.verbose or len(sizes) <= _MOST_DIAMETERS else [sizes[0], sizes[-1]]
         stiffnesses = (headed(f"stiffness\nD={shown(size)}", names.stiffness) for size in drawn)
         note = "" if drawn == sizes else f"{len(sizes)} diameters follow this curve: -v shows all"
         title = _title(row, sizes, embedment=entry.embedment)
         printer.table(title, (*ends, slope, *stiffnesses), _segments(row, drawn), note=note)
         if row["at"]:
-            values = [
-                [value[key] for key in ("ratio", "force", "slope", "segment", "extrapolated")] for value in row["at"]
-            ]
+            values = [[value[key] for key in _AT] for value in row["at"]]
             printer.table(f"{row['name']} at", ("ratio", force, slope, "segment", "extrapolated"), values)
         if "static" in row:
             _print_static(printer, row, names)
@@ -140,6 +222,6 @@ def _print_static(printer: Printer, row: dict[str, Any], names: UnitNames) -> No
     rows = [
         (static["ratio"], each["diameter"], each["depth"], each["stiffness"], static["extrapolated"])
         for static in row["static"]
-        for each in static["stiffness"] or [dict.fromkeys(("diameter", "depth", "stiffness"))]
+        for each in static["stiffness"] or [dict.fromkeys(_OF_DIAMETER)]
     ]
     printer.table(f"{row['name']}: static embedment", columns, rows)

@@ -12,9 +12,9 @@ import click
 import numpy as np
 
 from mudline.cli import DONE, FOUND, options
-from mudline.cli.inputs import STDIN, load, refuses_bad_decks
-from mudline.cli.options import View
+from mudline.cli.inputs import STDIN, GivenDeck, refuses_bad_decks
 from mudline.cli.streams import counted, emit
+from mudline.cli.view import View
 from mudline.comparison.comparing import compare
 from mudline.comparison.model import Difference, Value, spans_of, text_of
 from mudline.linting.output import visible
@@ -46,14 +46,7 @@ _MARKS = {"added": ("+", "green"), "removed": ("-", "red"), "changed": ("~", "ye
 @options.common
 @refuses_bad_decks
 def command(
-    *,
-    before: str,
-    after: str,
-    tolerance: float,
-    output_format: str,
-    stdin_name: str,
-    units: str | None,
-    view: View,
+    *, before: str, after: str, tolerance: float, output_format: str, stdin_name: str, units: str | None, view: View
 ) -> int:
     """Compare two decks semantically, whatever their formats, layout and order.
 
@@ -64,7 +57,7 @@ def command(
         raise click.UsageError("only one of the decks can come from standard input")
     if not math.isfinite(tolerance):
         raise click.UsageError("--tolerance: expected a number from 0 to 1")
-    first, second = (resolve(load(given, units=units, stdin_name=stdin_name)) for given in (before, after))
+    first, second = (resolve(GivenDeck(given, stdin_name, units).load()) for given in (before, after))
     found = compare(first, second, tolerance)
     if output_format == "json":
         emit(_json(first.deck.file, second.deck.file, tolerance, found))

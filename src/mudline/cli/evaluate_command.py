@@ -1,10 +1,12 @@
-"""`mudline evaluate`: options, the files read besides the deck, the run, and notes about its results."""
+"""`mudline evaluate`: options, the files read besides the deck, the run, where its results go, and notes about them."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from contextlib import AbstractContextManager, nullcontext
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext
 from dataclasses import replace
+from functools import partial
+from importlib import import_module
 from math import isfinite
 from pathlib import Path
 from typing import TypeVar, cast
@@ -13,29 +15,18 @@ import click
 import numpy as np
 
 from mudline.cli import DONE, FOUND, options
-from mudline.cli.evaluate_outputs import (
-    PICTURES,
-    beside,
-    draw,
-    files,
-    form_of,
-    has_library,
-    printed,
-    run,
-)
 from mudline.cli.evaluate_text import print_comparison, print_evaluation, print_plan
-from mudline.cli.inputs import load, refuses_bad_decks
-from mudline.cli.options import View
-from mudline.cli.result_files import ResultConsumer, Sink, result_file, result_forms, together
-from mudline.cli.streams import counted, emit, emit_json, notify, reason
+from mudline.cli.inputs import GivenDeck, takes_deck
+from mudline.cli.streams import counted, emit, emit_json, notify, notify_missing, reason, writing
+from mudline.cli.view import Progress, View, tracked, wants_bar
 from mudline.contact import LawKind
+from mudline.linting.output import visible
 from mudline.results.against import Comparison, read_reference
 from mudline.results.columns import ElementTable, NodeTable
 from mudline.results.evaluation import Evaluation, Part, Prepared, Tension, evaluate_scene, prepare
-from mudline.results.formats import CsvForm, JsonForm, plan_rows
-from mudline.results.plot_data import PlotData
+from mudline.results.forms import Output, ResultConsumer, Sink, Together, form_module, form_names, plan_rows, text_form
 from mudline.results.quantities import csv_lines
-from mudline.results.totals import Digest
+from mudline.results.totals import Digest, PlotData
 from mudline.scene.external_elements import read_external
 from mudline.scene.model import Scene, resolve
 from mudline.scene.positions import Positions, read_positions
@@ -44,11 +35,14 @@ MOST_ROWS = 40
 """Lines of a table on the terminal, unless more is asked for."""
 
 _MOST_NAMED = 10
+_PICTURES = ("png", "svg")
+_PLOTS = "mudline.results.plots"
+_EXTRAS = {"parquet": ("pyarrow", "parquet"), "png": ("matplotlib", "plot"), "svg": ("matplotlib", "plot")}
+"""By form: the library that draws or writes it, and the extra that brings it."""
 _Read = TypeVar("_Read")
 
 
 @click.command("evaluate")
-@options.deck
 @click.option("--positions", metavar="FILE", help="Positions of the nodes: CSV, NPZ or NPY, one state or time steps.")
 @click.option("--time-step", type=float, metavar="DT", help="Time between the steps of positions that have no times.")
 @click.option("--elements", metavar="FILE", help="Elements as CSV, for decks whose elements come from *LINES.")
@@ -63,7 +57,7 @@ _Read = TypeVar("_Read")
 @click.option(
     "-o",
     "--output",
-    metavar=f"OUT.{'|'.join(result_forms())}",
+    metavar=f"OUT.{'|'.join(form_names())}",
     help="Write the results; CSV and Parquet write the nodes to OUT-nodes beside it.",
 )
 @click.option("--plot", "picture", metavar="FILE.png|svg", help="Draw the results (needs the extra mudline[plot]).")
@@ -76,13 +70,10 @@ _Read = TypeVar("_Read")
     help="Which rows text and CSV on standard output show.",
 )
 @options.output_format("text", "json", "csv")
-@options.stdin_name
-@options.units
-@options.common
-@refuses_bad_decks
+@takes_deck
 def command(
     *,
-    deck: str,
+    deck: GivenDeck,
     positions: str | None,
     time_step: float | None,
     elements: str | None,
@@ -93,18 +84,16 @@ def command(
     plan_only: bool,
     table: str,
     output_format: str,
-    stdin_name: str,
-    units: str | None,
     view: View,
 ) -> int:
     """Evaluate contact forces and stiffnesses of a deck, at its own coordinates or at positions from a file.
 
     Forces are per unit length, in the deck's units; reactions are the total force of the seabed on a node.
     """
-    for needed in (form_of(output, result_forms()), form_of(picture, PICTURES)):
-        if needed and not has_library(needed):
+    for needed in (_form(output, form_names()), _form(picture, _PICTURES)):
+        if needed and not _has_library(needed):
             return FOUND
-    loaded = load(deck, units=units, stdin_name=stdin_name)
+    loaded = deck.load()
     pull = cast("Tension", tension)
     scene = resolve(loaded, _read(elements, read_external) if elements else None).require_evaluable(pull)
     given = _positions(positions, scene, time_step) if positions else None
@@ -122,10 +111,10 @@ def command(
     slow = _SlowSuction()
     consumers: list[ResultConsumer] = [one for one in (comparison, drawing, digest, slow) if one is not None]
     with _sink(evaluation, comparison, output, shown, table, view) as sink:
-        run(evaluation, [*consumers, sink], view, bar=shown in {"", "text"})
+        _run(evaluation, [*consumers, sink], view, bar=shown in {"", "text"})
         sink.finish({} if comparison is None else {"against": comparison.summary()})
     if picture and drawing is not None:
-        draw(drawing, Path(picture), view)
+        _draw(drawing, Path(picture), view)
     if not view.quiet:
         _notify_after(evaluation, slow, Path(output) if output else None)
     if digest is not None:
@@ -133,20 +122,6 @@ def command(
     if comparison is not None and output_format == "text":
         print_comparison(comparison, view)
     return DONE
-
-
-def _sink(
-    evaluation: Evaluation, comparison: Comparison | None, output: str | None, shown: str, table: str, view: View
-) -> AbstractContextManager[Sink]:
-    """Where the rows go: files, standard output, or nowhere."""
-    elements = ElementTable(evaluation, None if comparison is None else comparison.others)
-    if output:
-        return files(evaluation, elements, Path(output), view)
-    if shown == "json":
-        return nullcontext(printed(JsonForm(evaluation, elements)))
-    if shown == "csv":
-        return nullcontext(printed(CsvForm(evaluation, elements if table == "elements" else NodeTable(evaluation))))
-    return nullcontext(together([]))
 
 
 def _plan(prepared: Prepared, form: str, view: View) -> None:
@@ -177,6 +152,85 @@ def _read(path: str, read: Callable[[Path], _Read]) -> _Read:
         return read(Path(path))
     except OSError as error:
         raise click.ClickException(f"{path}: {reason(error)}") from error
+
+
+# --------------------------------------------------------------------------------------------- where the results go
+
+
+def _form(output: str | None, known: Sequence[str]) -> str:
+    """The form of a file by its suffix, "" without a file; raises click.UsageError."""
+    if output is None:
+        return ""
+    form = _suffix(Path(output))
+    if form not in known:
+        what = "a plot is a" if known is _PICTURES else "results are written as"
+        raise click.UsageError(f"{output}: {what} {', '.join(f'.{name}' for name in known[:-1])} or .{known[-1]}")
+    return form
+
+
+def _suffix(path: Path) -> str:
+    return path.suffix.lower().removeprefix(".")
+
+
+def _has_library(form: str) -> bool:
+    """Whether the library for a form of files is installed; reports it if not."""
+    if form not in _EXTRAS:
+        return True
+    try:
+        import_module(_PLOTS) if form in _PICTURES else form_module(form)
+    except ImportError:
+        notify_missing(f".{form}", *_EXTRAS[form])
+        return False
+    return True
+
+
+def _sink(
+    evaluation: Evaluation, comparison: Comparison | None, output: str | None, shown: str, table: str, view: View
+) -> AbstractContextManager[Sink]:
+    """Where the rows go: files, standard output, or nowhere."""
+    elements = ElementTable(evaluation, None if comparison is None else comparison.others)
+    if output:
+        return _files(evaluation, elements, Path(output), view)
+    if shown in {"json", "csv"}:
+        rows = NodeTable(evaluation) if (shown, table) == ("csv", "nodes") else elements
+        return nullcontext(text_form(shown)(evaluation, rows, emit))
+    return nullcontext(Together())
+
+
+@contextmanager
+def _files(evaluation: Evaluation, elements: ElementTable, path: Path, view: View) -> Iterator[Sink]:
+    """The file of an evaluation by its suffix, or two files; they exist when all is written, or not at all."""
+    form = form_module(_suffix(path))
+    with ExitStack() as stack:
+        streams = [stack.enter_context(writing(one)) for one in (path, *([_beside(path)] if form.BESIDE else []))]
+        output = Output(evaluation, elements, streams, path.parent, partial(tracked, view=view))
+        yield stack.enter_context(form.opened(output))
+
+
+def _beside(path: Path) -> Path:
+    """The file of the nodes beside that of the elements."""
+    return path.with_name(f"{path.stem}-nodes{path.suffix}")
+
+
+def _run(evaluation: Evaluation, consumers: Sequence[ResultConsumer], view: View, *, bar: bool) -> None:
+    """Evaluate a few steps at a time and pass them on, with a bar on a terminal."""
+    with Progress(evaluation.steps, view, shown=bar and wants_bar(view)) as progress:
+        for part in evaluation.parts():
+            for consumer in consumers:
+                consumer.take(part)
+            for _ in range(part.count):
+                progress.advance()
+
+
+def _draw(data: PlotData, path: Path, view: View) -> None:
+    """Draw the results that were collected."""
+    with writing(path) as stream:
+        import_module(_PLOTS).draw_evaluation(data, _suffix(path), stream, visible)
+    if not view.quiet:
+        notify(f"plot -> {path.as_posix()}")
+
+
+# ----------------------------------------------------------------------------------------------------------- notes
 
 
 def _notify_before(evaluation: Evaluation, comparison: Comparison | None) -> None:
@@ -219,8 +273,8 @@ def _notify_after(evaluation: Evaluation, slow: _SlowSuction, written: Path | No
         notify(f"suction is pulled slower than REGULARISATION {when}: the force there is less than alpha v^n")
     if written is None:
         return
-    if result_file(written.suffix.lower().removeprefix(".")).BESIDE:
-        notify(f"nodes -> {beside(written).as_posix()}")
+    if form_module(_suffix(written)).BESIDE:
+        notify(f"nodes -> {_beside(written).as_posix()}")
     notify(f"{evaluation.scene.deck.file} -> {written.as_posix()}")
 
 

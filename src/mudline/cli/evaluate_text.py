@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from mudline.cli.options import View
+from mudline.cli.view import View
 from mudline.contact import Plan
 from mudline.results.against import Comparison
 from mudline.results.columns import ElementTable
@@ -141,7 +141,7 @@ def _print_peaks(printer: Printer, digest: Digest) -> None:
     }
     rows = []
     for key, (what, unit) in units.items():
-        peak = digest.peaks.found.get(key)
+        peak = digest.peaks.get(key)
         if peak is not None and times is not None and not (key in {"force", "pull"} and peak.value == 0.0):
             rows.append((what, peak.value, unit, float(times[peak.step]), peak.element))
     columns = ("largest", "value", "unit", _time(names), "element")

@@ -8,9 +8,9 @@ from pathlib import Path
 import click
 
 from mudline.cli import DONE, options
-from mudline.cli.inputs import STDIN, load, refuses_bad_decks
-from mudline.cli.options import View
+from mudline.cli.inputs import STDIN, GivenDeck, takes_deck
 from mudline.cli.streams import counted, emit, notify, reason, write_bytes, write_text
+from mudline.cli.view import View
 from mudline.variations.files import MANIFEST, ExpansionPlan, PlannedDeck, conflicts, lacking, manifest_text
 from mudline.variations.planning import plan
 
@@ -20,26 +20,12 @@ _NOT_COPIED = "{}: the deck names it and it is not copied: put it beside the new
 
 
 @click.command("expand")
-@options.deck
 @click.option("-o", "--output", metavar="DIR", help="Folder for the new decks; created if it does not exist.")
 @click.option("--dry-run", is_flag=True, help="Print what would be written, and write nothing.")
 @click.option("--force", is_flag=True, help="Overwrite existing files.")
 @options.output_format("text", "json")
-@options.stdin_name
-@options.units
-@options.common
-@refuses_bad_decks
-def command(
-    *,
-    deck: str,
-    output: str | None,
-    dry_run: bool,
-    force: bool,
-    output_format: str,
-    stdin_name: str,
-    units: str | None,
-    view: View,
-) -> int:
+@takes_deck
+def command(*, deck: GivenDeck, output: str | None, dry_run: bool, force: bool, output_format: str, view: View) -> int:
     """Write the decks that *VARIATION and *COMBINATIONS describe.
 
     Each new deck is the text of DECK with other values of its parameters and without the two keywords. All names are
@@ -47,11 +33,12 @@ def command(
     """
     if output is None and not dry_run:
         raise click.UsageError("no folder to write to: give -o DIR, or --dry-run")
-    planned = plan(load(deck, units=units, stdin_name=stdin_name))
+    planned = plan(deck.load())
     for note in planned.notes:
         notify(note)
     _notify_some([] if output is None else [_NOT_COPIED.format(name) for name in lacking(Path(output), planned)])
-    blocked = [] if output is None else conflicts(Path(output), planned, _path(deck), force=force)
+    source = None if deck.path == STDIN else Path(deck.path)
+    blocked = [] if output is None else conflicts(Path(output), planned, source, force=force)
     _notify_some(blocked)
     if output is not None and not dry_run:
         if blocked:
@@ -62,10 +49,6 @@ def command(
     elif dry_run:
         _print_decks(planned.decks, view)
     return DONE
-
-
-def _path(deck: str) -> Path | None:
-    return None if deck == STDIN else Path(deck)
 
 
 def _notify_some(messages: list[str]) -> None:

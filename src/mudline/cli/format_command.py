@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import KW_ONLY, dataclass
-from pathlib import Path
+from collections import Counter
 
 import click
 
 from mudline.cli import DONE, FOUND, options
-from mudline.cli.changes import print_diff
 from mudline.cli.inputs import Input, Inputs, collect
-from mudline.cli.options import View
-from mudline.cli.streams import counted, emit, emit_deck, notify, notify_diagnostics, reason
+from mudline.cli.streams import counted, emit, emit_deck, notify, notify_diagnostics
+from mudline.cli.view import View, print_diff
 from mudline.diagnostics import DeckError
-from mudline.files import write_atomically
 from mudline.formatting.changes import unified_diff
 from mudline.formatting.document import FormatError, formatted
 from mudline.syntax.source import Source
+
+_CHANGED, _SAME, _FAILED = "reformatted", "left unchanged", "not formatted"
 
 
 @click.command("format")
@@ -33,86 +32,48 @@ def command(*, paths: tuple[str, ...], check: bool, diff: bool, every_file: bool
     is printed. A deck with an error is reported and left unchanged.
     """
     inputs = collect(paths, stdin_name, gitignore=not every_file)
-    run = _Run(inputs, view, check=check, diff=diff)
-    for file, data in inputs.contents():
-        run.add(file, data)
-    return run.finish()
+    outcomes = Counter(_outcome(inputs, *each, view, check=check, diff=diff) for each in inputs.contents())
+    if not view.quiet:
+        _notify_counts(outcomes, "would be " if check or diff else "")
+    found = outcomes[_FAILED] or (outcomes[_CHANGED] and (check or diff))
+    return max(inputs.code, FOUND if found else DONE)
 
 
-@dataclass
-class _Run:
-    """Formats one file after the other and counts them."""
-
-    inputs: Inputs
-    view: View
-    _: KW_ONLY
-    check: bool
-    diff: bool
-    changed: int = 0
-    unchanged: int = 0
-    failed: int = 0
-
-    def add(self, file: Input, data: bytes) -> None:
-        """Format a file, or report why not."""
-        try:
-            new = formatted(data, file.name)
-        except DeckError as error:
-            notify_diagnostics(error.diagnostics)
-            self.failed += 1
-        except FormatError as error:
-            notify(f"{file.name}: {error}")
-            self.failed += 1
-        else:
-            self._deliver(file, data, new)
-
-    def _deliver(self, file: Input, data: bytes, new: bytes) -> None:
-        """Write, print or name the result."""
-        if self.check or self.diff:
-            self._count(changed=new != data)
-            if new != data:
-                self._show(file, data, new)
-        elif file.path is None:
-            emit_deck(new)
-        elif new == data:
-            self._count(changed=False)
-        else:
-            self._write(file, Path(file.path), new)
-
-    def _count(self, *, changed: bool) -> None:
-        self.changed += changed
-        self.unchanged += not changed
-
-    def _show(self, file: Input, data: bytes, new: bytes) -> None:
-        if self.check:
-            emit([f"would reformat: {file.name}\n"])
-        if self.diff:
-            old, after = Source.from_bytes(data, file.name).text, Source.from_bytes(new, file.name).text
-            print_diff(unified_diff(old, after, file.name), self.view)
-
-    def _write(self, file: Input, path: Path, new: bytes) -> None:
-        try:
-            write_atomically(path, new)
-        except OSError as error:
-            self.inputs.fail(f"{file.name}: cannot be written: {reason(error)}")
-            self.failed += 1
-            return
-        self._count(changed=True)
-        if self.view.verbose:
+def _outcome(inputs: Inputs, file: Input, data: bytes, view: View, *, check: bool, diff: bool) -> str:
+    """Write, print or name the formatted deck; "" for one that is printed."""
+    new = _formatted(file, data)
+    if new is None:
+        return _FAILED
+    if file.path is None and not (check or diff):
+        emit_deck(new)
+        return ""
+    if new == data:
+        return _SAME
+    if check:
+        emit([f"would reformat: {file.name}\n"])
+    if diff:
+        old, after = (Source.from_bytes(text, file.name).text for text in (data, new))
+        print_diff(unified_diff(old, after, file.name), view)
+    if not (check or diff):
+        if not inputs.replaced(file, new):
+            return _FAILED
+        if view.verbose:
             notify(f"{file.name}: reformatted")
+    return _CHANGED
 
-    def finish(self) -> int:
-        """Report how many files there were; returns the exit code."""
-        would = "would be " if self.check or self.diff else ""
-        texts = [
-            f"{counted(count, 'file')} {word}"
-            for count, word in (
-                (self.changed, f"{would}reformatted"),
-                (self.unchanged, f"{would}left unchanged"),
-                (self.failed, "not formatted"),
-            )
-            if count
-        ]
-        if texts and not self.view.quiet:
-            click.echo(", ".join(texts), err=True)
-        found = self.failed or (self.changed and would)
-        return max(self.inputs.code, FOUND if found else DONE)
+
+def _formatted(file: Input, data: bytes) -> bytes | None:
+    """The formatted deck; None for one that cannot be formatted, which is reported."""
+    try:
+        return formatted(data, file.name)
+    except DeckError as error:
+        notify_diagnostics(error.diagnostics)
+    except FormatError as error:
+        notify(f"{file.name}: {error}")
+    return None
+
+
+def _notify_counts(outcomes: Counter[str], would: str) -> None:
+    words = {_CHANGED: f"{would}{_CHANGED}", _SAME: f"{would}{_SAME}", _FAILED: _FAILED}
+    if texts := [f"{counted(outcomes[one], 'file')} {word}" for one, word in words.items() if outcomes[one]]:
+        click.echo(", ".join(texts), err=True)

@@ -9,15 +9,16 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import wraps
 from pathlib import Path, PurePath
-from typing import NamedTuple, ParamSpec
+from typing import NamedTuple
 
 import click
 
-from mudline.cli import FOUND, WRONG_USAGE
+from mudline.cli import FOUND, WRONG_USAGE, options
 from mudline.cli.streams import notify, notify_diagnostics, reason
 from mudline.deck.loading import form_of, load_bytes
 from mudline.deck.model import Deck
 from mudline.diagnostics import DeckError
+from mudline.files import write_atomically
 from mudline.patterns import Pattern, read_pattern
 
 GITIGNORE = ".gitignore"
@@ -27,8 +28,6 @@ STDIN = "-"
 _MARK = b"mudline-deck/"
 _HEAD = 4096
 """Bytes at the beginning of a JSON or YAML file that name its format."""
-
-Parameters = ParamSpec("Parameters")
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,8 +68,17 @@ class Inputs:
                 continue
             yield file, data
 
+    def replaced(self, file: Input, content: bytes) -> bool:
+        """Whether a file has its new content; if not, that is reported."""
+        try:
+            write_atomically(Path(file.path or file.name), content)
+        except OSError as error:
+            self.fail(f"{file.name}: cannot be written: {reason(error)}")
+            return False
+        return True
+
     def fail(self, message: str) -> None:
-        """Report a path that cannot be read."""
+        """Report a path that cannot be read or written."""
         notify(message)
         self.code = WRONG_USAGE
 
@@ -150,25 +158,46 @@ def _directory(search: Search, found: Inputs, taken: Wanted) -> None:
     found.files += [Input(start + path.relative_to(given).as_posix(), str(path)) for path in decks]
 
 
-def load(given: str, *, form: str | None = None, units: str | None = None, stdin_name: str = "<stdin>") -> Deck:
-    """The one deck of a command; ends the command when the path cannot be read. Raises DeckError."""
-    if os.path.isdir(given):  # noqa: PTH112 - as above
-        raise click.ClickException(f"{given} is a directory: this command takes one deck")
-    file = _single(given, stdin_name)
-    try:
-        data = file.read()
-    except OSError as error:
-        raise click.ClickException(f"{given}: {reason(error)}") from error
-    return load_bytes(data, file.name, form=form, units=units, folder=file.folder)
+# ------------------------------------------------------------------------------------------------ the one deck
 
 
-def refuses_bad_decks(command: Callable[Parameters, int]) -> Callable[Parameters, int]:
+@dataclass(frozen=True, slots=True)
+class GivenDeck:
+    """The one deck of a command, with the name of standard input and the units that its options give."""
+
+    path: str
+    stdin_name: str
+    units: str | None
+
+    def load(self, form: str | None = None) -> Deck:
+        """Read the deck; ends the command when the path cannot be read. Raises DeckError."""
+        if os.path.isdir(self.path):  # noqa: PTH112 - as above
+            raise click.ClickException(f"{self.path} is a directory: this command takes one deck")
+        file = _single(self.path, self.stdin_name)
+        try:
+            data = file.read()
+        except OSError as error:
+            raise click.ClickException(f"{self.path}: {reason(error)}") from error
+        return load_bytes(data, file.name, form=form, units=self.units, folder=file.folder)
+
+
+def takes_deck(command: options.Command) -> options.Command:
+    """Add DECK, the options about it and those of all commands; the deck arrives as `deck`, a GivenDeck."""
+
+    @wraps(command)
+    def given(*, deck: str, stdin_name: str, units: str | None, **others: object) -> int:
+        return command(deck=GivenDeck(deck, stdin_name, units), **others)
+
+    return options.deck(options.stdin_name(options.units(options.common(refuses_bad_decks(given)))))
+
+
+def refuses_bad_decks(command: options.Command) -> options.Command:
     """Turn the DeckError of a command into messages and exit code 1."""
 
     @wraps(command)
-    def guarded(*args: Parameters.args, **kwargs: Parameters.kwargs) -> int:
+    def guarded(**given: object) -> int:
         try:
-            return command(*args, **kwargs)
+            return command(**given)
         except DeckError as error:
             notify_diagnostics(error.diagnostics)
             return FOUND

@@ -1,22 +1,33 @@
-"""Linting many files: what the cache holds, the rest here or in other processes, always in the order given."""
+"""Linting many files: what the cache holds, the rest here or in other processes, always in the order given.
+
+The processes end with this one and print nothing.
+"""
 
 from __future__ import annotations
 
 import os
+import sys
+import threading
 import time
 from collections import deque
-from collections.abc import Callable, Generator, Iterable, Iterator
-from contextlib import closing
-from dataclasses import dataclass
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
+from contextlib import closing, contextmanager
+from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
+
+import click
 
 from mudline.cli.inputs import Input, Inputs
 from mudline.linting.engine import Fixing, LintSettings
 from mudline.linting.fixing import FileReport, lint_one
+from mudline.linting.registry import rules
+from mudline.linting.rule import Rule
 
-if TYPE_CHECKING:  # both are imported by runs that are large enough
-    from mudline.cli.lint_pool import Arguments, Pool, Promise
+if TYPE_CHECKING:  # imported by runs that are large enough
+    from concurrent.futures import Executor, Future
+
     from mudline.linting.cache import Cache
 
 PAYS = 1.5
@@ -32,6 +43,8 @@ CACHED_BYTES = 1_000_000
 _CHUNK_FILES = 16
 _CHUNK_BYTES = 500_000
 _CHUNK_KNOWN = 256
+_MOST_ON_WINDOWS = 61
+"""Processes that one process can wait for there."""
 
 SettingsOf = Callable[[Input], LintSettings]
 """The settings of a file."""
@@ -49,10 +62,12 @@ class Effort:
     def processes(self) -> int:
         """The number of processes that may be used."""
         if self.jobs:
-            return self.jobs
-        if hasattr(os, "sched_getaffinity"):
-            return len(os.sched_getaffinity(0))
-        return os.cpu_count() or 1
+            wanted = self.jobs
+        elif hasattr(os, "sched_getaffinity"):
+            wanted = len(os.sched_getaffinity(0))
+        else:
+            wanted = os.cpu_count() or 1
+        return min(wanted, _MOST_ON_WINDOWS) if sys.platform == "win32" else wanted
 
 
 class Task(NamedTuple):
@@ -64,14 +79,13 @@ class Task(NamedTuple):
     key: str = ""
     known: FileReport | None = None
 
-    @property
-    def arguments(self) -> Arguments:
-        """The arguments of `lint_one`."""
-        return self.file.name, self.data, self.settings, self.file.folder
-
     def lint(self) -> FileReport:
         """The report, from the cache or made in this process."""
-        return self.known or lint_one(*self.arguments)
+        return self.known or lint_one(self.file.name, self.data, self.settings, self.file.folder)
+
+
+Order = tuple[Task, tuple[str, ...]]
+"""A file as it is sent to a process: without its rules, whose functions may not be picklable, and their codes."""
 
 
 def lint_all(inputs: Inputs, settings_of: SettingsOf, effort: Effort) -> Generator[Linted, None, None]:
@@ -117,31 +131,29 @@ def _reports(tasks: Iterable[Task], count: int, effort: Effort) -> Generator[tup
             break
     else:
         return
-    from mudline.cli.lint_pool import Pool  # noqa: PLC0415 - as above
-
-    with Pool(effort.processes) as pool:
-        yield from _ahead(rest, pool)
+    with pool(effort.processes) as executor:
+        yield from _ahead(rest, executor, 2 * effort.processes)
 
 
 def _pays(estimate: float, effort: Effort) -> bool:
     return estimate >= PAYS and effort.processes > 1
 
 
-def _ahead(tasks: Iterable[Task], pool: Pool) -> Iterator[tuple[Task, FileReport]]:
-    """The reports in order, while the processes work ahead on a bounded number of files."""
-    waiting: deque[tuple[list[Task], Promise]] = deque()
+def _ahead(tasks: Iterable[Task], executor: Executor, most: int) -> Iterator[tuple[Task, FileReport]]:
+    """The reports in order, while the processes work ahead on `most` chunks of files."""
+    waiting: deque[tuple[list[Task], Future[list[FileReport]] | None]] = deque()
     for chunk in _chunks(tasks):
-        waiting.append((chunk, pool.lint([one.arguments for one in chunk if one.known is None])))
-        if len(waiting) > 2 * pool.processes:
+        waiting.append((chunk, _sent(executor, [_order(one) for one in chunk if one.known is None])))
+        if len(waiting) > most:
             yield from _done(*waiting.popleft())
     while waiting:
         yield from _done(*waiting.popleft())
 
 
-def _done(chunk: list[Task], promise: Promise) -> Iterator[tuple[Task, FileReport]]:
-    made = iter(promise())
+def _done(chunk: list[Task], made: Future[list[FileReport]] | None) -> Iterator[tuple[Task, FileReport]]:
+    reports = iter(made.result() if made else ())
     for one in chunk:
-        yield one, one.known or next(made)
+        yield one, one.known or next(reports)
 
 
 def _chunks(tasks: Iterable[Task]) -> Iterator[list[Task]]:
@@ -168,3 +180,83 @@ def _size(inputs: Inputs) -> int:
         except OSError:  # reported when it is read
             continue
     return total
+
+
+# -------------------------------------------------------------------------------------------------- other processes
+
+
+@contextmanager
+def pool(processes: int) -> Iterator[Executor]:
+    """Processes that lint, never copies of this one, which would lack its threads.
+
+    They end at once when not all is done. Ends the command where one has died.
+    """
+    import multiprocessing  # noqa: PLC0415 - as above
+    from concurrent.futures.process import BrokenProcessPool, ProcessPoolExecutor  # noqa: PLC0415 - as above
+
+    before = set(multiprocessing.active_children())
+    method = "forkserver" if sys.platform not in ("win32", "darwin") else "spawn"
+    context = multiprocessing.get_context(method)
+    if method == "forkserver":
+        context.set_forkserver_preload([__name__])
+    executor = ProcessPoolExecutor(processes, context, _quiet)
+    try:
+        yield executor
+    except BaseException as error:
+        for child in set(multiprocessing.active_children()) - before:
+            child.kill()
+        if not isinstance(error, BrokenProcessPool):
+            raise
+        message = "a process that linted decks has ended early, perhaps out of memory: lint fewer, or use --jobs 1"
+        raise click.ClickException(message) from error
+    finally:
+        executor.shutdown(cancel_futures=True)
+
+
+def _order(task: Task) -> Order:
+    return task._replace(settings=replace(task.settings, rules=())), tuple(one.code.code for one in task.settings.rules)
+
+
+def _sent(executor: Executor, orders: list[Order]) -> Future[list[FileReport]] | None:
+    if not orders:
+        return None
+    with _interrupt_deferred():
+        return executor.submit(lint_orders, orders)
+
+
+def lint_orders(orders: Sequence[Order]) -> list[FileReport]:
+    """What a process does with a chunk."""
+    return [one._replace(settings=replace(one.settings, rules=_named(codes))).lint() for one, codes in orders]
+
+
+@cache
+def _named(codes: tuple[str, ...]) -> tuple[Rule, ...]:
+    return tuple(rule for rule in rules() if rule.code.code in codes)
+
+
+def _quiet() -> None:
+    """Ignore Ctrl-C, which reaches all processes of a terminal: the first one ends the others."""
+    import signal  # noqa: PLC0415 - as above
+
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+@contextmanager
+def _interrupt_deferred() -> Iterator[None]:
+    """Block Ctrl-C, also in processes that are started here until they ignore it; this one gets it afterwards."""
+    import signal  # noqa: PLC0415 - as above
+
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    received: list[int] = []
+    before = signal.signal(signal.SIGINT, lambda number, _: received.append(number))
+    masked = sys.platform != "win32" and signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        if sys.platform != "win32":
+            signal.pthread_sigmask(signal.SIG_SETMASK, masked or ())
+        signal.signal(signal.SIGINT, before)
+        if received:
+            signal.raise_signal(signal.SIGINT)

@@ -13,9 +13,8 @@ from typing import NoReturn
 import click
 
 from mudline.cli.inputs import GITIGNORE, STDIN, is_deck
-from mudline.cli.lint_outputs import Outputs
-from mudline.cli.options import View
 from mudline.cli.streams import notify
+from mudline.cli.view import View
 from mudline.linting.output import TEXT
 
 WAIT = 0.3
@@ -31,17 +30,17 @@ State = dict[str, tuple[int, int]]
 """When each file was changed, in nanoseconds, and its size."""
 
 
-def refuse(writing: Mapping[str, bool], paths: Sequence[str], printed: Outputs) -> None:
+def refuse(writing: Mapping[str, bool], paths: Sequence[str], form: str) -> None:
     """Raise click.UsageError for what cannot be repeated."""
     for option, given in writing.items():
         if given:
             raise click.UsageError(f"--watch and {option} exclude each other: give one of them")
     if STDIN in paths:
         raise click.UsageError("--watch needs files: standard input can be read once only")
-    if printed.form not in _PRINTED:
+    if form not in _PRINTED:
         raise click.UsageError(
-            f"--watch prints {' or '.join(_PRINTED)}, not {printed.form}; "
-            f"--output-format {printed.form}=FILE writes a file after each change"
+            f"--watch prints {' or '.join(_PRINTED)}, not {form}; "
+            f"--output-format {form}=FILE writes a file after each change"
         )
 
 

@@ -7,16 +7,14 @@ from pathlib import Path
 import click
 
 from mudline.cli import DONE, FOUND, options
-from mudline.cli.changes import print_changes
 from mudline.cli.inputs import Input, collect
-from mudline.cli.options import View
 from mudline.cli.streams import counted, emit_deck, notify, notify_diagnostics, write_bytes
+from mudline.cli.view import View, print_changes
 from mudline.deck.loading import dump, form_of, load_bytes
 from mudline.diagnostics import DeckError
 from mudline.linting.output import visible
 from mudline.migration.migrating import Continuations, Migration, legacy_blocks, migrate
 from mudline.migration.verification import Verdict, verify
-from mudline.syntax.source import Source
 
 _MOST_REPORTED = 20
 
@@ -113,12 +111,10 @@ class _Run:
         return not verdict.differences
 
     def _print_changes(self, content: bytes, migration: Migration) -> None:
-        name = visible(self.file.name)
-        old, new = (Source.from_bytes(data, self.file.name).text for data in (self.data, content))
-        print_changes(old, new, name, self.view)
+        print_changes(self.data, content, visible(self.file.name), self.view)
         for beside, data in migration.files.items():
             path = Path(self.file.name).with_name(beside).as_posix()
-            print_changes("", data.decode(), visible(path), self.view, created=True)
+            print_changes(b"", data, visible(path), self.view, created=True)
 
     def _write(self, content: bytes, files: dict[str, bytes], replaced: str = "") -> int:
         if self.target is None:

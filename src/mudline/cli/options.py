@@ -4,37 +4,13 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import wraps
-from typing import TYPE_CHECKING
 
 import click
 
-if TYPE_CHECKING:
-    from mudline.cli.printing import Bar, Printer
+from mudline.cli.view import View
 
 Command = Callable[..., int]
-
-
-@dataclass(frozen=True, slots=True)
-class View:
-    """How to print: colours ("auto", "always", "never"), less, or more. The one place where rich is loaded."""
-
-    color: str = "auto"
-    quiet: bool = False
-    verbose: bool = False
-
-    def printer(self) -> Printer:
-        """What prints for people."""
-        from mudline.cli.printing import Printer  # noqa: PLC0415 - output for programs needs no rich
-
-        return Printer(self.color)
-
-    def bar(self, total: int) -> Bar:
-        """A bar of so many steps."""
-        from mudline.cli.printing import Bar  # noqa: PLC0415 - as above
-
-        return Bar(total, self.color)
 
 
 def common(command: Command) -> Command:

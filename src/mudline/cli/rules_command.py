@@ -9,8 +9,8 @@ from typing import Any
 import click
 
 from mudline.cli import DONE, options
-from mudline.cli.options import View
 from mudline.cli.streams import emit_json
+from mudline.cli.view import View
 from mudline.linting.output import visible_lines
 from mudline.linting.registry import UnknownRule, origin, rules, select
 from mudline.linting.rule import Rule

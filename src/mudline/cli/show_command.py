@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from mudline.cli import DONE, FOUND, options
-from mudline.cli.inputs import load, refuses_bad_decks
-from mudline.cli.options import View
+from mudline.cli.inputs import GivenDeck, takes_deck
 from mudline.cli.streams import counted, emit_json, notify
+from mudline.cli.view import View
 from mudline.results.quantities import UnitNames, headed, shown, unit_names
 from mudline.results.summary import summarise
 from mudline.scene.model import resolve
@@ -25,18 +25,14 @@ _OPEN = "+ a block that is not read may add elements to this set"
 
 
 @click.command("show")
-@options.deck
 @options.output_format("text", "json")
-@options.stdin_name
-@options.units
-@options.common
-@refuses_bad_decks
-def command(*, deck: str, output_format: str, stdin_name: str, units: str | None, view: View) -> int:
+@takes_deck
+def command(*, deck: GivenDeck, output_format: str, view: View) -> int:
     """Summarise a deck: sections, keywords, sets, curves, diameters, laws.
 
     A deck with errors is shown as far as it can be read; the exit code is then 1.
     """
-    scene = resolve(load(deck, units=units, stdin_name=stdin_name))
+    scene = resolve(deck.load())
     summary = summarise(scene)
     errors = scene.errors()
     if output_format == "json":

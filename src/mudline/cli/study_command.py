@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, cast
 import click
 
 from mudline.cli import DONE, FOUND, options
-from mudline.cli.inputs import load, refuses_bad_decks
-from mudline.cli.options import View
+from mudline.cli.inputs import GivenDeck, refuses_bad_decks
 from mudline.cli.streams import counted, emit, notify, notify_missing, reason
+from mudline.cli.view import View
 from mudline.results.quantities import headed, shown
 from mudline.scene.model import Scene, resolve
 from mudline.study.report import Cell, StudyError, StudyOptions, StudyReport, StudyTable, silent
@@ -79,7 +79,7 @@ def command(
 def _scene(deck: str | None, units: str | None, stdin_name: str) -> Scene:
     if deck is None:
         return cast("Scene", import_module("mudline.study.sample").sample_scene())
-    return resolve(load(deck, units=units, stdin_name=stdin_name)).require()
+    return resolve(GivenDeck(deck, stdin_name, units).load()).require()
 
 
 def _write(report: StudyReport, folder: Path, *, quiet: bool) -> None:

@@ -13,9 +13,8 @@ import click
 
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import Input, Inputs, collect_any_form
-from mudline.cli.options import View
-from mudline.cli.progress import Progress, wants_bar
 from mudline.cli.streams import counted, emit, reason
+from mudline.cli.view import Progress, View, wants_bar
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Diagnostic, Severity
 from mudline.linting.engine import problems_in
@@ -43,13 +42,7 @@ _SHORTEST = 20
 @options.units
 @options.common
 def command(
-    *,
-    paths: tuple[str, ...],
-    output_format: str,
-    every_file: bool,
-    stdin_name: str,
-    units: str | None,
-    view: View,
+    *, paths: tuple[str, ...], output_format: str, every_file: bool, stdin_name: str, units: str | None, view: View
 ) -> int:
     """Validate decks: print the errors of each, then a table with a row per deck.
 

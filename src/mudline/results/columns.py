@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Protocol
+from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +14,7 @@ from numpy.typing import NDArray
 from mudline.contact import ContactResult
 from mudline.results.evaluation import Evaluation, Part
 from mudline.results.quantities import ELEMENTS, NODES, Names, Quantity
-from mudline.scene.numbering import Floats
+from mudline.scene.numbering import Floats, Indices
 
 Values = NDArray[Any]
 
@@ -56,45 +58,54 @@ class Column:
         return self.values[first:last]
 
 
-def columns_of(
-    quantities: Mapping[str, Quantity],
-    values: Mapping[str, Values],
-    names: Mapping[str, Names],
-    of_result: Callable[[str], Values],
-) -> list[Column]:
-    """A column of each quantity; values that are not given are those of the result with its name."""
-    return [
-        Column(
-            name,
-            values[name] if name in values else of_result(name),
-            names.get(name, quantity.names),
-            quantity.vector,
-            quantity.over_steps,
-        )
-        for name, quantity in quantities.items()
-    ]
+Others = Callable[[Part], Sequence[tuple[str, Floats]]]
+"""Gives further columns of elements for some steps: names, and values (steps, m)."""
 
 
-class Table(Protocol):
-    """Makes the columns of elements or nodes for some steps."""
+class Table(ABC):
+    """Makes the columns of the elements or nodes with these indices for some steps."""
+
+    def __init__(self, chosen: Indices) -> None:
+        self._chosen = chosen
 
     @property
     def rows(self) -> int:
         """Number of rows of a step."""
+        return len(self._chosen)
 
+    @abstractmethod
     def columns(self, part: Part) -> list[Column]:
-        """The columns, those that hold for all steps in front."""
+        """Return the columns of the contract, then others."""
+
+    def _columns(
+        self,
+        quantities: Mapping[str, Quantity],
+        values: Mapping[str, Values],
+        result: ContactResult,
+        names: Mapping[str, Names] = MappingProxyType({}),
+    ) -> list[Column]:
+        """A column of each quantity; values that are not given are those of the result with its name."""
+        return [
+            Column(
+                name,
+                values[name] if name in values else kept(getattr(result, name), self._chosen),
+                names.get(name, quantity.names),
+                quantity.vector,
+                quantity.over_steps,
+            )
+            for name, quantity in quantities.items()
+        ]
 
 
-class ElementTable:
+class ElementTable(Table):
     """The evaluated elements.
 
     `others` are columns besides those of the contract, by name: values (m,) of all elements for each step asked for.
     """
 
     def __init__(self, evaluation: Evaluation, others: Others | None = None) -> None:
-        scene, self._chosen = evaluation.scene, evaluation.elements
-        self._others = others
+        super().__init__(evaluation.elements)
+        scene, self._others = evaluation.scene, others
         set_codes, sets = coded(scene.law_sets)
         laws, names = coded(scene.law_names)
         self._laws = laws[self._chosen]
@@ -107,19 +118,14 @@ class ElementTable:
             "length": evaluation.length[self._chosen],
         }
 
-    @property
-    def rows(self) -> int:
-        """Number of rows of a step."""
-        return len(self._chosen)
-
     def columns(self, part: Part) -> list[Column]:
-        """The columns of the contract, then the others."""
+        """Return the columns of the contract, then the others."""
         result = part.result
         values: dict[str, Values] = self._fixed | {
             "law": self._law(result),
             "state": codes_of(result.state, self._chosen),
         }
-        found = columns_of(ELEMENTS, values, self._names, lambda name: kept(getattr(result, name), self._chosen))
+        found = self._columns(ELEMENTS, values, result, self._names)
         others = () if self._others is None else self._others(part)
         return found + [Column(name, kept(values, self._chosen)) for name, values in others]
 
@@ -129,27 +135,15 @@ class ElementTable:
         return np.where(kept(result.cut, self._chosen), np.int32(len(self._names["law"]) - 2), self._laws)
 
 
-class Others(Protocol):
-    """Gives further columns of elements."""
-
-    def __call__(self, part: Part) -> Sequence[tuple[str, Floats]]:
-        """Names, and values (steps, m)."""
-
-
-class NodeTable:
+class NodeTable(Table):
     """The nodes that have a position. Without friction its forces are 0 and its states none."""
 
     def __init__(self, evaluation: Evaluation) -> None:
-        self._chosen = evaluation.nodes
+        super().__init__(evaluation.nodes)
         self._ids = evaluation.scene.node_ids[self._chosen]
 
-    @property
-    def rows(self) -> int:
-        """Number of rows of a step."""
-        return len(self._chosen)
-
     def columns(self, part: Part) -> list[Column]:
-        """The columns of the contract."""
+        """Return the columns of the contract."""
         result, chosen = part.result, self._chosen
         axial, lateral = _by_direction(result.friction)
         axial_state, lateral_state = _by_direction(result.friction_state)
@@ -161,7 +155,7 @@ class NodeTable:
             "axial_state": codes_of(axial_state, chosen),
             "lateral_state": codes_of(lateral_state, chosen),
         }
-        return columns_of(NODES, values, {}, lambda name: kept(getattr(result, name), chosen))
+        return self._columns(NODES, values, result)
 
     def _normal(self, normal: Values) -> Values:
         """One row of nodes where all points of the seabed share a normal."""

@@ -131,20 +131,16 @@ def evaluate_scene(scene: Scene, positions: Positions | None = None, tension: Te
     if positions is None:
         _require_coordinates(scene.require_evaluable(tension))
     ready = prepare(scene, positions, tension)
-    if positions is None:
-        places, present = ready.scene.coordinates[np.newaxis], np.ones(len(scene.nodes), dtype=bool)
-        return Evaluation(
-            ready.scene, ready.model, places, present, lengths_from_positions=ready.lengths_from_positions
-        )
-    if ready.model.input.has("suction") and positions.velocities is None:
-        _require_clock(ready.scene, positions)
+    given = positions or Positions(scene.coordinates[np.newaxis], np.ones(len(scene.nodes), dtype=bool), None)
+    if ready.model.input.has("suction") and given.velocities is None:
+        _require_clock(ready.scene, given)
     return Evaluation(
         ready.scene,
         ready.model,
-        positions.values,
-        positions.present,
-        positions.time,
-        positions.velocities,
+        given.values,
+        given.present,
+        given.time,
+        given.velocities,
         ready.lengths_from_positions,
     )
 

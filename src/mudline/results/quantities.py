@@ -95,12 +95,7 @@ ELEMENTS = _by_name(
         label="seabed reaction\nper unit length",
     ),
     Quantity("slope", "d force / d ratio, or `null`", "line_force"),
-    Quantity(
-        "stiffness",
-        "d force / d depth, per unit length",
-        "stiffness",
-        label="seabed stiffness\nper unit length",
-    ),
+    Quantity("stiffness", "d force / d depth, per unit length", "stiffness", label="seabed stiffness\nper unit length"),
     Quantity("law", "`curve:NAME`, `curve-cut`, `linear`, `nodal`, `rigid` or `none`"),
     Quantity(
         "state",
@@ -113,11 +108,7 @@ ELEMENTS = _by_name(
 NODES = _by_name(
     Quantity("node", "its number", over_steps=False),
     Quantity("gap", "height above the seabed, along its normal; `null` where there is no seabed", "length"),
-    Quantity(
-        "normal",
-        "normal of the seabed: x, y, z; `[null, null, null]` where there is no seabed",
-        vector=True,
-    ),
+    Quantity("normal", "normal of the seabed: x, y, z; `[null, null, null]` where there is no seabed", vector=True),
     Quantity("reaction", "total force of the seabed on the node: x, y, z", "force", vector=True),
     Quantity("normal_force", "the part along the normal, negative where it pulls", "force"),
     Quantity("axial_force", "seabed reaction on the pipe along the line: friction; 0.0 without it", "force"),

@@ -1,19 +1,26 @@
-"""What a deck holds, in figures."""
+"""What a deck holds, in figures: counts, sets, curves, diameters, laws, static embedment."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mudline.contact import LawKind
+from mudline.contact.arrays import BoolArray
+from mudline.contact.input import LawAssignment, LawKind
+from mudline.contact.laws.linear import penetration_under, smoothed_reaction
 from mudline.deck.model import Opaque
-from mudline.results.curves import followers, static_embedment
 from mudline.results.quantities import finite
+from mudline.scene.assignments import element_smoothing, nodal_springs
 from mudline.scene.continued import ContinuedDeck
 from mudline.scene.model import Scene
+from mudline.scene.numbering import Floats, Indices, summed
+from mudline.scene.resolved import LawArrays
 from mudline.scene.seabed import SeabedKind, SeabedShape
+
+CURVE_SIDES = {-1: "below", 0: None, 1: "above"}
+"""Where a value lies beyond the points of its curve."""
 
 
 def summarise(scene: Scene) -> dict[str, Any]:
@@ -81,6 +88,14 @@ def _curves(scene: Scene) -> list[dict[str, Any]]:
             }
         )
     return rows
+
+
+def followers(scene: Scene, curve: int) -> BoolArray:
+    """The elements (m,) that follow a curve."""
+    found: BoolArray = np.array([grant.curve == curve for grant in scene.laws.set_laws] + [False])[
+        scene.laws.of_element
+    ]
+    return found
 
 
 def _diameters(scene: Scene) -> list[dict[str, Any]]:
@@ -154,3 +169,124 @@ def extension_summary(scene: Scene) -> list[dict[str, Any]]:
         for keyword, found in scene.extensions.items()
         for index, entry in enumerate(found.entries)
     ]
+
+
+# ------------------------------------------------------------------------------------------------ static embedment
+
+_MOST = 100
+"""Rows: what a table can show."""
+
+
+class _Case(NamedTuple):
+    """Elements that share a law, a weight per length and a diameter; the index of one of them."""
+
+    set_name: str | None
+    law: str
+    weight: float
+    element: int
+
+
+def static_embedment(scene: Scene) -> list[dict[str, Any]]:
+    """A row for each set, law, weight per length and diameter of elements whose weight is known, up to 100 rows.
+
+    `penetration` is where the law, smoothed as it is evaluated, carries the weight, `stiffness` that of the law there.
+    Of a curve that does so at several ratios it is the smallest that is not negative. For nodal laws there is a row for
+    the node that carries least and one for the node that carries most; `stiffness` is then Kn, force per length.
+    """
+    weight = scene.submerged_weight
+    known = np.flatnonzero((weight > 0.0) & np.isin(scene.law, (LawKind.CURVE, LawKind.LINEAR)))
+    arrays, zones = scene.law_arrays(), _Zones.of_elements(scene)
+    rows = [_of_element(scene, arrays, zones, case) for case in _cases(scene, weight, zones, known)]
+    return [*rows, *_of_nodes(scene, weight)][:_MOST]
+
+
+class _Zones(NamedTuple):
+    """Quadratic zones of all elements, or of all nodes: half widths, and which lie below the mudline only."""
+
+    half_width: Floats
+    one_sided: Floats
+
+    @classmethod
+    def of(cls, law: LawAssignment | None, count: int) -> _Zones:
+        """Return the zones that a law gives its rows."""
+        half_width, one_sided = np.zeros(count), np.zeros(count)
+        if law is not None:
+            half_width[law.rows] = law.parameters["half_width"]
+            one_sided[law.rows] = law.parameters["one_sided"]
+        return cls(half_width, one_sided)
+
+    @classmethod
+    def of_elements(cls, scene: Scene) -> _Zones:
+        """Return the zones of linear laws."""
+        smoothing = element_smoothing(scene) if "SEABED CONTACT" in scene.extensions else None
+        return cls.of(smoothing, len(scene.element_ids))
+
+
+def _cases(scene: Scene, weight: Floats, zones: _Zones, elements: Indices) -> list[_Case]:
+    if not elements.size:
+        return []
+    sizes = np.nan_to_num(scene.diameter[elements])
+    width, side = zones.half_width[elements], zones.one_sided[elements]
+    keys = np.column_stack([scene.laws.of_element[elements], weight[elements], sizes, width, side])
+    firsts = np.sort(np.unique(keys, axis=0, return_index=True)[1])[:_MOST]
+    found = elements[firsts].tolist()
+    return [_Case(scene.law_sets[at], scene.law_names[at], float(weight[at]), at) for at in found]
+
+
+def _of_element(scene: Scene, arrays: LawArrays, zones: _Zones, case: _Case) -> dict[str, Any]:
+    diameter = float(scene.diameter[case.element])
+    with np.errstate(all="ignore"):
+        if scene.law[case.element] == LawKind.LINEAR:
+            stiffness = float(arrays.linear_stiffness[case.element])
+            law = stiffness, zones.half_width[case.element], zones.one_sided[case.element]
+            depth = float(penetration_under(np.float64(case.weight), *law))
+            slope = float(smoothed_reaction(depth, diameter, *law)[1])
+            return _row(case, float(np.divide(depth, diameter)), depth, slope, None)
+        curve_index = int(arrays.curve_index[case.element])
+        found = arrays.curves[curve_index].ratios_at_force(case.weight) if curve_index >= 0 else ()
+        ratio = next((each for each in found if each >= 0.0), None)
+        if ratio is None:
+            return _row(case, np.nan, np.nan, np.nan, None)
+        curve = arrays.curves[curve_index]
+        slope = float(curve.evaluate(ratio)[1])
+        side = CURVE_SIDES[int(curve.extrapolated(ratio))]
+        return _row(case, ratio, ratio * diameter, float(np.divide(slope, diameter)), side)
+
+
+def _of_nodes(scene: Scene, weight: Floats) -> list[dict[str, Any]]:
+    """The least and the most that a node with a spring of its own carries, by set."""
+    if not scene.nodal.any() or (scene.element_nodes < 0).any():
+        return []
+    extension = scene.extensions["SEABED CONTACT"]
+    ends, count = scene.element_nodes, len(scene.node_ids)
+    springs = nodal_springs(scene)
+    stiffness, zones = np.full(count, np.nan), _Zones.of(springs, count)
+    stiffness[springs.rows] = springs.parameters["stiffness"]
+    with np.errstate(all="ignore"):
+        carried = summed(0.5 * weight * scene.length, ends, count)
+        depth = penetration_under(carried, stiffness, *zones)
+        slope = smoothed_reaction(depth, 0.0, stiffness, *zones)[1]
+    rows = []
+    for block in np.unique(extension.of_element[scene.nodal]).tolist():
+        elements = np.flatnonzero(scene.nodal & (extension.of_element == block))
+        nodes = np.unique(ends[elements])
+        usable = nodes[(carried[nodes] > 0.0) & np.isfinite(depth[nodes])]
+        order = usable[np.argsort(depth[usable], kind="stable")]
+        for node in dict.fromkeys([*order[:1].tolist(), *order[-1:].tolist()]):
+            at = int(elements[(ends[elements] == node).any(axis=1)][0])
+            case = _Case(scene.law_sets[at], "nodal", float(weight[at]), at)
+            ratio = float(np.divide(depth[node], scene.diameter[at]))
+            rows.append(_row(case, ratio, float(depth[node]), float(slope[node]), None))
+    return rows
+
+
+def _row(case: _Case, ratio: float, penetration: float, stiffness: float, side: str | None) -> dict[str, Any]:
+    return {
+        "set": case.set_name,
+        "weight": case.weight,
+        "law": case.law,
+        "ratio": finite(ratio),
+        "penetration": finite(penetration),
+        "stiffness": finite(stiffness),
+        "extrapolated": side,
+    }

@@ -1,4 +1,7 @@
-"""An evaluation in few figures: by law and set, by time step, and where over all steps they are largest."""
+"""What is kept of an evaluation whose steps come and go: totals by law and set, by step, the largest; for a picture.
+
+Memory does not grow with the number of steps, but for the figures of the steps themselves.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mudline.contact import ContactResult
+from mudline.contact import ContactResult, LawKind
 from mudline.results.evaluation import Evaluation, Part
 from mudline.results.quantities import SLIDING, STATES, Names, finite
 from mudline.scene.numbering import Floats, Indices
@@ -67,27 +70,19 @@ def totals(evaluation: Evaluation, part: Part) -> list[Total]:
     ]
 
 
-def step_totals(evaluation: Evaluation, part: Part) -> list[StepTotal]:
-    """The steps of a part; none for a single state without a time."""
-    if evaluation.time is None:
-        return []
-    return [_step(evaluation, part, step) for step in range(part.count)]
-
-
 def reaction(evaluation: Evaluation, result: ContactResult) -> float:
     """Total normal force of a step on all nodes."""
     return _sum(result.normal_force[evaluation.nodes])
 
 
-def _step(evaluation: Evaluation, part: Part, step: int) -> StepTotal:
-    chosen, result = evaluation.elements, part.result.step(step)
+def _step(evaluation: Evaluation, time: float, result: ContactResult) -> StepTotal:
+    chosen = evaluation.elements
     ids = evaluation.scene.element_ids[chosen]
     touching = np.flatnonzero(result.contact[chosen])
     first, last = (int(ids[touching[end]]) if touching.size else None for end in (0, -1))
-    times = evaluation.time
     slips = result.friction_state
     return StepTotal(
-        0.0 if times is None else float(times[part.start + step]),
+        time,
         len(touching),
         first,
         last,
@@ -162,45 +157,118 @@ class Peak(NamedTuple):
     element: int | None
 
 
-@dataclass(slots=True)
-class Peaks:
-    """Collects the largest figures as the steps come, by the names of `STEPS`."""
-
-    evaluation: Evaluation
-    found: dict[str, Peak] = field(default_factory=dict)
-
-    def take(self, part: Part) -> None:
-        """Look at some steps."""
-        for name, (values, elements) in traces(self.evaluation, part).items():
-            sizes = np.abs(values) if name == "force" else values
-            if np.isnan(sizes).all():
-                continue
-            step = int(np.nanargmax(sizes))
-            before = self.found.get(name)
-            if before is None or sizes[step] > (abs(before.value) if name == "force" else before.value):
-                element = None if elements is None else int(self.evaluation.scene.element_ids[elements[step]])
-                self.found[name] = Peak(float(values[step]), part.start + step, element)
-
-
 @dataclass
 class Digest:
-    """The first step, the figures of the first `most` steps (None: of all), and the largest of all steps."""
+    """The first step, the figures of the first `most` steps (None: of all), and the largest of all steps.
+
+    `peaks` have the names of `STEPS`. A single state without a time has neither steps nor peaks.
+    """
 
     evaluation: Evaluation
     most: int | None
     first: Part | None = None
     steps: list[StepTotal] = field(default_factory=list)
-    peaks: Peaks = field(init=False)
-
-    def __post_init__(self) -> None:
-        self.peaks = Peaks(self.evaluation)
+    peaks: dict[str, Peak] = field(default_factory=dict)
 
     def take(self, part: Part) -> None:
         """Look at some steps."""
         if self.first is None:
             self.first = Part(part.start, part.result.steps(0, 1))
+        times = self.evaluation.time
+        if times is None:
+            return
         left = part.count if self.most is None else min(part.count, self.most - len(self.steps))
-        if self.evaluation.time is not None and left > 0:
-            self.steps += step_totals(self.evaluation, Part(part.start, part.result.steps(0, left)))
-        if self.evaluation.time is not None:
-            self.peaks.take(part)
+        for step in range(left):
+            self.steps.append(_step(self.evaluation, float(times[part.start + step]), part.result.step(step)))
+        for name, (values, elements) in traces(self.evaluation, part).items():
+            sizes = np.abs(values) if name == "force" else values
+            if np.isnan(sizes).all():
+                continue
+            step = int(np.nanargmax(sizes))
+            before = self.peaks.get(name)
+            if before is None or sizes[step] > (abs(before.value) if name == "force" else before.value):
+                element = None if elements is None else int(self.evaluation.scene.element_ids[elements[step]])
+                self.peaks[name] = Peak(float(values[step]), part.start + step, element)
+
+
+# ----------------------------------------------------------------------------------------------- data of a picture
+
+_BINS = 2000
+"""Pieces of time of which the least and the largest value are drawn."""
+_POINTS = 4000
+"""Evaluated points that are drawn on the curves."""
+TRACED = ("reaction", "force", "touching", "deepest")
+"""Figures of a step that are drawn over time."""
+
+
+class Points(NamedTuple):
+    """Evaluated points of elements on a curve: its index, ratio and force."""
+
+    curve: Indices
+    ratio: Floats
+    force: Floats
+
+
+@dataclass(frozen=True, slots=True)
+class Chosen:
+    """The step that is drawn, its result, and the positions (n, 3)."""
+
+    step: int
+    result: ContactResult
+    positions: Floats
+
+
+class PlotData:
+    """The step with the largest total reaction, points on the curves, and traces over time."""
+
+    def __init__(self, evaluation: Evaluation) -> None:
+        self.evaluation = evaluation
+        self.chosen: Chosen | None = None
+        self.points: list[Points] = []
+        bins = min(_BINS, evaluation.steps)
+        self.traces = {name: (np.full(bins, np.inf), np.full(bins, -np.inf)) for name in TRACED}
+        self._largest = -np.inf
+        curves = evaluation.model.input.law[evaluation.elements] == LawKind.CURVE
+        self.on_curve: Indices = evaluation.elements[curves]
+        """The evaluated elements with a curve."""
+        self._every = max(1, evaluation.steps * len(self.on_curve) // _POINTS)
+        self._seen = 0
+
+    @property
+    def bin_times(self) -> Floats:
+        """The time of the first step of each bin."""
+        bins = len(self.traces["reaction"][0])
+        first = -(-np.arange(bins) * self.evaluation.steps // bins)
+        return np.zeros(0) if self.evaluation.time is None else self.evaluation.time[first]
+
+    def take(self, part: Part) -> None:
+        """Look at some steps."""
+        of_part = traces(self.evaluation, part)
+        steps = np.arange(part.start, part.start + part.count)
+        where = steps * len(self.traces["reaction"][0]) // self.evaluation.steps
+        for name, (least, most) in self.traces.items():
+            values = of_part[name].values
+            np.minimum.at(least, where, np.where(np.isnan(values), np.inf, values))
+            np.maximum.at(most, where, np.where(np.isnan(values), -np.inf, values))
+        reaction = of_part["reaction"].values
+        step = int(np.argmax(reaction))
+        if self.chosen is None or reaction[step] > self._largest:
+            self._largest = float(reaction[step])
+            places = np.array(self.evaluation.positions[part.start + step], dtype=np.float64)
+            self.chosen = Chosen(part.start + step, part.result.step(step), places)
+        self._sample(part)
+
+    def _sample(self, part: Part) -> None:
+        """Evaluated points at even distances; those of the chosen step are drawn anyway."""
+        size = part.count * len(self.on_curve)
+        taken = np.arange(-self._seen % self._every, size, self._every)
+        self._seen += size
+        if taken.size:
+            step, row = np.divmod(taken, len(self.on_curve))
+            self.points.append(self.points_at(part.result, step, self.on_curve[row]))
+
+    def points_at(self, result: ContactResult, step: Indices | tuple[()], element: Indices) -> Points:
+        """Points of elements at steps of a series, or of one step."""
+        at = (element,) if isinstance(step, tuple) else (step, element)
+        curve = self.evaluation.model.input.curve_index[element]
+        return Points(curve.astype(np.intp), result.ratio[at], result.force[at])

@@ -1,9 +1,10 @@
-"""Results as Parquet, a group of rows at a time. It needs the extra `parquet`."""
+"""Results as two tables in Parquet, a group of rows at a time; needs the extra `parquet`."""
 
 from __future__ import annotations
 
-from types import TracebackType
-from typing import BinaryIO, Self
+from collections.abc import Iterator
+from contextlib import ExitStack, closing, contextmanager
+from typing import BinaryIO
 
 import numpy as np
 import pyarrow as pa
@@ -11,10 +12,21 @@ import pyarrow.parquet as pq
 
 from mudline.results.columns import Column, Table
 from mudline.results.evaluation import Evaluation, Part
-from mudline.scene.numbering import Floats
+from mudline.results.forms import More, Output, Sink, Together
+
+SUMMARY = "the same columns, in groups of rows; the nodes in `...-nodes.parquet`; `pip install 'mudline[parquet]'`"
+BESIDE = True
 
 GROUP = 1 << 18
 """Rows of a group, as soon as there are so many."""
+
+
+@contextmanager
+def opened(output: Output) -> Iterator[Sink]:
+    """What takes the results."""
+    pairs = zip(output.tables, output.streams, strict=True)
+    with ExitStack() as files:
+        yield Together([files.enter_context(closing(ParquetFile(output.evaluation, *pair))) for pair in pairs])
 
 
 class ParquetFile:
@@ -25,26 +37,25 @@ class ParquetFile:
         self._writer: pq.ParquetWriter | None = None
         self._waiting: list[pa.Table] = []
 
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        if kind is None:
-            self._flush()
-        if self._writer is not None:
-            self._writer.close()
-
     def take(self, part: Part) -> None:
         """Write some steps. Raises OSError."""
         flat = [column for vector in self._table.columns(part) for column in vector.flat()]
         fields = {column.name: _array(column, part.count) for column in flat}
         if self._times is not None:
-            fields = {"time": _time(self._times[part.steps], self._table.rows), **fields}
+            fields = {"time": pa.array(np.repeat(self._times[part.steps], self._table.rows)), **fields}
         self._waiting.append(pa.table(fields))
         if sum(len(table) for table in self._waiting) >= GROUP:
             self._flush()
+
+    def finish(self, more: More) -> None:
+        """Write what waits; a table has no place for more. Raises OSError."""
+        del more
+        self._flush()
+
+    def close(self) -> None:
+        """End the file, after a fault too."""
+        if self._writer is not None:
+            self._writer.close()
 
     def _flush(self) -> None:
         """Write what waits as one group of rows."""
@@ -61,7 +72,3 @@ def _array(column: Column, steps: int) -> pa.Array:
         return pa.array(values, from_pandas=True)  # NaN is no value
     codes = pa.array(values.astype(np.int32), mask=values < 0)
     return pa.DictionaryArray.from_arrays(codes, pa.array(column.names[:-1], pa.string()))
-
-
-def _time(times: Floats, rows: int) -> pa.Array:
-    return pa.array(np.repeat(times, rows))

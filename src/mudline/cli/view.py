@@ -1,0 +1,125 @@
+"""How a command prints: colours, less or more, what would change in a file, and a bar of how far a long run is."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from time import monotonic
+from types import TracebackType
+from typing import TYPE_CHECKING, Self, TypeVar
+
+from mudline.cli.streams import emit
+from mudline.linting.output import visible_lines
+from mudline.syntax.source import Source
+
+if TYPE_CHECKING:
+    from mudline.cli.printing import Bar, Printer
+
+DELAY = 0.5
+"""Seconds of a run before a bar is drawn."""
+_PAUSE = 0.1
+"""Seconds between two drawings."""
+_NO_END = "\\ No newline at end of file\n"
+_STYLES = {"+++": "bold", "---": "bold", "@@ ": "cyan", "+": "green", "-": "red"}
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """How to print: colours ("auto", "always", "never"), less, or more. The one place where rich is loaded."""
+
+    color: str = "auto"
+    quiet: bool = False
+    verbose: bool = False
+
+    def printer(self) -> Printer:
+        """What prints for people."""
+        from mudline.cli.printing import Printer  # noqa: PLC0415 - output for programs needs no rich
+
+        return Printer(self.color)
+
+    def bar(self, total: int) -> Bar:
+        """A bar of so many steps."""
+        from mudline.cli.printing import Bar  # noqa: PLC0415 - as above
+
+        return Bar(total, self.color)
+
+
+# ----------------------------------------------------------------------------------------- what would change in a file
+
+
+def print_changes(old: bytes, new: bytes, name: str, view: View, *, created: bool = False) -> None:
+    """Print how a deck changes, as a unified diff in which only LF ends a line; `created`: the file is new."""
+    from difflib import unified_diff  # noqa: PLC0415 - most runs change nothing
+
+    lines = unified_diff(_lines(old, name), _lines(new, name), "/dev/null" if created else name, name)
+    print_diff((line if line.endswith("\n") else f"{line}\n{_NO_END}" for line in lines), view)
+
+
+def _lines(data: bytes, name: str) -> list[str]:
+    *lines, last = Source.from_bytes(data, name).text.split("\n")
+    return [f"{line}\n" for line in lines] + ([last] if last else [])
+
+
+def print_diff(lines: Iterable[str], view: View) -> None:
+    """Print the lines of a unified diff, coloured on a terminal. A pipe gets them unchanged, fit for a patch."""
+    if view.color == "always" or (view.color == "auto" and sys.stdout.isatty()):
+        view.printer().lines((visible_lines(line.rstrip("\r\n")), _style(line)) for line in lines)
+    else:
+        emit(lines)
+
+
+def _style(line: str) -> str:
+    return next((style for mark, style in _STYLES.items() if line.startswith(mark)), "")
+
+
+# ------------------------------------------------------------------------------------------------ how far a long run is
+
+
+def wants_bar(view: View) -> bool:
+    """Whether a bar may be drawn: not in CI, not where standard error is no terminal that can erase."""
+    dumb = os.environ.get("TERM", "").lower() in {"dumb", "unknown"}
+    return sys.stderr.isatty() and not (view.quiet or dumb or os.environ.get("CI"))
+
+
+class Progress:
+    """Steps done out of a total, as a bar on standard error. It is hidden while anything else is printed."""
+
+    def __init__(self, total: int, view: View, *, shown: bool) -> None:
+        self._total = total
+        self._view = view
+        self._done = 0
+        self._bar: Bar | None = None
+        self._due = monotonic() + DELAY if shown and total > 1 else float("inf")
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.hide()
+
+    def advance(self) -> None:
+        """Count one more step."""
+        self._done += 1
+        if monotonic() >= self._due:
+            self._bar = self._bar or self._view.bar(self._total)
+            self._bar.draw(self._done)
+            self._due = monotonic() + _PAUSE
+
+    def hide(self) -> None:
+        """Erase the bar so that other lines can be printed; a later step draws it again."""
+        if self._bar:
+            self._bar.erase()
+
+
+def tracked(items: Sequence[T], view: View) -> Iterator[T]:
+    """The items, with a bar of how many are done."""
+    with Progress(len(items), view, shown=wants_bar(view)) as progress:
+        for item in items:
+            yield item
+            progress.advance()

@@ -1,0 +1,180 @@
+"""The forms of result files, a module each with the name of the suffix, imported when it is asked for.
+
+A module is a form by being here, and holds what `FormModule` says. Results come a few steps at a time and are written
+as they come: a long series is never in memory as text.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager
+from dataclasses import dataclass
+from importlib import import_module
+from itertools import chain, islice
+from pathlib import Path
+from pkgutil import iter_modules
+from typing import Any, BinaryIO, Protocol, TypeVar, cast
+
+import numpy as np
+from pydantic_core import to_json
+
+from mudline.contact import Plan
+from mudline.results.columns import Column, NodeTable, Table, Values
+from mudline.results.evaluation import Evaluation, Part
+
+_BLOCK = 16384
+"""Rows spelled at a time: the texts of a large model are never all in memory."""
+_PIECE = 1000
+"""Rows written at a time."""
+
+T = TypeVar("T")
+Row = tuple[str, ...]
+More = Mapping[str, object]
+"""What is known only after the last step, by its key in JSON."""
+Write = Callable[[Iterator[str]], None]
+"""Writes text in pieces."""
+
+
+class ResultConsumer(Protocol):
+    """Takes the results of a few steps at a time."""
+
+    def take(self, part: Part) -> None:
+        """Take some steps."""
+
+
+class Sink(ResultConsumer, Protocol):
+    """A file or standard output."""
+
+    def finish(self, more: More) -> None:
+        """Write what comes after the last step."""
+
+
+@dataclass(frozen=True, slots=True)
+class Together:
+    """Several tables, or none, as one; a table has no place for more."""
+
+    tables: Sequence[Sink] = ()
+
+    def take(self, part: Part) -> None:
+        """Pass some steps on to each table."""
+        for table in self.tables:
+            table.take(part)
+
+    def finish(self, more: More) -> None:
+        """End each table."""
+        for table in self.tables:
+            table.finish(more)
+
+
+@dataclass(frozen=True, slots=True)
+class Output:
+    """What is written, and one or two open files of `folder`; `tracked` shows how far a long loop over a list is."""
+
+    evaluation: Evaluation
+    elements: Table
+    streams: Sequence[BinaryIO]
+    folder: Path
+    tracked: Callable[[Sequence[Any]], Iterable[Any]] = iter
+
+    @property
+    def tables(self) -> list[Table]:
+        """The tables of elements and nodes."""
+        return [self.elements, NodeTable(self.evaluation)]
+
+
+class FormModule(Protocol):
+    """The module of a form.
+
+    `SUMMARY` says in the documentation what is in a file; where it is `BESIDE`, the nodes go to a second file.
+    """
+
+    SUMMARY: str
+    BESIDE: bool
+
+    def opened(self, output: Output) -> AbstractContextManager[Sink]:
+        """Return what takes the results and writes them."""
+
+
+def form_names() -> list[str]:
+    """Return the name of every form, found without importing one."""
+    return sorted(found.name for found in iter_modules(__path__))
+
+
+def form_module(name: str) -> FormModule:
+    """Return the module of a form; raises ImportError without the library that it needs."""
+    return cast("FormModule", import_module(f"{__name__}.{name}"))
+
+
+# ----------------------------------------------------------------------------------------------------- rows as text
+
+
+def text_form(name: str) -> Callable[[Evaluation, Table, Write], Sink]:
+    """Return what writes a table (JSON: that of elements, and the nodes) as text: "csv" or "json"."""
+    return cast("Callable[[Evaluation, Table, Write], Sink]", import_module(f"{__name__}.{name}").Text)
+
+
+def text_into(stream: BinaryIO) -> Write:
+    """Return what writes text into a file as UTF-8; half a surrogate pair, as a name may hold, is escaped."""
+    return lambda pieces: stream.writelines(piece.encode("utf-8", "backslashreplace") for piece in pieces)
+
+
+@dataclass(frozen=True, slots=True)
+class Spelling:
+    """How a form spells a name, and that there is no value."""
+
+    name: Callable[[str], str]
+    nothing: str
+
+    def column(self, values: Values, names: tuple[str | None, ...] = ()) -> list[str]:
+        """The values of a column; numbers read back to the same double, NaN is no value."""
+        if not values.size:
+            return []
+        if names:
+            spelled = [self.nothing if name is None else self.name(name) for name in names]
+            return [spelled[code] for code in values.tolist()]
+        numbers = to_json(values.tolist(), inf_nan_mode="null")[1:-1].decode().split(",")
+        if self.nothing == "null" or values.dtype.kind != "f" or not np.isnan(values).any():
+            return numbers
+        return [self.nothing if text == "null" else text for text in numbers]
+
+
+def step_rows(columns: list[Column], steps: int, rows: int, spelling: Spelling) -> Iterator[Iterable[Row]]:
+    """The rows of each step, spelled; take those of a step before the next."""
+    flat = [part for column in columns for part in column.flat()]
+    if rows > _BLOCK:
+        for step in range(steps):
+            yield chain.from_iterable(_long(flat, step, rows, spelling))
+        return
+    together = max(1, _BLOCK // max(rows, 1))
+    constant = {column.name: spelling.column(column.values, column.names) for column in flat if column.steady}
+    for first in range(0, steps, together):
+        last = min(steps, first + together)
+        texts = [
+            constant[column.name] * (last - first)
+            if column.steady
+            else spelling.column(column.cut(first, last).ravel(), column.names)
+            for column in flat
+        ]
+        spelled = zip(*texts, strict=True)
+        for _ in range(first, last):
+            yield islice(spelled, rows)
+
+
+def _long(columns: list[Column], step: int, rows: int, spelling: Spelling) -> Iterator[Iterator[Row]]:
+    """The rows of one step of a large model, block by block."""
+    for start in range(0, rows, _BLOCK):
+        block = slice(start, start + _BLOCK)
+        texts = [spelling.column(column.cut(step, step + 1)[0, block], column.names) for column in columns]
+        yield zip(*texts, strict=True)
+
+
+def batched(rows: Iterable[T]) -> Iterator[list[T]]:
+    """Rows in lists that are written at once."""
+    rest = iter(rows)
+    while piece := list(islice(rest, _PIECE)):
+        yield piece
+
+
+def plan_rows(plan: Plan) -> list[dict[str, Any]]:
+    """The stages of a plan."""
+    return [{"stage": stage.stage, "active": stage.active, "why": stage.why} for stage in plan]
