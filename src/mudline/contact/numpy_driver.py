@@ -14,10 +14,9 @@ import numpy as np
 from mudline.contact import vectors
 from mudline.contact.arrays import BoolArray, FloatArray, as_range, taken
 from mudline.contact.numpy_elements import Elements, Work
-from mudline.contact.positions import Batch
 from mudline.contact.result import ContactResult
-from mudline.contact.seabed.base import FlatSeabed, Seabed
-from mudline.contact.tables import ContactState, Tables, rows_within
+from mudline.contact.seabed import FlatSeabed, Seabed
+from mudline.contact.tables import Batch, ContactState, Tables, rows_within
 from mudline.contact.vectors import Components, in_plane
 
 if TYPE_CHECKING:

@@ -15,7 +15,7 @@ from mudline.contact.vectors import in_plane, units
 if TYPE_CHECKING:
     from mudline.contact.laws.suction import SuctionHistory, SuctionLaw
     from mudline.contact.laws.unloading import UnloadingHistory
-    from mudline.contact.positions import Batch
+    from mudline.contact.tables import Batch
 
 Values = tuple[FloatArray, FloatArray, FloatArray]
 """Force, slope and stiffness (steps, k)."""

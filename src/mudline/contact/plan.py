@@ -268,16 +268,17 @@ class BackendChoice:
         from importlib import metadata  # noqa: PLC0415
 
         from mudline.cache_folder import cache_folder  # noqa: PLC0415
-        from mudline.contact.compiled import functions, tables  # noqa: PLC0415 - loads all laws
+        from mudline.contact.compiled import features_of  # noqa: PLC0415
+        from mudline.contact.compiled.functions import edition  # noqa: PLC0415 - loads all laws
 
         folder = cache_folder()
         if folder is None:
             return None
         laws = tuple(rows.law for rows in (*self._tables.normal, *self._tables.nodal))
         facts = (
-            tables.features_of(self._tables, flat=self._flat),
+            features_of(self._tables, flat=self._flat),
             [law.name for law in laws],
-            functions.edition(laws),
+            edition(laws),
             metadata.version("numba"),
             sys.version,
             platform.machine(),

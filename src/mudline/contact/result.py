@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mudline.contact.arrays import BoolArray, FloatArray, IdArray, StateArray
-from mudline.contact.errors import ElementError, PositionError
+from mudline.contact.input import ElementError, PositionError
 from mudline.contact.tables import Tables
 from mudline.short_repr import outline
 

@@ -10,8 +10,7 @@ import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.contact.input import AssignedLaw, ContactInput
-from mudline.contact.laws import NormalLaw
-from mudline.contact.laws.base import Reaction, Value
+from mudline.contact.laws import NormalLaw, Reaction, Value
 from mudline.contact.line import Line
 from mudline.short_repr import outline
 
@@ -64,6 +63,20 @@ class ContactState:
 
 def _copied(part: Part) -> Part:
     return type(part)(*(getattr(part, field.name).copy(order="K") for field in fields(part)))
+
+
+class Batch(NamedTuple):
+    """Steps to be evaluated.
+
+    Attributes:
+        points: (steps, n, 3) positions, NaN for nodes without one.
+        speed: (steps, n) velocities along the normals; None where nothing asks for them.
+        laid: (n, 3) positions of the first step of the series.
+    """
+
+    points: FloatArray
+    speed: FloatArray | None
+    laid: FloatArray
 
 
 class NormalRows(NamedTuple):

@@ -7,8 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray, SmallIndexArray, StateArray
-from mudline.contact.errors import ElementError
-from mudline.contact.input import AssignedLaw, ContactInput
+from mudline.contact.input import AssignedLaw, ContactInput, ElementError
 from mudline.contact.laws.trench import (
     PEAK,
     TABLE,

@@ -19,9 +19,7 @@ import numpy as np
 from numba.extending import overload
 
 from mudline.contact.arrays import FloatArray
-from mudline.contact.compiled.functions import SHARED, Loop, edition, one_of
-from mudline.contact.compiled.loops import elements_loop, nodes_loop
-from mudline.contact.compiled.tables import (
+from mudline.contact.compiled import (
     LAW,
     NO_LINE,
     by_component,
@@ -32,11 +30,12 @@ from mudline.contact.compiled.tables import (
     suction_table,
     trench_tables,
 )
-from mudline.contact.laws import base
-from mudline.contact.positions import Batch
+from mudline.contact.compiled.functions import SHARED, Loop, edition, one_of
+from mudline.contact.compiled.loops import elements_loop, nodes_loop
+from mudline.contact.laws import where
 from mudline.contact.result import ContactResult
-from mudline.contact.seabed.base import FlatSeabed, Seabed
-from mudline.contact.tables import ContactState, NormalRows, Tables
+from mudline.contact.seabed import FlatSeabed, Seabed
+from mudline.contact.tables import Batch, ContactState, NormalRows, Tables
 
 _BATCH = 2**20
 """Nodes times steps at a time, at most."""
@@ -58,7 +57,7 @@ def _pick(condition: bool, one: float, other: float) -> float:  # noqa: FBT001 -
 _INNER: Any = {"error_model": "numpy", "no_cpython_wrapper": True, "no_cfunc_wrapper": True, "forceinline": True}
 """For what only loops call: no contraction of products and sums, divisions as numpy does them."""
 
-overload(base.where, jit_options=_INNER, strict=False)(lambda *_: _pick)
+overload(where, jit_options=_INNER, strict=False)(lambda *_: _pick)
 
 
 @cache

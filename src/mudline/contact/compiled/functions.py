@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from mudline.contact import vectors
-from mudline.contact.compiled.tables import FLOOR, LEAST_DEPTH, PER_CYCLE
+from mudline.contact.compiled import FLOOR, LEAST_DEPTH, PER_CYCLE
 from mudline.contact.laws import NormalLaw
 from mudline.contact.laws.curve import on_segment
 from mudline.contact.laws.friction import in_box, in_ellipse, norm, on_ellipse, slip_distance
@@ -49,10 +49,10 @@ def edition(laws: tuple[NormalLaw, ...]) -> int:
     return int.from_bytes(hashlib.sha256("".join(texts).encode()).digest()[:4], "big")
 
 
-_LAW_MODULES = ("base", "curve", "friction", "linear", "suction", "trench", "unloading")
+_LAW_MODULES = ("__init__", "curve", "friction", "linear", "suction", "trench", "unloading")
 _CONTACT = Path(__file__).parents[1]
 _SOURCES = (
-    *(_CONTACT / "compiled" / f"{name}.py" for name in ("driver", "functions", "loops", "tables")),
+    *(_CONTACT / "compiled" / f"{name}.py" for name in ("__init__", "driver", "functions", "loops")),
     _CONTACT / "vectors.py",
     *(_CONTACT / "laws" / f"{name}.py" for name in _LAW_MODULES),
 )

@@ -9,25 +9,7 @@ from typing import Any
 import numpy as np
 
 from mudline.contact import vectors
-from mudline.contact.compiled.functions import (
-    Array,
-    Loop,
-    Numbers,
-    Point,
-    Wrap,
-    from_laid,
-    from_straight,
-    in_limits,
-    last_at_or_below,
-    mean_normal,
-    next_suction,
-    next_unloading,
-    one_of,
-    suction_law,
-    table_resistance,
-    unit_of_span,
-)
-from mudline.contact.compiled.tables import (
+from mudline.contact.compiled import (
     ACTIVE,
     AMOUNT,
     CENTRELINE,
@@ -67,6 +49,24 @@ from mudline.contact.compiled.tables import (
     TRENCH_KIND,
     UNLOADS,
     Features,
+)
+from mudline.contact.compiled.functions import (
+    Array,
+    Loop,
+    Numbers,
+    Point,
+    Wrap,
+    from_laid,
+    from_straight,
+    in_limits,
+    last_at_or_below,
+    mean_normal,
+    next_suction,
+    next_unloading,
+    one_of,
+    suction_law,
+    table_resistance,
+    unit_of_span,
 )
 from mudline.contact.laws.curve import on_segment
 from mudline.contact.laws.friction import slip_distance

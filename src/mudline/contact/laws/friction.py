@@ -26,7 +26,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, StateArray
-from mudline.contact.laws.base import Law, Parameter, Value, where
+from mudline.contact.laws import Law, Parameter, Value, where
 from mudline.short_repr import short_repr
 
 _SMALLEST = float(np.nextafter(0.0, 1.0))

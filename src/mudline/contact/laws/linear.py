@@ -31,7 +31,7 @@ from __future__ import annotations
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
-from mudline.contact.laws.base import Law, NormalLaw, Parameter, Value, where
+from mudline.contact.laws import Law, NormalLaw, Parameter, Value, where
 
 _WIDEST = 0.25 * float(np.finfo(np.float64).max)
 """Half widths above this are halved in the sums, which would overflow."""

@@ -20,7 +20,7 @@ from __future__ import annotations
 import numpy as np
 
 from mudline.contact.arrays import FloatArray, IndexArray
-from mudline.contact.laws.base import Law, Parameter, Value, where
+from mudline.contact.laws import Law, Parameter, Value, where
 
 PEAK, WALL, TABLE = 0, 1, 2
 """Kinds of resistance, in tables of the drivers."""
