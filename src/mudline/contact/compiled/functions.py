@@ -58,43 +58,16 @@ _SOURCES = (
 )
 
 
-def row_of_0(_table: Array, _row: int, _first: int) -> tuple[()]:
-    """Return no parameter."""
-    return ()
+def row_of(wrap: Wrap, count: int) -> Callable[..., Any]:
+    """Return a function that gives so many parameters of a row of a table, from a first column on."""
+    if count == 0:
+        return wrap(lambda _table, _row, _first: ())  # type: ignore[no-any-return]
+    others, last = row_of(wrap, count - 1), count - 1
 
+    def row_of_several(table: Array, row: int, first: int) -> Any:
+        return (*others(table, row, first), table[row, first + last])
 
-def row_of_1(table: Array, row: int, first: int) -> tuple[float, ...]:
-    """Return one parameter of a row of a table, from a first column on."""
-    return (table[row, first],)
-
-
-def row_of_2(table: Array, row: int, first: int) -> tuple[float, ...]:
-    """Return two parameters."""
-    return table[row, first], table[row, first + 1]
-
-
-def row_of_3(table: Array, row: int, first: int) -> tuple[float, ...]:
-    """Return three parameters."""
-    return table[row, first], table[row, first + 1], table[row, first + 2]
-
-
-def row_of_4(table: Array, row: int, first: int) -> tuple[float, ...]:
-    """Return four parameters."""
-    return table[row, first], table[row, first + 1], table[row, first + 2], table[row, first + 3]
-
-
-def row_of_5(table: Array, row: int, first: int) -> tuple[float, ...]:
-    """Return five parameters."""
-    return (*row_of_4(table, row, first), table[row, first + 4])
-
-
-def row_of_6(table: Array, row: int, first: int) -> tuple[float, ...]:
-    """Return six parameters."""
-    return (*row_of_4(table, row, first), table[row, first + 4], table[row, first + 5])
-
-
-ROWS = (row_of_0, row_of_1, row_of_2, row_of_3, row_of_4, row_of_5, row_of_6)
-"""By how many parameters a law has; a law with more runs with numpy."""
+    return wrap(row_of_several)  # type: ignore[no-any-return]
 
 
 def one_of(wrap: Wrap, laws: tuple[tuple[Callable[..., Any], int], ...], first: int) -> Callable[..., Any]:
@@ -109,7 +82,7 @@ def one_of(wrap: Wrap, laws: tuple[tuple[Callable[..., Any], int], ...], first: 
 
         return wrap(nothing)  # type: ignore[no-any-return]
     (reaction, count), others = laws[0], one_of(wrap, laws[1:], first)
-    reaction, parameters = wrap(reaction), wrap(ROWS[count])
+    reaction, parameters = wrap(reaction), row_of(wrap, count)
     if len(laws) == 1:
 
         def only(_kind: int, z: float, diameter: float, table: Array, row: int) -> tuple[float, float]:
@@ -292,7 +265,7 @@ def from_straight(lines: Array, line: int, p: Point) -> Point:
 
 
 SHARED = (
-    last_at_or_below, unit_of_span, mean_normal, on_piece, from_laid, from_straight, table_resistance, row_of_4,
+    last_at_or_below, unit_of_span, mean_normal, on_piece, from_laid, from_straight, table_resistance,
     next_unloading, next_suction, suction_law, in_limits,
     *(function for plane in vectors.PLANES.values() for function in plane), vectors.tangent_share, vectors.span_scale,
     on_segment, norm, on_ellipse, in_box, in_ellipse, slip_distance, lateral_force, maximum_force, trapezoid,
