@@ -247,7 +247,7 @@ class BackendChoice:
         total = steps * len(self._tables.given.node_ids)
         if total < _WORTH_LOADING or find_spec("numba") is None:
             return False
-        return total >= _WORTH_COMPILING or self._marker_exists()
+        return total >= _WORTH_COMPILING or ((marker := self._marker()) is not None and marker.exists())
 
     def note_compiled(self) -> None:
         """Remember that the loops for these laws are in the cache of compiled code."""
@@ -256,10 +256,6 @@ class BackendChoice:
             with suppress(OSError):  # the next process decides as if nothing were compiled
                 marker.parent.mkdir(parents=True, exist_ok=True)
                 marker.touch()
-
-    def _marker_exists(self) -> bool:
-        marker = self._marker()
-        return marker is not None and marker.exists()
 
     def _marker(self) -> Path | None:
         """An empty file that stands for compiled loops; its name changes with all that they depend on."""

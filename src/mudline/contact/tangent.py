@@ -227,21 +227,20 @@ class _Sliding(NamedTuple):
 def _friction_of(step: _Step) -> _Sliding:
     from mudline.contact.laws.friction import ExtraLimit, slide  # noqa: PLC0415 - only now is it needed
 
-    tables, history = step.tables, step.before.friction
-    law = tables.friction_law()
+    tables, law, history = step.tables, step.tables.friction_law, step.before.friction
     absent = np.isnan(step.result.gap)
     places = np.where(absent[:, None], 0.0, step.points)
     compression = np.where(absent, 0.0, step.result.normal_force)
     directions = directions_of(tables, step.points, step.normal)
     extra, gradient, by_angle = None, None, None
-    if history is None:
+    if law is None or history is None:
         raise TypeError("the state has no friction: it belongs to another model")
     if tables.trench is not None:
-        from mudline.contact.trenches import LaidCentreline, added_limit  # noqa: PLC0415 - most friction has no trench
+        from mudline.contact.trenches import added_limit  # noqa: PLC0415 - most friction has no trench
 
         laid = step.points if step.before.laid is None else step.before.laid
         trial = slide(law, history, places, directions.axes, compression).trial[:, 1]
-        line = LaidCentreline(laid, tables.line)
+        line = tables.laid_line(laid)
         pressed, forward = np.maximum(compression, 0.0), trial > 0.0
         added = added_limit(tables.trench, line, places, directions.axes, pressed, forward)
         gradient, by_angle = added.gradient, added.by_angle

@@ -203,7 +203,8 @@ class LaidCentreline:
         with np.errstate(all="ignore"):
             square = span[0] * span[0] + span[1] * span[1] + span[2] * span[2]
             inverse = np.where(square > LEAST_SQUARE, 1.0 / square, 0.0)
-        self.start, self.span, self.inverse = start, span, inverse
+        self.pieces: FloatArray = np.concatenate([start, span, inverse[None]])
+        self.start, self.span, self.inverse = self.pieces[:3], self.pieces[3:6], self.pieces[6]
         self._kept: dict[int, Beside] = {}
 
     def beside(self, key: int, trench: TrenchRows) -> Beside:
@@ -339,6 +340,12 @@ def slopes(trench: TrenchRows, offset: FloatArray) -> tuple[FloatArray, FloatArr
     return by_distance, by_normal
 
 
+def ranks(nodes: IndexArray) -> list[IndexArray]:
+    """Return rows of ascending nodes in groups that have each node once: the first of each node, the second, ..."""
+    rank = np.arange(len(nodes)) - np.searchsorted(nodes, nodes)
+    return [np.flatnonzero(rank == place) for place in range(int(rank.max(initial=-1)) + 1)]
+
+
 class AddedLimit(NamedTuple):
     """What trenches add to the lateral limits of nodes (n,) on the side to which each is pulled, with derivatives.
 
@@ -363,9 +370,8 @@ def added_limit(
     """Return what trenches add at `points` (n, 3); `forward` (n,) marks nodes pulled along +u2."""
     count = len(points)
     found = AddedLimit(np.zeros(count), np.zeros(count), np.zeros((count, 3)), np.zeros(count))
-    rank = np.arange(len(whole.nodes)) - np.searchsorted(whole.nodes, whole.nodes)
-    for place in range(int(rank.max(initial=-1)) + 1):
-        rows = whole.some(np.flatnonzero(rank == place))
+    for place in ranks(whole.nodes):
+        rows = whole.some(place)
         at, beside = rows.nodes, line.pieces_beside(rows)
         where = line.away(beside, [points[at, axis][None] for axis in range(3)])
         away, lateral = np.stack([axis[0] for axis in where.vector], axis=1), axes[1][at]
