@@ -234,7 +234,8 @@ class BackendChoice:
         if threads is not None and threads < 1:
             raise ValueError(f"threads must be 1 or more, not {threads}")
         self._backend, self._tables, self._flat = backend, tables, flat
-        self.threads = threads or _processors()
+        processors = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+        self.threads = threads or processors or 1
         rich = [rows.law for rows in (*tables.normal, *tables.nodal) if len(rows.columns) > MOST_PARAMETERS]
         self.uncovered = f"the law {rich[0].name!r} has more than {MOST_PARAMETERS} parameters" if rich else ""
 
@@ -280,9 +281,3 @@ class BackendChoice:
             platform.machine(),
         )
         return folder / f"loops-{hashlib.sha256(repr(facts).encode()).hexdigest()[:24]}"
-
-
-def _processors() -> int:
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1

@@ -7,7 +7,7 @@ from functools import cache
 from re import Pattern
 from typing import Any, cast
 
-from lark import Lark, Token, Transformer, UnexpectedCharacters, UnexpectedInput, UnexpectedToken
+from lark import Lark, Token, Transformer, Tree, UnexpectedCharacters, UnexpectedInput, UnexpectedToken
 
 from mudline.diagnostics import Span
 from mudline.expression.descent import FORTRAN_EXPONENT, SAME_OPERATOR, descend, plain_pattern, read_plain
@@ -42,63 +42,36 @@ Match = Node | Token
 
 
 class Builder(Transformer[Token, Node]):
-    """One method per rule of the grammar, called with what the rule matched, innermost rules first."""
+    """Makes the parts of an equation of what the rules of the grammar matched, innermost rules first."""
 
-    def number(self, parts: list[Match]) -> Node:
-        """A number literal."""
-        return Number(_span(parts), float(_tokens(parts)[0].translate(FORTRAN_EXPONENT)))
-
-    def text(self, parts: list[Match]) -> Node:
-        """Text in double quotes."""
-        return Text(_span(parts), _tokens(parts)[0][1:-1])
-
-    def name(self, parts: list[Match]) -> Node:
-        """A parameter or constant."""
-        return Name(_span(parts), str(_tokens(parts)[0]))
-
-    def group(self, parts: list[Match]) -> Node:
-        """A part in brackets."""
-        return Group(_span(parts), _nodes(parts)[0])
-
-    def call(self, parts: list[Match]) -> Node:
-        """A function call."""
-        name = _tokens(parts)[0]
-        return Call(_span(parts), str(name), _span([name]), _nodes(parts))
-
-    def prefix(self, parts: list[Match]) -> Node:
-        """A sign or `not` with its operand."""
-        return Prefix(_span(parts), _tokens(parts)[0].lower(), _nodes(parts)[0])
-
-    def power(self, parts: list[Match]) -> Node:
-        """A power."""
-        base, exponent = _nodes(parts)
-        return Power(_span(parts), base, exponent)
-
-    def comparison(self, parts: list[Match]) -> Node:
-        """A comparison."""
-        operator = str(_tokens(parts)[0])
-        left, right = _nodes(parts)
-        return Comparison(_span(parts), SAME_OPERATOR.get(operator, operator), left, right)
-
-    def chain(self, parts: list[Match]) -> Node:
-        """A sum or a product."""
-        return Chain(_span(parts), tuple(str(token) for token in _tokens(parts)), _nodes(parts))
-
-    def logical(self, parts: list[Match]) -> Node:
-        """Operands joined by `and`, or by `or`."""
-        return Logical(_span(parts), _tokens(parts)[0].lower(), _nodes(parts))
-
-    negation = signed = prefix
-    sum = product = chain
-    conjunction = disjunction = logical
-
-
-def _tokens(parts: list[Match]) -> list[Token]:
-    return [part for part in parts if isinstance(part, Token)]
-
-
-def _nodes(parts: list[Match]) -> tuple[Node, ...]:
-    return tuple(part for part in parts if not isinstance(part, Token))
+    def __default__(self, data: str, children: list[Match], meta: object) -> Node | Tree[Match]:  # noqa: C901, PLR0911
+        """Return the part that a rule stands for."""
+        if data.startswith("_"):  # a repetition, which the rule around it takes apart
+            return Tree(data, [*children])
+        span = _span(children)
+        tokens = [str(part) for part in children if isinstance(part, Token)]
+        nodes = tuple(part for part in children if not isinstance(part, Token))
+        match data:
+            case "number":
+                return Number(span, float(tokens[0].translate(FORTRAN_EXPONENT)))
+            case "text":
+                return Text(span, tokens[0][1:-1])
+            case "name":
+                return Name(span, tokens[0])
+            case "group":
+                return Group(span, nodes[0])
+            case "call":
+                return Call(span, tokens[0], _span(children[:1]), nodes)
+            case "signed" | "negation":
+                return Prefix(span, tokens[0].lower(), nodes[0])
+            case "power":
+                return Power(span, *nodes)
+            case "comparison":
+                return Comparison(span, SAME_OPERATOR.get(tokens[0], tokens[0]), *nodes)
+            case "sum" | "product":
+                return Chain(span, tuple(tokens), nodes)
+            case _:
+                return Logical(span, tokens[0].lower(), nodes)
 
 
 def _span(parts: list[Match]) -> Span:
