@@ -12,12 +12,14 @@ import warnings
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
+from inspect import isfunction
 from typing import Any, NamedTuple, TypeVar, cast
 
 import numba
 import numpy as np
 from numba.extending import overload
 
+from mudline.contact import vectors
 from mudline.contact.arrays import FloatArray
 from mudline.contact.compiled import (
     LAW,
@@ -25,14 +27,15 @@ from mudline.contact.compiled import (
     by_component,
     element_tables,
     features_of,
+    functions,
     node_tables,
     read_only,
     suction_table,
     trench_tables,
 )
-from mudline.contact.compiled.functions import SHARED, Loop, edition, one_of
+from mudline.contact.compiled.functions import Loop, edition, one_of
 from mudline.contact.compiled.loops import elements_loop, nodes_loop
-from mudline.contact.laws import where
+from mudline.contact.laws import curve, friction, linear, suction, trench, unloading, where
 from mudline.contact.result import ContactResult
 from mudline.contact.seabed import FlatSeabed, Seabed
 from mudline.contact.tables import Batch, ContactState, NormalRows, Tables
@@ -67,8 +70,10 @@ def callable_in_loops(function: Function) -> Function:
     return function
 
 
-for _shared in SHARED:
-    callable_in_loops(_shared)
+for _module in (functions, vectors, curve, friction, linear, suction, trench, unloading):
+    for _function in vars(_module).values():
+        if isfunction(_function) and _function.__module__ == _module.__name__:
+            callable_in_loops(_function)
 
 
 def _compiled(loop: Loop) -> Loop:
@@ -175,16 +180,16 @@ class CompiledDriver:
             np.empty(shape) if has.lateral else np.empty((0, 0, components)),
         )
         none = np.zeros((0, 0), np.int8)
-        unloading, suction, friction = after.unloading, after.suction, after.friction
+        lines, pulls, slides = after.unloading, after.suction, after.friction
         states = (
-            np.empty((4, 0)) if unloading is None else unloading.numbers,
-            np.zeros((2, 0), np.int8) if suction is None else suction.flags,
-            np.empty((3, 0)) if suction is None else suction.numbers,
+            np.empty((4, 0)) if lines is None else lines.numbers,
+            np.zeros((2, 0), np.int8) if pulls is None else pulls.flags,
+            np.empty((3, 0)) if pulls is None else pulls.numbers,
             by_component(np.empty((0, 3)) if after.touchdown is None else after.touchdown),
         )
         sticks = (
-            by_component(np.empty((0, 3)) if friction is None else friction.stick_points),
-            by_component(np.zeros((0, 2), np.int8) if friction is None else friction.states),
+            by_component(np.empty((0, 3)) if slides is None else slides.stick_points),
+            by_component(np.zeros((0, 2), np.int8) if slides is None else slides.states),
         )
         extra = (
             part.cut if part.cut.flags.writeable else none > 0,

@@ -15,21 +15,17 @@ import numpy as np
 from mudline.contact import vectors
 from mudline.contact.compiled import FLOOR, LEAST_DEPTH, PER_CYCLE
 from mudline.contact.laws import NormalLaw
-from mudline.contact.laws.curve import on_segment
-from mudline.contact.laws.friction import in_box, in_ellipse, norm, on_ellipse, slip_distance
-from mudline.contact.laws.linear import lateral_force, spring_suction
+from mudline.contact.laws.friction import in_box, in_ellipse
 from mudline.contact.laws.suction import (
     BROKEN,
     COMPRESSION,
     SUCTION,
     after_cycle,
     breakout_uplift,
-    maximum_force,
     next_state,
     suction_force,
-    trapezoid,
 )
-from mudline.contact.laws.trench import in_table, on_wall, peak_share, share_of_piece
+from mudline.contact.laws.trench import in_table, share_of_piece
 from mudline.contact.laws.unloading import line_stiffness, on_line, trench_bottom
 
 Loop = Callable[..., int]
@@ -262,14 +258,3 @@ def from_straight(lines: Array, line: int, p: Point) -> Point:
     y, z, span = p[1] - lines[line, 0], p[2] - lines[line, 1], (0.0, lines[line, 2], lines[line, 3])
     share = share_of_piece((p[0], y, z), span, 1.0)
     return 0.0, y - share * span[1], z - share * span[2]
-
-
-SHARED = (
-    last_at_or_below, unit_of_span, mean_normal, on_piece, from_laid, from_straight, table_resistance,
-    next_unloading, next_suction, suction_law, in_limits,
-    *(function for plane in vectors.PLANES.values() for function in plane), vectors.tangent_share, vectors.span_scale,
-    on_segment, norm, on_ellipse, in_box, in_ellipse, slip_distance, lateral_force, maximum_force, trapezoid,
-    after_cycle, breakout_uplift, next_state, suction_force, spring_suction, in_table, on_wall, peak_share,
-    share_of_piece, line_stiffness, on_line, trench_bottom,
-)  # fmt: skip
-"""Functions that loops call by name."""
