@@ -7,8 +7,7 @@ per unit length, with the initial stiffness k; it comes near to k z0 as z grows.
 
 from __future__ import annotations
 
-from mudline.contact.laws import NormalLaw, Parameter, register
-from mudline.contact.laws.base import Value
+from mudline.contact.laws import NormalLaw, Parameter, Value, register
 
 
 def hyperbolic_reaction(z: Value, _diameter: Value, stiffness: Value, reference: Value) -> tuple[Value, Value]:

@@ -25,8 +25,9 @@ from mudline.contact import (
     LawAssignment,
 )
 from mudline.contact.arrays import FloatArray, IndexArray
-from mudline.contact.compiled.tables import features_of
-from mudline.contact.seabed import FlatSeabed, PlanesSeabed, ProfileSeabed, Seabed, SlopingSeabed
+from mudline.contact.compiled import features_of
+from mudline.contact.seabed import FlatSeabed, PlanesSeabed, Seabed, SlopingSeabed
+from mudline.contact.seabed.profile import ProfileSeabed
 from mudline.curves import ForceCurve
 from tests.contact.builders import ALONG_Y, FRICTION, bridge_law, floats, friction, on, suction
 from tests.contact.comparison import Scene, Sizes, compare

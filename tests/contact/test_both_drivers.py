@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 from mudline.contact import ContactInput, ContactModel, ContactResult, Tension
 from mudline.contact.arrays import FloatArray
 from mudline.contact.plan import Backend
-from mudline.contact.seabed import FlatSeabed, PlanesSeabed, ProfileSeabed, Seabed, SlopingSeabed
+from mudline.contact.seabed import FlatSeabed, PlanesSeabed, Seabed, SlopingSeabed
+from mudline.contact.seabed.profile import ProfileSeabed
 from mudline.curves import ForceCurve
 from tests.contact.bits import arrays_of, differences, equal_bits, same_bits
 from tests.contact.builders import (

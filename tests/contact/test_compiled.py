@@ -15,10 +15,9 @@ from mudline.contact import ContactModel, ContactResult, ContactState
 from mudline.contact import plan as choices
 from mudline.contact.compiled import driver as compiled_driver
 from mudline.contact.compiled.functions import edition
-from mudline.contact.laws import law_named
-from mudline.contact.laws.base import NormalLaw
+from mudline.contact.laws import NormalLaw, law_named
 from mudline.contact.plan import Backend, BackendChoice
-from mudline.contact.positions import Batch
+from mudline.contact.tables import Batch
 from tests.contact.builders import CURVE, LINEAR, at_depths, chain, everything, friction, journey
 from tests.processes import TIMEOUT
 

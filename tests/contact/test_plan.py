@@ -197,7 +197,7 @@ SLIDES = (
 )
 WIDE = {"bottom": 0.5, "upper": 1.0}
 PULLS = {"force_factor": 1, "force_exponent": 1, "depth_factor": 1, "depth_exponent": 1}
-ALWAYS = {"model", "plan", "tables", "line", "numpy_driver", "seabed", "seabed.base", "laws", "laws.base"}
+ALWAYS = {"model", "plan", "tables", "line", "numpy_driver", "seabed", "laws"}
 STAGED = {
     *(f"laws.{name}" for name in ("linear", "curve", "unloading", "suction", "friction", "trench")),
     "trenches", "tangent", "stiffest", "compiled", "compiled.driver", "compiled.functions", "seabed.profile",

@@ -14,8 +14,7 @@ from hypothesis import strategies as st
 
 from mudline.contact import ContactInput, ContactModel, ElementError, LawKind, laws
 from mudline.contact.arrays import FloatArray
-from mudline.contact.laws import NormalLaw, Parameter, known_laws, law_named, register
-from mudline.contact.laws.base import Value, where
+from mudline.contact.laws import NormalLaw, Parameter, Value, known_laws, law_named, register, where
 from mudline.contact.laws.linear import RIGID
 from mudline.contact.laws.unloading import UNLOADING
 from mudline.contact.seabed import SlopingSeabed

@@ -12,8 +12,8 @@ import pytest
 from hypothesis import given, reject
 from hypothesis import strategies as st
 
-from mudline.curves import CurveError, ForceCurve, QueryError, compiled, law
-from mudline.curves.law import Backend, NumpyLaw, law_for
+from mudline.curves import CurveError, ForceCurve, QueryError, compiled
+from mudline.curves.curve import Backend, NumpyLaw, _loads, law_for
 from mudline.curves.points import FloatArray
 from mudline.curves.search import BLOCK, BucketTable, Workspace
 from tests.curves.plain import POINTS, near, plain_values, steps
@@ -166,7 +166,7 @@ def test_the_backend_that_a_query_gets(monkeypatch: pytest.MonkeyPatch) -> None:
     assert isinstance(law_for(knots, 100, work), NumpyLaw)
     assert isinstance(law_for(knots, 10_000, work), compiled.CountingLaw)
     monkeypatch.delitem(sys.modules, "mudline.curves.compiled")
-    law._loads.cache_clear()
+    _loads.cache_clear()
     assert isinstance(law_for(knots, 10_000, work), NumpyLaw)
     assert not isinstance(law_for(knots, 10**7, work), NumpyLaw)
 
@@ -175,13 +175,13 @@ def test_without_the_extra(monkeypatch: pytest.MonkeyPatch) -> None:
     curve = ForceCurve([(0.0, 0.0), (1.0, 1.0)])
     monkeypatch.delitem(sys.modules, "mudline.curves.compiled")
     monkeypatch.setitem(sys.modules, "numba", None)
-    law._loads.cache_clear()
+    _loads.cache_clear()
     try:
         assert isinstance(law_for(curve._knots, 10**7, Workspace()), NumpyLaw)
         with pytest.raises(ImportError):
             curve.evaluate(0.5, backend="fast")
     finally:
-        law._loads.cache_clear()
+        _loads.cache_clear()
 
 
 def test_a_backend_of_another_name() -> None:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from mudline.curves import ForceCurve
-from mudline.curves.law import Backend
+from mudline.curves.curve import Backend
 from mudline.curves.points import FloatArray
 from tests.curves.plain import steps
 

@@ -10,9 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.expression import DEEPEST, Expression, ExpressionError, evaluate, parse
-from mudline.expression.descent import LEVELS, descend
+from mudline.expression.descent import LEVELS, descend, read_plain
 from mudline.expression.parsing import by_grammar, plain_equations, tokens, tree
-from mudline.expression.plain import read_plain
 
 MARKS = st.sampled_from([*'+-*/^(),=<>"#[ \t', "**", "==", "!=", "<>", "<=", ">=", '""'])
 WORDS = st.sampled_from(["and", "or", "not", "AND", "Or", "NOT", "and_1", "nothing", "x", "x y not", "Water Depth"])

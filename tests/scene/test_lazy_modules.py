@@ -34,9 +34,9 @@ def test_a_deck_of_curves_on_a_flat_bed_imports_no_other_feature() -> None:
     found = imported(CURVE)
     assert "mudline.curves" in found
     assert "scipy" not in found
-    assert {name for name in found if name.startswith("mudline.contact.seabed.")} == {"mudline.contact.seabed.base"}
+    assert not {name for name in found if name.startswith("mudline.contact.seabed.")}
     laws = {name.rpartition(".")[2] for name in found if name.startswith("mudline.contact.laws.")}
-    assert laws == {"base", "curve"}
+    assert laws == {"curve"}
     assert "mudline.scene.contact_input" in found
     assert "mudline.scene.assignments" not in found
 
@@ -52,7 +52,7 @@ def test_a_deck_of_curves_on_a_flat_bed_imports_no_other_feature() -> None:
         ),
         (
             LINEAR + "*SEABED PLANES\n PLANE=a\n POINT=0,0,0\n SLOPE=1\n",
-            "mudline.contact.seabed.base",
+            "mudline.contact.seabed",
             "mudline.curves",
         ),
     ],

@@ -9,8 +9,7 @@ Nothing here knows decks, sets or keywords. X is up, the units are those of the 
 
 from __future__ import annotations
 
-from mudline.contact.errors import ElementError, PositionError
-from mudline.contact.input import ContactInput, LawAssignment, LawKind, Tension
+from mudline.contact.input import ContactInput, ElementError, LawAssignment, LawKind, PositionError, Tension
 from mudline.contact.model import ContactModel
 from mudline.contact.plan import Plan, Stage
 from mudline.contact.result import ContactResult

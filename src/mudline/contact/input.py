@@ -1,4 +1,4 @@
-"""What the evaluator is given: nodes, elements, and the laws of each, as plain arrays."""
+"""What the evaluator is given: nodes, elements, and the laws of each, as plain arrays; errors that name them."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mudline.contact.arrays import BoolArray, FloatArray, IdArray, IndexArray
-from mudline.contact.errors import ElementError
 from mudline.contact.laws import Law, NormalLaw, law_named
 from mudline.short_repr import short_repr
 
@@ -20,6 +19,40 @@ if TYPE_CHECKING:  # a scene without curves does not load them, nor does a flat 
     from mudline.curves import ForceCurve
 
 Tension = Literal["keep", "cut"]
+
+
+class PositionError(ValueError):
+    """A node's position or velocity is not finite, or what follows from it there overflows.
+
+    Attributes:
+        node: the node's id.
+        step: the time step, from 0.
+    """
+
+    def __init__(self, message: str, node: int, step: int) -> None:
+        super().__init__(message)
+        self.node = node
+        self.step = step
+
+    def __reduce__(self) -> tuple[type[PositionError], tuple[str, int, int]]:
+        return type(self), (str(self), self.node, self.step)
+
+
+class ElementError(ValueError):
+    """An element has no usable law, or a value of it overflows.
+
+    Attributes:
+        element: the element's id.
+        step: the time step, from 0; None when it is the input that is wrong.
+    """
+
+    def __init__(self, message: str, element: int, step: int | None = None) -> None:
+        super().__init__(message)
+        self.element = element
+        self.step = step
+
+    def __reduce__(self) -> tuple[type[ElementError], tuple[str, int, int | None]]:
+        return type(self), (str(self), self.element, self.step)
 
 
 class LawKind(IntEnum):

@@ -62,7 +62,7 @@ class Line:
         self._chain = self._runs is not None and [*self._runs] == [_Run(0, nodes - 1, 0, 1)]
         self._element_parts: dict[tuple[int, int], tuple[_Parts, _Parts]] = {}
         self._node_parts: dict[tuple[int, int], tuple[_Parts, _Parts]] = {}
-        self._pair: tuple[IndexArray, FloatArray] | None = None if self._runs else _first_two(self, degree)
+        self._pair: tuple[IndexArray, FloatArray] | None = None if self._runs else _first_two(self)
 
     @cached_property
     def beside(self) -> IndexArray:
@@ -77,7 +77,7 @@ class Line:
         if self._runs is None:
             return values.take(self.first[begin:end], axis=1), values.take(self.second[begin:end], axis=1)
         if (key := (begin, end)) not in self._element_parts:
-            self._element_parts[key] = _at_elements(self._runs, begin, end)
+            self._element_parts[key] = _parts(self._runs, begin, end, of_nodes=False)
         parts = self._element_parts[key]
         if len(parts[0]) == 1:
             return values[:, parts[0][0][1]], values[:, parts[1][0][1]]
@@ -107,7 +107,7 @@ class Line:
 
     def _summed_parts(self, values: FloatArray, begin: int, end: int) -> FloatArray:
         if (key := (begin, end)) not in self._node_parts:
-            self._node_parts[key] = _at_nodes(self._runs or [], begin, end)
+            self._node_parts[key] = _parts(self._runs or [], begin, end, of_nodes=True)
         parts = self._node_parts[key]
         if self._chain:
             total: FloatArray = values[:, begin + 1 : end + 1] + values[:, begin:end]
@@ -138,15 +138,11 @@ class Line:
             total[:, node - begin] = sums
 
 
-def _first_two(line: Line, degree: IndexArray) -> tuple[IndexArray, FloatArray]:
+def _first_two(line: Line) -> tuple[IndexArray, FloatArray]:
     """The first two elements (2, n) at each node and their senses; the column of zeros where there are fewer."""
-    count = len(line.first)
-    padded, senses = np.append(line.elements, [count] * 2), np.append(line.senses, [1.0] * 2)
-    pair = 1 + np.stack([padded[line.start[:-1]], padded[line.start[:-1] + 1]]).astype(np.intp)
-    sense = np.stack([senses[line.start[:-1]], senses[line.start[:-1] + 1]])
-    for rank in range(2):
-        pair[rank][degree <= rank] = count + 1
-    return pair, sense
+    senses = np.append(line.senses, [1.0] * 2)
+    pair = 1 + np.where(line.beside < 0, len(line.first), line.beside).T
+    return pair, np.stack([senses[line.start[:-1]], senses[line.start[:-1] + 1]])
 
 
 def _runs(first: IndexArray, second: IndexArray) -> list[_Run] | None:
@@ -163,23 +159,16 @@ def _runs(first: IndexArray, second: IndexArray) -> list[_Run] | None:
     ]
 
 
-def _at_elements(runs: list[_Run], begin: int, end: int) -> tuple[_Parts, _Parts]:
-    """For both ends, parts of a range of elements and where their nodes stand."""
-    found: tuple[_Parts, _Parts] = ([], [])
-    for run in runs:
-        low, high = max(run.start, begin), min(run.stop, end)
-        if low < high:
-            for side, shift in zip(found, (run.first, run.second), strict=True):
-                side.append((slice(low - begin, high - begin), slice(low + shift, high + shift)))
-    return found
+def _parts(runs: list[_Run], begin: int, end: int, *, of_nodes: bool) -> tuple[_Parts, _Parts]:
+    """For both ends of elements, parts of a range of elements and where their nodes stand.
 
-
-def _at_nodes(runs: list[_Run], begin: int, end: int) -> tuple[_Parts, _Parts]:
-    """Parts of a range of nodes and which elements begin there; the same for those that end."""
+    `of_nodes`: parts of a range of nodes and which elements begin there, and which end there.
+    """
     found: tuple[_Parts, _Parts] = ([], [])
     for run in runs:
         for side, shift in zip(found, (run.first, run.second), strict=True):
-            low, high = max(run.start + shift, begin), min(run.stop + shift, end)
+            here, there = (shift, -shift) if of_nodes else (0, shift)
+            low, high = max(run.start + here, begin), min(run.stop + here, end)
             if low < high:
-                side.append((slice(low - begin, high - begin), slice(low - shift, high - shift)))
+                side.append((slice(low - begin, high - begin), slice(low + there, high + there)))
     return found

@@ -4,25 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
-from mudline.contact.arrays import BoolArray, FloatArray
-from mudline.contact.input import ContactInput
+from mudline.contact.arrays import BoolArray, FloatArray, IdArray
+from mudline.contact.input import ContactInput, PositionError
 from mudline.contact.numpy_driver import NumpyDriver
 from mudline.contact.plan import Backend, BackendChoice, Plan, make_plan
-from mudline.contact.positions import Batch, as_mask, as_series, as_times, as_velocities, read_steps
 from mudline.contact.result import ContactResult, blank_result, is_finite, refuse, refuse_pulling
 from mudline.contact.seabed import FlatSeabed, Seabed
-from mudline.contact.tables import ContactState, Tables
+from mudline.contact.tables import Batch, ContactState, Tables
 from mudline.short_repr import counted, outline, short_repr
 
 if TYPE_CHECKING:
     from mudline.contact.compiled.driver import CompiledDriver
     from mudline.contact.stiffest import Stiffest
     from mudline.contact.tangent import Tangent
+
+
+RealArray = NDArray[np.floating[Any] | np.integer[Any]]
 
 
 class Stepped(NamedTuple):
@@ -116,9 +118,9 @@ class ContactModel:
         Takes and raises what `evaluate` does.
         """
         nodes = len(self.input.node_ids)
-        series, mask = as_series(positions, nodes), as_mask(present, nodes)
-        motion = as_velocities(velocities, series.shape)
-        clock = as_times(times, len(series))
+        series, mask = _as_series(positions, nodes), _as_mask(present, nodes)
+        motion = _as_velocities(velocities, series.shape)
+        clock = _as_times(times, len(series))
         if self._tables.suction is not None and motion is None and clock is None and len(series) > 1:
             raise ValueError("a series with suction needs velocities, or the times of its steps")
         driver = self._driver(len(series))
@@ -129,7 +131,7 @@ class ContactModel:
             steps = range(start, min(start + rows, len(series)))
             part = self._blank(len(steps), mask) if whole is None else whole.steps(steps.start, steps.stop)
             with np.errstate(all="ignore"):  # everything that can overflow is checked
-                points = read_steps(series, steps, self.input.node_ids, mask)
+                points = _read_steps(series, steps, self.input.node_ids, mask)
                 rates = None if motion is None else np.asarray(motion[steps.start : steps.stop], np.float64)
                 spans = None if clock is None else np.diff(clock[max(start - 1, 0) : steps.stop])
                 state = self._advance(driver, points, rates, spans, part, state, start)
@@ -160,17 +162,17 @@ class ContactModel:
         if dt is not None and not 0.0 < dt < np.inf:
             raise ValueError(f"dt must be finite and above 0, not {dt!r}")
         nodes = len(self.input.node_ids)
-        series = as_series(positions, nodes)
+        series = _as_series(positions, nodes)
         if len(series) != 1:
             raise ValueError("a step takes the positions of one step")
-        mask = as_mask(None, nodes)
-        motion = as_velocities(velocities, series.shape)
+        mask = _as_mask(None, nodes)
+        motion = _as_velocities(velocities, series.shape)
         if self._tables.suction is not None and motion is None and state.positions is not None and dt is None:
             raise ValueError("a step without velocities needs dt > 0")
         part = self._blank(1, mask)
         with np.errstate(all="ignore"):
             # a copy: the state keeps it, and whoever steps may write the next positions into the same array
-            points = read_steps(series, range(1), self.input.node_ids, mask).copy()
+            points = _read_steps(series, range(1), self.input.node_ids, mask).copy()
             rates = None if motion is None else np.asarray(motion, np.float64)
             spans = None if dt is None or state.positions is None else np.array([dt])
             after = self._advance(self._driver(1), points, rates, spans, part, state, 0, kept=True)
@@ -310,3 +312,77 @@ def _blank_absent(part: ContactResult) -> None:
     part.reaction[:, ~part.present] = np.nan
     if part.friction is not None:
         part.friction[:, ~part.present] = np.nan
+
+
+def _as_series(positions: ArrayLike, nodes: int) -> RealArray:
+    """Return (nodes, 3) or (steps, nodes, 3) positions as (steps, nodes, 3), neither copied nor converted.
+
+    Raises:
+        ValueError: the shape or the kind of number is not one of these.
+    """
+    given: RealArray = np.asarray(positions)
+    if given.dtype.kind not in "iuf":
+        raise ValueError(f"positions must be real numbers, not {given.dtype}")
+    if given.ndim not in {2, 3} or given.shape[-2:] != (nodes, 3):
+        expected = f"({nodes}, 3) or (steps, {nodes}, 3)"
+        raise ValueError(f"positions must have the shape {expected}, not {given.shape}")
+    return given if given.ndim == 3 else given[np.newaxis]
+
+
+def _as_mask(present: ArrayLike | None, nodes: int) -> BoolArray:
+    """Return which nodes have a position; None means all of them.
+
+    Raises:
+        ValueError: `present` is no array (nodes,) of booleans.
+    """
+    if present is None:
+        return np.ones(nodes, np.bool_)
+    mask = np.array(present)
+    if mask.dtype != np.bool_ or mask.shape != (nodes,):
+        raise ValueError(f"present must be booleans of shape ({nodes},), not {mask.dtype} of shape {mask.shape}")
+    return mask
+
+
+def _read_steps(series: RealArray, steps: range, node_ids: IdArray, present: BoolArray) -> FloatArray:
+    """Return the positions (steps, nodes, 3) of a few steps as float64, NaN for the nodes that are not present.
+
+    Raises:
+        PositionError: a position of a node that is present is NaN, infinite or too large for a float64.
+    """
+    points = np.asarray(series[steps.start : steps.stop], dtype=np.float64)
+    # a finite sum has finite terms only, and is sooner had than a look at each of them
+    if not np.isfinite(points.sum()) and (bad := np.argwhere(~np.isfinite(points).all(axis=2) & present)).size:
+        row, column = bad[0].tolist()
+        step, node = steps.start + row, int(node_ids[column])
+        place = tuple(points[row, column].tolist())
+        raise PositionError(f"node {node} at step {step}: its position {place} is not finite", node, step)
+    return points if present.all() else np.where(present[:, np.newaxis], points, np.nan)
+
+
+def _as_velocities(velocities: ArrayLike | None, shape: tuple[int, ...]) -> RealArray | None:
+    """Return velocities as (steps, nodes, 3), neither copied nor converted; None where there are none.
+
+    Raises:
+        ValueError: they are no real numbers of the shape of the positions.
+    """
+    if velocities is None:
+        return None
+    given: RealArray = np.asarray(velocities)
+    same = given.shape == shape or (shape[0] == 1 and given.shape == shape[1:])
+    if given.dtype.kind not in "iuf" or not same:
+        raise ValueError(f"velocities must be real numbers of the shape of the positions, {shape}, not {given.shape}")
+    return given.reshape(shape)
+
+
+def _as_times(times: ArrayLike | None, steps: int) -> FloatArray | None:
+    """Return times as (steps,) float64; None where there are none.
+
+    Raises:
+        ValueError: they are not as many finite numbers as there are steps, each later than the one before.
+    """
+    if times is None:
+        return None
+    given = np.asarray(times, dtype=np.float64)
+    if given.shape != (steps,) or not np.isfinite(given).all() or not (np.diff(given) > 0.0).all():
+        raise ValueError(f"times must be {steps} finite numbers, each later than the one before")
+    return given

@@ -14,10 +14,9 @@ import numpy as np
 from mudline.contact import vectors
 from mudline.contact.arrays import BoolArray, FloatArray, as_range, taken
 from mudline.contact.numpy_elements import Elements, Work
-from mudline.contact.positions import Batch
 from mudline.contact.result import ContactResult
-from mudline.contact.seabed.base import FlatSeabed, Seabed
-from mudline.contact.tables import ContactState, Tables, rows_within
+from mudline.contact.seabed import FlatSeabed, Seabed
+from mudline.contact.tables import Batch, ContactState, Tables, rows_within
 from mudline.contact.vectors import Components, in_plane
 
 if TYPE_CHECKING:
@@ -51,7 +50,6 @@ class NumpyDriver:
         self._elements = [Elements(tables, start, min(start + width, elements), flat=flat) for start in starts]
         starts = range(0, nodes, width)
         self._nodes = [Nodes(tables, start, min(start + width, nodes), flat=flat) for start in starts]
-        self._laid: tuple[FloatArray, LaidCentreline] | None = None
 
     def locate(self, points: FloatArray, part: ContactResult) -> None:
         """Write gaps and normals of `part` (steps, n)."""
@@ -72,19 +70,9 @@ class NumpyDriver:
         )
         for some in self._elements:
             some.run(batch, part, state, work)
-        laid = None if self._tables.trench is None else self._laid_line(batch.laid)
+        laid = None if self._tables.trench is None else self._tables.laid_line(batch.laid)
         for some_nodes in self._nodes:
             some_nodes.run(part, state, work, laid)
-
-    def _laid_line(self, laid: FloatArray) -> LaidCentreline:
-        """The line as it was `laid`, prepared once: the states of a run share that array."""
-        from mudline.contact.trenches import LaidCentreline  # noqa: PLC0415 - only now is it needed
-
-        kept = self._laid
-        if kept is None or kept[0] is not laid:
-            # in one assignment, so that threads which share the driver see pairs that belong together
-            self._laid = kept = (laid, LaidCentreline(laid, self._tables.line))
-        return kept[1]
 
 
 def _padded(steps: int, columns: int) -> FloatArray:
@@ -127,11 +115,11 @@ class Nodes:
             self._turned = friction.turned[turned] - begin
             self._turn = friction.cosine[turned], friction.sine[turned]
         if tables.trench is not None:
+            from mudline.contact.trenches import ranks  # noqa: PLC0415 - most friction has no trench
+
             self._trench = tables.trench.some(rows_within(tables.trench.nodes, begin, end))
             nodes = self._trench.nodes - begin
-            rank = np.arange(len(nodes)) - np.searchsorted(nodes, nodes)
-            ranks = [np.flatnonzero(rank == place) for place in range(int(rank.max(initial=-1)) + 1)]
-            self._in_trench, self._ranks = as_range(nodes), [(rows, as_range(nodes[rows])) for rows in ranks]
+            self._in_trench, self._ranks = as_range(nodes), [(rows, as_range(nodes[rows])) for rows in ranks(nodes)]
 
     def run(self, part: ContactResult, state: ContactState, work: Work, laid: LaidCentreline | None) -> None:
         """Write the nodes of a batch."""

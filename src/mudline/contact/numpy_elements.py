@@ -15,11 +15,10 @@ from mudline.contact.vectors import in_plane, units
 if TYPE_CHECKING:
     from mudline.contact.laws.suction import SuctionHistory, SuctionLaw
     from mudline.contact.laws.unloading import UnloadingHistory
-    from mudline.contact.positions import Batch
+    from mudline.contact.tables import Batch
 
 Values = tuple[FloatArray, FloatArray, FloatArray]
 """Force, slope and stiffness (steps, k)."""
-
 
 _Pulled = tuple[IndexArray, IndexArray, FloatArray, FloatArray]
 """Where there is suction: steps, columns, uplifts at breakout and cyclic factors."""
@@ -85,11 +84,6 @@ class Elements:
         self._steeper = [] if self._unloading is None else self._may_steepen(self._unloading)
         self._springs, self._suction = self._subset(tables.springs), self._subset(tables.suction)
         self._lateral = self._subset(tables.lateral)
-        self._law: SuctionLaw | None = None
-        if self._suction is not None:
-            from mudline.contact.laws.suction import SuctionLaw  # noqa: PLC0415 - only now is it needed
-
-            self._law = SuctionLaw(*self._suction.columns)
         self._in_trench: tuple[IndexArray, IndexArray] | None = None
         if self._suction is not None and self._unloading is not None:
             pulls, unloads = (np.arange(end - begin)[some.at] for some in (self._suction, self._unloading))
@@ -282,9 +276,7 @@ class Elements:
         """Add suction with a history."""
         from mudline.contact.laws import suction as law  # noqa: PLC0415 - only now is it needed
 
-        columns = self._law
-        if columns is None:
-            return
+        columns = law.SuctionLaw(*some.columns)
         depth, contact, trench = where
         uplift, pressed = some.onset - taken(depth, some.at), contact[:, some.at]
         if trench is not None and self._in_trench is not None:

@@ -234,7 +234,8 @@ class BackendChoice:
         if threads is not None and threads < 1:
             raise ValueError(f"threads must be 1 or more, not {threads}")
         self._backend, self._tables, self._flat = backend, tables, flat
-        self.threads = threads or _processors()
+        processors = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+        self.threads = threads or processors or 1
         rich = [rows.law for rows in (*tables.normal, *tables.nodal) if len(rows.columns) > MOST_PARAMETERS]
         self.uncovered = f"the law {rich[0].name!r} has more than {MOST_PARAMETERS} parameters" if rich else ""
 
@@ -247,7 +248,7 @@ class BackendChoice:
         total = steps * len(self._tables.given.node_ids)
         if total < _WORTH_LOADING or find_spec("numba") is None:
             return False
-        return total >= _WORTH_COMPILING or self._marker_exists()
+        return total >= _WORTH_COMPILING or ((marker := self._marker()) is not None and marker.exists())
 
     def note_compiled(self) -> None:
         """Remember that the loops for these laws are in the cache of compiled code."""
@@ -257,10 +258,6 @@ class BackendChoice:
                 marker.parent.mkdir(parents=True, exist_ok=True)
                 marker.touch()
 
-    def _marker_exists(self) -> bool:
-        marker = self._marker()
-        return marker is not None and marker.exists()
-
     def _marker(self) -> Path | None:
         """An empty file that stands for compiled loops; its name changes with all that they depend on."""
         # only long series ask, and most scenes do without
@@ -268,24 +265,19 @@ class BackendChoice:
         from importlib import metadata  # noqa: PLC0415
 
         from mudline.cache_folder import cache_folder  # noqa: PLC0415
-        from mudline.contact.compiled import functions, tables  # noqa: PLC0415 - loads all laws
+        from mudline.contact.compiled import features_of  # noqa: PLC0415
+        from mudline.contact.compiled.functions import edition  # noqa: PLC0415 - loads all laws
 
         folder = cache_folder()
         if folder is None:
             return None
         laws = tuple(rows.law for rows in (*self._tables.normal, *self._tables.nodal))
         facts = (
-            tables.features_of(self._tables, flat=self._flat),
+            features_of(self._tables, flat=self._flat),
             [law.name for law in laws],
-            functions.edition(laws),
+            edition(laws),
             metadata.version("numba"),
             sys.version,
             platform.machine(),
         )
         return folder / f"loops-{hashlib.sha256(repr(facts).encode()).hexdigest()[:24]}"
-
-
-def _processors() -> int:
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mudline.contact.arrays import BoolArray, FloatArray, IdArray, StateArray
-from mudline.contact.errors import ElementError, PositionError
+from mudline.contact.input import ElementError, PositionError
 from mudline.contact.tables import Tables
 from mudline.short_repr import outline
 
@@ -171,8 +171,7 @@ def _refuse_step(part: ContactResult, speed: FloatArray | None, step: int, table
     known = ~np.isnan(part.depth)
     unbounded = ~np.isfinite(part.force) & known
     if unbounded.any():
-        element = int(np.flatnonzero(unbounded)[0])
-        _refuse_force(part, element, step, tables)
+        _refuse_force(part, int(np.argmax(unbounded)), step, tables)
     for what, values in (("slope", part.slope), ("stiffness", part.stiffness)):
         _refuse_element(np.isinf(values), given.element_ids, step, f"its {what} overflows")
     loads = np.zeros(len(given.node_ids))
@@ -207,26 +206,21 @@ def _refuse_force(part: ContactResult, element: int, step: int, tables: Tables) 
     number, why = int(tables.given.element_ids[element]), "its force overflows"
     index = int(tables.given.curve_index[element])
     if index >= 0 and part.contact[element]:
-        ratio = float(part.ratio[element])
-        if math.isinf(_force(tables, index, ratio)):
-            why = f"no force at ratio {ratio!r}: the force there overflows"
+        ratio, force, slope = part.ratio[element : element + 1], np.empty(1), np.empty(1)
+        with np.errstate(all="ignore"):
+            tables.given.curves[index].fill(ratio, force, slope)
+        if not math.isfinite(force[0]):
+            why = f"no force at ratio {float(ratio[0])!r}: the force there overflows"
     raise ElementError(f"element {number} at step {step}: {why}", number, step)
-
-
-def _force(tables: Tables, index: int, ratio: float) -> float:
-    force, slope = np.empty(1), np.empty(1)
-    with np.errstate(all="ignore"):
-        tables.given.curves[index].fill(np.array([ratio]), force, slope)
-    return math.inf if not math.isfinite(force[0]) else float(force[0])
 
 
 def _refuse_node(wrong: BoolArray, ids: IdArray, step: int, what: str) -> None:
     if wrong.any():
-        node = int(ids[np.flatnonzero(wrong)[0]])
+        node = int(ids[np.argmax(wrong)])
         raise PositionError(f"node {node} at step {step}: {what}", node, step)
 
 
 def _refuse_element(wrong: BoolArray, ids: IdArray, step: int, what: str) -> None:
     if wrong.any():
-        element = int(ids[np.flatnonzero(wrong)[0]])
+        element = int(ids[np.argmax(wrong)])
         raise ElementError(f"element {element} at step {step}: {what}", element, step)

@@ -22,11 +22,10 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from mudline.contact.arrays import BoolArray, FloatArray
-from mudline.contact.input import AssignedLaw
+from mudline.contact.arrays import FloatArray, IndexArray
 from mudline.contact.laws.suction import SuctionLaw, breakout_uplift, maximum_force
 from mudline.contact.result import ContactResult
-from mudline.contact.tables import NormalRows, Tables, steepest_anywhere
+from mudline.contact.tables import ElementRows, FrictionRows, NormalRows, Tables, steepest_anywhere
 from mudline.short_repr import UnknownNameError, outline, short_repr
 
 
@@ -81,15 +80,15 @@ def stiffest(tables: Tables, result: ContactResult | None, speed: FloatArray | N
             found.append(_law("curve", np.fmax.reduce(parts)))
         found += [_nodal(tables, rows, result) for rows in tables.nodal]
         if tables.unloading is not None:
-            found.append(_unloading(tables))
+            found.append(_unloading(tables, tables.unloading))
         if tables.springs is not None:
             found.append(_law("suction spring", _spread(tables, tables.springs.rows, tables.springs.columns[0])))
         if tables.suction is not None:
             found.append(_suction(tables, speed))
         if tables.friction is not None:
-            found.append(_friction(tables, result))
+            found.append(_friction(tables, tables.friction, result))
         if tables.lateral is not None:
-            given: AssignedLaw = tables.given.assigned["lateral"]
+            given = tables.given.assigned["lateral"]
             found.append(_law("lateral", _spread(tables, given.rows, given["stiffness"])))
     return Stiffest(tuple(found))
 
@@ -98,7 +97,7 @@ def _law(name: str, stiffness: FloatArray, per: Literal["length", "node"] = "len
     return LawStiffness(name, stiffness, np.where(np.isnan(stiffness), np.nan, 0.0), per)
 
 
-def _spread(tables: Tables, rows: np.ndarray[tuple[int, ...], np.dtype[np.intp]], values: FloatArray) -> FloatArray:
+def _spread(tables: Tables, rows: IndexArray, values: FloatArray) -> FloatArray:
     found = np.full(len(tables.half), np.nan)
     found[rows] = values
     return found
@@ -140,16 +139,13 @@ def _at_elements(tables: Tables, at_nodes: FloatArray) -> FloatArray:
     return np.fmax(at_nodes[ends[:, 0]], at_nodes[ends[:, 1]])
 
 
-def _unloading(tables: Tables) -> LawStiffness:
+def _unloading(tables: Tables, unloading: ElementRows) -> LawStiffness:
     """Unloading lines: ku, or the steepest slope of the virgin path where that is steeper."""
-    unloading = tables.unloading
-    stiffness = np.full(len(tables.half), np.nan)
-    if unloading is not None:
-        virgin = np.zeros(len(tables.half))
-        for rows in tables.normal:
-            virgin[rows.rows] = steepest_anywhere(tables, rows)
-        stiffness[unloading.rows] = np.maximum(unloading.columns[0], virgin[unloading.rows])
-    return _law("unloading", stiffness)
+    virgin = np.zeros(len(tables.half))
+    for rows in tables.normal:
+        virgin[rows.rows] = steepest_anywhere(tables, rows)
+    steepest = np.maximum(unloading.columns[0], virgin[unloading.rows])
+    return _law("unloading", _spread(tables, unloading.rows, steepest))
 
 
 def _suction(tables: Tables, speed: FloatArray | None) -> LawStiffness:
@@ -174,16 +170,11 @@ def _suction(tables: Tables, speed: FloatArray | None) -> LawStiffness:
     return LawStiffness("suction", _spread(tables, rows, rise), _spread(tables, rows, damping), "length")
 
 
-def _friction(tables: Tables, result: ContactResult | None) -> LawStiffness:
+def _friction(tables: Tables, friction: FrictionRows, result: ContactResult | None) -> LawStiffness:
     """Springs of nodes that stick, the stiffer of both directions and of the two nodes of an element."""
-    friction = tables.friction
-    nodes = len(tables.given.node_ids)
-    own = np.full(nodes, np.nan)
-    if friction is not None:
-        normal_force = static_normal_force(tables) if result is None else np.fmax(_largest(result.normal_force), 0.0)
-        springs = np.where(friction.rising > 0.0, friction.rising * normal_force, 0.0) + friction.constant
-        active: BoolArray = friction.active
-        own = np.where(active, springs.max(axis=0), np.nan)
+    normal_force = static_normal_force(tables) if result is None else np.fmax(_largest(result.normal_force), 0.0)
+    springs = np.where(friction.rising > 0.0, friction.rising * normal_force, 0.0) + friction.constant
+    own = np.where(friction.active, springs.max(axis=0), np.nan)
     return _law("friction", _at_elements(tables, own), "node")
 
 

@@ -10,8 +10,7 @@ import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.contact.input import AssignedLaw, ContactInput
-from mudline.contact.laws import NormalLaw
-from mudline.contact.laws.base import Reaction, Value
+from mudline.contact.laws import NormalLaw, Reaction, Value
 from mudline.contact.line import Line
 from mudline.short_repr import outline
 
@@ -21,6 +20,7 @@ if TYPE_CHECKING:
     from mudline.contact.laws.friction import FrictionHistory, FrictionLaw
     from mudline.contact.laws.suction import SuctionHistory
     from mudline.contact.laws.unloading import UnloadingHistory
+    from mudline.contact.trenches import LaidCentreline
 
 Part = TypeVar("Part", bound="DataclassInstance")
 
@@ -64,6 +64,20 @@ class ContactState:
 
 def _copied(part: Part) -> Part:
     return type(part)(*(getattr(part, field.name).copy(order="K") for field in fields(part)))
+
+
+class Batch(NamedTuple):
+    """Steps to be evaluated.
+
+    Attributes:
+        points: (steps, n, 3) positions, NaN for nodes without one.
+        speed: (steps, n) velocities along the normals; None where nothing asks for them.
+        laid: (n, 3) positions of the first step of the series.
+    """
+
+    points: FloatArray
+    speed: FloatArray | None
+    laid: FloatArray
 
 
 class NormalRows(NamedTuple):
@@ -128,6 +142,7 @@ class Tables:
         onset: (m,) penetration at which contact begins; None where that is the mudline everywhere.
         normal: normal laws of elements. nodal: those of nodes.
         unloading: stiffness. springs: stiffness and extent of suction springs. lateral: stiffness times length.
+        friction: its springs and limits as the drivers want them. friction_law: the same by node, for tangents.
         suction: parameters of `suction.SuctionLaw`, in its order.
         pulling: elements with suction whose curve pulls somewhere; None when there are none.
         cuts: whether curves that pull are cut to 0.
@@ -148,14 +163,17 @@ class Tables:
         self.springs = _element_rows(given, "suction spring")
         self.suction = _element_rows(given, "suction")
         self.lateral = _lateral(given)
-        self.friction = None
-        if "friction" in given.assigned:
-            self.friction = _friction(given.assigned["friction"], len(given.node_ids))
+        self.friction_law: FrictionLaw | None = None
+        self.friction: FrictionRows | None = None
+        if (found := given.assigned.get("friction")) is not None:
+            self.friction_law = _friction_law(found, len(given.node_ids))
+            self.friction = _friction_rows(self.friction_law, found.spread("angle", len(given.node_ids)))
         self.trench = None
         if self.friction is not None and given.has("trench peak", "trench wall", "trench table"):
             from mudline.contact.trenches import trench_rows  # noqa: PLC0415 - most friction has no trench
 
             self.trench = trench_rows(given, self.friction.coefficients[1])
+        self._laid: tuple[FloatArray, LaidCentreline] | None = None
         self.pulling = _pulling(given)
         self.cuts = given.tension == "cut"
         self.rigid: BoolArray | None = None
@@ -165,23 +183,15 @@ class Tables:
         parts = (self.unloading, self.suction, self.lateral, self.friction)
         self.history = any(part is not None for part in parts)
 
-    def friction_law(self) -> FrictionLaw:
-        """Return the friction of all nodes as arrays by direction.
+    def laid_line(self, laid: FloatArray) -> LaidCentreline:
+        """Return the line as it was `laid`, prepared once: the states of a run share that array."""
+        from mudline.contact.trenches import LaidCentreline  # noqa: PLC0415 - most friction has no trench
 
-        Raises:
-            KeyError: there is no friction.
-        """
-        from mudline.contact.laws.friction import FrictionLaw  # noqa: PLC0415 - only now is it needed
-
-        given, nodes = self.given.assigned["friction"], len(self.given.node_ids)
-        active = np.zeros(nodes, np.bool_)
-        active[given.rows] = True
-        coefficients, stiffness, mobilisation = (
-            np.column_stack([given.spread(f"{side}_{name}", nodes, otherwise) for side in ("axial", "lateral")])
-            for name, otherwise in (("coefficient", 0.0), ("stiffness", np.nan), ("mobilisation", 1.0))
-        )
-        mobilisation = np.where(np.isnan(mobilisation), 1.0, mobilisation)
-        return FrictionLaw(coefficients, stiffness, mobilisation, given.spread("elliptic", nodes, 0.0) > 0.0, active)
+        kept = self._laid
+        if kept is None or kept[0] is not laid:
+            # in one assignment, so that threads which share the model see pairs that belong together
+            self._laid = kept = (laid, LaidCentreline(laid, self.line))
+        return kept[1]
 
     def initial_state(self) -> ContactState:
         """Return the state before the first step: nothing has touched the seabed."""
@@ -236,29 +246,26 @@ def _lateral(given: ContactInput) -> ElementRows | None:
         return ElementRows(found.rows, (found["stiffness"] * given.length[found.rows],))
 
 
-def _friction(given: AssignedLaw, nodes: int) -> FrictionRows:
+def _friction_law(given: AssignedLaw, nodes: int) -> FrictionLaw:
+    """The friction of all nodes as arrays by direction."""
+    from mudline.contact.laws.friction import FrictionLaw  # noqa: PLC0415 - only now is it needed
+
     active = np.zeros(nodes, np.bool_)
     active[given.rows] = True
-    both = {
-        name: np.stack([given.spread(f"{side}_{name}", nodes) for side in ("axial", "lateral")])
-        for name in ("coefficient", "stiffness", "mobilisation")
-    }
-    constant = ~np.isnan(both["stiffness"])
-    with np.errstate(all="ignore"):
-        rising = both["coefficient"] / both["mobilisation"]
-    angle = given.spread("angle", nodes)
+    coefficients, stiffness, mobilisation = (
+        np.column_stack([given.spread(f"{side}_{name}", nodes, otherwise) for side in ("axial", "lateral")])
+        for name, otherwise in (("coefficient", 0.0), ("stiffness", np.nan), ("mobilisation", np.nan))
+    )
+    mobilisation[np.isnan(mobilisation) & (coefficients == 0.0)] = 1.0
+    return FrictionLaw(coefficients, stiffness, mobilisation, given.spread("elliptic", nodes, 0.0) > 0.0, active)
+
+
+def _friction_rows(law: FrictionLaw, angle: FloatArray) -> FrictionRows:
     turned = np.flatnonzero(~np.isnan(angle))
     turn = np.radians(angle[turned])
-    return FrictionRows(
-        active,
-        np.where(active, both["coefficient"], 0.0),
-        np.where(constant, both["stiffness"], 0.0),
-        np.where(constant | ~active, 0.0, np.where(both["coefficient"] == 0.0, 0.0, rising)),
-        given.spread("elliptic", nodes, 0.0) > 0.0,
-        turned,
-        np.cos(turn),
-        np.sin(turn),
-    )
+    springs = law.coefficients, np.where(law.constant, law.stiffness, 0.0), law.rising
+    coefficients, constant, rising = (np.ascontiguousarray(values.T) for values in springs)
+    return FrictionRows(law.active, coefficients, constant, rising, law.ellipse, turned, np.cos(turn), np.sin(turn))
 
 
 def _pulling(given: ContactInput) -> IndexArray | None:

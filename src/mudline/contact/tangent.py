@@ -20,6 +20,7 @@ from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:
     from mudline.contact.laws.friction import FrictionForce
+    from mudline.contact.trenches import AddedLimit
 
 
 class Triples(NamedTuple):
@@ -182,7 +183,7 @@ def _add_lateral(step: _Step, blocks: _Blocks) -> None:
     mean = step.normal[first] + step.normal[second]
     mean = mean / _size(mean)[:, None]
     span = step.points[second] - step.points[first]
-    across = np.cross(mean, _projected(span, mean))
+    across = np.cross(mean, _projected(_unit(span)[0], mean))
     arm = 0.5 * step.points[first] + 0.5 * step.points[second] - after[rows]
     turn = _turning(span, mean)  # of n x t by the second end, minus that by the first
     force = -0.5 * stiffness * np.einsum("ki,ki->k", across, arm)
@@ -194,10 +195,9 @@ def _add_lateral(step: _Step, blocks: _Blocks) -> None:
             blocks.add(at, by, block)
 
 
-def _projected(span: FloatArray, normal: FloatArray) -> FloatArray:
-    """Unit vectors (k, 3) along the projections of spans; the default direction for one along the normal."""
-    unit, _ = _unit(span)
-    return np.stack(in_plane(tuple(unit.T), tuple(normal.T)), axis=1)
+def _projected(wanted: FloatArray, normal: FloatArray) -> FloatArray:
+    """Unit vectors (k, 3) along the projections of others; the default direction for one along the normal."""
+    return np.stack(in_plane(tuple(wanted.T), tuple(normal.T)), axis=1)
 
 
 def _turning(span: FloatArray, normal: FloatArray) -> FloatArray:
@@ -213,47 +213,43 @@ def _turning(span: FloatArray, normal: FloatArray) -> FloatArray:
 class _Sliding(NamedTuple):
     """Friction of one step at nodes (n,).
 
-    directions: u1, u2 and how they turn. friction: its force along u1 and u2 with derivatives. gradient: (n, 3) of what
-    trenches add to the lateral limit, by the node's position, and by_angle: (n,) by a turn of the directions; both None
-    without trenches.
+    directions: u1, u2 and how they turn. friction: its force along u1 and u2 with derivatives. added: what trenches add
+    to the lateral limit; None without trenches.
     """
 
     directions: Directions
     friction: FrictionForce
-    gradient: FloatArray | None
-    by_angle: FloatArray | None
+    added: AddedLimit | None
 
 
 def _friction_of(step: _Step) -> _Sliding:
     from mudline.contact.laws.friction import ExtraLimit, slide  # noqa: PLC0415 - only now is it needed
 
-    tables, history = step.tables, step.before.friction
-    law = tables.friction_law()
+    tables, law, history = step.tables, step.tables.friction_law, step.before.friction
     absent = np.isnan(step.result.gap)
     places = np.where(absent[:, None], 0.0, step.points)
     compression = np.where(absent, 0.0, step.result.normal_force)
     directions = directions_of(tables, step.points, step.normal)
-    extra, gradient, by_angle = None, None, None
-    if history is None:
+    extra, added = None, None
+    if law is None or history is None:
         raise TypeError("the state has no friction: it belongs to another model")
     if tables.trench is not None:
-        from mudline.contact.trenches import LaidCentreline, added_limit  # noqa: PLC0415 - most friction has no trench
+        from mudline.contact.trenches import added_limit  # noqa: PLC0415 - most friction has no trench
 
         laid = step.points if step.before.laid is None else step.before.laid
         trial = slide(law, history, places, directions.axes, compression).trial[:, 1]
-        line = LaidCentreline(laid, tables.line)
+        line = tables.laid_line(laid)
         pressed, forward = np.maximum(compression, 0.0), trial > 0.0
         added = added_limit(tables.trench, line, places, directions.axes, pressed, forward)
-        gradient, by_angle = added.gradient, added.by_angle
         extra = ExtraLimit(added.force, np.ones(len(places)), added.by_normal_force, np.where(trial > 0.0, 1.0, -1.0))
-    return _Sliding(directions, slide(law, history, places, directions.axes, compression, extra), gradient, by_angle)
+    return _Sliding(directions, slide(law, history, places, directions.axes, compression, extra), added)
 
 
 def _add_springs(axes: FloatArray, sliding: _Sliding, closed: IndexArray, blocks: _Blocks) -> None:
     """Springs, and limits that follow the offset in a trench, along u1 and u2."""
     along = np.einsum("nij,njk->nik", sliding.friction.by_position, axes)
-    if sliding.gradient is not None:
-        along += sliding.friction.by_offset[:, :, None] * sliding.gradient[:, None, :]
+    if sliding.added is not None:
+        along += sliding.friction.by_offset[:, :, None] * sliding.added.gradient[:, None, :]
     own = np.einsum("nij,nik->njk", axes, along)
     blocks.add(closed, closed, own[closed])
 
@@ -280,8 +276,8 @@ def _add_turning(step: _Step, sliding: _Sliding, closed: IndexArray, blocks: _Bl
     first, second = sliding.directions.axes
     by_angle = np.stack([sliding.friction.elongation[:, 1], 0.0 - sliding.friction.elongation[:, 0]], axis=1)
     change = np.einsum("nij,nj->ni", sliding.friction.by_position, by_angle)
-    if sliding.by_angle is not None:
-        change += sliding.friction.by_offset * sliding.by_angle[:, None]
+    if sliding.added is not None:
+        change += sliding.friction.by_offset * sliding.added.by_angle[:, None]
     turned = change[:, 0, None] * first + change[:, 1, None] * second
     turned += sliding.friction.force[:, 0, None] * second - sliding.friction.force[:, 1, None] * first
     held = _marked(closed, len(step.points)) & sliding.directions.follows
@@ -344,7 +340,7 @@ def directions_of(tables: Tables, points: FloatArray, normals: FloatArray) -> Di
         unit = units(spans)
         total = np.stack([line.sums(_padded(axis), 0, nodes, directed=True)[0] for axis in unit], axis=1)
         flat = total - (total * normals).sum(axis=1)[:, None] * normals
-        along = np.stack(in_plane(tuple(total.T), tuple(normals.T)), axis=1)
+        along = _projected(total, normals)
         follows = np.ones(nodes, np.bool_)
         friction = tables.friction
         if friction is not None and friction.turned.size:

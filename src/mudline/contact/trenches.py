@@ -7,8 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray, SmallIndexArray, StateArray
-from mudline.contact.errors import ElementError
-from mudline.contact.input import AssignedLaw, ContactInput
+from mudline.contact.input import AssignedLaw, ContactInput, ElementError
 from mudline.contact.laws.trench import (
     PEAK,
     TABLE,
@@ -197,14 +196,16 @@ class LaidCentreline:
         known = ~np.isnan(laid[:, 0])
         if not known.all():
             line = Line(line.ends[known[line.ends].all(axis=1)], len(laid))
-        self.ends, self.elements_at = line.ends, line.beside
+        # a last piece, of no element and without length, for nodes that have none
+        self.ends, self.elements_at = np.append(line.ends, [[-1, -1]], axis=0), line.beside
         axes = np.ascontiguousarray(laid.T)
         start, end = line.at(axes, 0, len(line.ends))
         span = end - start
         with np.errstate(all="ignore"):
             square = span[0] * span[0] + span[1] * span[1] + span[2] * span[2]
             inverse = np.where(square > LEAST_SQUARE, 1.0 / square, 0.0)
-        self.start, self.span, self.inverse = start, span, inverse
+        self.pieces = np.pad(np.concatenate([start, span, inverse[None]]), ((0, 0), (0, 1)))
+        self.start, self.span, self.inverse = self.pieces[:3], self.pieces[3:6], self.pieces[6]
         self._kept: dict[int, Beside] = {}
 
     def beside(self, key: int, trench: TrenchRows) -> Beside:
@@ -222,17 +223,10 @@ class LaidCentreline:
         lines = trench.lines[np.maximum(trench.line, 0)] if len(trench.lines) else np.zeros((len(nodes), 4))
         pieces, far = [], []
         for element in (one, other):
-            piece, end = self._no_piece(len(nodes)), np.zeros(len(nodes))
-            if len(self.ends):
-                at = np.maximum(element, 0)
-                piece, end = self._piece(at), np.where(self.ends[at, 1] == nodes, 0.0, 1.0)
+            piece, end = self._piece(element), np.where(self.ends[element, 1] == nodes, 0.0, 1.0)
             far.append(np.where(straight | alone, np.nan, end))
             pieces.append(_with_lines(piece, lines, straight) if straight.any() else piece)
         return Beside((pieces[0], pieces[1]), (one, other), (far[0], far[1]), straight, alone)
-
-    @staticmethod
-    def _no_piece(count: int) -> _Pieces:
-        return _Pieces([np.zeros(count)] * 3, [np.zeros(count)] * 3, np.ones(count))
 
     def _piece(self, at: IndexArray) -> _Pieces:
         return _Pieces([axis[at] for axis in self.start], [axis[at] for axis in self.span], self.inverse[at])
@@ -340,6 +334,12 @@ def slopes(trench: TrenchRows, offset: FloatArray) -> tuple[FloatArray, FloatArr
     return by_distance, by_normal
 
 
+def ranks(nodes: IndexArray) -> list[IndexArray]:
+    """Return rows of ascending nodes in groups that have each node once: the first of each node, the second, ..."""
+    rank = np.arange(len(nodes)) - np.searchsorted(nodes, nodes)
+    return [np.flatnonzero(rank == place) for place in range(int(rank.max(initial=-1)) + 1)]
+
+
 class AddedLimit(NamedTuple):
     """What trenches add to the lateral limits of nodes (n,) on the side to which each is pulled, with derivatives.
 
@@ -364,9 +364,8 @@ def added_limit(
     """Return what trenches add at `points` (n, 3); `forward` (n,) marks nodes pulled along +u2."""
     count = len(points)
     found = AddedLimit(np.zeros(count), np.zeros(count), np.zeros((count, 3)), np.zeros(count))
-    rank = np.arange(len(whole.nodes)) - np.searchsorted(whole.nodes, whole.nodes)
-    for place in range(int(rank.max(initial=-1)) + 1):
-        rows = whole.some(np.flatnonzero(rank == place))
+    for place in ranks(whole.nodes):
+        rows = whole.some(place)
         at, beside = rows.nodes, line.pieces_beside(rows)
         where = line.away(beside, [points[at, axis][None] for axis in range(3)])
         away, lateral = np.stack([axis[0] for axis in where.vector], axis=1), axes[1][at]

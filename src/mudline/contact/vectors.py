@@ -1,7 +1,7 @@
 """Directions of elements and nodes in the plane of the seabed, as tuples of components: floats in loops, or arrays.
 
 Over a horizontal seabed vectors in its plane have two components, (Y, Z); else three. All functions are expressions
-that give the same bits for floats and for arrays, see `laws.base`.
+that give the same bits for floats and for arrays, see `mudline.contact.laws`.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
-from mudline.contact.laws.base import Value, where
+from mudline.contact.laws import Value, where
 
 Vector = tuple[Value, ...]
 

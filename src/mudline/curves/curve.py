@@ -8,22 +8,40 @@ units the deck uses. With the points sorted by ratio and s_i = (F_(i+1) - F_i) /
 * r >= r_n, the last:  f = F_n + s_(n-1) (r - r_n).
 
 The force is exact at every point and nothing is clamped.
+
+Blocks of ratios are evaluated by numpy or by compiled loops. Loading numba takes about a second, so the compiled loops
+are loaded by the first query that is large enough to make more of them likely; once they are loaded, they also serve
+smaller ones.
 """
 
 from __future__ import annotations
 
-from typing import NoReturn
+import sys
+from functools import cache
+from importlib import import_module
+from typing import Literal, NoReturn, Protocol, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mudline.curves.law import Backend, NumpyLaw, law_for, recompute_overflowed, refuse, refuse_infinite
-from mudline.curves.points import FloatArray, IndexArray, checked_points, difference_quotient, read_only, real_numbers
-from mudline.curves.search import BLOCK, Knots, blocks, search_for, workspace
+from mudline.curves.points import (
+    FloatArray,
+    IndexArray,
+    QueryError,
+    checked_points,
+    difference_quotient,
+    read_only,
+    real_numbers,
+)
+from mudline.curves.search import BLOCK, Knots, Search, Workspace, blocks, search_for, workspace
 from mudline.short_repr import cut
 
-_SHOWN_POINTS = 8
-_LONGEST_POINTS = 120
+Backend = Literal["auto", "numpy", "fast"]
+
+_COMPILED = "mudline.curves.compiled"
+
+_WORTH_LOADING = 2**22
+_WORTH_CALLING = 2**12
 
 
 class ForceCurve:
@@ -95,9 +113,9 @@ class ForceCurve:
                     ratio = work.kept[: len(block)]
                     ratio[...] = block
                 if not law.fill(ratio, block_force, block_slope):
-                    bad = recompute_overflowed(self._knots, ratio, block_force)
+                    bad = _recompute_overflowed(self._knots, ratio, block_force)
                     if bad.size:
-                        refuse(ratio, int(bad[0]), done)
+                        _refuse(ratio, int(bad[0]), done)
                 done += len(ratio)
         return force, slope
 
@@ -112,7 +130,7 @@ class ForceCurve:
             for start in range(0, len(ratios), BLOCK):
                 piece = slice(start, start + BLOCK)
                 if not law.fill(ratios[piece], force[piece], slope[piece]):
-                    recompute_overflowed(self._knots, ratios[piece], force[piece])
+                    _recompute_overflowed(self._knots, ratios[piece], force[piece])
 
     def segment(self, ratios: ArrayLike) -> IndexArray:
         """Return which segment applies at `ratios`, from 0: the first also below, the last also beyond the points.
@@ -126,7 +144,7 @@ class ForceCurve:
         with workspace() as work, np.errstate(all="ignore"), blocks(query, found) as pieces:
             search = search_for(self._knots, query.size, work)
             for ratio, block_found in pieces:
-                refuse_infinite(ratio, done)
+                _refuse_infinite(ratio, done)
                 np.minimum(search.passed(ratio), len(self.slopes) - 1, out=block_found)
                 done += len(ratio)
         return found
@@ -142,7 +160,7 @@ class ForceCurve:
         done = 0
         with np.errstate(all="ignore"), blocks(query, found) as pieces:
             for ratio, block_found in pieces:
-                refuse_infinite(ratio, done)
+                _refuse_infinite(ratio, done)
                 np.subtract(ratio > self.ratios[-1], ratio < self.ratios[0], out=block_found, dtype=np.int8)
                 done += len(ratio)
         return found
@@ -208,9 +226,9 @@ class ForceCurve:
         count = len(self.ratios)
         ends = [(float(self.ratios[end]), float(self.forces[end])) for end in (0, -1)]
         shown = f"<{count} points from {ends[0]} to {ends[1]}>"
-        if count <= _SHOWN_POINTS:
+        if count <= 8:
             pairs = repr(list(zip(self.ratios.tolist(), self.forces.tolist(), strict=True)))
-            shown = pairs if len(pairs) <= _LONGEST_POINTS else shown
+            shown = pairs if len(pairs) <= 120 else shown
         return f"ForceCurve({shown}, name={self.name if self.name is None else cut(self.name, 60)!r})"
 
 
@@ -219,3 +237,94 @@ def _checked_out(out: tuple[FloatArray, FloatArray], shape: tuple[int, ...]) -> 
         if array.shape != shape or array.dtype != np.float64:
             raise ValueError(f"out must be float64 of shape {shape}, not {array.dtype} of shape {array.shape}")
     return out
+
+
+class Law(Protocol):
+    """A way to evaluate a curve.
+
+    All ways do the same operations in the same order and round after each, so that they agree bit for bit.
+    """
+
+    def fill(self, ratio: FloatArray, force: FloatArray, slope: FloatArray) -> bool:
+        """Write force and slope at each ratio; return whether every force is finite."""
+        ...
+
+
+class NumpyLaw:
+    """Evaluates with numpy alone."""
+
+    def __init__(self, knots: Knots, search: Search, work: Workspace) -> None:
+        self._knots = knots
+        self._search = search
+        self._work = work
+
+    def fill(self, ratio: FloatArray, force: FloatArray, slope: FloatArray) -> bool:
+        """See `Law`."""
+        knots, work, size = self._knots, self._work, len(ratio)
+        point = self._search.passed(ratio)
+        offset = work.real[:size]
+        np.take(knots.ratios, point, out=offset, mode="clip")
+        np.subtract(ratio, offset, out=offset)
+        np.take(knots.tails, point, out=slope, mode="clip")
+        np.multiply(offset, slope, out=offset)
+        np.take(knots.forces, point, out=force, mode="clip")
+        np.add(force, offset, out=force)
+        return bool(np.isfinite(force, out=work.flag[:size]).all())
+
+
+def law_for(knots: Knots, total: int, work: Workspace, backend: Backend = "auto") -> Law:
+    """Return the way to evaluate a query of `total` ratios.
+
+    Raises:
+        ImportError: `backend` is "fast", but the extra `mudline[fast]` is not installed.
+        ValueError: `backend` is unknown.
+    """
+    if backend not in ("auto", "numpy", "fast"):
+        raise ValueError(f"backend must be auto, numpy or fast, not {backend!r}")
+    if backend == "fast" or (backend == "auto" and _pays(total)):
+        return cast("Law", import_module(_COMPILED).compiled_law(knots))
+    return NumpyLaw(knots, search_for(knots, total, work), work)
+
+
+def _pays(total: int) -> bool:
+    return total >= _WORTH_CALLING and (_COMPILED in sys.modules or (total >= _WORTH_LOADING and _loads()))
+
+
+@cache
+def _loads() -> bool:
+    try:
+        import_module(_COMPILED)
+    except ImportError:
+        return False
+    return True
+
+
+def _recompute_overflowed(knots: Knots, ratio: FloatArray, force: FloatArray) -> IndexArray:
+    """Compute again the forces that are not finite; return where they still are not.
+
+    Only an intermediate value may have overflowed: added in two halves the force may well be finite.
+    """
+    where = np.flatnonzero(~np.isfinite(force))
+    at = np.minimum(np.searchsorted(knots.inner, ratio[where], side="right"), len(knots.inner))
+    half = knots.tails[at] * (0.5 * ratio[where] - 0.5 * knots.ratios[at])
+    force[where] = knots.forces[at] + half + half
+    found: IndexArray = where[~np.isfinite(force[where])]
+    return found
+
+
+def _refuse_infinite(ratio: FloatArray, start: int) -> None:
+    """Check that ratios are finite, for queries that compute no force.
+
+    Raises:
+        QueryError: a ratio is NaN or infinite; `start` is the index of the first ratio in the query.
+    """
+    finite = np.isfinite(ratio)
+    if not finite.all():
+        _refuse(ratio, int(np.argmin(finite)), start)
+
+
+def _refuse(ratio: FloatArray, index: int, start: int) -> NoReturn:
+    """Raise the QueryError of a ratio; `start` is the index of the first ratio in the query."""
+    value = float(ratio[index])
+    why = "the force there overflows" if np.isfinite(value) else "it is not finite"
+    raise QueryError(start + index, value, f"no force at ratio {value!r} (index {start + index}): {why}")

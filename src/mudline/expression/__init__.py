@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
-from mudline.expression.errors import EvaluationError, ExpressionError, UndefinedName, UnknownFunction
-from mudline.expression.evaluation import evaluate
-from mudline.expression.functions import CONSTANTS, FORMS, FUNCTIONS, Form, Function
-from mudline.expression.nodes import Expression, NameSpan
+from mudline.expression.evaluation import CONSTANTS, FORMS, FUNCTIONS, Form, Function, evaluate
+from mudline.expression.nodes import (
+    EvaluationError,
+    Expression,
+    ExpressionError,
+    NameSpan,
+    UndefinedName,
+    UnknownFunction,
+)
 from mudline.expression.parsing import DEEPEST, LONGEST, parse
 
 __all__ = [

@@ -7,13 +7,28 @@ from functools import cache
 from re import Pattern
 from typing import Any, cast
 
-from lark import Lark, Token, UnexpectedCharacters, UnexpectedInput, UnexpectedToken
+from lark import Lark, Token, Transformer, Tree, UnexpectedCharacters, UnexpectedInput, UnexpectedToken
 
-from mudline.expression.builder import Builder
-from mudline.expression.descent import descend
-from mudline.expression.errors import ExpressionError, shorten
-from mudline.expression.nodes import Call, Expression, Name, NameSpan, Node, walk
-from mudline.expression.plain import plain_pattern, read_plain
+from mudline.diagnostics import Span
+from mudline.expression.descent import FORTRAN_EXPONENT, SAME_OPERATOR, descend, plain_pattern, read_plain
+from mudline.expression.nodes import (
+    Call,
+    Chain,
+    Comparison,
+    Expression,
+    ExpressionError,
+    Group,
+    Logical,
+    Name,
+    NameSpan,
+    Node,
+    Number,
+    Power,
+    Prefix,
+    Text,
+    shorten,
+    walk,
+)
 from mudline.resources import grammar_file
 from mudline.syntax.scanning import scanner
 
@@ -22,6 +37,48 @@ LONGEST = 10_000
 
 DEEPEST = 100
 """The most levels of brackets, calls, signs, `not` and powers inside one another."""
+
+Match = Node | Token
+
+
+class Builder(Transformer[Token, Node]):
+    """Makes the parts of an equation of what the rules of the grammar matched, innermost rules first."""
+
+    def __default__(self, data: str, children: list[Match], meta: object) -> Node | Tree[Match]:  # noqa: C901, PLR0911
+        """Return the part that a rule stands for."""
+        if data.startswith("_"):  # a repetition, which the rule around it takes apart
+            return Tree(data, [*children])
+        span = _span(children)
+        tokens = [str(part) for part in children if isinstance(part, Token)]
+        nodes = tuple(part for part in children if not isinstance(part, Token))
+        match data:
+            case "number":
+                return Number(span, float(tokens[0].translate(FORTRAN_EXPONENT)))
+            case "text":
+                return Text(span, tokens[0][1:-1])
+            case "name":
+                return Name(span, tokens[0])
+            case "group":
+                return Group(span, nodes[0])
+            case "call":
+                return Call(span, tokens[0], _span(children[:1]), nodes)
+            case "signed" | "negation":
+                return Prefix(span, tokens[0].lower(), nodes[0])
+            case "power":
+                return Power(span, *nodes)
+            case "comparison":
+                return Comparison(span, SAME_OPERATOR.get(tokens[0], tokens[0]), *nodes)
+            case "sum" | "product":
+                return Chain(span, tuple(tokens), nodes)
+            case _:
+                return Logical(span, tokens[0].lower(), nodes)
+
+
+def _span(parts: list[Match]) -> Span:
+    first, last = parts[0], parts[-1]
+    start = first.start_pos if isinstance(first, Token) else first.span.start
+    end = last.end_pos if isinstance(last, Token) else last.span.end
+    return Span(cast("int", start), cast("int", end))  # tokens that were read from a text have a place
 
 
 @cache

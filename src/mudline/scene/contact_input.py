@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Literal, cast
 import numpy as np
 
 from mudline.codes import RUN001
-from mudline.contact.errors import ElementError
+from mudline.contact import ElementError
 from mudline.contact.input import ContactInput, LawAssignment, LawKind
-from mudline.contact.seabed.base import PlanesSeabed, SeabedError, SlopingSeabed
+from mudline.contact.seabed import PlanesSeabed, SeabedError, SlopingSeabed
 from mudline.diagnostics import DeckError, Problem, Where
 from mudline.scene.numbering import Floats, Indices, Mask
 from mudline.scene.resolved import LawArrays, ResolvedDeck
@@ -22,7 +22,7 @@ from mudline.scene.seabed import SeabedKind, SeabedShape
 from mudline.short_repr import counted
 
 if TYPE_CHECKING:
-    from mudline.contact.seabed.base import Seabed
+    from mudline.contact.seabed import Seabed
     from mudline.contact.seabed.profile import Interpolation
 
 

@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mudline.contact.arrays import FloatArray
-from mudline.contact.seabed import FlatSeabed, PlanesSeabed, ProfileSeabed, Seabed, SlopingSeabed
+from mudline.contact.seabed import FlatSeabed, PlanesSeabed, Seabed, SlopingSeabed
+from mudline.contact.seabed.profile import ProfileSeabed
 from mudline.contact.seabed.scattered import ScatteredSeabed
 
 PROFILE_Y = (-60.0, -35.0, -20.0, 5.0, 12.0, 40.0, 70.0)

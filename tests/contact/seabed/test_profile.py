@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline
 
 from mudline.contact.arrays import FloatArray
-from mudline.contact.seabed import ProfileSeabed, SeabedError
-from mudline.contact.seabed.profile import Interpolation
+from mudline.contact.seabed import SeabedError
+from mudline.contact.seabed.profile import Interpolation, ProfileSeabed
 from tests.contact.seabed.shapes import PROFILE_X, PROFILE_Y, level, located
 
 KINDS: tuple[Interpolation, ...] = ("LINEAR", "CUBIC SPLINE", "CUBIC BESSEL")

@@ -6,4 +6,203 @@ its part of a result, moves the states on, and returns how many values came out 
 
 All arrays of a result are (steps, m) for elements and (steps, n) for nodes. The numpy driver does the same operations
 in the same order, so both give the same bits.
+
+Here are what the loops read: tables of a scene with a row for each element or node, and which features it has.
 """
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from mudline.contact.arrays import FloatArray
+from mudline.contact.tables import Tables, steepest_anywhere
+
+if TYPE_CHECKING:
+    from mudline.curves import ForceCurve
+
+# Columns of the table of numbers of elements, before the parameters of their normal laws.
+DIAMETER, ONSET, LINE, SPRING, EXTENT, LATERAL, LAW = range(7)
+# Columns of the table of indices of elements.
+FIRST, SECOND, KIND, CURVE_START, CURVE_END, UNLOADS, PULLS, SPRINGS_BACK, INDICES = range(9)
+# Columns of the table of suction laws: the parameters of `SuctionLaw`, then these.
+PER_CYCLE, FLOOR, LEAST_DEPTH, SUCTION_COLUMNS = 9, 10, 11, 12
+# Columns of the table of numbers of nodes, before the parameters of their normal laws.
+MU_1, MU_2, CONSTANT_1, CONSTANT_2, RISING_1, RISING_2, COSINE, SINE, NODE_ONSET, NODE_LAW = range(10)
+# Columns of the table of indices of nodes.
+ACTIVE, ELLIPTIC, NODE_KIND, NODE_INDICES = range(4)
+# Columns of the tables of trenches.
+INNER, OUTER, STEEPNESS, AMOUNT, TRENCH_NUMBERS = range(5)
+TRENCH_KIND, TABLE_START, TABLE_END, CENTRELINE, TRENCH_INDICES = range(5)
+
+NO_LAW, ON_CURVE, FIRST_LAW = 0, 1, 2
+"""Kinds of normal laws of elements; those with an equation are numbered from the last on."""
+
+
+class Features(NamedTuple):
+    """What a scene has, as far as loops differ by it."""
+
+    flat: bool
+    curves: bool
+    cuts: bool
+    unloading: bool
+    steepens: bool
+    springs: bool
+    suction: bool
+    slides: bool
+    lateral: bool
+    nodal: bool
+    friction: bool
+    elliptic: bool
+    turned: bool
+    trench: bool
+    tables: bool
+
+
+def features_of(tables: Tables, *, flat: bool) -> Features:
+    """Return what a scene has, as far as the loops differ by it."""
+    friction, trench, suction = tables.friction, tables.trench, tables.suction
+    return Features(
+        flat=flat,
+        curves=any(rows.curve >= 0 for rows in tables.normal),
+        cuts=tables.cuts,
+        unloading=tables.unloading is not None,
+        steepens=_steepens(tables),
+        springs=tables.springs is not None,
+        suction=suction is not None,
+        slides=friction is not None or tables.lateral is not None,
+        lateral=tables.lateral is not None,
+        nodal=bool(tables.nodal),
+        friction=friction is not None,
+        elliptic=friction is not None and bool(friction.elliptic.any()),
+        turned=friction is not None and bool(friction.turned.size),
+        trench=trench is not None,
+        tables=trench is not None and bool((trench.table >= 0).any()),
+    )
+
+
+def _steepens(tables: Tables) -> bool:
+    """Whether an unloading line may be less steep than the virgin path that led to it."""
+    if tables.unloading is None:
+        return False
+    stiffness = np.full(len(tables.half), np.inf)
+    stiffness[tables.unloading.rows] = tables.unloading.columns[0]
+    return any(bool((steepest_anywhere(tables, rows) > stiffness[rows.rows]).any()) for rows in tables.normal)
+
+
+def element_tables(tables: Tables) -> tuple[Any, Any, Any]:
+    """Indices (m, c) and numbers (m, c) of the elements, and all curves.
+
+    Curves are (4, k): ratios, forces, slopes behind the points, and the steepest slopes up to there.
+    """
+    given, count = tables.given, len(tables.half)
+    formulas = [rows for rows in tables.normal if rows.curve < 0]
+    most = max((len(rows.columns) for rows in formulas), default=0)
+    index, numbers = np.full((count, INDICES), -1, np.int32), np.zeros((count, LAW + most))
+    index[:, FIRST], index[:, SECOND] = tables.line.first, tables.line.second
+    index[:, KIND] = NO_LAW
+    numbers[:, DIAMETER] = given.diameter
+    numbers[:, ONSET] = 0.0 if tables.onset is None else tables.onset
+    for kind, rows in enumerate(formulas, FIRST_LAW):
+        index[rows.rows, KIND] = kind
+        for column, values in enumerate(rows.columns, LAW):
+            numbers[rows.rows, column] = values
+    knots = [np.empty((4, 0))]
+    start = 0
+    for rows in tables.normal:
+        if rows.curve >= 0:
+            curve = given.curves[rows.curve]
+            knots.append(_knots(curve))
+            index[rows.rows, KIND] = ON_CURVE
+            index[rows.rows, CURVE_START] = start
+            start += len(curve.ratios)
+            index[rows.rows, CURVE_END] = start
+    places = ((tables.unloading, UNLOADS), (tables.suction, PULLS), (tables.lateral, SPRINGS_BACK))
+    for some, column in places:
+        if some is not None:
+            index[some.rows, column] = np.arange(len(some.rows))
+    columns = ((tables.unloading, (LINE,)), (tables.springs, (SPRING, EXTENT)), (tables.lateral, (LATERAL,)))
+    for some, names in columns:
+        if some is not None:
+            for column, values in zip(names, some.columns, strict=True):
+                numbers[some.rows, column] = values
+    return read_only(index), read_only(numbers), read_only(np.concatenate(knots, axis=1))
+
+
+def _knots(curve: ForceCurve) -> FloatArray:
+    from mudline.contact.laws.curve import steepest_slopes  # noqa: PLC0415 - only now is it needed
+
+    steepest, slopes = steepest_slopes(curve), curve.slopes
+    return np.stack([curve.ratios, curve.forces, np.append(slopes, slopes[-1]), np.append(steepest, steepest[-1])])
+
+
+def suction_table(tables: Tables) -> Any:
+    """Suction laws (k, c)."""
+    if tables.suction is None:
+        return read_only(np.empty((0, SUCTION_COLUMNS)))
+    from mudline.contact.laws.suction import SuctionLaw  # noqa: PLC0415 - only now is it needed
+
+    law = SuctionLaw(*tables.suction.columns)
+    return read_only(np.column_stack([*law, law.factor_per_cycle, np.nan_to_num(law.cyclic_floor), law.least_depth]))
+
+
+def node_tables(tables: Tables) -> tuple[Any, Any]:
+    """Indices (n, c) and numbers (n, c) of the nodes."""
+    count = len(tables.given.node_ids)
+    most = max((len(rows.columns) for rows in tables.nodal), default=0)
+    index, numbers = np.full((count, NODE_INDICES), -1, np.int32), np.zeros((count, NODE_LAW + most))
+    numbers[:, COSINE] = np.nan
+    for kind, rows in enumerate(tables.nodal):
+        index[rows.rows, NODE_KIND] = kind
+        numbers[rows.rows, NODE_ONSET] = rows.law.onset(*rows.columns)
+        for column, values in enumerate(rows.columns, NODE_LAW):
+            numbers[rows.rows, column] = values
+    friction = tables.friction
+    if friction is not None:
+        index[:, ACTIVE], index[:, ELLIPTIC] = friction.active, friction.elliptic
+        pairs = ((MU_1, friction.coefficients), (CONSTANT_1, friction.constant), (RISING_1, friction.rising))
+        for column, values in pairs:
+            numbers[:, column], numbers[:, column + 1] = values
+        numbers[friction.turned, COSINE], numbers[friction.turned, SINE] = friction.cosine, friction.sine
+    return read_only(index), read_only(numbers)
+
+
+def trench_tables(tables: Tables) -> tuple[Any, ...]:
+    """Trenches of the nodes: where those of each node start, indices, numbers, straight lines, rows of all tables."""
+    trench = tables.trench
+    if trench is None:
+        return tuple(
+            read_only(array)
+            for array in (
+                np.zeros(0, np.int32), np.zeros((0, TRENCH_INDICES), np.int32),
+                np.empty((0, TRENCH_NUMBERS)), np.empty((0, 4)), np.empty((3, 0)),
+            )
+        )  # fmt: skip
+    from mudline.contact.laws.trench import table_rows  # noqa: PLC0415 - most friction has no trench
+
+    rows = [np.stack(table_rows(table)) for table in tables.given.tables]
+    starts = np.append(0, np.cumsum([table.shape[1] for table in rows])).astype(np.int32)
+    index = np.full((len(trench.nodes), TRENCH_INDICES), -1, np.int32)
+    index[:, TRENCH_KIND], index[:, CENTRELINE] = trench.kind, trench.line
+    tabled = trench.table >= 0
+    index[tabled, TABLE_START] = starts[trench.table[tabled]]
+    index[tabled, TABLE_END] = starts[trench.table[tabled] + 1]
+    numbers = np.column_stack([trench.inner, trench.outer, trench.steepness, trench.amount])
+    every = np.concatenate([np.empty((3, 0)), *rows], axis=1)
+    return tuple(read_only(array) for array in (trench.start.astype(np.int32), index, numbers, trench.lines, every))
+
+
+def read_only(array: Any) -> Any:
+    """The array as one that may not be written, without gaps: one type to compile for."""
+    view = np.ascontiguousarray(array).view()
+    view.setflags(write=False)
+    return view
+
+
+def by_component(array: Any) -> Any:
+    """Components (k, c), each in one piece of memory."""
+    return array if array.flags.f_contiguous and array.flags.writeable else np.array(array, order="F")
+
+
+NO_LINE = (read_only(np.empty((7, 0))), (read_only(np.empty((0, 2), np.intp)), read_only(np.empty((0, 2), np.intp))))

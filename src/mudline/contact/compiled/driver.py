@@ -12,31 +12,33 @@ import warnings
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
+from inspect import isfunction
 from typing import Any, NamedTuple, TypeVar, cast
 
 import numba
 import numpy as np
 from numba.extending import overload
 
+from mudline.contact import vectors
 from mudline.contact.arrays import FloatArray
-from mudline.contact.compiled.functions import SHARED, Loop, edition, one_of
-from mudline.contact.compiled.loops import elements_loop, nodes_loop
-from mudline.contact.compiled.tables import (
+from mudline.contact.compiled import (
     LAW,
     NO_LINE,
     by_component,
     element_tables,
     features_of,
+    functions,
     node_tables,
     read_only,
     suction_table,
     trench_tables,
 )
-from mudline.contact.laws import base
-from mudline.contact.positions import Batch
+from mudline.contact.compiled.functions import Loop, edition, one_of
+from mudline.contact.compiled.loops import elements_loop, nodes_loop
+from mudline.contact.laws import curve, friction, linear, suction, trench, unloading, where
 from mudline.contact.result import ContactResult
-from mudline.contact.seabed.base import FlatSeabed, Seabed
-from mudline.contact.tables import ContactState, NormalRows, Tables
+from mudline.contact.seabed import FlatSeabed, Seabed
+from mudline.contact.tables import Batch, ContactState, NormalRows, Tables
 
 _BATCH = 2**20
 """Nodes times steps at a time, at most."""
@@ -58,7 +60,7 @@ def _pick(condition: bool, one: float, other: float) -> float:  # noqa: FBT001 -
 _INNER: Any = {"error_model": "numpy", "no_cpython_wrapper": True, "no_cfunc_wrapper": True, "forceinline": True}
 """For what only loops call: no contraction of products and sums, divisions as numpy does them."""
 
-overload(base.where, jit_options=_INNER, strict=False)(lambda *_: _pick)
+overload(where, jit_options=_INNER, strict=False)(lambda *_: _pick)
 
 
 @cache
@@ -68,8 +70,10 @@ def callable_in_loops(function: Function) -> Function:
     return function
 
 
-for _shared in SHARED:
-    callable_in_loops(_shared)
+for _module in (functions, vectors, curve, friction, linear, suction, trench, unloading):
+    for _function in vars(_module).values():
+        if isfunction(_function) and _function.__module__ == _module.__name__:
+            callable_in_loops(_function)
 
 
 def _compiled(loop: Loop) -> Loop:
@@ -87,20 +91,10 @@ def _loop(make: Callable[..., Loop], *options: Any) -> Loop:
     return _compiled(make(*options))
 
 
-class _Job(NamedTuple):
-    """A batch as the loops want it."""
-
-    points: FloatArray
-    gap: FloatArray
-    speed: FloatArray
-    normals: FloatArray
-    states: tuple[Any, ...]
-    laid: tuple[Any, ...]
-    elements: tuple[Any, ...]
-    extra: tuple[Any, ...]
-    nodes: tuple[Any, ...]
-    slips: tuple[Any, ...]
-    work: tuple[Any, ...]
+_Task = tuple[bool, int, int]
+"""A range to be written: whether it is one of nodes, its begin and its end."""
+_Job = tuple[tuple[Any, ...], tuple[Any, ...]]
+"""What the loops over elements, and over nodes, take of a batch behind the range."""
 
 
 class CompiledDriver:
@@ -134,7 +128,6 @@ class CompiledDriver:
         )
         self._sequence = _tasks(tables, range(len(range(0, self._elements, _RANGE))))
         self._groups = _groups(tables, self._elements, self._threads, self._sequence)
-        self._laid: tuple[FloatArray, tuple[Any, ...]] | None = None
         self.broken = False
         """Whether a law turned out not to compile."""
         self.steps = max(1, min(_BATCH // max(self._nodes, 1), _STEPS))
@@ -166,33 +159,17 @@ class CompiledDriver:
         """Write all ranges; return how many values are not finite."""
         groups = self._groups
         if len(groups.together) > 1 and len(batch.points) * self._nodes >= _WORTH_THREADS:
-            pool = self._threaded()
+            if self._pool is None:
+                self._pool = ThreadPoolExecutor(self._threads)
+            pool = self._pool
             wrong = sum(pool.map(lambda tasks: self._run_tasks(tasks, job), groups.together))
             return wrong + sum(pool.map(lambda tasks: self._run_tasks(tasks, job), groups.behind))
         return self._run_tasks(self._sequence, job)
 
-    def _run_tasks(self, tasks: list[tuple[bool, int, int]], job: _Job) -> int:
+    def _run_tasks(self, tasks: list[_Task], job: _Job) -> int:
         """Write ranges of elements and of nodes in this order; return how many values are not finite."""
-        return sum((self._run_nodes if nodes else self._run_elements)(begin, end, job) for nodes, begin, end in tasks)
-
-    def _threaded(self) -> ThreadPoolExecutor:
-        if self._pool is None:
-            self._pool = ThreadPoolExecutor(self._threads)
-        return self._pool
-
-    def _run_elements(self, begin: int, end: int, job: _Job) -> int:
-        """Write a range of elements; return how many values are not finite."""
-        return self._element_loop(
-            begin, end, self._index, self._numbers, self._pulls, job.points, job.gap, job.speed, job.normals,
-            self._knots, job.states[:4], job.elements, job.extra, job.work,
-        )  # fmt: skip
-
-    def _run_nodes(self, begin: int, end: int, job: _Job) -> int:
-        """Write a range of nodes; return how many values are not finite."""
-        return self._node_loop(
-            begin, end, *self._line, self._node_index, self._node_numbers, job.points, job.gap, job.normals,
-            job.elements[3], job.work, (*self._trenches, *job.laid), job.states[4:], job.nodes, job.slips,
-        )  # fmt: skip
+        loops = self._element_loop, self._node_loop
+        return sum(loops[nodes](begin, end, *job[nodes]) for nodes, begin, end in tasks)
 
     def _job(self, batch: Batch, part: ContactResult, after: ContactState) -> _Job:
         steps, has = len(batch.points), self._has
@@ -203,53 +180,44 @@ class CompiledDriver:
             np.empty(shape) if has.lateral else np.empty((0, 0, components)),
         )
         none = np.zeros((0, 0), np.int8)
-        unloading, suction, friction = after.unloading, after.suction, after.friction
+        lines, pulls, slides = after.unloading, after.suction, after.friction
         states = (
-            np.empty((4, 0)) if unloading is None else unloading.numbers,
-            np.zeros((2, 0), np.int8) if suction is None else suction.flags,
-            np.empty((3, 0)) if suction is None else suction.numbers,
+            np.empty((4, 0)) if lines is None else lines.numbers,
+            np.zeros((2, 0), np.int8) if pulls is None else pulls.flags,
+            np.empty((3, 0)) if pulls is None else pulls.numbers,
             by_component(np.empty((0, 3)) if after.touchdown is None else after.touchdown),
-            by_component(np.empty((0, 3)) if friction is None else friction.stick_points),
-            by_component(np.zeros((0, 2), np.int8) if friction is None else friction.states),
         )
-        cut = part.cut if part.cut.flags.writeable else none > 0
-        return _Job(
-            read_only(batch.points),
-            part.gap,
-            np.empty((0, 0)) if batch.speed is None else batch.speed,
-            read_only(part.normal) if self._normal is None else self._normal,
-            states,
-            self._laid_tables(batch.laid),
-            (part.depth, part.ratio, part.contact, part.force, part.slope, part.stiffness),
-            (
-                cut,
-                none if part.state is None else part.state,
-                none > 0 if part.regularised is None else part.regularised,
-            ),
-            (part.normal_force, part.reaction),
-            (
-                np.empty((0, 0, 2)) if part.friction is None else part.friction,
-                np.zeros((0, 0, 2), np.int8) if part.friction_state is None else part.friction_state,
-            ),
-            work,
+        sticks = (
+            by_component(np.empty((0, 3)) if slides is None else slides.stick_points),
+            by_component(np.zeros((0, 2), np.int8) if slides is None else slides.states),
         )
+        extra = (
+            part.cut if part.cut.flags.writeable else none > 0,
+            none if part.state is None else part.state,
+            none > 0 if part.regularised is None else part.regularised,
+        )
+        slips = (
+            np.empty((0, 0, 2)) if part.friction is None else part.friction,
+            np.zeros((0, 0, 2), np.int8) if part.friction_state is None else part.friction_state,
+        )
+        points, speed = read_only(batch.points), np.empty((0, 0)) if batch.speed is None else batch.speed
+        normals = read_only(part.normal) if self._normal is None else self._normal
+        written = part.depth, part.ratio, part.contact, part.force, part.slope, part.stiffness
+        elements = (
+            self._index, self._numbers, self._pulls, points, part.gap, speed, normals, self._knots, states, written,
+            extra, work,
+        )  # fmt: skip
+        nodes = (
+            *self._line, self._node_index, self._node_numbers, points, part.gap, normals, part.force, work,
+            (*self._trenches, *self._laid_tables(batch.laid)), sticks, (part.normal_force, part.reaction), slips,
+        )  # fmt: skip
+        return elements, nodes
 
     def _laid_tables(self, laid: FloatArray) -> tuple[Any, ...]:
-        """The line as it was `laid`, prepared once: the states of a run share that array."""
         if self._tables.trench is None:
             return NO_LINE
-        kept = self._laid
-        if kept is None or kept[0] is not laid:
-            from mudline.contact.trenches import LaidCentreline  # noqa: PLC0415 - most friction has no trench
-
-            line = LaidCentreline(laid, self._tables.line)
-            pieces = np.concatenate([line.start, line.span, line.inverse[None]])
-            self._laid = kept = (laid, (read_only(pieces), (read_only(line.ends), read_only(line.elements_at))))
-        return kept[1]
-
-
-_Task = tuple[bool, int, int]
-"""A range to be written: whether it is one of nodes, its begin and its end."""
+        line = self._tables.laid_line(laid)
+        return read_only(line.pieces), (read_only(line.ends), read_only(line.elements_at))
 
 
 class _Groups(NamedTuple):

@@ -13,23 +13,19 @@ from typing import Any
 import numpy as np
 
 from mudline.contact import vectors
-from mudline.contact.compiled.tables import FLOOR, LEAST_DEPTH, PER_CYCLE
+from mudline.contact.compiled import FLOOR, LEAST_DEPTH, PER_CYCLE
 from mudline.contact.laws import NormalLaw
-from mudline.contact.laws.curve import on_segment
-from mudline.contact.laws.friction import in_box, in_ellipse, norm, on_ellipse, slip_distance
-from mudline.contact.laws.linear import lateral_force, spring_suction
+from mudline.contact.laws.friction import in_box, in_ellipse
 from mudline.contact.laws.suction import (
     BROKEN,
     COMPRESSION,
     SUCTION,
     after_cycle,
     breakout_uplift,
-    maximum_force,
     next_state,
     suction_force,
-    trapezoid,
 )
-from mudline.contact.laws.trench import in_table, on_wall, peak_share, share_of_piece
+from mudline.contact.laws.trench import in_table, share_of_piece
 from mudline.contact.laws.unloading import line_stiffness, on_line, trench_bottom
 
 Loop = Callable[..., int]
@@ -49,52 +45,25 @@ def edition(laws: tuple[NormalLaw, ...]) -> int:
     return int.from_bytes(hashlib.sha256("".join(texts).encode()).digest()[:4], "big")
 
 
-_LAW_MODULES = ("base", "curve", "friction", "linear", "suction", "trench", "unloading")
+_LAW_MODULES = ("__init__", "curve", "friction", "linear", "suction", "trench", "unloading")
 _CONTACT = Path(__file__).parents[1]
 _SOURCES = (
-    *(_CONTACT / "compiled" / f"{name}.py" for name in ("driver", "functions", "loops", "tables")),
+    *(_CONTACT / "compiled" / f"{name}.py" for name in ("__init__", "driver", "functions", "loops")),
     _CONTACT / "vectors.py",
     *(_CONTACT / "laws" / f"{name}.py" for name in _LAW_MODULES),
 )
 
 
-def row_of_0(_table: Array, _row: int, _first: int) -> tuple[()]:
-    """Return no parameter."""
-    return ()
+def row_of(wrap: Wrap, count: int) -> Callable[..., Any]:
+    """Return a function that gives so many parameters of a row of a table, from a first column on."""
+    if count == 0:
+        return wrap(lambda _table, _row, _first: ())  # type: ignore[no-any-return]
+    others, last = row_of(wrap, count - 1), count - 1
 
+    def row_of_several(table: Array, row: int, first: int) -> Any:
+        return (*others(table, row, first), table[row, first + last])
 
-def row_of_1(table: Array, row: int, first: int) -> tuple[float, ...]:
-    """Return one parameter of a row of a table, from a first column on."""
-    return (table[row, first],)
-
-
-def row_of_2(table: Array, row: int, first: int) -> tuple[float, ...]:
-    """Return two parameters."""
-    return table[row, first], table[row, first + 1]
-
-
-def row_of_3(table: Array, row: int, first: int) -> tuple[float, ...]:
-    """Return three parameters."""
-    return table[row, first], table[row, first + 1], table[row, first + 2]
-
-
-def row_of_4(table: Array, row: int, first: int) -> tuple[float, ...]:
-    """Return four parameters."""
-    return table[row, first], table[row, first + 1], table[row, first + 2], table[row, first + 3]
-
-
-def row_of_5(table: Array, row: int, first: int) -> tuple[float, ...]:
-    """Return five parameters."""
-    return (*row_of_4(table, row, first), table[row, first + 4])
-
-
-def row_of_6(table: Array, row: int, first: int) -> tuple[float, ...]:
-    """Return six parameters."""
-    return (*row_of_4(table, row, first), table[row, first + 4], table[row, first + 5])
-
-
-ROWS = (row_of_0, row_of_1, row_of_2, row_of_3, row_of_4, row_of_5, row_of_6)
-"""By how many parameters a law has; a law with more runs with numpy."""
+    return wrap(row_of_several)  # type: ignore[no-any-return]
 
 
 def one_of(wrap: Wrap, laws: tuple[tuple[Callable[..., Any], int], ...], first: int) -> Callable[..., Any]:
@@ -109,7 +78,7 @@ def one_of(wrap: Wrap, laws: tuple[tuple[Callable[..., Any], int], ...], first: 
 
         return wrap(nothing)  # type: ignore[no-any-return]
     (reaction, count), others = laws[0], one_of(wrap, laws[1:], first)
-    reaction, parameters = wrap(reaction), wrap(ROWS[count])
+    reaction, parameters = wrap(reaction), row_of(wrap, count)
     if len(laws) == 1:
 
         def only(_kind: int, z: float, diameter: float, table: Array, row: int) -> tuple[float, float]:
@@ -289,14 +258,3 @@ def from_straight(lines: Array, line: int, p: Point) -> Point:
     y, z, span = p[1] - lines[line, 0], p[2] - lines[line, 1], (0.0, lines[line, 2], lines[line, 3])
     share = share_of_piece((p[0], y, z), span, 1.0)
     return 0.0, y - share * span[1], z - share * span[2]
-
-
-SHARED = (
-    last_at_or_below, unit_of_span, mean_normal, on_piece, from_laid, from_straight, table_resistance, row_of_4,
-    next_unloading, next_suction, suction_law, in_limits,
-    *(function for plane in vectors.PLANES.values() for function in plane), vectors.tangent_share, vectors.span_scale,
-    on_segment, norm, on_ellipse, in_box, in_ellipse, slip_distance, lateral_force, maximum_force, trapezoid,
-    after_cycle, breakout_uplift, next_state, suction_force, spring_suction, in_table, on_wall, peak_share,
-    share_of_piece, line_stiffness, on_line, trench_bottom,
-)  # fmt: skip
-"""Functions that loops call by name."""

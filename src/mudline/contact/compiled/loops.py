@@ -8,7 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from mudline.contact import compiled as col
 from mudline.contact import vectors
+from mudline.contact.compiled import FIRST_LAW, ON_CURVE, Features
 from mudline.contact.compiled.functions import (
     Array,
     Loop,
@@ -26,47 +28,6 @@ from mudline.contact.compiled.functions import (
     suction_law,
     table_resistance,
     unit_of_span,
-)
-from mudline.contact.compiled.tables import (
-    ACTIVE,
-    AMOUNT,
-    CENTRELINE,
-    CONSTANT_1,
-    CONSTANT_2,
-    COSINE,
-    CURVE_END,
-    CURVE_START,
-    DIAMETER,
-    ELLIPTIC,
-    EXTENT,
-    FIRST,
-    FIRST_LAW,
-    INNER,
-    KIND,
-    LATERAL,
-    LAW,
-    LINE,
-    MU_1,
-    MU_2,
-    NODE_KIND,
-    NODE_LAW,
-    NODE_ONSET,
-    ON_CURVE,
-    ONSET,
-    OUTER,
-    PULLS,
-    RISING_1,
-    RISING_2,
-    SECOND,
-    SINE,
-    SPRING,
-    SPRINGS_BACK,
-    STEEPNESS,
-    TABLE_END,
-    TABLE_START,
-    TRENCH_KIND,
-    UNLOADS,
-    Features,
 )
 from mudline.contact.laws.curve import on_segment
 from mudline.contact.laws.friction import slip_distance
@@ -91,7 +52,7 @@ def elements_loop(
     suction, slides, lateral, flat = has.suction, has.slides, has.lateral, has.flat
     plane = vectors.PLANES[2 if has.flat else 3]
     project, default, cross, dot = plane.project, plane.default, plane.across, plane.dot
-    normal_law = one_of(wrap, laws, LAW)
+    normal_law = one_of(wrap, laws, col.LAW)
 
     def loop(
         begin: int, end: int, index: Array, table: Array, pulls: Array, points: Array, gap: Array, speed: Array,
@@ -104,8 +65,8 @@ def elements_loop(
         wrong = min(edition, 0)
         for step in range(len(gap)):
             for e in range(begin, end):
-                a, b, kind = index[e, FIRST], index[e, SECOND], index[e, KIND]
-                diameter, onset = table[e, DIAMETER], table[e, ONSET]
+                a, b, kind = index[e, col.FIRST], index[e, col.SECOND], index[e, col.KIND]
+                diameter, onset = table[e, col.DIAMETER], table[e, col.ONSET]
                 deep = 0.0 - (0.5 * gap[step, a] + 0.5 * gap[step, b])
                 share = deep / diameter
                 touches = deep > onset
@@ -115,7 +76,7 @@ def elements_loop(
                 s = 0.0 * diameter  # NaN without a diameter
                 segment = 0
                 if touches and curves and kind == ON_CURVE:
-                    segment = last_at_or_below(knots[0], index[e, CURVE_START], index[e, CURVE_END], share)
+                    segment = last_at_or_below(knots[0], index[e, col.CURVE_START], index[e, col.CURVE_END], share)
                     s = knots[2, segment]
                     f = on_segment(share, knots[0, segment], knots[1, segment], s)
                     k = s / diameter
@@ -129,11 +90,11 @@ def elements_loop(
                     wrong += unloading and not math.isfinite(f + k)
 
                 uplift, pressed = onset - deep, touches
-                if unloading and index[e, UNLOADS] >= 0:
-                    u, z, steep = index[e, UNLOADS], max(0.0, deep), table[e, LINE]
+                if unloading and index[e, col.UNLOADS] >= 0:
+                    u, z, steep = index[e, col.UNLOADS], max(0.0, deep), table[e, col.LINE]
                     if steepens and curves and kind == ON_CURVE and touches:
                         # at a point the segment to its right does not count yet
-                        back = share == knots[0, segment] and segment > index[e, CURVE_START]
+                        back = share == knots[0, segment] and segment > index[e, col.CURVE_START]
                         steep = np.maximum(steep, knots[3, segment - 1 if back else segment] / diameter)
                     elif steepens and kind >= FIRST_LAW and touches:
                         steep = np.maximum(steep, steepest(kind - FIRST_LAW, z, diameter, table, e)[0])
@@ -144,12 +105,12 @@ def elements_loop(
                     lines[0, u], lines[1, u], lines[2, u], lines[3, u] = line
                     uplift, pressed = line[3] - deep, z > line[3]
 
-                if springs and table[e, SPRING] > 0.0:
-                    g, h = spring_suction(onset - deep, table[e, SPRING], table[e, EXTENT])
+                if springs and table[e, col.SPRING] > 0.0:
+                    g, h = spring_suction(onset - deep, table[e, col.SPRING], table[e, col.EXTENT])
                     f, s, k = f + g, s + h * diameter, k + h
 
-                if suction and index[e, PULLS] >= 0:
-                    held, v = index[e, PULLS], 0.5 * speed[step, a] + 0.5 * speed[step, b]
+                if suction and index[e, col.PULLS] >= 0:
+                    held, v = index[e, col.PULLS], 0.5 * speed[step, a] + 0.5 * speed[step, b]
                     was = (flags[0, held] > 0, flags[1, held], (numbers[0, held], numbers[1, held], numbers[2, held]))
                     now, g, h, slow = next_suction(was, uplift, pressed, v, suction_law(pulls, held))
                     if now[1] == SUCTION:
@@ -171,8 +132,8 @@ def elements_loop(
                     tangent[step, e, 0], tangent[step, e, 1] = unit[1], unit[2]
                 else:
                     tangent[step, e, 0], tangent[step, e, 1], tangent[step, e, 2] = unit
-                if lateral and index[e, SPRINGS_BACK] >= 0:
-                    held = index[e, SPRINGS_BACK]
+                if lateral and index[e, col.SPRINGS_BACK] >= 0:
+                    held = index[e, col.SPRINGS_BACK]
                     x, y, z = 0.5 * p[0] + 0.5 * q[0], 0.5 * p[1] + 0.5 * q[1], 0.5 * p[2] + 0.5 * q[2]
                     if not touches:
                         touchdown[held, 0] = touchdown[held, 1] = touchdown[held, 2] = np.nan
@@ -188,7 +149,7 @@ def elements_loop(
                     if not able:
                         along = default(n)
                     across = cross(along, n)
-                    push = lateral_force(table[e, LATERAL], dot(across, arm)) if touches else 0.0
+                    push = lateral_force(table[e, col.LATERAL], dot(across, arm)) if touches else 0.0
                     for axis in range(sideways.shape[2]):
                         sideways[step, e, axis] = across[axis] * push
                 elif lateral:
@@ -208,17 +169,21 @@ def _trench_limit(has: Features) -> Callable[..., Any]:
         start, index, table, lines, rows, laid, beside = trenches
         added = 0.0
         for at in range(start[i], start[i + 1]):
-            line, kind, amount = index[at, CENTRELINE], index[at, TRENCH_KIND], table[at, AMOUNT]
+            line, kind, amount = index[at, col.CENTRELINE], index[at, col.TRENCH_KIND], table[at, col.AMOUNT]
             x, y, z = from_laid(laid, beside, i, p) if line < 0 else from_straight(lines, line, p)
             offset = dot(across, (y, z)) if flat else dot(across, (x, y, z))
             if (offset > 0.0) if forward else (offset < 0.0):
                 distance = np.abs(offset)
                 if kind == PEAK:
-                    added += amount * peak_share(distance, table[at, INNER], table[at, OUTER], table[at, STEEPNESS])
+                    added += amount * peak_share(
+                        distance, table[at, col.INNER], table[at, col.OUTER], table[at, col.STEEPNESS]
+                    )
                 elif kind == WALL:
-                    added += amount * total * on_wall(distance, table[at, INNER], table[at, OUTER])
+                    added += amount * total * on_wall(distance, table[at, col.INNER], table[at, col.OUTER])
                 elif tables:
-                    added += amount * table_resistance(rows, index[at, TABLE_START], index[at, TABLE_END], distance)
+                    added += amount * table_resistance(
+                        rows, index[at, col.TABLE_START], index[at, col.TABLE_END], distance
+                    )
         return added
 
     return walls
@@ -231,7 +196,7 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
     plane = vectors.PLANES[2 if has.flat else 3]
     project, default, cross, dot, turn = plane.project, plane.default, plane.across, plane.dot, plane.turned
     blend, added, reacts = plane.blend, plane.added, plane.reaction
-    normal_law = one_of(wrap, laws, NODE_LAW)
+    normal_law = one_of(wrap, laws, col.NODE_LAW)
     walls = wrap(_trench_limit(has))
 
     def loop(
@@ -261,10 +226,10 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
                         gy += sideways[step, e, 1]
                         if not flat:
                             gz += sideways[step, e, 2]
-                if nodal and index[i, NODE_KIND] >= 0:
+                if nodal and index[i, col.NODE_KIND] >= 0:
                     z = 0.0 - gap[step, i]
-                    if z > table[i, NODE_ONSET]:
-                        f, k = normal_law(index[i, NODE_KIND], z, 0.0, table, i)
+                    if z > table[i, col.NODE_ONSET]:
+                        f, k = normal_law(index[i, col.NODE_KIND], z, 0.0, table, i)
                         wrong += not math.isfinite(f + k)
                         total += f
                 totals[step, i] = total
@@ -279,13 +244,13 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
                     along, able = project(wanted, n)
                     if not able:
                         along = default(n)
-                    if friction and turned and not math.isnan(table[i, COSINE]):
-                        along = turn(table[i, COSINE], table[i, SINE], n)
+                    if friction and turned and not math.isnan(table[i, col.COSINE]):
+                        along = turn(table[i, col.COSINE], table[i, col.SINE], n)
                     across = cross(along, n)
                     f1 = f2 = 0.0
                     if friction:
-                        one = other = index[i, ACTIVE] - 1
-                        if index[i, ACTIVE] > 0 and total > 0.0:
+                        one = other = index[i, col.ACTIVE] - 1
+                        if index[i, col.ACTIVE] > 0 and total > 0.0:
                             p = (points[step, i, 0], points[step, i, 1], points[step, i, 2])
                             held = sticking[i, 0] > 0
                             if not held:
@@ -295,10 +260,10 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
                                 x = y = z = 0.0
                             away = (y, z) if flat else (x, y, z)
                             e1, e2 = dot(along, away), dot(across, away)
-                            k1 = table[i, CONSTANT_1] + table[i, RISING_1] * total
-                            k2 = table[i, CONSTANT_2] + table[i, RISING_2] * total
-                            t1, t2, l1, l2 = k1 * e1, k2 * e2, table[i, MU_1] * total, table[i, MU_2] * total
-                            curved = elliptic and index[i, ELLIPTIC] > 0
+                            k1 = table[i, col.CONSTANT_1] + table[i, col.RISING_1] * total
+                            k2 = table[i, col.CONSTANT_2] + table[i, col.RISING_2] * total
+                            t1, t2, l1, l2 = k1 * e1, k2 * e2, table[i, col.MU_1] * total, table[i, col.MU_2] * total
+                            curved = elliptic and index[i, col.ELLIPTIC] > 0
                             f1, f2, slip_1, slip_2 = in_limits(t1, t2, l1, l2, curved)
                             if trench and (slip_2 or (curved and slip_1)):  # what sticks without a trench sticks in it
                                 l2 = l2 + walls(i, total, p, across, t2 > 0.0, trenches)

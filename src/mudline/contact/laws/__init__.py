@@ -2,15 +2,132 @@
 
 A law is known by its name and imported when an input has it. `register` adds one: a normal law of a module of your own
 is evaluated, stepped, planned and differentiated like the others, with numpy and with compiled loops.
+
+The functions of a law are expressions: they take floats (in compiled loops) and arrays (in numpy) alike and give the
+same bits for both, as long as they use `+ - * /`, comparisons, `&`, `|`, `np.maximum`, `np.minimum`, `np.abs`,
+`np.sqrt`, `np.nextafter`, `np.float_power` (not `**`, which numpy computes with code of its own) and `where` (not
+`np.where`).
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass, field
 from importlib import import_module
+from typing import Any, Literal, NamedTuple
 
-from mudline.contact.laws.base import Law, NormalLaw, Parameter, where
+import numpy as np
 
-__all__ = ["Law", "NormalLaw", "Parameter", "known_laws", "law_named", "register", "where"]
+from mudline.contact.arrays import BoolArray, FloatArray
+from mudline.short_repr import short_repr
+
+Value = Any
+"""A float or an array of floats: what expressions take and give."""
+Reaction = Callable[..., tuple[Value, Value]]
+
+
+def where(condition: Value, one: Value, other: Value) -> Value:
+    """Return `one` where the condition holds, else `other`; for numbers and for arrays."""
+    return np.where(condition, one, other)
+
+
+class Parameter(NamedTuple):
+    """A parameter of a law: one number per element or node.
+
+    Attributes:
+        name: its name in `LawAssignment.parameters`.
+        unit: powers of force F, length L and time T; 1 for none.
+        meaning: what it is.
+        low: least value.
+        above: whether the least value itself is not allowed.
+        high: largest value, which is allowed when finite.
+        default: value where none is given; None where one has to be given.
+        optional: whether NaN stands for "none".
+    """
+
+    name: str
+    unit: str
+    meaning: str
+    low: float = 0.0
+    above: bool = False
+    high: float = np.inf
+    default: float | None = None
+    optional: bool = False
+
+    @property
+    def valid_range(self) -> str:
+        """The range in words."""
+        if np.isinf(self.low):
+            return "a finite number"
+        least = f"{'> ' if self.above else '>= '}{self.low:g}"
+        if np.isinf(self.high):
+            return least
+        most = f"{self.high:g}"
+        return f"{least} and {'<' if float(most) > self.high else '<='} {most}"
+
+    def invalid(self, values: FloatArray) -> BoolArray:
+        """Return which values (k,) are not allowed."""
+        with np.errstate(invalid="ignore"):
+            allowed = np.isfinite(values) & (values <= self.high)
+            allowed &= (values > self.low) if self.above else (values >= self.low)
+        found: BoolArray = ~allowed
+        return found & ~np.isnan(values) if self.optional else found
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Law:
+    """A contact law.
+
+    Attributes:
+        name: how assignments, plans and tables call it.
+        summary: what it is, in a few words.
+        acts_on: whether its rows are elements or nodes.
+        parameters: what each row needs.
+        needs_diameter: whether an element needs an external diameter.
+        history: whether a step's result depends on the steps before it.
+        tables: whether it takes tables besides numbers; `parameters` then has the index of one.
+        check: what the parameters, by name, must be to each other: where it does not hold, and what it is.
+        equation: in one line.
+        source: where the equation is published.
+    """
+
+    name: str
+    summary: str
+    acts_on: Literal["elements", "nodes"]
+    parameters: tuple[Parameter, ...]
+    needs_diameter: bool = False
+    history: bool = False
+    tables: bool = False
+    check: Callable[[dict[str, FloatArray]], tuple[BoolArray, str]] | None = None
+    equation: str = ""
+    source: str = ""
+
+    __repr__ = short_repr
+
+
+def _never(*parameters: Value) -> Value:
+    """Contact begins at the mudline."""
+    return 0.0 * parameters[0]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NormalLaw(Law):
+    """A law of the reaction along the normal of the seabed, without history.
+
+    Attributes:
+        reaction: (penetration z, diameter D, *parameters) to force and stiffness d force / d z: per unit length for a
+            law of elements, of the node for a law of nodes. It is asked for z of any size and sign, and counts where
+            z > onset. Not for a law with tables.
+        steepest: (z, D, *parameters) to the largest stiffness between the onset and z; z may be infinite.
+        onset: (*parameters) to the penetration at which contact begins.
+    """
+
+    reaction: Reaction | None = None
+    steepest: Callable[..., Value] | None = None
+    onset: Callable[..., Value] = field(default=_never)
+
+    __repr__ = short_repr
+
 
 _LAWS: dict[str, str | Law] = {
     "linear": "linear:LINEAR",

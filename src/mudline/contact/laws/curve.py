@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
-from mudline.contact.laws.base import NormalLaw, Parameter, Value
+from mudline.contact.laws import NormalLaw, Parameter, Value
 
 if TYPE_CHECKING:
     from mudline.curves import ForceCurve

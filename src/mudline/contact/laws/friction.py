@@ -26,7 +26,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, StateArray
-from mudline.contact.laws.base import Law, Parameter, Value, where
+from mudline.contact.laws import Law, Parameter, Value, where
 from mudline.short_repr import short_repr
 
 _SMALLEST = float(np.nextafter(0.0, 1.0))
@@ -104,11 +104,16 @@ class FrictionLaw:
         """Where (n, 2) the spring is constant."""
         return ~np.isnan(self.stiffness)
 
+    @property
+    def rising(self) -> FloatArray:
+        """Stiffness (n, 2) of the springs for each unit of the normal force; 0 where they are constant."""
+        with np.errstate(all="ignore"):
+            found: FloatArray = np.where(self.constant, 0.0, self.coefficients / self.mobilisation)
+        return found
+
     def springs(self, normal_force: FloatArray) -> FloatArray:
         """Return the stiffness (n, 2) of the springs under normal forces (n,) >= 0."""
-        with np.errstate(all="ignore"):
-            rising = np.where(self.constant, 0.0, self.coefficients / self.mobilisation)
-        found: FloatArray = np.where(self.constant, self.stiffness, 0.0) + rising * normal_force[:, None]
+        found: FloatArray = np.where(self.constant, self.stiffness, 0.0) + self.rising * normal_force[:, None]
         return found
 
 
@@ -237,8 +242,7 @@ _Change = tuple[FloatArray, FloatArray, FloatArray]
 
 def _derivatives(law: FrictionLaw, step: _Trial, against: BoolArray, extra: ExtraLimit | None) -> _Change:
     """A spring that sticks has its stiffness, one that slips follows its limit, which follows the normal force."""
-    with np.errstate(all="ignore"):
-        rising = np.where(law.constant, 0.0, law.coefficients / law.mobilisation) * step.elongation
+    rising = law.rising * step.elongation
     limit_by_normal, limit_by_offset = law.coefficients.copy(), np.zeros(step.trial.shape)
     if extra is not None:
         limit_by_normal[:, 1] += np.where(against, extra.by_normal_force, 0.0)

@@ -31,7 +31,7 @@ from __future__ import annotations
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
-from mudline.contact.laws.base import Law, NormalLaw, Parameter, Value, where
+from mudline.contact.laws import Law, NormalLaw, Parameter, Value, where
 
 _WIDEST = 0.25 * float(np.finfo(np.float64).max)
 """Half widths above this are halved in the sums, which would overflow."""
@@ -99,6 +99,7 @@ def automatic_half_width(static_penetration: FloatArray, diameter: FloatArray) -
     return np.where(width > 0.0, width, 0.0)
 
 
+_STIFFNESS = Parameter("stiffness", "F/L2", "force per unit length and length of penetration")
 _HALF_WIDTH = Parameter("half_width", "L", "half width h of the quadratic zone; 0 for a kinked law", default=0.0)
 _ONE_SIDED = Parameter("one_sided", "1", "1 for a zone below the mudline only", high=1.0, default=0.0)
 
@@ -106,7 +107,7 @@ LINEAR = NormalLaw(
     name="linear",
     summary="linear stiffness",
     acts_on="elements",
-    parameters=(Parameter("stiffness", "F/L2", "force per unit length and length of penetration"),),
+    parameters=(_STIFFNESS,),
     reaction=linear_reaction,
     steepest=linear_steepest,
     equation="F = K z",
@@ -116,11 +117,7 @@ SMOOTHED = NormalLaw(
     name="smoothed",
     summary="linear stiffness with a quadratic zone",
     acts_on="elements",
-    parameters=(
-        Parameter("stiffness", "F/L2", "force per unit length and length of penetration"),
-        _HALF_WIDTH,
-        _ONE_SIDED,
-    ),
+    parameters=(_STIFFNESS, _HALF_WIDTH, _ONE_SIDED),
     reaction=smoothed_reaction,
     steepest=smoothed_steepest,
     onset=zone_onset,

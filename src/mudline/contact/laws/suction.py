@@ -25,7 +25,7 @@ from typing import NamedTuple, Self
 import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray, StateArray
-from mudline.contact.laws.base import Law, Parameter, Value, where
+from mudline.contact.laws import Law, Parameter, Value, where
 from mudline.short_repr import short_repr
 
 FORCE_EXPONENT = 0.18

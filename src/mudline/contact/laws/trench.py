@@ -19,8 +19,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from mudline.contact.arrays import FloatArray, IndexArray
-from mudline.contact.laws.base import Law, Parameter, Value, where
+from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
+from mudline.contact.laws import Law, Parameter, Value, where
 
 PEAK, WALL, TABLE = 0, 1, 2
 """Kinds of resistance, in tables of the drivers."""
@@ -95,38 +95,42 @@ _CENTRELINE = tuple(
     Parameter(name, "L", "of a straight centreline; NaN for the line as laid", -np.inf, default=np.nan, optional=True)
     for name in ("start_y", "start_z", "end_y", "end_z")
 )
-_SOURCE = "trench of DeepLines as publicly described, read as a lateral limit (INFERRED)"
 
 
-def _widths(given: dict[str, FloatArray]) -> tuple[np.ndarray[tuple[int, ...], np.dtype[np.bool_]], str]:
+def _widths(given: dict[str, FloatArray]) -> tuple[BoolArray, str]:
     return ~(given["upper"] > given["bottom"]), "the upper width of its trench is not above the bottom width"
 
 
-TRENCH_PEAK = Law(
-    name="trench peak",
-    summary="trench with a peak lateral resistance",
-    acts_on="elements",
-    parameters=(*_WIDTHS, Parameter("peak", "F/L", "peak lateral resistance per unit length"), *_CENTRELINE),
-    check=_widths,
-    equation="limit = mu2 N + PEAK s(|y|) L / 2 against outward motion",
-    source=_SOURCE,
+def _trench(name: str, summary: str, own: Parameter, equation: str, *, tables: bool = False) -> Law:
+    """A law of a trench with a parameter of its own."""
+    return Law(
+        name=name,
+        summary=summary,
+        acts_on="elements",
+        parameters=(*_WIDTHS, own, *_CENTRELINE),
+        tables=tables,
+        check=_widths,
+        equation=f"{equation} against outward motion",
+        source="trench of DeepLines as publicly described, read as a lateral limit (INFERRED)",
+    )
+
+
+TRENCH_PEAK = _trench(
+    "trench peak",
+    "trench with a peak lateral resistance",
+    Parameter("peak", "F/L", "peak lateral resistance per unit length"),
+    "limit = mu2 N + PEAK s(|y|) L / 2",
 )
-TRENCH_TABLE = Law(
-    name="trench table",
-    summary="trench with a tabulated lateral resistance",
-    acts_on="elements",
-    parameters=(*_WIDTHS, Parameter("table", "1", "index of the table"), *_CENTRELINE),
+TRENCH_TABLE = _trench(
+    "trench table",
+    "trench with a tabulated lateral resistance",
+    Parameter("table", "1", "index of the table"),
+    "limit = mu2 N + p(|y|) L / 2",
     tables=True,
-    check=_widths,
-    equation="limit = mu2 N + p(|y|) L / 2 against outward motion",
-    source=_SOURCE,
 )
-TRENCH_WALL = Law(
-    name="trench wall",
-    summary="trench with sloped walls",
-    acts_on="elements",
-    parameters=(*_WIDTHS, Parameter("depth", "L", "depth of the trench", above=True), *_CENTRELINE),
-    check=_widths,
-    equation="limit = N (tan theta + mu2) / (1 - mu2 tan theta) on the wall, against outward motion",
-    source=_SOURCE,
+TRENCH_WALL = _trench(
+    "trench wall",
+    "trench with sloped walls",
+    Parameter("depth", "L", "depth of the trench", above=True),
+    "limit = N (tan theta + mu2) / (1 - mu2 tan theta) on the wall,",
 )

@@ -20,7 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
-from mudline.contact.laws.base import Law, Parameter, Value, where
+from mudline.contact.laws import Law, Parameter, Value, where
 from mudline.short_repr import short_repr
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from mudline.contact.arrays import FloatArray
-from mudline.contact.seabed.base import STEEPEST, SeabedError, SurfaceSeabed, checked, heading
+from mudline.contact.seabed import STEEPEST, SeabedError, SurfaceSeabed, checked, heading
 
 Interpolation = Literal["LINEAR", "CUBIC SPLINE", "CUBIC BESSEL"]
 _NAMES = {"LINEAR": "straight lines", "CUBIC SPLINE": "a cubic spline", "CUBIC BESSEL": "Bessel's cubics"}

@@ -10,7 +10,7 @@ from scipy.interpolate import CloughTocher2DInterpolator
 from scipy.spatial import Delaunay, QhullError
 
 from mudline.contact.arrays import FloatArray, IndexArray
-from mudline.contact.seabed.base import STEEPEST, SeabedError, SurfaceSeabed, checked
+from mudline.contact.seabed import STEEPEST, SeabedError, SurfaceSeabed, checked
 
 _STEP = 1e-5
 """Step of a difference, as a part of the way to a corner of the triangle."""

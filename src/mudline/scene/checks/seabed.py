@@ -248,7 +248,7 @@ def _repeated(scene: ResolvedDeck) -> Iterator[Problem]:
 
 def _fault(scene: ResolvedDeck) -> str:
     """Why the seabed cannot be made from its numbers, or ""."""
-    from mudline.contact.seabed.base import SeabedError  # noqa: PLC0415 - a flat seabed does without it
+    from mudline.contact.seabed import SeabedError  # noqa: PLC0415 - a flat seabed does without it
     from mudline.scene.contact_input import made_seabed  # noqa: PLC0415 - as above
 
     try:

@@ -13,7 +13,8 @@ from mudline.contact.arrays import FloatArray, IndexArray
 from mudline.contact.input import AssignedLaw, ContactInput, LawAssignment
 from mudline.contact.laws import law_named
 from mudline.contact.laws.suction import from_cohesion
-from mudline.contact.seabed import PlanesSeabed, ProfileSeabed, Seabed, SlopingSeabed
+from mudline.contact.seabed import PlanesSeabed, Seabed, SlopingSeabed
+from mudline.contact.seabed.profile import ProfileSeabed
 from mudline.curves import ForceCurve
 
 AS_IT_IS, CURVE, EVERYTHING = "scene as it is", "curve", "everything"

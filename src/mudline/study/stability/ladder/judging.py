@@ -14,7 +14,7 @@ from sys import float_info
 import numpy as np
 
 from mudline.codes import RUN001
-from mudline.contact.errors import ElementError
+from mudline.contact import ElementError
 from mudline.contact.result import ContactResult
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Problem, Severity
