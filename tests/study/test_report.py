@@ -9,8 +9,7 @@ from pathlib import Path
 import pytest
 from matplotlib.figure import Figure
 
-from mudline.study.picture import Picture, label, legend_below, style
-from mudline.study.report import Column, Omission, StudyReport, StudyTable
+from mudline.study.report import Column, Omission, Picture, StudyReport, StudyTable, label, legend_below, style
 from mudline.study.timing import _processor, machine, timed
 
 TABLE = StudyTable(

@@ -9,8 +9,7 @@ import pytest
 from numpy.typing import NDArray
 
 from mudline.study.motion import Forces, History, Motion, Scheme, march
-from mudline.study.newton import Newton
-from mudline.study.schemes import SCHEMES, OneStep, generalised_alpha, hht
+from mudline.study.schemes import SCHEMES, Newton, OneStep, generalised_alpha, hht
 from mudline.study.stability.landings import ElasticSeabed, restitution
 
 Floats = NDArray[np.float64]

@@ -12,8 +12,20 @@ import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray
 from mudline.study.motion import Motion, Scheme, System, Trajectory, march
-from mudline.study.picture import Picture, Points, draw_lines, label, legend_below, panels, shortened
-from mudline.study.report import Layout, Omission, Section, StudyOptions, grouped
+from mudline.study.report import (
+    Layout,
+    Omission,
+    Picture,
+    Points,
+    Section,
+    StudyOptions,
+    draw_lines,
+    grouped,
+    label,
+    legend_below,
+    panels,
+    shortened,
+)
 from mudline.study.schemes import SCHEMES
 
 if TYPE_CHECKING:  # only who draws loads matplotlib

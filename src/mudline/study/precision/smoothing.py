@@ -13,14 +13,11 @@ import numpy as np
 from mudline.contact.arrays import FloatArray
 from mudline.results.quantities import unit_names
 from mudline.scene.model import Scene
-from mudline.study.newton import Newton
-from mudline.study.picture import Picture, Points, draw_lines, label
-from mudline.study.precision.cases import ElasticContact, reference_drop
-from mudline.study.precision.drop import Drop, drop_case
+from mudline.study.laws import ElasticContact, LinearLaw, smoothed_spring
+from mudline.study.precision.drop import Drop, drop_case, reference_drop
 from mudline.study.precision.integration import row
-from mudline.study.precision.laws import LinearLaw, smoothed_spring
-from mudline.study.report import Layout, Section, StudyOptions, grouped
-from mudline.study.schemes import SCHEMES
+from mudline.study.report import Layout, Picture, Points, Section, StudyOptions, draw_lines, grouped, label
+from mudline.study.schemes import SCHEMES, Newton
 
 if TYPE_CHECKING:  # only who draws loads matplotlib
     from matplotlib.figure import Figure

@@ -13,9 +13,8 @@ from numpy.typing import NDArray
 from mudline.contact.arrays import FloatArray
 from mudline.contact.input import ContactInput
 from mudline.contact.model import ContactModel
-from mudline.study.picture import Picture, draw_lines, label, legend_below, style
 from mudline.study.pruning.scenes import CURVE, STEPS, Pipe, Variant, line, positions, series
-from mudline.study.report import Layout, Section, StudyOptions, grouped
+from mudline.study.report import Layout, Picture, Section, StudyOptions, draw_lines, grouped, label, legend_below, style
 from mudline.study.timing import Timing, processor_time
 
 if TYPE_CHECKING:  # only who draws loads matplotlib

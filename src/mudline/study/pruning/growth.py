@@ -15,10 +15,9 @@ from mudline.contact.model import ContactModel
 from mudline.curves import ForceCurve
 from mudline.deck.loading import load_bytes
 from mudline.scene.model import resolve
-from mudline.study.picture import Picture, label, panels, style
 from mudline.study.pruning.cost import stepping
 from mudline.study.pruning.scenes import Pipe, Variant, everything, line, planes, positions, series
-from mudline.study.report import Layout, Section, StudyOptions, grouped
+from mudline.study.report import Layout, Picture, Section, StudyOptions, grouped, label, panels, style
 from mudline.study.timing import processor_time
 
 if TYPE_CHECKING:  # only who draws loads matplotlib

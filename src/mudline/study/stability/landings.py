@@ -16,8 +16,7 @@ import numpy as np
 
 from mudline.contact.arrays import FloatArray
 from mudline.study.motion import Forces, History, Motion, Scheme, march
-from mudline.study.picture import Picture, label, legend_below, style
-from mudline.study.report import Layout, Section, StudyOptions, grouped
+from mudline.study.report import Layout, Picture, Section, StudyOptions, grouped, label, legend_below, style
 from mudline.study.schemes import SCHEMES
 
 if TYPE_CHECKING:  # only who draws loads matplotlib

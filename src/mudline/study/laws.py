@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
@@ -121,3 +121,18 @@ class CurveLaw:
         end = slice(-1, None) if knots[-1] <= 0.0 else slice(0, 1)
         slopes = self.curve.slopes[reached] if reached.any() else self.curve.slopes[end]
         return float(np.abs(slopes).max() / self.diameter)
+
+
+class ElasticContact(NamedTuple):
+    """An elastic law of the scene, and the pipe on it, per unit length and in the deck's units."""
+
+    law: Law
+    diameter: float
+    mass: float
+    weight: float
+    element: int
+
+    @property
+    def stiffness(self) -> float:
+        """The law's slope at the mudline."""
+        return self.law.steepest(0.0)
