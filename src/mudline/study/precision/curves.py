@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,9 +26,9 @@ from mudline.study.report import (
     Picture,
     Section,
     StudyOptions,
+    columns_of,
     draw_lines,
     grouped,
-    label,
     legend_below,
     panels,
     shortened,
@@ -53,30 +53,18 @@ class CurveRow(NamedTuple):
     """A method on a curve: errors are the largest of all ratios, over the largest force of the curve.
 
     family: methods of one family are one line of a picture.
-    nanoseconds, median: best and middle time per point.
     """
 
-    curve: str
-    method: str
+    curve: Annotated[str, "curve"]
+    method: Annotated[str, "method"]
     family: str
-    error: float
-    beyond: float
-    nanoseconds: float
-    median: float
+    error: Annotated[float, "error [of largest force]"]
+    beyond: Annotated[float, "error beyond the points [of largest force]"]
+    nanoseconds: Annotated[float, "best time [ns/point]"]
+    median: Annotated[float, "median time [ns/point]"]
 
 
-CURVES = Layout[CurveRow](
-    "curves",
-    "Curve evaluation against exact rational arithmetic",
-    {
-        "curve": lambda row: row.curve,
-        "method": lambda row: row.method,
-        "error [of largest force]": lambda row: row.error,
-        "error beyond the points [of largest force]": lambda row: row.beyond,
-        "best time [ns/point]": lambda row: row.nanoseconds,
-        "median time [ns/point]": lambda row: row.median,
-    },
-)
+CURVES = Layout("curves", "Curve evaluation against exact rational arithmetic", columns_of(CurveRow))
 
 
 def study_curves(scene: Scene, options: StudyOptions) -> Section:
@@ -84,17 +72,14 @@ def study_curves(scene: Scene, options: StudyOptions) -> Section:
     named = list(scene.curves.items())
     most = len(named) if options.full else _MOST_CURVES
     omissions = [Omission(f"curve {name}", f"only {most} curves are shown without --full") for name, _ in named[most:]]
-    rows: list[CurveRow] = []
+    curves: dict[str, list[CurveRow]] = {}
     for name, curve in named[:most]:
         options.progress(f"curve {name}")
-        rows += evaluate_methods(name, curve, options, omissions)
-    return Section([CURVES.table(rows)], [_picture(rows)] if rows else [], omissions=omissions)
-
-
-def _picture(rows: Sequence[CurveRow]) -> Picture:
-    curves = grouped(rows, lambda row: row.curve)
+        curves[name] = list(evaluate_methods(name, curve, options, omissions))
     caption = "Largest error of a curve evaluation, over the largest force, against the time per point."
-    return Picture("curves", caption, partial(_draw, curves), (max(8.0, 4.6 * len(curves)), 5.6))
+    picture = Picture("curves", caption, partial(_draw, curves), (max(8.0, 4.6 * len(curves)), 5.6))
+    table = CURVES.table(row for rows in curves.values() for row in rows)
+    return Section([table], [picture] if curves else [], omissions=omissions)
 
 
 def _draw(curves: Mapping[str, Sequence[CurveRow]], figure: Figure) -> None:
@@ -102,8 +87,8 @@ def _draw(curves: Mapping[str, Sequence[CurveRow]], figure: Figure) -> None:
     slowest = max(row.nanoseconds for rows in curves.values() for row in rows)
     for axes, (name, rows) in zip(found, curves.items(), strict=True):
         families = grouped(rows, lambda row: row.family)
-        draw_lines(axes, {f: [(max(r.error, _FLOOR), r.nanoseconds) for r in part] for f, part in families.items()})
-        label(axes, shortened(name), "largest error / largest force [-]", "time per point [ns]")
+        lines = {f: [(max(row.error, _FLOOR), row.nanoseconds) for row in part] for f, part in families.items()}
+        draw_lines(axes, lines, shortened(name), "largest error / largest force [-]", "time per point [ns]")
         axes.set_xlim(_FLOOR / 3.0, 3.0)
         axes.set_ylim(0.5, max(100.0, 2.0 * slowest))
     legend_below(figure, found[0])
@@ -220,13 +205,6 @@ DEEPEST = 0.5
 POINTS = (3, 5, 7, 10, 15, 20, 30, 50, 75, 100, 150, 200, 300)
 
 
-class Backbone(NamedTuple):
-    """A curve in closed form: force per unit length over the ratio."""
-
-    name: str
-    force: Callable[[FloatArray], FloatArray]
-
-
 def f114(ratio: FloatArray) -> FloatArray:
     """DNV-RP-F114, undrained penetration, model 2: bearing of the pipe and buoyancy in the soil, constant strength."""
     bearing = np.minimum(6.0 * ratio**0.25, 3.4 * np.sqrt(10.0 * ratio))
@@ -244,7 +222,8 @@ def randolph_quiggin(ratio: FloatArray) -> FloatArray:
     return zeta / (1.0 + zeta) * bearing * (_STRENGTH + _GRADIENT * ratio * DIAMETER) * DIAMETER
 
 
-BACKBONES = (Backbone("DNV-RP-F114, model 2", f114), Backbone("Randolph and Quiggin 2009", randolph_quiggin))
+BACKBONES = {"DNV-RP-F114, model 2": f114, "Randolph and Quiggin 2009": randolph_quiggin}
+"""Curves in closed form: force per unit length over the ratio."""
 
 
 def even(points: int) -> FloatArray:
@@ -263,25 +242,14 @@ SPACINGS = {"even": even, "graded": graded}
 class BackboneRow(NamedTuple):
     """A closed form sampled at points: the error of straight lines, and of PCHIP, between them."""
 
-    backbone: str
-    spacing: str
-    points: int
-    linear: float
-    pchip: float
+    backbone: Annotated[str, "backbone"]
+    spacing: Annotated[str, "points at distances"]
+    points: Annotated[int, "points"]
+    linear: Annotated[float, "error of straight lines [of largest force]"]
+    pchip: Annotated[float, "error of PCHIP [of largest force]"]
 
 
-SAMPLES = Layout[BackboneRow](
-    "backbones",
-    "Closed forms sampled at points",
-    {
-        "backbone": lambda row: row.backbone,
-        "points at distances": lambda row: row.spacing,
-        "points": lambda row: row.points,
-        "error of straight lines [of largest force]": lambda row: row.linear,
-        "error of PCHIP [of largest force]": lambda row: row.pchip,
-    },
-    brief=False,
-)
+SAMPLES = Layout("backbones", "Closed forms sampled at points", columns_of(BackboneRow), brief=False)
 
 
 def study_backbones(options: StudyOptions) -> Section:
@@ -300,23 +268,21 @@ def _draw_samples(rows: Sequence[BackboneRow], figure: Figure) -> None:
         for spacing, part in grouped(sampled, lambda row: row.spacing).items():
             lines[f"{spacing} points, straight lines"] = [(row.points, row.linear) for row in part]
             lines[f"{spacing} points, PCHIP"] = [(row.points, row.pchip) for row in part]
-        draw_lines(axes, lines)
-        label(axes, name, "points on the curve [-]", "largest error / largest force [-]")
+        draw_lines(axes, lines, name, "points on the curve [-]", "largest error / largest force [-]")
     legend_below(figure, found[0])
 
 
 def sampled_backbones() -> Iterator[BackboneRow]:
     """The closed forms against their samples."""
-    fine = DEEPEST * np.linspace(0.0, 1.0, 20_001)
-    queries = np.unique(np.concatenate([fine, DEEPEST * np.linspace(0.0, 1.0, 20_001) ** 4]))
-    for backbone in BACKBONES:
-        true = backbone.force(queries)
+    queries = np.unique(np.concatenate([placed(20_001) for placed in SPACINGS.values()]))
+    for name, force in BACKBONES.items():
+        true = force(queries)
         scale = float(true.max())
         for spacing, placed in SPACINGS.items():
             for points in POINTS:
                 ratios = placed(points)
-                curve = ForceCurve(np.column_stack([ratios, backbone.force(ratios)]))
+                curve = ForceCurve(np.column_stack([ratios, force(ratios)]))
                 linear = curve.evaluate(queries, backend="numpy")[0]
                 smooth = PchipInterpolator(curve.ratios, curve.forces)(queries)
                 errors = (float(np.abs(forces - true).max() / scale) for forces in (linear, smooth))
-                yield BackboneRow(backbone.name, spacing, points, *errors)
+                yield BackboneRow(name, spacing, points, *errors)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import pairwise
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from mudline.deck.loading import load_bytes
 from mudline.scene.model import resolve
 from mudline.study.pruning.cost import stepping
 from mudline.study.pruning.scenes import Pipe, Variant, everything, line, planes, positions, series
-from mudline.study.report import Layout, Picture, Section, StudyOptions, grouped, label, panels, style
+from mudline.study.report import Layout, Picture, Section, StudyOptions, columns_of, grouped, label, panels, style
 from mudline.study.timing import processor_time
 
 if TYPE_CHECKING:  # only who draws loads matplotlib
@@ -40,9 +40,9 @@ class Ladder(NamedTuple):
 class GrowthRow(NamedTuple):
     """Seconds for a size of one thing, the rest kept."""
 
-    what: str
-    size: int
-    seconds: float
+    what: Annotated[str, "number of"]
+    size: Annotated[int, "size"]
+    seconds: Annotated[float, "best time [s]"]
 
 
 class Fit(NamedTuple):
@@ -50,42 +50,20 @@ class Fit(NamedTuple):
 
     exponent: of a power law through all sizes.
     upper: of one through the larger half.
-    factor: time of the largest size over that of the smallest.
     unit: seconds that one more unit costs at the upper end.
     """
 
-    what: str
-    least: int
-    largest: int
-    exponent: float
-    upper: float
-    factor: float
+    what: Annotated[str, "number of"]
+    least: Annotated[int, "from"]
+    largest: Annotated[int, "to"]
+    exponent: Annotated[float, "exponent"]
+    upper: Annotated[float, "exponent, upper half"]
+    factor: Annotated[float, "time, largest / smallest"]
     unit: float
 
 
-FITS = Layout[Fit](
-    "growth",
-    "How time grows",
-    {
-        "number of": lambda fit: fit.what,
-        "from": lambda fit: fit.least,
-        "to": lambda fit: fit.largest,
-        "exponent": lambda fit: fit.exponent,
-        "exponent, upper half": lambda fit: fit.upper,
-        "time, largest / smallest": lambda fit: fit.factor,
-        "time of one more [us]": lambda fit: 1e6 * fit.unit,
-    },
-)
-SIZES = Layout[GrowthRow](
-    "sizes",
-    "Time against size",
-    {
-        "number of": lambda row: row.what,
-        "size": lambda row: row.size,
-        "best time [s]": lambda row: row.seconds,
-    },
-    brief=False,
-)
+FITS = Layout[Fit]("growth", "How time grows", {**columns_of(Fit), "time of one more [us]": lambda fit: 1e6 * fit.unit})
+SIZES = Layout("sizes", "Time against size", columns_of(GrowthRow), brief=False)
 
 
 def study_growth(pipe: Pipe, options: StudyOptions) -> Section:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import numpy as np
 
@@ -19,7 +19,7 @@ from mudline.curves import ForceCurve
 from mudline.scene.assignments import given_stiffness
 from mudline.scene.model import Scene
 from mudline.study.motion import Forces, History, Motion, Scheme, march
-from mudline.study.report import Layout, Omission, Picture, Section, StudyOptions, label, legend_below
+from mudline.study.report import Layout, Omission, Picture, Section, StudyOptions, columns_of, label, legend_below
 from mudline.study.schemes import SCHEMES, Newton, OneStep
 
 if TYPE_CHECKING:  # only who draws loads matplotlib
@@ -41,12 +41,12 @@ class Contact(NamedTuple):
     unloading: whether the stiffness is that of the unloading line.
     """
 
-    name: str
+    name: Annotated[str, "contact"]
     element: int
-    elements: int
-    stiffness: float
-    mass: float
-    omega: float
+    elements: Annotated[int, "elements"]
+    stiffness: Annotated[float, "largest stiffness [{force}/{length}2]"]
+    mass: Annotated[float, "mass [{mass}/{length}]"]
+    omega: Annotated[float, "omega [rad/s]"]
     depth: float
     reach: float
     scale: float
@@ -57,22 +57,12 @@ CONTACTS = Layout[Contact](
     "contacts",
     "Frequencies of the contacts, the fastest first",
     {
-        "contact": lambda one: one.name,
-        "elements": lambda one: one.elements,
-        "largest stiffness [{force}/{length}2]": lambda one: one.stiffness,
-        "mass [{mass}/{length}]": lambda one: one.mass,
-        "omega [rad/s]": lambda one: one.omega,
+        **columns_of(Contact),
         "advised step, implicit [s]": lambda one: ADVISED_OMEGA_DT / one.omega,
         "critical step, central-difference [s]": lambda one: CRITICAL_OMEGA_DT["central-difference"] / one.omega,
         "critical step, rk4 [s]": lambda one: CRITICAL_OMEGA_DT["rk4"] / one.omega,
     },
 )
-_UNITS = {"metric": ("N", "m", "kg"), "imperial": ("lbf", "ft", "slug")}
-
-
-def unit_words(units: str) -> dict[str, str]:
-    """What the headings of tables call force, length and mass in these units of a deck."""
-    return dict(zip(("force", "length", "mass"), _UNITS.get(units, ("force", "length", "mass")), strict=True))
 
 
 class _Steepest(NamedTuple):
@@ -257,7 +247,7 @@ def study_steps(scene: Scene, options: StudyOptions) -> Section:
     for contact in stepped:
         options.progress(f"steps on {contact.name}")
         measured += [measure(scene, contact, scheme) for scheme in SCHEMES.values()]
-    tables = (CONTACTS.table(found, **unit_words(scene.units)), CRITICAL_STEPS.table(measured))
+    tables = (CONTACTS.table(found, scene.units), CRITICAL_STEPS.table(measured))
     pictures = [_picture(measured)] if measured else []
     return Section(tables, pictures, _notes(found, measured), omissions)
 

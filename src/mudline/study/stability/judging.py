@@ -13,7 +13,7 @@ from enum import StrEnum
 from fractions import Fraction
 from math import isfinite
 from sys import float_info
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
@@ -120,20 +120,18 @@ class Judgement:
     Attributes:
         family: what grows along the ladder.
         value: where on it, as the deck has it.
-        verdict: see `Verdict`.
-        results: how many numbers were compared.
-        error: the largest error, in roundings (2^-53) of the largest term; 0 where nothing was compared.
+        error: in roundings (2^-53) of the largest term; 0 where nothing was compared.
         bound: roundings that are allowed.
         message: the diagnostic of a refusal, else what is wrong.
     """
 
-    family: str
-    value: str
-    verdict: Verdict
-    results: int = 0
-    error: float = 0.0
-    bound: float = 0.0
-    message: str = ""
+    family: Annotated[str, "family"]
+    value: Annotated[str, "value"]
+    verdict: Annotated[Verdict, "verdict"]
+    results: Annotated[int, "numbers compared"] = 0
+    error: Annotated[float, "largest error [2^-53]"] = 0.0
+    bound: Annotated[float, "bound [2^-53]"] = 0.0
+    message: Annotated[str, "told"] = ""
 
 
 def judge(cell: Cell) -> Judgement:

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from mudline.study.exact import ExactCurve, ExactLinear
-from mudline.study.report import Layout, Picture, Section, StudyOptions, grouped
+from mudline.study.report import Layout, Picture, Section, StudyOptions, columns_of, grouped
 from mudline.study.stability.judging import (
     DIAMETER,
     Cell,
@@ -177,20 +177,7 @@ BY_FAMILY = Layout[Sequence[Judgement]](
         "bound [2^-53]": lambda part: max(one.bound for one in part),
     },
 )
-BY_CELL = Layout[Judgement](
-    "ladder-cells",
-    "Ladder of extremes, cell by cell",
-    {
-        "family": lambda one: one.family,
-        "value": lambda one: one.value,
-        "verdict": lambda one: one.verdict.value,
-        "numbers compared": lambda one: one.results,
-        "largest error [2^-53]": lambda one: one.error,
-        "bound [2^-53]": lambda one: one.bound,
-        "told": lambda one: one.message,
-    },
-    brief=False,
-)
+BY_CELL = Layout("ladder-cells", "Ladder of extremes, cell by cell", columns_of(Judgement), brief=False)
 
 
 def study_ladder(options: StudyOptions) -> Section:

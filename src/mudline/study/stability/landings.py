@@ -10,13 +10,13 @@ digits that stand here. HHT and generalised-alpha average the forces of both end
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
 from mudline.study.motion import Forces, History, Motion, Scheme, march
-from mudline.study.report import Layout, Picture, Section, StudyOptions, grouped, label, legend_below, style
+from mudline.study.report import Layout, Picture, Section, StudyOptions, columns_of, grouped, label, legend_below, style
 from mudline.study.schemes import SCHEMES
 
 if TYPE_CHECKING:  # only who draws loads matplotlib
@@ -65,10 +65,10 @@ class Landing(NamedTuple):
     """
 
     scheme: Scheme
-    omega_dt: float
-    least: float
-    mean: float
-    largest: float
+    omega_dt: Annotated[float, "omega dt [-]"]
+    least: Annotated[float, "least [-]"]
+    mean: Annotated[float, "mean [-]"]
+    largest: Annotated[float, "largest [-]"]
     compared: tuple[str, str, str] | None
 
     @property
@@ -87,10 +87,7 @@ LANDINGS = Layout[Landing](
     "Speed after landing over speed before, 400 landing phases",
     {
         "scheme": lambda one: one.scheme.title,
-        "omega dt [-]": lambda one: one.omega_dt,
-        "least [-]": lambda one: one.least,
-        "mean [-]": lambda one: one.mean,
-        "largest [-]": lambda one: one.largest,
+        **columns_of(Landing),
         "compared with": lambda one: "/".join(one.compared or ()),
         "agrees": lambda one: {None: "", True: "yes", False: "NO"}[one.agrees],
     },

@@ -17,7 +17,7 @@ friction is that of the evaluator.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
@@ -27,9 +27,8 @@ from mudline.contact.laws.friction import FrictionHistory, FrictionLaw, slide
 from mudline.contact.laws.suction import SuctionHistory, SuctionLaw, breakout_uplift, maximum_force, step
 from mudline.contact.stiffest import release_stiffness
 from mudline.scene.model import Scene
-from mudline.study.report import Layout, Omission, Section, StudyOptions
+from mudline.study.report import Layout, Omission, Section, StudyOptions, columns_of
 from mudline.study.schemes import ROUND_OFF, TOLERANCE, Newton
-from mudline.study.stability.critical import unit_words
 
 VELOCITIES = (1e-3, 1e-2, 1e-1, 1.0)
 SHARES = (0.5, 0.99, 1.01, 2.0)
@@ -47,11 +46,11 @@ class Release(NamedTuple):
     equilibria: the most equilibria at any one height, for each of `SHARES` of the needed stiffness.
     """
 
-    element: int
-    velocity: float
-    force: float
-    depth: float
-    needed: float
+    element: Annotated[int, "element"]
+    velocity: Annotated[float, "velocity [{length}/s]"]
+    force: Annotated[float, "largest suction [{force}/{length}]"]
+    depth: Annotated[float, "breakout [{length}]"]
+    needed: Annotated[float, "needed stiffness [{force}/{length}2]"]
     equilibria: tuple[int, ...]
 
 
@@ -63,11 +62,7 @@ RELEASE = Layout[Release](
     "release",
     "Structural stiffness for one equilibrium during the release of suction",
     {
-        "element": lambda one: one.element,
-        "velocity [{length}/s]": lambda one: one.velocity,
-        "largest suction [{force}/{length}]": lambda one: one.force,
-        "breakout [{length}]": lambda one: one.depth,
-        "needed stiffness [{force}/{length}2]": lambda one: one.needed,
+        **columns_of(Release),
         **{f"equilibria at {share:g} of it": _equilibria(index) for index, share in enumerate(SHARES)},
     },
 )
@@ -79,7 +74,7 @@ def study_release(scene: Scene, options: StudyOptions) -> Section:
     suction = scene.contact_input().assigned.get("suction")
     omissions = [] if suction is not None else [Omission("release of suction", "no element has *SEABED SUCTION")]
     found = [] if suction is None else releases(scene, suction)
-    return Section([RELEASE.table(found, **unit_words(scene.units))], omissions=omissions)
+    return Section([RELEASE.table(found, scene.units)], omissions=omissions)
 
 
 def releases(scene: Scene, suction: AssignedLaw) -> list[Release]:
@@ -209,35 +204,21 @@ def residual(problem: FrictionProblem, u: FloatArray) -> tuple[FloatArray, Float
 class CycleCount(NamedTuple):
     """Ensembles of one case.
 
-    ratio: spring over structure, kt / kb.
-    share: force over limit, F / mu N.
-    starts: how many.
-    plain, halved, bracketed: from how many of them the three methods do not converge.
-    most: iterations of the slowest with the bracket.
+    ratio, share: kt / kb and F / mu N.
+    plain, halved, bracketed: from how many of the starts the three methods do not converge.
+    most: of the slowest.
     """
 
-    ratio: float
-    share: float
-    starts: int
-    plain: int
-    halved: int
-    bracketed: int
-    most: int
+    ratio: Annotated[float, "spring / structure [-]"]
+    share: Annotated[float, "force / limit [-]"]
+    starts: Annotated[int, "starts"]
+    plain: Annotated[int, "lost: plain"]
+    halved: Annotated[int, "lost: halved corrections"]
+    bracketed: Annotated[int, "lost: bracketed"]
+    most: Annotated[int, "most iterations, bracketed"]
 
 
-CYCLES = Layout[CycleCount](
-    "newton-cycles",
-    "Newton's method on friction that slips",
-    {
-        "spring / structure [-]": lambda one: one.ratio,
-        "force / limit [-]": lambda one: one.share,
-        "starts": lambda one: one.starts,
-        "lost: plain": lambda one: one.plain,
-        "lost: halved corrections": lambda one: one.halved,
-        "lost: bracketed": lambda one: one.bracketed,
-        "most iterations, bracketed": lambda one: one.most,
-    },
-)
+CYCLES = Layout("newton-cycles", "Newton's method on friction that slips", columns_of(CycleCount))
 
 
 def study_cycles() -> Section:
