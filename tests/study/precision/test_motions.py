@@ -22,7 +22,7 @@ from mudline.study.precision import (
 )
 from mudline.study.precision import drop as drop_module
 from mudline.study.precision import pull as pull_module
-from mudline.study.precision.drop import bounce, contact_time, drop_case, drop_to, reference_drop
+from mudline.study.precision.drop import bounce, drop_case, drop_to, reference_drop
 from mudline.study.precision.integration import Case, row
 from mudline.study.precision.pull import Drag, Pull, SuctionNumbers, breakout, drag_case, pull_case
 from mudline.study.report import Omission, StudyError
@@ -83,7 +83,7 @@ def test_reference_drop_has_the_published_depth() -> None:
     flight = bounce(drop.law, drop.mass, drop.weight, drop.speed)
     assert flight.deepest == pytest.approx(drop.deepest, rel=1e-11)
     assert flight.speed == pytest.approx(0.5, rel=1e-11)
-    assert contact_time(drop.law, 500.0, 0.0, 0.5) == pytest.approx(0.31415926536, rel=1e-10)
+    assert bounce(drop.law, 500.0, 0.0, 0.5).time == pytest.approx(0.31415926536, rel=1e-10)
 
 
 @pytest.mark.parametrize("law", [CLAY, LinearLaw("soft", 3e3), LinearLaw("zone", 5e4, 0.01)])
@@ -104,11 +104,11 @@ def test_seabed_that_never_carries_is_refused() -> None:
 def test_endless_search_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(drop_module, "_MOST_EVALUATIONS", 20)
     with pytest.raises(StudyError, match="takes too long to find"):
-        contact_time(LinearLaw("contact", 1.0), 1.0, 0.0, 1.0)
+        bounce(LinearLaw("contact", 1.0), 1.0, 0.0, 1.0)
     monkeypatch.setattr(drop_module, "_MOST_EVALUATIONS", 100_000)
     monkeypatch.setattr(drop_module, "_MOST_PHASES", 1)
     with pytest.raises(StudyError, match="does not release"):
-        contact_time(LinearLaw("contact", 1.0), 1.0, 0.0, 1.0)
+        bounce(LinearLaw("contact", 1.0), 1.0, 0.0, 1.0)
 
 
 def test_suction_numbers_are_those_of_the_law() -> None:

@@ -16,8 +16,8 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
-from mudline.study.laws import Law, LinearLaw
-from mudline.study.motion import Forces, History, Motion, Trajectory
+from mudline.study.laws import Falling, Law, LinearLaw
+from mudline.study.motion import Motion, Trajectory
 from mudline.study.precision.integration import RUNS, Case, Start
 from mudline.study.report import StudyError
 
@@ -107,11 +107,6 @@ def bounce(law: Law, mass: float, weight: float, speed: float) -> Flight:
     return Flight(stop.time, deepest, -float(stop.state[1]))
 
 
-def contact_time(law: Law, mass: float, weight: float, speed: float) -> float:
-    """Seconds from touchdown to leaving the seabed."""
-    return bounce(law, mass, weight, speed).time
-
-
 _DOUBLINGS = 12
 
 
@@ -132,17 +127,6 @@ class Drop:
     weight: float
     speed: float
     deepest: float
-
-
-@dataclass(frozen=True, slots=True)
-class _Falling:
-    mass: FloatArray
-    law: Law
-    weight: float
-
-    def forces(self, position: FloatArray, velocity: FloatArray, history: History) -> Forces:
-        force, slope = self.law.spring(-position)
-        return Forces(force - self.weight, -slope, np.zeros(velocity.shape), history)
 
 
 def drop_to(law: Law, mass: float, weight: float, depth: float) -> Drop:
@@ -169,9 +153,9 @@ def drop_case(name: str, title: str, drop: Drop) -> Case:
         title=title,
         quantities=("peak penetration", "rebound speed", "energy"),
         reference="balance of energies, exact",
-        system=_Falling(np.full(RUNS, drop.mass), drop.law, drop.weight),
+        system=Falling(np.full(RUNS, drop.mass), drop.law, drop.weight),
         omega=omega,
-        duration=1.15 * contact_time(drop.law, drop.mass, drop.weight, drop.speed),
+        duration=1.15 * bounce(drop.law, drop.mass, drop.weight, drop.speed).time,
         bound=1e3 * drop.deepest,
         start=lambda dt: _start(drop, dt),
         errors=lambda run: _errors(drop, run),
@@ -184,7 +168,7 @@ def _start(drop: Drop, dt: float) -> Start:
     fall = max(drop.weight, 0.0) / drop.mass
     before = (np.arange(RUNS) + 0.5) / RUNS * min(dt, 0.9 * drop.speed / fall if fall else dt)
     height = drop.law.top + drop.speed * before - 0.5 * fall * before**2
-    system = _Falling(np.full(RUNS, drop.mass), drop.law, drop.weight)
+    system = Falling(np.full(RUNS, drop.mass), drop.law, drop.weight)
     return Start(Motion.start(system, height, fall * before - drop.speed), np.full(RUNS, dt))
 
 
