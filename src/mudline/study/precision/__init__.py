@@ -14,7 +14,7 @@ import numpy as np
 from mudline.contact import ContactInput, LawKind
 from mudline.contact.arrays import FloatArray
 from mudline.contact.laws.suction import from_cohesion
-from mudline.scene.deck_values import DEFAULT_GRAVITY
+from mudline.scene.deck_values import DEFAULT_GRAVITY, FOOT, POUND
 from mudline.scene.model import Scene
 from mudline.scene.resolved import LawArrays
 from mudline.scene.sections import surroundings
@@ -31,7 +31,7 @@ _MASS = 150.0
 _COHESION = 5000.0
 _FRICTION = 0.5
 _MOBILISATION = 0.01
-_UNITS = {"imperial": (0.3048, 4.4482216)}
+_UNITS = {"imperial": (FOOT, POUND)}
 """Metres and newtons of a deck's units."""
 _REACH = 0.25
 """Of the diameter: how deep the masses fall."""
@@ -117,11 +117,6 @@ def suction_of(studied: StudiedContacts, contact: ElasticContact) -> SuctionNumb
     return SuctionNumbers(**powers, first_corner=0.2, second_corner=0.8, cyclic=1.0, regularisation=1e-3 / length)
 
 
-def usual_velocity(scene: Scene) -> float:
-    """A tenth of a metre per second, in the deck's units."""
-    return 0.1 / _UNITS.get(scene.units, (1.0, 1.0))[0]
-
-
 def friction_of(studied: StudiedContacts, contact: ElasticContact) -> Drag:
     """Friction along the line at the contact's element, else of 0.5, mobilised over a hundredth of the diameter."""
     inputs = studied.inputs
@@ -144,21 +139,30 @@ def friction_of(studied: StudiedContacts, contact: ElasticContact) -> Drag:
 
 
 def all_cases(studied: StudiedContacts, omissions: list[Omission]) -> list[Case]:
-    """The reference, then `MOTIONS`; a motion that cannot be integrated is omitted with its reason."""
+    """The reference, then drops on every contact, a pull and a drag on the first one.
+
+    A motion that cannot be integrated is omitted with its reason.
+    """
     cases = [drop_case("drop-reference", "dropped, published case", reference_drop())]
-    for words, make, everywhere in MOTIONS:
-        for contact in studied.contacts if everywhere else studied.contacts[:1]:
-            what = f"{words} {contact.law.name}"
-            try:
-                case = make(studied, contact)
-            except (StudyError, ArithmeticError, ValueError) as error:
-                omissions.append(Omission(what, str(error)))
-                continue
-            if math.isfinite(case.omega) and math.isfinite(case.duration) and case.omega > 0.0:
-                cases.append(case)
-            else:
-                omissions.append(Omission(what, "its stiffness or its duration overflows"))
+    motions: list[tuple[str, _Motion, ElasticContact]]
+    motions = [("drop on", _drop, contact) for contact in studied.contacts]
+    motions += [("pull off", _pull, contact) for contact in studied.contacts[:1]]
+    motions += [("drag along", _drag, contact) for contact in studied.contacts[:1]]
+    for words, make, contact in motions:
+        what = f"{words} {contact.law.name}"
+        try:
+            case = make(studied, contact)
+        except (StudyError, ArithmeticError, ValueError) as error:
+            omissions.append(Omission(what, str(error)))
+            continue
+        if math.isfinite(case.omega) and math.isfinite(case.duration) and case.omega > 0.0:
+            cases.append(case)
+        else:
+            omissions.append(Omission(what, "its stiffness or its duration overflows"))
     return cases
+
+
+_Motion = Callable[[StudiedContacts, ElasticContact], Case]
 
 
 def _drop(_: StudiedContacts, contact: ElasticContact) -> Case:
@@ -168,31 +172,14 @@ def _drop(_: StudiedContacts, contact: ElasticContact) -> Case:
 
 
 def _pull(studied: StudiedContacts, contact: ElasticContact) -> Case:
-    suction, velocity = suction_of(studied, contact), usual_velocity(studied.scene)
-    return pull_case(Pull(contact.law.name, contact.law, suction, contact.mass, static_depth(contact), velocity))
+    velocity = 0.1 / _UNITS.get(studied.scene.units, (1.0, 1.0))[0]  # a tenth of a metre per second
+    law, suction = contact.law, suction_of(studied, contact)
+    return pull_case(Pull(law.name, law, suction, contact.mass, static_depth(contact), velocity))
 
 
 def _drag(studied: StudiedContacts, contact: ElasticContact) -> Case:
     return drag_case(friction_of(studied, contact))
 
-
-class MotionKind(NamedTuple):
-    """A motion on the contacts of a scene: its words before the name of a law, and on which contacts it is made."""
-
-    words: str
-    make: Callable[[StudiedContacts, ElasticContact], Case]
-    everywhere: bool
-
-
-MOTIONS = (
-    MotionKind("drop on", _drop, everywhere=True),
-    MotionKind("pull off", _pull, everywhere=False),
-    MotionKind("drag along", _drag, everywhere=False),
-)
-"""On every contact or on the first one; to add a motion, add a row."""
-
-
-__all__ = ["run"]
 
 _NOTES = """
 Errors of curves: the largest of 1500 random ratios and the points themselves, against exact rational arithmetic on the

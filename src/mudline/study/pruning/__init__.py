@@ -127,8 +127,6 @@ def _asked(data: bytes) -> tuple[float, list[str], int]:
     return float(seconds), list(modules), int(others)
 
 
-__all__ = ["run"]
-
 _ORDER = ("curve", "stages", "imports", "growth", "nodes", "sizes", "modules")
 """Of the tables: what is short first."""
 _NOTES = """

@@ -9,8 +9,6 @@ from mudline.study.stability.ladder import study_ladder
 from mudline.study.stability.landings import study_landings
 from mudline.study.stability.statics import study_cycles, study_release
 
-__all__ = ["run"]
-
 
 def run(scene: Scene, options: StudyOptions) -> StudyReport:
     """Study the contacts of a scene; raises DeckError."""

@@ -13,9 +13,8 @@ from typing import TYPE_CHECKING, Annotated, NamedTuple
 import numpy as np
 
 from mudline.contact import ContactInput, ContactModel, LawAssignment, LawKind
-from mudline.contact.arrays import FloatArray, IndexArray
+from mudline.contact.arrays import FloatArray
 from mudline.contact.stiffest import ADVISED_OMEGA_DT, CRITICAL_OMEGA_DT, omega, rounded_down, steepest_slope
-from mudline.curves import ForceCurve
 from mudline.scene.assignments import given_stiffness
 from mudline.scene.model import Scene
 from mudline.study.motion import Forces, History, Motion, Scheme, march
@@ -65,13 +64,6 @@ CONTACTS = Layout[Contact](
 )
 
 
-class _Steepest(NamedTuple):
-    stiffness: float
-    depth: float
-    reach: float
-    scale: float
-
-
 def find_contacts(scene: Scene) -> tuple[list[Contact], list[Omission]]:
     """The contacts that oscillate, the fastest first, and those of which no frequency is known."""
     springs = np.flatnonzero(np.isin(scene.law, (LawKind.CURVE, LawKind.LINEAR)))
@@ -81,23 +73,21 @@ def find_contacts(scene: Scene) -> tuple[list[Contact], list[Omission]]:
     returns = np.full(len(scene.law), np.nan) if back is None else given_stiffness(back)
     masses = scene.mass_per_length
     found, left_out = _nodal(scene, masses)
-    for first, count in _groups(kinds):
-        element = int(springs[first])
+    _, firsts, counts = np.unique(kinds, axis=0, return_index=True, return_counts=True)
+    for element, count in zip(springs[firsts].tolist(), counts.tolist(), strict=True):
         name = f"{scene.law_names[element]} on {scene.law_sets[element]}"
-        steepest = _steepest(scene, element)
-        frequency = float(omega(np.array(steepest.stiffness), masses[element : element + 1])[0])
+        mass = float(masses[element])
+        stiffness, depth, reach, scale = _steepest(scene, element)
+        frequency = float(omega(np.array(stiffness), np.array(mass)))
         if np.isnan(frequency):
-            what = "the mass per unit length is not known" if np.isnan(masses[element]) else "its law never stiffens"
+            what = "the mass per unit length is not known" if np.isnan(mass) else "its law never stiffens"
             left_out.append(Omission(name, f"no frequency: {what}"))
             continue
-        mass = float(masses[element])
-        found.append(Contact(name, element, count, steepest.stiffness, mass, frequency, *steepest[1:]))
-        if (stiffness := float(returns[element])) > steepest.stiffness:
-            frequency = float(omega(np.array(stiffness), masses[element : element + 1])[0])
-            place = _small(scene, element)
-            found.append(
-                Contact(f"unloading of {name}", element, count, stiffness, mass, frequency, *place, unloading=True)
-            )
+        found.append(Contact(name, element, count, stiffness, mass, frequency, depth, reach, scale))
+        if (back_stiffness := float(returns[element])) > stiffness:
+            frequency = float(omega(np.array(back_stiffness), np.array(mass)))
+            numbers = back_stiffness, mass, frequency, *_small(scene, element)
+            found.append(Contact(f"unloading of {name}", element, count, *numbers, unloading=True))
     return sorted(found, key=lambda contact: -contact.omega), left_out
 
 
@@ -136,24 +126,15 @@ def _small(scene: Scene, element: int) -> tuple[float, float, float]:
     return depth, depth, depth
 
 
-def _groups(kinds: IndexArray) -> list[tuple[int, int]]:
-    """The first row of each kind and how many there are."""
-    if not len(kinds):
-        return []
-    _, first, counts = np.unique(kinds, axis=0, return_index=True, return_counts=True)
-    return list(zip(first.tolist(), counts.tolist(), strict=True))
+def _steepest(scene: Scene, element: int) -> tuple[float, float, float, float]:
+    """Stiffness, depth, reach and scale of the segment of the largest slope.
 
-
-def _steepest(scene: Scene, element: int) -> _Steepest:
+    The continued end of a curve counts as a segment as wide as the last one.
+    """
     arrays = scene.law_arrays()
-    diameter = float(scene.diameter[element])
-    if scene.law[element] == LawKind.CURVE:
-        return _of_curve(arrays.curves[int(arrays.curve_index[element])], diameter)
-    return _Steepest(float(arrays.linear_stiffness[element]), *_small(scene, element))
-
-
-def _of_curve(curve: ForceCurve, diameter: float) -> _Steepest:
-    """The segment of the largest slope; the continued end counts as one as wide as the last segment."""
+    if scene.law[element] != LawKind.CURVE:
+        return float(arrays.linear_stiffness[element]), *_small(scene, element)
+    curve, diameter = arrays.curves[int(arrays.curve_index[element])], float(scene.diameter[element])
     slope = steepest_slope(curve.ratios, curve.slopes)
     last, width = curve.ratios[-1], curve.ratios[-1] - curve.ratios[-2]
     with np.errstate(over="ignore"):
@@ -163,7 +144,7 @@ def _of_curve(curve: ForceCurve, diameter: float) -> _Steepest:
     at = int(np.argmax(np.where(ratios[1:] > 0.0, slopes, -np.inf)))
     low, high = max(float(ratios[at]), 0.0), float(ratios[at + 1])
     middle, half, far = 0.5 * low + 0.5 * high, 0.5 * high - 0.5 * low, max(abs(float(ratios[at])), high)
-    return _Steepest(slope / diameter, middle * diameter, half * diameter, far * diameter)
+    return slope / diameter, middle * diameter, half * diameter, far * diameter
 
 
 MOST_CONTACTS = 6
