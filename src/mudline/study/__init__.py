@@ -62,6 +62,11 @@ $LOAD CASE
 """
 
 
+def scene_of(text: str, name: str) -> Scene:
+    """The scene of a deck; raises DeckError."""
+    return resolve(load_bytes(text.encode(), name)).require()
+
+
 def sample_scene() -> Scene:
     """The scene of the built-in deck."""
-    return resolve(load_bytes(SAMPLE_TEXT.encode(), SAMPLE_NAME)).require()
+    return scene_of(SAMPLE_TEXT, SAMPLE_NAME)

@@ -13,8 +13,7 @@ import numpy as np
 from mudline.contact.input import ContactInput, LawAssignment
 from mudline.contact.model import ContactModel
 from mudline.curves import ForceCurve
-from mudline.deck.loading import load_bytes
-from mudline.scene.model import resolve
+from mudline.study import scene_of
 from mudline.study.pruning.cost import stepping
 from mudline.study.pruning.scenes import Pipe, Variant, everything, line, planes, positions, series
 from mudline.study.report import Layout, Picture, Section, StudyOptions, columns_of, grouped, label, panels, style
@@ -167,8 +166,8 @@ def _curves(pipe: Pipe, size: int) -> float:
 def _sets(pipe: Pipe, size: int) -> float:
     """Reading the deck until its evaluator stands."""
     del pipe
-    text = deck_with_sets(size, ELEMENTS).encode()
-    return processor_time(lambda: resolve(load_bytes(text, "sets.keyxm")).contact(), few=True).best
+    text = deck_with_sets(size, ELEMENTS)
+    return processor_time(lambda: scene_of(text, "sets.keyxm").contact(), few=True).best
 
 
 def _planes(pipe: Pipe, size: int) -> float:

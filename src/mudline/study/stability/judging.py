@@ -20,15 +20,14 @@ import numpy as np
 from mudline.codes import RUN001
 from mudline.contact.errors import ElementError
 from mudline.contact.result import ContactResult
-from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Problem, Severity
-from mudline.scene.model import Scene, resolve
+from mudline.scene.model import Scene
+from mudline.study import scene_of
 from mudline.study.exact import BOUND, SMALLEST, Compared, ExactCurve, ExactLaw, Tally
 
 Pairs = Sequence[tuple[str, str]]
 
 DIAMETER = "0.3"
-
 LENGTH = 2.0
 
 _LINE = """\
@@ -43,7 +42,6 @@ $MODEL
  SET=ALL
  207.0E9, 79.6E9, {diameter}, {inner}, 7850.0
 """
-
 _SUCTION = """\
 *SEABED SUCTION
  SET=ALL
@@ -86,7 +84,7 @@ def _on(stiffness: str) -> str:
     return f"*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS={stiffness}\n"
 
 
-FILE = "cell.keyxm"
+_FILE = "cell.keyxm"
 _ABOVE = (0.0, 5e-324, 0.05, 1e6)
 _LARGEST = Fraction(float_info.max) * (1 - Fraction(1, 2**50))
 
@@ -146,17 +144,10 @@ def guarded(family: str, value: str, judged: Callable[[], Judgement]) -> Judgeme
         try:
             return judged()
         except DeckError as error:
-            message = refusal(error)
-            return Judgement(
-                family, value, Verdict.REFUSED if message else Verdict.NO_LINE, message=message or str(error)
-            )
+            line = refusal(error)
+            return Judgement(family, value, Verdict.REFUSED if line else Verdict.NO_LINE, message=line or str(error))
         except (ArithmeticError, Warning, ValueError, LookupError, TypeError) as error:
             return Judgement(family, value, Verdict.WARNED, message=f"{type(error).__name__}: {error}")
-
-
-def scene_of(text: str) -> Scene:
-    """The scene of a deck; raises DeckError."""
-    return resolve(load_bytes(text.encode(), FILE)).require()
 
 
 @contextmanager
@@ -180,7 +171,7 @@ def refusal(error: DeckError) -> str:
 
 
 def _judged(cell: Cell) -> Judgement:
-    scene = scene_of(cell.text)
+    scene = scene_of(cell.text, _FILE)
     if cell.law is None:
         return Judgement(cell.family, cell.value, Verdict.WRONG, message="a deck without a valid law was accepted")
     tally, heights = Tally(), _heights(cell.law)
@@ -188,9 +179,8 @@ def _judged(cell: Cell) -> Judgement:
         _compare_curve(tally, scene, cell.law)
     message = _compare_heights(tally, scene, cell.law, heights)
     if message is None:
-        return Judgement(
-            cell.family, cell.value, Verdict.NO_LINE, message="a value was refused that a float64 can hold"
-        )
+        refused = "a value was refused that a float64 can hold"
+        return Judgement(cell.family, cell.value, Verdict.NO_LINE, message=refused)
     verdict = Verdict.WRONG if tally.fault else Verdict.RIGHT_UNTIL_REFUSED if message else Verdict.RIGHT
     return Judgement(cell.family, cell.value, verdict, tally.results, tally.error, BOUND, tally.fault or message)
 
@@ -320,7 +310,7 @@ def judge_suction(cell: SuctionCell) -> Judgement:
 
 
 def _suction_judged(cell: SuctionCell) -> Judgement:
-    scene = scene_of(suction_deck(cell.cohesion))
+    scene = scene_of(suction_deck(cell.cohesion), _FILE)
     model = scene.contact()
     if not model.input.has("suction"):
         return Judgement(cell.family, cell.value, Verdict.WRONG, message="the suction of the deck is missing")
