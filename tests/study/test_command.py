@@ -10,11 +10,10 @@ from unittest.mock import Mock
 import pytest
 
 from mudline.scene.model import Scene
-from mudline.study import precision
+from mudline.study import precision, sample_scene
 from mudline.study.precision import curves as curve_study
 from mudline.study.precision import integration
 from mudline.study.report import Column, StudyError, StudyOptions, StudyReport, StudyTable
-from mudline.study.sample import sample_scene
 from tests.cli.runner import run
 
 SAMPLES = Path(__file__).parents[2] / "samples"

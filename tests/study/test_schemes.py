@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from mudline.study.laws import Falling, LinearLaw
 from mudline.study.motion import Forces, History, Motion, Scheme, march
-from mudline.study.newton import Newton
-from mudline.study.schemes import SCHEMES, OneStep, generalised_alpha, hht
-from mudline.study.stability.landings import ElasticSeabed, restitution
+from mudline.study.schemes import SCHEMES, Newton, OneStep, generalised_alpha, hht
+from mudline.study.stability.landings import restitution
 
 Floats = NDArray[np.float64]
 
@@ -204,7 +204,7 @@ def test_force_that_depends_on_velocity(name: str, order: float) -> None:
 
 
 def test_central_difference_and_verlet_are_one_without_velocity_in_the_force() -> None:
-    seabed = ElasticSeabed(np.ones(3), np.full(3, 0.3))
+    seabed = Falling(np.ones(3), LinearLaw("", 0.3), weight=0.0)
     start = Motion.start(seabed, np.array([0.1, 0.5, 0.9]), np.full(3, -1.0))
     runs = [march(SCHEMES[name], seabed, start, 1.0, 30).position for name in ("central-difference", "velocity-verlet")]
     assert np.array_equal(runs[0], runs[1])

@@ -14,6 +14,7 @@ from mudline.cli.streams import counted, emit, notify, notify_missing, reason
 from mudline.cli.view import View
 from mudline.results.quantities import headed, shown
 from mudline.scene.model import Scene, resolve
+from mudline.study import sample_scene
 from mudline.study.report import Cell, StudyError, StudyOptions, StudyReport, StudyTable, silent
 
 if TYPE_CHECKING:
@@ -78,7 +79,7 @@ def command(
 
 def _scene(deck: str | None, units: str | None, stdin_name: str) -> Scene:
     if deck is None:
-        return cast("Scene", import_module("mudline.study.sample").sample_scene())
+        return sample_scene()
     return resolve(GivenDeck(deck, stdin_name, units).load()).require()
 
 

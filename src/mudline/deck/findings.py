@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 
-from mudline.codes.lines import SYN007, SYN008, SYN011
-from mudline.codes.words import SYN009, SYN010
+from mudline.codes.lines import SYN007, SYN008, SYN009, SYN010, SYN011
 from mudline.diagnostics import MORE, MOST_REPORTED, Code, Problem, Severity, Span, Where
 from mudline.keywords import catalogue
 from mudline.keywords.catalogue import meant_in, meant_keyword, meant_section, words_behind

@@ -7,8 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from mudline.codes.fields import SYN003
-from mudline.codes.lines import SYN001, SYN014
-from mudline.codes.words import SYN004
+from mudline.codes.lines import SYN001, SYN004, SYN014
 from mudline.diagnostics import Problem, Span
 from mudline.keywords.grammar import ROW, Content, Node
 from mudline.keywords.model import Block, ListRow, Part, Record, Slot, layout, row_format

@@ -11,8 +11,7 @@ from typing import NamedTuple, Protocol, cast
 
 from pydantic import ValidationError
 
-from mudline.codes.lines import SYN001, SYN013, SYN014
-from mudline.codes.words import SYN004
+from mudline.codes.lines import SYN001, SYN004, SYN013, SYN014
 from mudline.diagnostics import Problem, Span
 from mudline.keywords import grammar
 from mudline.keywords.builder import Builder, Built, construct

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar
 
-from mudline.codes.lines import SYN001
-from mudline.codes.words import SYN004, SYN005
+from mudline.codes.lines import SYN001, SYN004, SYN005
 from mudline.diagnostics import Code
 from mudline.keywords.facts import Names
 from mudline.keywords.model import Record, Row, about, rows, setting

@@ -8,7 +8,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 from mudline.codes.fields import SYN002, SYN003, SYN015, SYN016
-from mudline.codes.words import SYN005
+from mudline.codes.lines import SYN005
 from mudline.diagnostics import Problem, Repair, Severity, Span
 from mudline.keywords.model import Slot, layout
 from mudline.keywords.table import LARGEST_WHOLE, not_whole

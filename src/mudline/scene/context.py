@@ -11,8 +11,7 @@ from math import isnan
 from typing import Any, cast
 
 from mudline.codes.fields import SYN016
-from mudline.codes.lines import SYN001
-from mudline.codes.words import SYN004
+from mudline.codes.lines import SYN001, SYN004
 from mudline.deck.evaluation import EvaluatedDeck
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.parameters import folded

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from mudline.codes.curves import CRV001, CRV003, CRV011
+from mudline.codes.fields import CRV001, CRV003, CRV011
 from mudline.diagnostics import MOST_REPORTED, Where
 from mudline.keywords.table import Table
 from mudline.keywords.text import shown

@@ -11,9 +11,8 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from mudline.codes.fields import SYN003
-from mudline.codes.lines import SYN001
+from mudline.codes.lines import SYN001, SYN005
 from mudline.codes.references import REF001, REF005, REF006, REF010
-from mudline.codes.words import SYN005
 from mudline.deck.model import Deck
 from mudline.deck.parameters import folded
 from mudline.diagnostics import MOST_REPORTED, Code, Severity, Where

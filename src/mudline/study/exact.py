@@ -9,7 +9,7 @@ from fractions import Fraction
 from itertools import pairwise
 from math import copysign, inf, isfinite, nextafter
 from sys import float_info
-from typing import NamedTuple, Protocol
+from typing import NamedTuple, TypeAlias
 
 ROUNDING = Fraction(1, 2**53)
 """Largest relative error of one operation on float64."""
@@ -30,23 +30,6 @@ class Spring(NamedTuple):
     term: Fraction
 
 
-class ExactLaw(Protocol):
-    """An exact law of one element."""
-
-    @property
-    def diameter(self) -> float:
-        """External diameter of the element."""
-        ...
-
-    def spring(self, depth: Fraction, ratio: Fraction) -> Spring:
-        """The spring of an element in contact."""
-        ...
-
-    def ratios(self) -> list[float]:
-        """Where its value matters: embedment ratios at, between, beside and beyond all corners."""
-        ...
-
-
 @dataclass(frozen=True, slots=True)
 class ExactLinear:
     """Force = stiffness * depth."""
@@ -55,14 +38,14 @@ class ExactLinear:
     diameter: float
 
     def spring(self, depth: Fraction, ratio: Fraction) -> Spring:
-        """See `ExactLaw`."""
+        """The spring of an element in contact."""
         del ratio
         stiffness = Fraction(self.stiffness)
         force = stiffness * depth
         return Spring(force, stiffness * Fraction(self.diameter), stiffness, abs(force))
 
     def ratios(self) -> list[float]:
-        """See `ExactLaw`."""
+        """Where its value matters: embedment ratios at, between, beside and beyond all corners."""
         return [1e-300, 1e-12, 1e-3, 0.1, 1.0, 1e3]
 
 
@@ -75,7 +58,7 @@ class ExactCurve:
         self._inner = [ratio for ratio, _ in self.points[1:-1]]
 
     def spring(self, depth: Fraction, ratio: Fraction) -> Spring:
-        """See `ExactLaw`."""
+        """See `ExactLinear`."""
         del depth
         left = bisect_right(self._inner, ratio)
         (r0, f0), (r1, f1) = self.points[left : left + 2]
@@ -86,12 +69,16 @@ class ExactCurve:
         return Spring(f + rise, slope, slope / Fraction(self.diameter), max(abs(f), abs(rise), abs(f + rise)))
 
     def ratios(self) -> list[float]:
-        """See `ExactLaw`."""
+        """See `ExactLinear`."""
         knots = [float(ratio) for ratio, _ in self.points]
         middles = [0.5 * low + 0.5 * high for low, high in pairwise(knots)]
         beside = [nextafter(knot, end) for knot in knots for end in (-inf, inf)]
         every = {*knots, *middles, *beside, 1.5 * knots[-1], 1e-300, 1e-9}
         return sorted(ratio for ratio in every if isfinite(ratio))
+
+
+ExactLaw: TypeAlias = ExactLinear | ExactCurve
+"""Of one element, of an external `diameter`."""
 
 
 class Compared(NamedTuple):

@@ -1,22 +1,28 @@
 """How a study is run, and what it found: tables, pictures, words; and the files they become.
 
 A study is made of parts. A part declares the columns of its tables once (`Layout`), draws its pictures, and returns
-both with its notes and omissions as a `Section`; here they become one report, its CSV, JSON and PNG files.
+both with its notes and omissions as a `Section`; here they become one report, its CSV, JSON and PNG files. Pictures
+have one style: colours that colour-blind readers tell apart, a marker for each line besides.
 """
 
 from __future__ import annotations
 
+import io
 import json
 import math
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from operator import attrgetter
 from pathlib import Path
-from typing import Any, Generic, NamedTuple, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, Literal, NamedTuple, TypeAlias, TypeVar, get_type_hints
 
 from mudline.files import write_atomically
 from mudline.results.quantities import csv_lines
-from mudline.study.picture import Picture
 from mudline.study.timing import machine
+
+if TYPE_CHECKING:  # only who draws loads matplotlib
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 Row = TypeVar("Row")
 Key = TypeVar("Key", bound=Hashable)
@@ -95,6 +101,9 @@ class StudyTable:
         }
 
 
+_UNITS = {"metric": ("N", "m", "kg"), "imperial": ("lbf", "ft", "slug")}
+
+
 @dataclass(frozen=True)
 class Layout(Generic[Row]):
     """A table before it has rows: the one place to add a column.
@@ -102,7 +111,8 @@ class Layout(Generic[Row]):
     Attributes:
         name: a word for its file.
         title: what it shows, for people; may have words in braces, which the study fills in.
-        columns: what fills each column, by its name with the unit in brackets: "step [s]", "mass [{mass}/{length}]".
+        columns: what fills each column, by its heading, the name with the unit in brackets: "step [s]". In a heading
+            {force}, {length} and {mass} are the units of the deck. `columns_of` has those that are fields of a row.
         brief: see `StudyTable`.
     """
 
@@ -111,12 +121,20 @@ class Layout(Generic[Row]):
     columns: Mapping[str, Callable[[Row], Cell]]
     brief: bool = True
 
-    def table(self, rows: Iterable[Row], **words: object) -> StudyTable:
-        """The table of these rows; `words` are those in braces."""
+    def table(self, rows: Iterable[Row], units: str = "", **words: object) -> StudyTable:
+        """The table of these rows, in the "metric" or other units of a deck; `words` are those in braces."""
+        names = ("force", "length", "mass")
+        words.update(zip(names, _UNITS.get(units, names), strict=True))
         parts = (heading.format(**words).removesuffix("]").partition(" [") for heading in self.columns)
         columns = tuple(Column(name, unit) for name, _, unit in parts)
         cells = [tuple(cell(row) for cell in self.columns.values()) for row in rows]
         return StudyTable(self.name, self.title.format(**words), columns, cells, self.brief)
+
+
+def columns_of(row: type[Row]) -> dict[str, Callable[[Row], Cell]]:
+    """A column for each field of a row that is declared as `Annotated[type, heading]`, in the order of the fields."""
+    hints = get_type_hints(row, include_extras=True)
+    return {hint.__metadata__[0]: attrgetter(name) for name, hint in hints.items() if hasattr(hint, "__metadata__")}
 
 
 def grouped(rows: Iterable[Row], key: Callable[[Row], Key]) -> dict[Key, list[Row]]:
@@ -125,6 +143,96 @@ def grouped(rows: Iterable[Row], key: Callable[[Row], Key]) -> dict[Key, list[Ro
     for row in rows:
         found.setdefault(key(row), []).append(row)
     return found
+
+
+# ------------------------------------------------------------------------------------------------------------ pictures
+
+_COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000", "#e69f00", "#56b4e9", "#8c6d31", "#7a7a7a", "#b2182b")
+_MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">", "*")
+_LINES = ("-", "--", "-.", ":")
+_LONGEST = 34
+
+Points = Sequence[tuple[float, float]]
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """A picture that is drawn when it is wanted.
+
+    Attributes:
+        name: a word for its file.
+        caption: what it shows.
+        draw: draws it on an empty figure.
+        size: width and height in inches; 100 points to the inch.
+    """
+
+    name: str
+    caption: str
+    draw: Callable[[Figure], None]
+    size: tuple[float, float] = (9.0, 6.0)
+
+    def png(self) -> bytes:
+        """The picture as PNG; raises ImportError without matplotlib."""
+        from matplotlib.figure import Figure  # noqa: PLC0415 - a study without pictures does without it
+
+        figure = Figure(figsize=self.size, layout="constrained", dpi=100)
+        self.draw(figure)
+        stream = io.BytesIO()
+        figure.savefig(stream, format="png", metadata={"Software": None})
+        return stream.getvalue()
+
+
+def style(index: int) -> dict[str, Any]:
+    """Colour, marker and dash of the line of this number, from 0; so many lines as these differ."""
+    return {
+        "color": _COLORS[index % len(_COLORS)],
+        "marker": _MARKERS[(index + index // len(_COLORS)) % len(_MARKERS)],
+        "linestyle": _LINES[index // len(_COLORS) % len(_LINES)],
+        "markersize": 5,
+        "linewidth": 1.4,
+    }
+
+
+def draw_lines(
+    axes: Axes,
+    lines: Mapping[str, Points],
+    title: str,
+    x: str,
+    y: str,
+    scale: Literal["loglog", "semilogx"] = "loglog",
+) -> None:
+    """A line through points for each name of the legend, in the styles from the first on; the rest as in `label`."""
+    draw = getattr(axes, scale)
+    for index, (name, points) in enumerate(lines.items()):
+        draw([point[0] for point in points], [point[1] for point in points], label=name, **style(index))
+    label(axes, title, x, y)
+
+
+def panels(figure: Figure, count: int, across: int, *, sharey: bool = False) -> list[Axes]:
+    """So many axes, `across` of them in a row."""
+    found: list[Axes] = list(figure.subplots(-(-count // across), across, squeeze=False, sharey=sharey).flat)
+    for axes in found[count:]:
+        axes.remove()
+    return found[:count]
+
+
+def shortened(name: str) -> str:
+    """A name that fits above a panel."""
+    return name if len(name) <= _LONGEST else name[: _LONGEST - 3] + "..."
+
+
+def label(axes: Axes, title: str, x: str, y: str) -> None:
+    """Title, axes with their units, and a grid."""
+    axes.set_title(title, fontsize="medium")
+    axes.set_xlabel(x)
+    axes.set_ylabel(y)
+    axes.grid(visible=True, which="major", alpha=0.35)
+
+
+def legend_below(figure: Figure, axes: Axes, columns: int = 4) -> None:
+    """One legend for all axes, below them, where it covers nothing."""
+    handles, names = axes.get_legend_handles_labels()
+    figure.legend(handles, names, loc="outside lower center", ncols=columns, fontsize="small")
 
 
 # -------------------------------------------------------------------------------------------------------------- report

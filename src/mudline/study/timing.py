@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import platform
 import statistics
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from time import get_clock_info, perf_counter, process_time
@@ -33,16 +33,22 @@ class Timing(NamedTuple):
     runs: int
 
 
-def timed(call: Callable[[], object], *, runs: int = 7, at_least: float = 0.0, warm: bool = True) -> Timing:
-    """Time a call `runs` times, and more often until `at_least` seconds are spent; `warm`: once before, untimed."""
-    if warm:
-        call()
+def timed(
+    call: Callable[[], object],
+    *,
+    runs: int,
+    at_least: float = 0.0,
+    repeats: int = 1,
+    clock: Callable[[], float] = perf_counter,
+) -> Timing:
+    """Time `repeats` calls `runs` times, and more often until `at_least` seconds are spent; no time is 0."""
     taken: list[float] = []
-    while len(taken) < runs or sum(taken) < at_least:
-        start = perf_counter()
-        call()
-        taken.append(perf_counter() - start)
-    return _timing(taken)
+    while len(taken) < runs or repeats * sum(taken) < at_least:
+        start = clock()
+        for _ in range(repeats):
+            call()
+        taken.append(max(clock() - start, 1e-9 * repeats) / repeats)
+    return Timing(min(taken), statistics.median(taken), len(taken))
 
 
 def processor_time(call: Callable[[], object], *, few: bool = False) -> Timing:
@@ -50,24 +56,10 @@ def processor_time(call: Callable[[], object], *, few: bool = False) -> Timing:
 
     `few`: not so often. Short calls are repeated within a run until the clock is fine enough.
     """
-    once = _seconds(call, 1)
+    once = timed(call, runs=1, clock=process_time).best
     repeats = max(1, round(max(_LEAST, _TICKS * get_clock_info("process_time").resolution) / max(once, 1e-7)))
     runs, at_least = (2, 0.0) if few or once > _SLOW else (_RUNS, _AT_LEAST)
-    taken: list[float] = []
-    while len(taken) < runs or repeats * sum(taken) < at_least:
-        taken.append(max(_seconds(call, repeats), 1e-9 * repeats) / repeats)
-    return _timing(taken)
-
-
-def _seconds(call: Callable[[], object], repeats: int) -> float:
-    start = process_time()
-    for _ in range(repeats):
-        call()
-    return process_time() - start
-
-
-def _timing(seconds: Sequence[float]) -> Timing:
-    return Timing(min(seconds), statistics.median(seconds), len(seconds))
+    return timed(call, runs=runs, at_least=at_least, repeats=repeats, clock=process_time)
 
 
 def machine() -> dict[str, str]:

@@ -6,8 +6,8 @@ import re
 from collections.abc import Callable, Collection, Iterable, Iterator
 from typing import TYPE_CHECKING, cast
 
+from mudline.codes.lines import SYN009, SYN010
 from mudline.codes.references import REF001, REF013
-from mudline.codes.words import SYN009, SYN010
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.parameters import Parameters, folded
 from mudline.diagnostics import Problem, Severity, Where

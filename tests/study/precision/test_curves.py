@@ -12,8 +12,16 @@ from hypothesis import strategies as st
 
 from mudline.curves import ForceCurve
 from mudline.study.precision import curves as curve_study
-from mudline.study.precision.backbones import DEEPEST, f114, randolph_quiggin, sampled_backbones
-from mudline.study.precision.curves import evaluate_methods, exact_forces, largest_error, methods
+from mudline.study.precision.curves import (
+    DEEPEST,
+    evaluate_methods,
+    exact_forces,
+    f114,
+    largest_error,
+    methods,
+    randolph_quiggin,
+    sampled_backbones,
+)
 from mudline.study.report import Omission, StudyOptions
 
 CLAY = ForceCurve([(0.0, 0.0), (0.1, 2000.0), (0.3, 4500.0), (0.5, 6000.0)], "clay")

@@ -11,17 +11,21 @@ import pytest
 from mudline.contact import LawAssignment
 from mudline.contact.laws.suction import SuctionHistory, SuctionLaw, from_cohesion, step
 from mudline.curves import ForceCurve
-from mudline.study.precision import integration, reference
+from mudline.study import SAMPLE_TEXT, sample_scene
+from mudline.study.laws import CurveLaw, LinearLaw, smoothed_spring
+from mudline.study.precision import (
+    all_cases,
+    contacts_of,
+    friction_of,
+    integration,
+    suction_of,
+)
+from mudline.study.precision import drop as drop_module
 from mudline.study.precision import pull as pull_module
-from mudline.study.precision.cases import all_cases, contacts_of, friction_of, reference_drop, suction_of
-from mudline.study.precision.drag import Drag, drag_case
-from mudline.study.precision.drop import drop_case, drop_to
+from mudline.study.precision.drop import bounce, drop_case, drop_to, reference_drop
 from mudline.study.precision.integration import Case, row
-from mudline.study.precision.laws import CurveLaw, LinearLaw, smoothed_spring
-from mudline.study.precision.pull import Pull, SuctionNumbers, breakout, pull_case
-from mudline.study.precision.reference import bounce, contact_time
+from mudline.study.precision.pull import Drag, Pull, SuctionNumbers, breakout, drag_case, pull_case
 from mudline.study.report import Omission, StudyError
-from mudline.study.sample import TEXT, sample_scene
 from mudline.study.schemes import SCHEMES
 from tests.contact.builders import changed
 from tests.study.builders import scene_of
@@ -79,7 +83,7 @@ def test_reference_drop_has_the_published_depth() -> None:
     flight = bounce(drop.law, drop.mass, drop.weight, drop.speed)
     assert flight.deepest == pytest.approx(drop.deepest, rel=1e-11)
     assert flight.speed == pytest.approx(0.5, rel=1e-11)
-    assert contact_time(drop.law, 500.0, 0.0, 0.5) == pytest.approx(0.31415926536, rel=1e-10)
+    assert bounce(drop.law, 500.0, 0.0, 0.5).time == pytest.approx(0.31415926536, rel=1e-10)
 
 
 @pytest.mark.parametrize("law", [CLAY, LinearLaw("soft", 3e3), LinearLaw("zone", 5e4, 0.01)])
@@ -98,13 +102,13 @@ def test_seabed_that_never_carries_is_refused() -> None:
 
 
 def test_endless_search_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(reference, "_MOST_EVALUATIONS", 20)
+    monkeypatch.setattr(drop_module, "_MOST_EVALUATIONS", 20)
     with pytest.raises(StudyError, match="takes too long to find"):
-        contact_time(LinearLaw("contact", 1.0), 1.0, 0.0, 1.0)
-    monkeypatch.setattr(reference, "_MOST_EVALUATIONS", 100_000)
-    monkeypatch.setattr(reference, "_MOST_PHASES", 1)
+        bounce(LinearLaw("contact", 1.0), 1.0, 0.0, 1.0)
+    monkeypatch.setattr(drop_module, "_MOST_EVALUATIONS", 100_000)
+    monkeypatch.setattr(drop_module, "_MOST_PHASES", 1)
     with pytest.raises(StudyError, match="does not release"):
-        contact_time(LinearLaw("contact", 1.0), 1.0, 0.0, 1.0)
+        bounce(LinearLaw("contact", 1.0), 1.0, 0.0, 1.0)
 
 
 def test_suction_numbers_are_those_of_the_law() -> None:
@@ -224,7 +228,7 @@ def test_friction_of_a_deck_is_taken_from_it() -> None:
 
 
 def test_case_that_overflows_is_reported() -> None:
-    found = scene_of(TEXT.replace(", 0.003,", ", 1.0E-307,"))
+    found = scene_of(SAMPLE_TEXT.replace(", 0.003,", ", 1.0E-307,"))
     omissions: list[Omission] = []
     with np.errstate(all="ignore"):
         cases = all_cases(contacts_of(found), omissions)
@@ -235,7 +239,7 @@ def test_case_that_overflows_is_reported() -> None:
 def test_curve_of_many_points_does_without_stops(monkeypatch: pytest.MonkeyPatch) -> None:
     drop = drop_to(CLAY, 170.0, 900.0, 0.075)
     stopping = bounce(CLAY, drop.mass, drop.weight, drop.speed)
-    monkeypatch.setattr(reference, "_MOST_BREAKS", 0)
+    monkeypatch.setattr(drop_module, "_MOST_BREAKS", 0)
     assert bounce(CLAY, drop.mass, drop.weight, drop.speed).time == pytest.approx(stopping.time, rel=1e-6)
 
 

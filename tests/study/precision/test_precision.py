@@ -8,11 +8,10 @@ from pathlib import Path
 import pytest
 
 from mudline.scene.sections import surroundings
-from mudline.study import precision
-from mudline.study.precision import backbones, integration
+from mudline.study import SAMPLE_TEXT, precision, sample_scene
 from mudline.study.precision import curves as curve_study
+from mudline.study.precision import integration
 from mudline.study.report import StudyOptions
-from mudline.study.sample import TEXT, sample_scene
 from tests.study.builders import scene_of
 
 SAMPLES = Path(__file__).parents[3] / "samples"
@@ -22,7 +21,7 @@ SAMPLES = Path(__file__).parents[3] / "samples"
 def short(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(integration, "LADDER", (0.5, 10.0))
     monkeypatch.setattr(integration, "FINE_LADDER", (0.3,))
-    monkeypatch.setattr(backbones, "POINTS", (3, 10))
+    monkeypatch.setattr(curve_study, "POINTS", (3, 10))
     monkeypatch.setattr(curve_study, "_TIMED", 1000)
     monkeypatch.setattr(curve_study, "_CHECKED", 50)
 
@@ -53,7 +52,7 @@ def test_report_of_the_sample(tmp_path: Path) -> None:
 
 
 def test_deck_with_less() -> None:
-    text = TEXT.replace(" STIFFNESS=Soft Clay\n FRICTION=0.35, 0.60, 0.003, 0.150\n", " STIFFNESS=20.0E3\n")
+    text = SAMPLE_TEXT.replace(" STIFFNESS=Soft Clay\n FRICTION=0.35, 0.60, 0.003, 0.150\n", " STIFFNESS=20.0E3\n")
     text = text.replace("*GEOMETRIC SETS\n OPTION=RIGID\n SET=ALL\n 207.0E9, 79.6E9, 0.3, 0.25, 7850.0\n", "")
     text = text.replace("*SEABED SUCTION\n SET=Clay\n COHESION=5.0E3\n", "")
     text = text.replace(
@@ -80,13 +79,13 @@ def test_deck_without_a_law() -> None:
 
 @pytest.mark.parametrize("stiffness", ["1.0E-300", "1.0E300", "1.0E-3", "1.0E15"])
 def test_extreme_decks_end_in_reasons(stiffness: str) -> None:
-    report = precision.run(scene_of(TEXT.replace("50.0E3", stiffness)), StudyOptions())
+    report = precision.run(scene_of(SAMPLE_TEXT.replace("50.0E3", stiffness)), StudyOptions())
     assert report.tables[2].rows
 
 
 @pytest.mark.parametrize("point", ["1.0E-290, 450.0", "0.01, 1.0E15", "0.01, 1.0E-300", "0.01, -450.0", "1.0E9, 450.0"])
 def test_extreme_curves_end_in_reasons(point: str) -> None:
-    text = TEXT.replace("*SEABED SUCTION\n SET=Clay\n COHESION=5.0E3\n", "")
+    text = SAMPLE_TEXT.replace("*SEABED SUCTION\n SET=Clay\n COHESION=5.0E3\n", "")
     report = precision.run(scene_of(text.replace("0.01,  450.0", point)), StudyOptions())
     assert report.tables[0].rows
     assert json.loads(report.json())["study"] == "precision"

@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mudline.study import pruning, timing
+from mudline.study import SAMPLE_TEXT, pruning, sample_scene, timing
 from mudline.study.pruning import cost as costs
-from mudline.study.pruning import growth, imports
+from mudline.study.pruning import growth, import_rows
 from mudline.study.pruning.cost import cost, curve_alone
 from mudline.study.pruning.growth import (
     GrowthRow,
@@ -26,7 +26,6 @@ from mudline.study.pruning.growth import (
 )
 from mudline.study.pruning.scenes import CURVE, Pipe, Variant, line, variants
 from mudline.study.report import Omission, StudyOptions, StudyReport
-from mudline.study.sample import TEXT, sample_scene
 from mudline.study.timing import Timing, processor_time
 from tests.cli.runner import run
 from tests.contact.builders import CLAY, everything
@@ -47,7 +46,7 @@ def small(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(growth, "NODES", 51)
     monkeypatch.setattr(growth, "FEW_NODES", 21)
     monkeypatch.setattr(growth, "ELEMENTS", 16)
-    monkeypatch.setattr(imports, "_RUNS", 1)
+    monkeypatch.setattr(pruning, "_RUNS", 1)
 
 
 @pytest.fixture
@@ -60,10 +59,10 @@ def hasty(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def without_interpreters(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(imports, "_asked", lambda data: (0.01 + 1e-9 * len(data), ["mudline.contact.model"], 8))
+    monkeypatch.setattr(pruning, "_asked", lambda data: (0.01 + 1e-9 * len(data), ["mudline.contact.model"], 8))
 
 
-def report(text: str = TEXT, *, full: bool = False) -> StudyReport:
+def report(text: str = SAMPLE_TEXT, *, full: bool = False) -> StudyReport:
     return pruning.run(scene_of(text), StudyOptions(full))
 
 
@@ -122,7 +121,7 @@ def test_imports_are_distinguished() -> None:
     found = {one.name: one for one in variants(everything(9, 1), PIPE)}
     chosen = [found[name] for name in ("curve", "linear law", "curve, unloading")]
     omissions: list[Omission] = []
-    plain, linear, unloading = imports.imports(chosen, CURVE, StudyOptions(), omissions)
+    plain, linear, unloading = import_rows(chosen, CURVE, StudyOptions(), omissions)
     assert omissions == []
     assert plain.beyond == ()
     assert plain.seconds > 0.0
@@ -134,9 +133,9 @@ def test_imports_are_distinguished() -> None:
 
 def test_quick_loads_are_repeated_and_slow_ones_not(monkeypatch: pytest.MonkeyPatch) -> None:
     times = iter([0.3, 0.1, 0.2, 2.0])
-    monkeypatch.setattr(imports, "_RUNS", 3)
-    monkeypatch.setattr(imports, "_asked", lambda data: (next(times), ["mudline.contact.model"], len(data) * 0))
-    rows = list(imports.imports([PLAIN, Variant("slow", PLAIN.make)], CURVE, StudyOptions(), []))
+    monkeypatch.setattr(pruning, "_RUNS", 3)
+    monkeypatch.setattr(pruning, "_asked", lambda data: (next(times), ["mudline.contact.model"], len(data) * 0))
+    rows = list(import_rows([PLAIN, Variant("slow", PLAIN.make)], CURVE, StudyOptions(), []))
     assert [row.seconds for row in rows] == [0.1, 2.0]
 
 
@@ -144,9 +143,9 @@ def test_an_interpreter_that_fails_is_an_omission(monkeypatch: pytest.MonkeyPatc
     def fails(data: bytes) -> tuple[float, list[str], int]:
         raise subprocess.TimeoutExpired("python", len(data))
 
-    monkeypatch.setattr(imports, "_asked", fails)
+    monkeypatch.setattr(pruning, "_asked", fails)
     omissions: list[Omission] = []
-    assert list(imports.imports([PLAIN], CURVE, StudyOptions(), omissions)) == []
+    assert list(import_rows([PLAIN], CURVE, StudyOptions(), omissions)) == []
     assert omissions[0].what == "imports of curve"
     assert "timed out" in omissions[0].reason
 
@@ -193,7 +192,7 @@ def test_full_report_has_the_largest_scenes_too() -> None:
 
 @pytest.mark.usefixtures("hasty", "without_interpreters")
 def test_a_deck_without_curves_is_studied_with_the_usual_one() -> None:
-    found = report(TEXT.replace("STIFFNESS=Soft Clay", "STIFFNESS=50.0E3"))
+    found = report(SAMPLE_TEXT.replace("STIFFNESS=Soft Clay", "STIFFNESS=50.0E3"))
     assert found.notes[-1].startswith("The deck's elements have no curve")
 
 

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from mudline.contact import ContactInput, ContactModel
 from mudline.contact.seabed import Seabed
 from mudline.curves import ForceCurve
+from mudline.study import sample_scene
 from mudline.study.pruning import scenes
 from mudline.study.pruning.cost import bare_evaluation
 from mudline.study.pruning.scenes import (
@@ -27,7 +28,6 @@ from mudline.study.pruning.scenes import (
     tiled,
     variants,
 )
-from mudline.study.sample import sample_scene
 from tests.contact.builders import CLAY, everything, only
 
 PIPE = Pipe(CLAY, 6.0e4, 0.3, 2.0)

@@ -1,19 +1,122 @@
-"""Critical steps that are really stepped."""
+"""Frequencies of a scene's contacts, the rule that holds a deck's step against them, and steps that are really made."""
 
 from __future__ import annotations
+
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from mudline.contact.stiffest import CRITICAL_OMEGA_DT
-from mudline.study.sample import sample_scene
+from mudline.linting.engine import lint_bytes
+from mudline.linting.registry import select
+from mudline.scene.model import Scene
+from mudline.study import SAMPLE_TEXT, sample_scene
 from mudline.study.schemes import SCHEMES
 from mudline.study.stability import critical
-from mudline.study.stability.contacts import find_contacts
-from mudline.study.stability.critical import BOUNDED, GROWS, SHARES, can_oscillate, measure
-from mudline.study.stability.ladder.cells import all_cells
-from mudline.study.stability.ladder.judging import judge
+from mudline.study.stability.critical import BOUNDED, GROWS, SHARES, can_oscillate, find_contacts, measure
+from mudline.study.stability.judging import judge
+from mudline.study.stability.ladder import all_cells
 from tests.study.builders import scene_of
+
+MASS = 7850.0 * 0.25 * np.pi * (0.3**2 - 0.25**2)
+
+
+def curved(rows: str) -> Scene:
+    head, tail = SAMPLE_TEXT.split(" CURVE=Soft Clay\n")
+    return scene_of(f"{head} CURVE=Soft Clay\n{rows}*SEABED CONTACT{tail.partition('*SEABED CONTACT')[2]}")
+
+
+def test_the_contacts_of_the_sample() -> None:
+    found, left_out = find_contacts(sample_scene())
+    assert left_out == []
+    assert [(one.name, one.elements) for one in found] == [("curve:Soft Clay on Clay", 7), ("linear on Sand", 3)]
+    assert found[0].stiffness == pytest.approx(45000.0 / 0.3, rel=1e-12)
+    assert found[0].omega == pytest.approx((45000.0 / 0.3 / MASS) ** 0.5, rel=1e-12)
+    assert (found[0].depth, found[0].reach) == pytest.approx((0.0015, 0.0015))
+    assert found[1].omega == pytest.approx((50000.0 / MASS) ** 0.5, rel=1e-12)
+
+
+def test_contacts_without_a_frequency_say_why() -> None:
+    found, left_out = find_contacts(scene_of(SAMPLE_TEXT.replace("7850.0", "0.0")))
+    assert found == []
+    assert {one.reason for one in left_out} == {"no frequency: the mass per unit length is not known"}
+    found, left_out = find_contacts(curved(" 0, 1000\n 1, 0\n"))
+    assert [one.name for one in found] == ["linear on Sand"]
+    assert [one.reason for one in left_out] == ["no frequency: its law never stiffens"]
+
+
+def test_a_scene_without_springs_has_no_contacts() -> None:
+    assert find_contacts(scene_of("$MODEL\n")) == ([], [])
+
+
+def test_nodes_with_a_stiffness_of_their_own() -> None:
+    """A node carries the mass of half of each of its elements, 2 m inside the line, 1 m at its end."""
+    nodal = SAMPLE_TEXT.replace(" SMOOTHING=AUTO", " NODAL STIFFNESS=1.0E5")
+    scene = scene_of(nodal)
+    found, _ = find_contacts(scene)
+    one = next(contact for contact in found if contact.name.startswith("nodal"))
+    assert (one.name, one.elements) == ("nodal 100000 at node 11", 4)
+    assert one.omega == pytest.approx((1e5 / MASS) ** 0.5)
+    assert one.stiffness == pytest.approx(1e5)
+    assert measure(scene, one, SCHEMES["central-difference"]).as_predicted
+    left_out = find_contacts(scene_of(nodal.replace("7850.0", "0.0")))[1]
+    assert "nodal stiffness 100000" in {omission.what for omission in left_out}
+
+
+def test_unloading_may_be_the_stiffest() -> None:
+    back = SAMPLE_TEXT.replace("*SEABED SUCTION", "*SEABED UNLOADING\n SET=Clay\n STIFFNESS={}\n*SEABED SUCTION")
+    scene = scene_of(back.format("4.0E5"))
+    found, _ = find_contacts(scene)
+    assert [one.name for one in found] == [
+        "unloading of curve:Soft Clay on Clay",
+        "curve:Soft Clay on Clay",
+        "linear on Sand",
+    ]
+    assert found[0].omega == pytest.approx((4e5 / MASS) ** 0.5, rel=1e-12)
+    assert measure(scene, found[0], SCHEMES["velocity-verlet"]).as_predicted
+    softer, _ = find_contacts(scene_of(back.format("1.0E5")))
+    assert softer == find_contacts(sample_scene())[0]
+
+
+def test_the_continued_end_may_be_the_steepest() -> None:
+    found, _ = find_contacts(curved(" -2, -30\n -1, -10\n"))
+    assert found[-1].stiffness == pytest.approx(20.0 / 0.3)
+    assert 0.0 < found[-1].reach <= found[-1].depth
+
+
+@pytest.mark.parametrize(("extra", "expected"), [("", ["24.29"]), (" 99, 1, 77\n", [])])
+def test_a_stiffness_of_nodes_counts_for_the_step(extra: str, expected: list[str]) -> None:
+    """The last node carries half of an element, 1 m; a deck whose nodes are not known has no step to tell of."""
+    text = SAMPLE_TEXT.replace(" SMOOTHING=AUTO", " NODAL STIFFNESS=1.0E5").replace(
+        " STIFFNESS=Soft Clay", " STIFFNESS=1.0"
+    )
+    text = text.replace(" 1, 1, 2\n GEN=1, 10\n", f" 1, 1, 2\n GEN=1, 10\n{extra}")
+    text += "*TIME\n STEP=FIXED\n 0.0, 120.0, 0.1, 24.0\n"
+    findings = lint_bytes(text.encode(), "deck.keyxm", select(["STB002"]))
+    assert [found.message.partition("omega = ")[2][:5] for found in findings] == expected
+
+
+@pytest.mark.parametrize(("stiffness", "omega"), [("4.0E5", (4e5 / MASS) ** 0.5), ("1.0E3", (1.5e5 / MASS) ** 0.5)])
+def test_unloading_counts_for_the_step_where_it_is_stiffer(stiffness: str, omega: float) -> None:
+    text = f"{SAMPLE_TEXT}*TIME\n STEP=FIXED\n 0.0, 120.0, 0.1, 24.0\n"
+    text = text.replace("$LOAD CASE", f"*SEABED UNLOADING\n SET=Clay\n STIFFNESS={stiffness}\n$LOAD CASE")
+    (found,) = lint_bytes(text.encode(), "deck.keyxm", select(["STB002"]))
+    assert f"omega = {omega:.4g} rad/s" in found.message
+
+
+@pytest.mark.parametrize("step", ["0.1", "0.0168", "0.0169"])
+def test_a_restart_is_reported_the_step_that_does_on_the_bed_of_its_static_deck(tmp_path: Path, step: str) -> None:
+    (tmp_path / "static.keyxm").write_text(SAMPLE_TEXT, encoding="utf-8")
+    dynamic = f"$LOAD CASE\n*RESTART\n LAST=static\n*TIME\n STEP=FIXED\n 0.0, 120.0, {step}, 24.0\n"
+    path_ = tmp_path / "dynamic.keyxm"
+    findings = lint_bytes(dynamic.encode(), path_.as_posix(), select(["STB002"]), folder=tmp_path)
+    if step == "0.0168":
+        assert findings == []
+        return
+    assert [(found.code, found.line, found.column) for found in findings] == [("STB002", 6, 14)]
+    assert "omega = 29.74 rad/s" in findings[0].message
+    assert "give a step of 0.0168 or less" in findings[0].message
 
 
 @pytest.mark.parametrize("name", ["central-difference", "rk4", "newmark", "backward-euler", "rk2", "forward-euler"])

@@ -10,10 +10,20 @@ import pytest
 
 from mudline.diagnostics import DeckError, Diagnostic, Severity
 from mudline.study.exact import BOUND, Compared, ExactCurve, ExactLinear, Tally
-from mudline.study.stability.ladder.cells import Cell, all_cells, curve_deck, linear_deck, random_cells
-from mudline.study.stability.ladder.judging import Judgement, Verdict, guarded, judge, refusal
-from mudline.study.stability.ladder.suction import BOUND as SUCTION_BOUND
-from mudline.study.stability.ladder.suction import judge_suction, suction_cells
+from mudline.study.stability.judging import (
+    SUCTION_BOUND,
+    Cell,
+    Judgement,
+    Verdict,
+    curve_deck,
+    guarded,
+    judge,
+    judge_suction,
+    linear_deck,
+    refusal,
+    suction_cells,
+)
+from mudline.study.stability.ladder import all_cells, random_cells
 
 CELLS = all_cells()
 FAMILIES = sorted({cell.family for cell in CELLS})

@@ -8,7 +8,7 @@ from typing import Annotated, ClassVar, Literal, cast
 
 from pydantic import BeforeValidator, Field
 
-from mudline.codes.words import SYN005
+from mudline.codes.lines import SYN005
 from mudline.diagnostics import Code
 from mudline.keywords.model import Block, ListRow, Record, about, setting
 from mudline.keywords.table import LARGEST_WHOLE

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Literal
 
-from mudline.codes.lines import SYN001, SYN014
-from mudline.codes.words import SYN004
+from mudline.codes.lines import SYN001, SYN004, SYN014
 from mudline.diagnostics import Code
 from mudline.keywords.model import Block, about
 from mudline.keywords.values import Real

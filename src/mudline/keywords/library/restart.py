@@ -6,7 +6,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from mudline.codes.words import SYN004
+from mudline.codes.lines import SYN004
 from mudline.diagnostics import Code
 from mudline.keywords.facts import Names
 from mudline.keywords.model import Block, setting

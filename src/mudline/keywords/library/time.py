@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 from typing import Annotated, ClassVar, Literal, cast
 
-from mudline.codes.lines import SYN001
-from mudline.codes.words import SYN004, SYN005
+from mudline.codes.lines import SYN001, SYN004, SYN005
 from mudline.diagnostics import Code
 from mudline.keywords.model import Block, about, setting
 from mudline.keywords.values import Real

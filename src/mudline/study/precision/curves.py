@@ -1,6 +1,8 @@
 """Curve evaluation: mudline's own way and those that people use instead, error against time per point.
 
 Errors are measured against exact rational arithmetic: points and ratios as the doubles they are, no rounding at all.
+Besides, two published curves of undrained penetration in closed form, and what sampling them at points costs: for
+D = 0.3 m and a strength of 5 kPa at the mudline, in SI units; the ratio is z / D.
 """
 
 from __future__ import annotations
@@ -8,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,8 +20,19 @@ from mudline.contact.arrays import FloatArray
 from mudline.curves import ForceCurve
 from mudline.scene.model import Scene
 from mudline.study.exact import ExactCurve
-from mudline.study.picture import Picture, draw_lines, label, legend_below, panels, shortened
-from mudline.study.report import Layout, Omission, Section, StudyOptions, grouped
+from mudline.study.report import (
+    Layout,
+    Omission,
+    Picture,
+    Section,
+    StudyOptions,
+    columns_of,
+    draw_lines,
+    grouped,
+    legend_below,
+    panels,
+    shortened,
+)
 from mudline.study.timing import timed
 
 if TYPE_CHECKING:  # only who draws loads matplotlib
@@ -40,30 +53,18 @@ class CurveRow(NamedTuple):
     """A method on a curve: errors are the largest of all ratios, over the largest force of the curve.
 
     family: methods of one family are one line of a picture.
-    nanoseconds, median: best and middle time per point.
     """
 
-    curve: str
-    method: str
+    curve: Annotated[str, "curve"]
+    method: Annotated[str, "method"]
     family: str
-    error: float
-    beyond: float
-    nanoseconds: float
-    median: float
+    error: Annotated[float, "error [of largest force]"]
+    beyond: Annotated[float, "error beyond the points [of largest force]"]
+    nanoseconds: Annotated[float, "best time [ns/point]"]
+    median: Annotated[float, "median time [ns/point]"]
 
 
-CURVES = Layout[CurveRow](
-    "curves",
-    "Curve evaluation against exact rational arithmetic",
-    {
-        "curve": lambda row: row.curve,
-        "method": lambda row: row.method,
-        "error [of largest force]": lambda row: row.error,
-        "error beyond the points [of largest force]": lambda row: row.beyond,
-        "best time [ns/point]": lambda row: row.nanoseconds,
-        "median time [ns/point]": lambda row: row.median,
-    },
-)
+CURVES = Layout("curves", "Curve evaluation against exact rational arithmetic", columns_of(CurveRow))
 
 
 def study_curves(scene: Scene, options: StudyOptions) -> Section:
@@ -71,17 +72,14 @@ def study_curves(scene: Scene, options: StudyOptions) -> Section:
     named = list(scene.curves.items())
     most = len(named) if options.full else _MOST_CURVES
     omissions = [Omission(f"curve {name}", f"only {most} curves are shown without --full") for name, _ in named[most:]]
-    rows: list[CurveRow] = []
+    curves: dict[str, list[CurveRow]] = {}
     for name, curve in named[:most]:
         options.progress(f"curve {name}")
-        rows += evaluate_methods(name, curve, options, omissions)
-    return Section([CURVES.table(rows)], [_picture(rows)] if rows else [], omissions=omissions)
-
-
-def _picture(rows: Sequence[CurveRow]) -> Picture:
-    curves = grouped(rows, lambda row: row.curve)
+        curves[name] = list(evaluate_methods(name, curve, options, omissions))
     caption = "Largest error of a curve evaluation, over the largest force, against the time per point."
-    return Picture("curves", caption, partial(_draw, curves), (max(8.0, 4.6 * len(curves)), 5.6))
+    picture = Picture("curves", caption, partial(_draw, curves), (max(8.0, 4.6 * len(curves)), 5.6))
+    table = CURVES.table(row for rows in curves.values() for row in rows)
+    return Section([table], [picture] if curves else [], omissions=omissions)
 
 
 def _draw(curves: Mapping[str, Sequence[CurveRow]], figure: Figure) -> None:
@@ -89,8 +87,8 @@ def _draw(curves: Mapping[str, Sequence[CurveRow]], figure: Figure) -> None:
     slowest = max(row.nanoseconds for rows in curves.values() for row in rows)
     for axes, (name, rows) in zip(found, curves.items(), strict=True):
         families = grouped(rows, lambda row: row.family)
-        draw_lines(axes, {f: [(max(r.error, _FLOOR), r.nanoseconds) for r in part] for f, part in families.items()})
-        label(axes, shortened(name), "largest error / largest force [-]", "time per point [ns]")
+        lines = {f: [(max(row.error, _FLOOR), row.nanoseconds) for row in part] for f, part in families.items()}
+        draw_lines(axes, lines, shortened(name), "largest error / largest force [-]", "time per point [ns]")
         axes.set_xlim(_FLOOR / 3.0, 3.0)
         axes.set_ylim(0.5, max(100.0, 2.0 * slowest))
     legend_below(figure, found[0])
@@ -116,6 +114,7 @@ def evaluate_methods(
         with np.errstate(all="ignore"):
             wrong = largest_error(np.asarray(evaluation(inside), np.float64), exact_inside, scale)
             outside = largest_error(np.asarray(evaluation(beyond), np.float64), exact_beyond, scale)
+            evaluation(query)  # to warm up
             taken = timed(partial(evaluation, query), runs=31 if options.full else 9)
         per_point = 1e9 / _TIMED
         times = taken.best * per_point, taken.median * per_point
@@ -195,3 +194,96 @@ def _table(curve: ForceCurve, entries: int) -> Evaluation:
         return forces[left] + slopes[left] * (place - left)
 
     return evaluate
+
+
+DIAMETER = 0.3
+_STRENGTH = 5000.0
+_GRADIENT = 1500.0
+_SOIL_WEIGHT = 6000.0
+_STIFFNESS = 200.0
+DEEPEST = 0.5
+"""Ratio up to which the curves are sampled."""
+POINTS = (3, 5, 7, 10, 15, 20, 30, 50, 75, 100, 150, 200, 300)
+
+
+def f114(ratio: FloatArray) -> FloatArray:
+    """DNV-RP-F114, undrained penetration, model 2: bearing of the pipe and buoyancy in the soil, constant strength."""
+    bearing = np.minimum(6.0 * ratio**0.25, 3.4 * np.sqrt(10.0 * ratio))
+    width = 2.0 * np.sqrt(np.maximum(ratio - ratio**2, 0.0))
+    angle = np.arcsin(np.minimum(width, 1.0))
+    shallow = 0.25 * (angle - width * np.cos(angle))
+    area = np.where(ratio < 0.5, shallow, np.pi / 8.0 + ratio - 0.5) * DIAMETER**2
+    return bearing * DIAMETER * _STRENGTH + 1.5 * _SOIL_WEIGHT * area
+
+
+def randolph_quiggin(ratio: FloatArray) -> FloatArray:
+    """Randolph and Quiggin (OMAE2009-79259), first penetration: H Nc su D, H = zeta / (1 + zeta), zeta = 200 z / D."""
+    bearing = 6.0 * np.where(ratio < 0.1, 0.1**0.25 * np.sqrt(10.0 * ratio), ratio**0.25)
+    zeta = _STIFFNESS * ratio
+    return zeta / (1.0 + zeta) * bearing * (_STRENGTH + _GRADIENT * ratio * DIAMETER) * DIAMETER
+
+
+BACKBONES = {"DNV-RP-F114, model 2": f114, "Randolph and Quiggin 2009": randolph_quiggin}
+"""Curves in closed form: force per unit length over the ratio."""
+
+
+def even(points: int) -> FloatArray:
+    """Ratios at even distances."""
+    return np.linspace(0.0, DEEPEST, points)
+
+
+def graded(points: int) -> FloatArray:
+    """Ratios that crowd towards the mudline, with the fourth power: where the curve bends most."""
+    return DEEPEST * np.linspace(0.0, 1.0, points) ** 4
+
+
+SPACINGS = {"even": even, "graded": graded}
+
+
+class BackboneRow(NamedTuple):
+    """A closed form sampled at points: the error of straight lines, and of PCHIP, between them."""
+
+    backbone: Annotated[str, "backbone"]
+    spacing: Annotated[str, "points at distances"]
+    points: Annotated[int, "points"]
+    linear: Annotated[float, "error of straight lines [of largest force]"]
+    pchip: Annotated[float, "error of PCHIP [of largest force]"]
+
+
+SAMPLES = Layout("backbones", "Closed forms sampled at points", columns_of(BackboneRow), brief=False)
+
+
+def study_backbones(options: StudyOptions) -> Section:
+    """The closed forms against their samples, error against the number of points."""
+    options.progress("closed-form curves")
+    rows = list(sampled_backbones())
+    caption = "Largest error of a sampled closed form, over its largest force, against the number of points."
+    return Section([SAMPLES.table(rows)], [Picture("backbones", caption, partial(_draw_samples, rows), (10.0, 5.2))])
+
+
+def _draw_samples(rows: Sequence[BackboneRow], figure: Figure) -> None:
+    backbones = grouped(rows, lambda row: row.backbone)
+    found = panels(figure, len(backbones), len(backbones), sharey=True)
+    for axes, (name, sampled) in zip(found, backbones.items(), strict=True):
+        lines = {}
+        for spacing, part in grouped(sampled, lambda row: row.spacing).items():
+            lines[f"{spacing} points, straight lines"] = [(row.points, row.linear) for row in part]
+            lines[f"{spacing} points, PCHIP"] = [(row.points, row.pchip) for row in part]
+        draw_lines(axes, lines, name, "points on the curve [-]", "largest error / largest force [-]")
+    legend_below(figure, found[0])
+
+
+def sampled_backbones() -> Iterator[BackboneRow]:
+    """The closed forms against their samples."""
+    queries = np.unique(np.concatenate([placed(20_001) for placed in SPACINGS.values()]))
+    for name, force in BACKBONES.items():
+        true = force(queries)
+        scale = float(true.max())
+        for spacing, placed in SPACINGS.items():
+            for points in POINTS:
+                ratios = placed(points)
+                curve = ForceCurve(np.column_stack([ratios, force(ratios)]))
+                linear = curve.evaluate(queries, backend="numpy")[0]
+                smooth = PchipInterpolator(curve.ratios, curve.forces)(queries)
+                errors = (float(np.abs(forces - true).max() / scale) for forces in (linear, smooth))
+                yield BackboneRow(name, spacing, points, *errors)

@@ -6,14 +6,26 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray
 from mudline.study.motion import Motion, Scheme, System, Trajectory, march
-from mudline.study.picture import Picture, Points, draw_lines, label, legend_below, panels, shortened
-from mudline.study.report import Layout, Omission, Section, StudyOptions, grouped
+from mudline.study.report import (
+    Layout,
+    Omission,
+    Picture,
+    Points,
+    Section,
+    StudyOptions,
+    columns_of,
+    draw_lines,
+    grouped,
+    legend_below,
+    panels,
+    shortened,
+)
 from mudline.study.schemes import SCHEMES
 
 if TYPE_CHECKING:  # only who draws loads matplotlib
@@ -50,24 +62,24 @@ class Case:
     Attributes:
         name: a word for tables.
         title: for people.
-        quantities: names of the three errors that are measured, each relative to the exact value.
-        reference: where the exact values come from.
-        system: `RUNS` copies of the mass.
         omega: square root of the steepest stiffness over the mass, 1/s.
         duration: seconds that the motion takes.
+        reference: where the exact values come from.
+        quantities: names of the three errors that are measured, each relative to the exact value.
+        system: `RUNS` copies of the mass.
         bound: positions beyond this have run away.
         start: the start of the runs for a nominal step.
         errors: (3, k) amounts of the errors; NaN where the motion did not get so far.
         missing: what NaN means.
     """
 
-    name: str
-    title: str
+    name: Annotated[str, "case"]
+    title: Annotated[str, "what"]
+    omega: Annotated[float, "omega [1/s]"]
+    duration: Annotated[float, "duration [s]"]
+    reference: Annotated[str, "reference"]
     quantities: tuple[str, str, str]
-    reference: str
     system: System
-    omega: float
-    duration: float
     bound: float
     start: Callable[[float], Start]
     errors: Callable[[Trajectory], FloatArray]
@@ -79,17 +91,7 @@ def uneven(dt: float) -> FloatArray:
     return dt * (1.0 - np.arange(RUNS) / 40.0)
 
 
-CASES = Layout[Case](
-    "cases",
-    "Motions that are integrated",
-    {
-        "case": lambda case: case.name,
-        "what": lambda case: case.title,
-        "omega [1/s]": lambda case: case.omega,
-        "duration [s]": lambda case: case.duration,
-        "reference": lambda case: case.reference,
-    },
-)
+CASES = Layout("cases", "Motions that are integrated", columns_of(Case))
 
 # ---------------------------------------------------------------------------------------------------------------- steps
 
@@ -97,47 +99,35 @@ CASES = Layout[Case](
 class StepRow(NamedTuple):
     """A scheme on a case at a step: the largest errors of all runs, None where one of them failed.
 
-    errors: of the three quantities of the case.
+    amount, speed, energy: errors of the three quantities of the case.
     seconds, evaluations: of run time, and of the forces, per simulated second; all runs side by side count as one.
-    iterations: Newton iterations per step, the mean.
-    failed: runs that failed, and why the first of them did.
+    iterations: the mean.
+    reason: why the first of the runs that failed did.
     """
 
-    case: str
-    scheme: str
-    omega_dt: float
-    dt: float
-    steps: int
-    errors: tuple[float | None, float | None, float | None]
-    seconds: float
-    evaluations: float
-    iterations: float
-    failed: int
-    reason: str
+    case: Annotated[str, "case"]
+    scheme: Annotated[str, "scheme"]
+    omega_dt: Annotated[float, "omega dt"]
+    dt: Annotated[float, "step [s]"]
+    steps: Annotated[int, "steps"]
+    amount: Annotated[float | None, "error of penetration, suction or way [relative]"]
+    speed: Annotated[float | None, "error of speed [relative]"]
+    energy: Annotated[float | None, "error of energy or work [relative]"]
+    seconds: Annotated[float, "run time [s/s]"]
+    evaluations: Annotated[float, "force evaluations [1/s]"]
+    iterations: Annotated[float, "Newton iterations per step"]
+    failed: Annotated[int, "failed runs"]
+    reason: Annotated[str, "reason"]
+
+    @property
+    def errors(self) -> tuple[float | None, float | None, float | None]:
+        """All three."""
+        return self.amount, self.speed, self.energy
 
 
 Ladders = Mapping[tuple[str, str], Sequence[StepRow]]
 """The rows of each case and scheme."""
-STEPS = Layout[StepRow](
-    "steps",
-    "Time integration",
-    {
-        "case": lambda row: row.case,
-        "scheme": lambda row: row.scheme,
-        "omega dt": lambda row: row.omega_dt,
-        "step [s]": lambda row: row.dt,
-        "steps": lambda row: row.steps,
-        "error of penetration, suction or way [relative]": lambda row: row.errors[0],
-        "error of speed [relative]": lambda row: row.errors[1],
-        "error of energy or work [relative]": lambda row: row.errors[2],
-        "run time [s/s]": lambda row: row.seconds,
-        "force evaluations [1/s]": lambda row: row.evaluations,
-        "Newton iterations per step": lambda row: row.iterations,
-        "failed runs": lambda row: row.failed,
-        "reason": lambda row: row.reason,
-    },
-    brief=False,
-)
+STEPS = Layout("steps", "Time integration", columns_of(StepRow), brief=False)
 
 
 def _largest_step(ladder: Sequence[StepRow], goal: float) -> float | None:
@@ -180,16 +170,17 @@ def row(case: Case, scheme: Scheme, omega_dt: float) -> StepRow:
     steps = math.ceil(case.duration / float(start.dt.min())) + _MORE_STEPS
     if steps > _MOST_STEPS:
         reason = f"it would take {steps} steps: the stiffnesses of the seabed differ too much"
-        return StepRow(case.name, scheme.name, omega_dt, nominal, steps, _FAILED, 0.0, 0.0, 0.0, RUNS, reason)
+        return StepRow(case.name, scheme.name, omega_dt, nominal, steps, *_FAILED, 0.0, 0.0, 0.0, RUNS, reason)
     run = march(scheme, case.system, start.motion, start.dt, steps, case.bound)
     with np.errstate(all="ignore"):
         errors = case.errors(run)
     missing: BoolArray = np.any(np.isnan(errors), axis=0)
     missing[list(run.failures)] = True
-    reason = ""
-    if missing.any():
-        reason = run.failures.get(int(np.argmax(missing)), case.missing)
-    first, second, third = np.max(errors, axis=1).tolist()
+    reason, failed = "", int(missing.sum())
+    if failed:
+        why = run.failures.get(int(np.argmax(missing)), case.missing)
+        reason = f"{failed} of {RUNS} runs: {why}"
+    amount, speed, energy = _FAILED if failed else np.max(errors, axis=1).tolist()
     simulated = steps * nominal
     return StepRow(
         case.name,
@@ -197,12 +188,14 @@ def row(case: Case, scheme: Scheme, omega_dt: float) -> StepRow:
         omega_dt,
         nominal,
         steps,
-        _FAILED if reason else (first, second, third),
+        amount,
+        speed,
+        energy,
         run.seconds / simulated,
         run.evaluations / simulated,
         float(run.iterations.mean()),
-        int(missing.sum()),
-        f"{int(missing.sum())} of {RUNS} runs: {reason}" if reason else "",
+        failed,
+        reason,
     )
 
 
@@ -241,9 +234,9 @@ def _draw_steps(ladders: Ladders, cases: Sequence[Case], figure: Figure) -> None
     for column, case in enumerate(cases):
         for line, quantity in enumerate(case.quantities):
             axes = axes_of[line][column]
-            draw_lines(axes, _lines(ladders, case, partial(_at_step, line)))
+            title = shortened(case.title) if line == 0 else ""
+            draw_lines(axes, _lines(ladders, case, partial(_at_step, line)), title, "", f"error of {quantity} [-]")
             _guides(axes)
-            label(axes, shortened(case.title) if line == 0 else "", "", f"error of {quantity} [-]")
             axes.set_ylim(1e-9, 30.0)
         axes_of[2][column].set_xlabel("step, omega dt [-]")
     legend_below(figure, axes_of[0][0], 3 if len(cases) < 3 else 6)
@@ -263,11 +256,10 @@ def _guides(axes: Axes) -> None:
 def _draw_times(ladders: Ladders, cases: Sequence[Case], figure: Figure) -> None:
     found = panels(figure, len(cases), 3)
     for axes, case in zip(found, cases, strict=True):
-        draw_lines(axes, _lines(ladders, case, _at_run_time))
-        label(axes, shortened(case.title), f"error of {case.quantities[1]} [-]", "run time [s per simulated s]")
+        x = f"error of {case.quantities[1]} [-]"
+        draw_lines(axes, _lines(ladders, case, _at_run_time), shortened(case.title), x, "run time [s per simulated s]")
     legend_below(figure, found[0], 5)
 
 
 def _at_run_time(row: StepRow) -> tuple[float, float] | None:
-    error = row.errors[1]
-    return None if error is None else (max(error, 1e-9), row.seconds)
+    return None if row.speed is None else (max(row.speed, 1e-9), row.seconds)

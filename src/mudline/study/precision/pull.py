@@ -1,7 +1,13 @@
-"""A mass pulled off the seabed with a constant force, against suction, from its static penetration to beyond breakout.
+"""A mass pulled off the seabed against suction, and one dragged along it against friction: laws that remember.
 
-The suction depends on the velocity, so there is no closed form: the exact values come from an integration that stops
-at the corners of the trapezoid, with an independent implementation of the law.
+It is pulled with a constant force, from its static penetration to beyond breakout. The suction depends on the velocity,
+so there is no closed form: the exact values come from an integration that stops at the corners of the trapezoid, with
+an independent implementation of the law.
+
+It is dragged with some speed, slides against Coulomb friction, and returns. Below the limit mu N friction is a spring
+Kt. With omega = sqrt(Kt / m) and the threshold displacement Th = mu N / Kt: it sticks up to Th, where the speed is
+v1 = sqrt(v^2 - omega^2 Th^2); slips v1^2 m / (2 mu N) farther; and oscillates about Th before its last place, with the
+speed omega Th.
 """
 
 from __future__ import annotations
@@ -13,11 +19,12 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
+from mudline.contact.laws.friction import FrictionHistory, FrictionLaw, slide
 from mudline.contact.laws.suction import SuctionHistory, SuctionLaw, SuctionState, step
+from mudline.study.laws import Law
 from mudline.study.motion import Forces, History, Motion, Trajectory
+from mudline.study.precision.drop import Event, Stop, next_event
 from mudline.study.precision.integration import RUNS, Case, Start, uneven
-from mudline.study.precision.laws import Law
-from mudline.study.precision.reference import Event, Stop, next_event
 from mudline.study.report import StudyError
 
 _MARGIN = 3.0
@@ -129,7 +136,7 @@ def breakout(pull: Pull) -> Breakout:
     raise StudyError(f"{pull.name}: the mass passes the corners of its suction law repeatedly")
 
 
-class _Memory(NamedTuple):
+class _Risen(NamedTuple):
     """What suction remembers, and the largest suction so far."""
 
     suction: SuctionHistory
@@ -146,7 +153,7 @@ class _Rising:
     def forces(self, position: FloatArray, velocity: FloatArray, history: History) -> Forces:
         reaction, slope = self.law.spring(-position)
         found, after = step(self.suction, history.suction, np.maximum(position, 0.0), velocity, reaction > 0.0)
-        memory = _Memory(after, np.maximum(history.largest, -found.force))
+        memory = _Risen(after, np.maximum(history.largest, -found.force))
         return Forces(reaction + found.force + self.pull, found.by_uplift - slope, found.by_velocity, memory)
 
 
@@ -159,7 +166,7 @@ def pull_case(pull: Pull) -> Case:
     rest = pull.passing() * pull.mass / pull.pull
 
     def start(dt: float) -> Start:
-        memory = _Memory(SuctionHistory.initial(system.suction), np.zeros(RUNS))
+        memory = _Risen(SuctionHistory.initial(system.suction), np.zeros(RUNS))
         start_height = np.full(RUNS, -pull.embedment)
         return Start(Motion.start(system, start_height, np.zeros(RUNS), memory), uneven(dt))
 
@@ -173,14 +180,14 @@ def pull_case(pull: Pull) -> Case:
         duration=1.05 * (rest + exact.time),
         bound=1e3 * (exact.uplift + pull.embedment),
         start=start,
-        errors=lambda run: _errors(pull, exact, run),
+        errors=lambda run: _pull_errors(pull, exact, run),
         missing="the mass did not break out in time",
     )
 
 
-def _errors(pull: Pull, exact: Breakout, run: Trajectory) -> FloatArray:
+def _pull_errors(pull: Pull, exact: Breakout, run: Trajectory) -> FloatArray:
     """Behind breakout only the pull acts: the speed at the exact uplift follows from where a run ended."""
-    memory: _Memory = run.end.history
+    memory: _Risen = run.end.history
     x, v = run.end.position, run.end.velocity
     squared = v * v - 2.0 * pull.pull / pull.mass * (x - exact.uplift)
     work = 0.5 * pull.mass * (pull.passing() ** 2 - squared) + pull.pull * exact.uplift
@@ -190,3 +197,85 @@ def _errors(pull: Pull, exact: Breakout, run: Trajectory) -> FloatArray:
     # Broken out, or so far away since that the history was reset.
     out = ~memory.suction.armed & (memory.suction.state != SuctionState.COMPRESSION) & (x > 0.5 * exact.uplift)
     return np.where(out, np.abs(found - 1.0), np.nan)
+
+
+_SPEED = 3.0
+"""Of omega Th: most of the displacement is slip."""
+
+
+@dataclass(frozen=True, slots=True)
+class Drag:
+    """A mass per unit length, its friction limit mu N, and the stiffness Kt of the friction spring."""
+
+    name: str
+    mass: float
+    limit: float
+    stiffness: float
+
+
+class _Slid(NamedTuple):
+    """What friction remembers, and the work done against slipping so far."""
+
+    friction: FrictionHistory
+    dissipated: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class _Sliding:
+    mass: FloatArray
+    law: FrictionLaw
+    limit: FloatArray
+
+    def forces(self, position: FloatArray, velocity: FloatArray, history: History) -> Forces:
+        points = np.zeros((len(position), 3))
+        points[:, 1] = position
+        along, across = np.zeros_like(points), np.zeros_like(points)
+        along[:, 1], across[:, 2] = 1.0, 1.0
+        found = slide(self.law, history.friction, points, (along, across), self.limit)
+        memory = _Slid(found.history, history.dissipated + found.dissipated)
+        return Forces(found.force[:, 0], found.by_position[:, 0, 0], np.zeros(velocity.shape), memory)
+
+
+def drag_case(drag: Drag) -> Case:
+    """The case of a drag."""
+    omega, threshold = math.sqrt(drag.stiffness / drag.mass), drag.limit / drag.stiffness
+    speed = _SPEED * omega * threshold
+    slipping = math.sqrt(speed**2 - (omega * threshold) ** 2)
+    travel = threshold + slipping**2 * drag.mass / (2.0 * drag.limit)
+    sticks, slips = math.asin(1.0 / _SPEED) / omega, slipping * drag.mass / drag.limit
+    ones = np.ones((RUNS, 2))
+    law = FrictionLaw(ones, np.full((RUNS, 2), drag.stiffness), ones, np.zeros(RUNS, np.bool_), np.ones(RUNS, np.bool_))
+    system = _Sliding(np.full(RUNS, drag.mass), law, np.full(RUNS, drag.limit))
+
+    def start(dt: float) -> Start:
+        memory = _Slid(FrictionHistory.initial(law.active), np.zeros(RUNS))
+        motion = Motion.start(system, np.zeros(RUNS), np.full(RUNS, speed), memory)
+        return Start(motion, uneven(dt))
+
+    def errors(run: Trajectory) -> FloatArray:
+        memory: _Slid = run.end.history
+        stretch = run.end.position - memory.friction.stick_points[:, 1]
+        back = np.sqrt(run.end.velocity**2 + (omega * stretch) ** 2)
+        energy = 0.5 * drag.mass * back**2 + memory.dissipated
+        found = np.array(
+            [
+                run.position.max(axis=0) / travel,
+                back / (omega * threshold),
+                energy / (0.5 * drag.mass * speed**2),
+            ]
+        )
+        return np.abs(found - 1.0)
+
+    return Case(
+        name="drag",
+        title=f"dragged on {drag.name}, friction",
+        quantities=("maximum displacement", "return velocity", "energy"),
+        reference="closed form",
+        system=system,
+        omega=omega,
+        duration=sticks + slips + 0.5 * math.pi / omega,
+        bound=1e3 * travel,
+        start=start,
+        errors=errors,
+        missing="",
+    )

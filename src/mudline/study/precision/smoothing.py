@@ -6,21 +6,17 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
-from mudline.results.quantities import unit_names
 from mudline.scene.model import Scene
-from mudline.study.newton import Newton
-from mudline.study.picture import Picture, Points, draw_lines, label
-from mudline.study.precision.cases import ElasticContact, reference_drop
-from mudline.study.precision.drop import Drop, drop_case
+from mudline.study.laws import ElasticContact, LinearLaw, smoothed_spring
+from mudline.study.precision.drop import Drop, drop_case, reference_drop
 from mudline.study.precision.integration import row
-from mudline.study.precision.laws import LinearLaw, smoothed_spring
-from mudline.study.report import Layout, Section, StudyOptions, grouped
-from mudline.study.schemes import SCHEMES
+from mudline.study.report import Layout, Picture, Points, Section, StudyOptions, columns_of, draw_lines, grouped
+from mudline.study.schemes import SCHEMES, Newton
 
 if TYPE_CHECKING:  # only who draws loads matplotlib
     from matplotlib.figure import Figure
@@ -59,54 +55,29 @@ PUBLISHED = Rest("published case", 5e7, 1e3, 500.0, 0.2)
 class RestRow(NamedTuple):
     """Penetration and Newton iterations from above and from below; the error is relative to the kinked law."""
 
-    case: str
-    half_width: float
-    share: float
-    penetration: float
-    error: float
-    from_above: int
-    from_below: int
+    case: Annotated[str, "case"]
+    half_width: Annotated[float, "half width h [{length}]"]
+    share: Annotated[float, "h / static penetration"]
+    penetration: Annotated[float, "penetration [{length}]"]
+    error: Annotated[float, "error of penetration [relative]"]
+    from_above: Annotated[int, "iterations from above"]
+    from_below: Annotated[int, "iterations from below"]
 
 
 class ImpactRow(NamedTuple):
     """A drop on a smoothed seabed: half width over the penetration of the kinked law, and the errors of a scheme."""
 
-    scheme: str
-    omega_dt: float
-    half_width: float
-    share: float
-    rebound: float | None
-    iterations: float
-    reason: str
+    scheme: Annotated[str, "scheme"]
+    omega_dt: Annotated[float, "omega dt"]
+    half_width: Annotated[float, "half width h [m]"]
+    share: Annotated[float, "h / deepest penetration"]
+    rebound: Annotated[float | None, "error of rebound speed [relative]"]
+    iterations: Annotated[float, "Newton iterations per step"]
+    reason: Annotated[str, "reason"]
 
 
-SMOOTHING = Layout[RestRow](
-    "smoothing",
-    "Smoothing at rest: Newton iterations and error",
-    {
-        "case": lambda row: row.case,
-        "half width h [{length}]": lambda row: row.half_width,
-        "h / static penetration": lambda row: row.share,
-        "penetration [{length}]": lambda row: row.penetration,
-        "error of penetration [relative]": lambda row: row.error,
-        "iterations from above": lambda row: row.from_above,
-        "iterations from below": lambda row: row.from_below,
-    },
-)
-IMPACTS = Layout[ImpactRow](
-    "impacts",
-    "Smoothing at an impact",
-    {
-        "scheme": lambda row: row.scheme,
-        "omega dt": lambda row: row.omega_dt,
-        "half width h [m]": lambda row: row.half_width,
-        "h / deepest penetration": lambda row: row.share,
-        "error of rebound speed [relative]": lambda row: row.rebound,
-        "Newton iterations per step": lambda row: row.iterations,
-        "reason": lambda row: row.reason,
-    },
-    brief=False,
-)
+SMOOTHING = Layout("smoothing", "Smoothing at rest: Newton iterations and error", columns_of(RestRow))
+IMPACTS = Layout("impacts", "Smoothing at an impact", columns_of(ImpactRow), brief=False)
 
 
 def study_smoothing(scene: Scene, contacts: Sequence[ElasticContact], options: StudyOptions) -> Section:
@@ -119,7 +90,7 @@ def study_smoothing(scene: Scene, contacts: Sequence[ElasticContact], options: S
         own = Rest(contact.law.name, stiffness, 2e-5 * stiffness, contact.weight, start)
         rest += at_rest(own, np.array(SHARES) * own.kinked)
     hits = list(impacts(weightless(reference_drop())))
-    tables = SMOOTHING.table(rest, length=unit_names(scene.units).length), IMPACTS.table(hits)
+    tables = SMOOTHING.table(rest, scene.units), IMPACTS.table(hits)
     caption = "Smoothing: Newton iterations and errors against the half width h of the zone; h = 0 stands far left."
     return Section(tables, [Picture("smoothing", caption, partial(_draw, rest, hits), (11.5, 9.0))])
 
@@ -133,16 +104,15 @@ def _draw(rest: Sequence[RestRow], hits: Sequence[ImpactRow], figure: Figure) ->
         tries[f"{name}, from above"] = [(_share(row), row.from_above) for row in rows]
         tries[f"{name}, from below"] = [(_share(row), row.from_below) for row in rows]
         wrong[name] = [(_share(row), row.error) for row in rows if row.error > 1e-15]
-    draw_lines(iterations, tries, "semilogx")
-    draw_lines(error, wrong)
-    label(iterations, "at rest", "h / static penetration [-]; h = 0 far left", "Newton iterations [-]")
-    label(error, "at rest", "h / static penetration [-]; h = 0 far left", "error of the penetration [-]")
+    x = "h / static penetration [-]; h = 0 far left"
+    draw_lines(iterations, tries, "at rest", x, "Newton iterations [-]", "semilogx")
+    draw_lines(error, wrong, "at rest", x, "error of the penetration [-]")
     runs = grouped(hits, lambda row: f"{SCHEMES[row.scheme].title}, omega dt = {row.omega_dt:g}")
     speeds = {name: [(_share(r), r.rebound) for r in rows if r.rebound is not None] for name, rows in runs.items()}
-    draw_lines(rebound, speeds)
-    draw_lines(effort, {name: [(_share(r), r.iterations) for r in rows] for name, rows in runs.items()}, "semilogx")
-    label(rebound, "impact", "h / deepest penetration [-]; h = 0 far left", "error of the rebound speed [-]")
-    label(effort, "impact", "h / deepest penetration [-]; h = 0 far left", "Newton iterations per step [-]")
+    tries = {name: [(_share(row), row.iterations) for row in rows] for name, rows in runs.items()}
+    x = "h / deepest penetration [-]; h = 0 far left"
+    draw_lines(rebound, speeds, "impact", x, "error of the rebound speed [-]")
+    draw_lines(effort, tries, "impact", x, "Newton iterations per step [-]", "semilogx")
     for axes in (iterations, error, rebound):
         axes.legend(fontsize="x-small", loc="best")
 
@@ -180,7 +150,7 @@ def impacts(drop: Drop) -> Iterator[ImpactRow]:
         for name in _IMPACT_SCHEMES:
             for omega_dt in _IMPACT_STEPS:
                 found = row(case, SCHEMES[name], omega_dt)
-                yield ImpactRow(name, omega_dt, width, share, found.errors[1], found.iterations, found.reason)
+                yield ImpactRow(name, omega_dt, width, share, found.speed, found.iterations, found.reason)
 
 
 def weightless(drop: Drop) -> Drop:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import tracemalloc
 from collections.abc import Sequence
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,9 +13,19 @@ from numpy.typing import NDArray
 from mudline.contact.arrays import FloatArray
 from mudline.contact.input import ContactInput
 from mudline.contact.model import ContactModel
-from mudline.study.picture import Picture, draw_lines, label, legend_below, style
 from mudline.study.pruning.scenes import CURVE, STEPS, Pipe, Variant, line, positions, series
-from mudline.study.report import Layout, Section, StudyOptions, grouped
+from mudline.study.report import (
+    Layout,
+    Picture,
+    Section,
+    StudyOptions,
+    columns_of,
+    draw_lines,
+    grouped,
+    label,
+    legend_below,
+    style,
+)
 from mudline.study.timing import Timing, processor_time
 
 if TYPE_CHECKING:  # only who draws loads matplotlib
@@ -29,31 +39,30 @@ MOST = 1_000_000
 class CostRow(NamedTuple):
     """A scene of so many nodes.
 
-    nanoseconds: best time of the processor per node and step, of a series.
-    median: the middle one.
-    touching: share of elements in contact at the first step.
+    nanoseconds, median: best and middle time of the processor, of a series.
+    touching: at the first step.
     peak: largest memory of one evaluation of one step beyond what was there before, bytes per node; its result counts.
     prepare: nanoseconds per node to make the evaluator.
     history: whether steps are taken one after the other.
     """
 
-    scene: str
-    nodes: int
-    nanoseconds: float
-    median: float
-    touching: float
-    peak: float
-    prepare: float
-    history: bool
+    scene: Annotated[str, "scene"]
+    nodes: Annotated[int, "nodes"]
+    nanoseconds: Annotated[float, "best time [ns/node/step]"]
+    median: Annotated[float, "median time [ns/node/step]"]
+    touching: Annotated[float, "share in contact"]
+    peak: Annotated[float, "memory [bytes/node]"]
+    prepare: Annotated[float, "to prepare [ns/node]"]
+    history: Annotated[bool, "history"]
 
 
 class CurveRow(NamedTuple):
     """A scene with nothing but a curve, all elements touching, and what it is compared with; ns per node."""
 
-    nodes: int
-    curve: float
-    bare: float
-    scene: float
+    nodes: Annotated[int, "nodes"]
+    curve: Annotated[float, "curve alone [ns/node]"]
+    bare: Annotated[float, "plain numpy [ns/node]"]
+    scene: Annotated[float, "scene [ns/node]"]
 
     @property
     def over_curve(self) -> float:
@@ -70,10 +79,7 @@ ALONE = Layout[CurveRow](
     "curve",
     "A scene with nothing but a curve, one step, every element in contact",
     {
-        "nodes": lambda row: row.nodes,
-        "curve alone [ns/node]": lambda row: row.curve,
-        "plain numpy [ns/node]": lambda row: row.bare,
-        "scene [ns/node]": lambda row: row.scene,
+        **columns_of(CurveRow),
         "scene / curve alone": lambda row: row.over_curve,
         "scene / plain numpy": lambda row: row.over_bare,
     },
@@ -92,21 +98,7 @@ STAGES = Layout[tuple[CostRow, CostRow]](
     },
 )
 """A scene, and that with nothing but a curve."""
-NODES = Layout[CostRow](
-    "nodes",
-    "Time and memory against the number of nodes",
-    {
-        "scene": lambda row: row.scene,
-        "nodes": lambda row: row.nodes,
-        "best time [ns/node/step]": lambda row: row.nanoseconds,
-        "median time [ns/node/step]": lambda row: row.median,
-        "share in contact": lambda row: row.touching,
-        "memory [bytes/node]": lambda row: row.peak,
-        "to prepare [ns/node]": lambda row: row.prepare,
-        "history": lambda row: row.history,
-    },
-    brief=False,
-)
+NODES = Layout("nodes", "Time and memory against the number of nodes", columns_of(CostRow), brief=False)
 
 
 def study_curve(pipe: Pipe, options: StudyOptions) -> list[CurveRow]:
@@ -145,12 +137,12 @@ def study_cost(variants: Sequence[Variant], pipe: Pipe, alone: Sequence[CurveRow
 def _draw_nodes(rows: Sequence[CostRow], alone: Sequence[CurveRow], figure: Figure) -> None:
     time, memory = figure.subplots(1, 2)
     scenes = grouped(rows, lambda row: row.scene)
-    draw_lines(time, {scene: [(row.nodes, row.nanoseconds) for row in part] for scene, part in scenes.items()})
-    draw_lines(memory, {scene: [(row.nodes, row.peak) for row in part] for scene, part in scenes.items()})
+    times = {scene: [(row.nodes, row.nanoseconds) for row in part] for scene, part in scenes.items()}
+    peaks = {scene: [(row.nodes, row.peak) for row in part] for scene, part in scenes.items()}
+    draw_lines(time, times, "Time of one step", "nodes [-]", "time per node and step [ns]")
+    draw_lines(memory, peaks, "Most memory during one step", "nodes [-]", "memory per node [bytes]")
     nodes, curve = [row.nodes for row in alone], [row.curve for row in alone]
     time.loglog(nodes, curve, "k:", linewidth=2.5, label="ForceCurve.evaluate alone")
-    label(time, "Time of one step", "nodes [-]", "time per node and step [ns]")
-    label(memory, "Most memory during one step", "nodes [-]", "memory per node [bytes]")
     memory.set_ylim(100.0, 2.0 * max(row.peak for row in rows))
     memory.yaxis.set_minor_formatter("")
     legend_below(figure, time, 4)

@@ -6,19 +6,17 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import pairwise
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import numpy as np
 
 from mudline.contact.input import ContactInput, LawAssignment
 from mudline.contact.model import ContactModel
 from mudline.curves import ForceCurve
-from mudline.deck.loading import load_bytes
-from mudline.scene.model import resolve
-from mudline.study.picture import Picture, label, panels, style
+from mudline.study import scene_of
 from mudline.study.pruning.cost import stepping
 from mudline.study.pruning.scenes import Pipe, Variant, everything, line, planes, positions, series
-from mudline.study.report import Layout, Section, StudyOptions, grouped
+from mudline.study.report import Layout, Picture, Section, StudyOptions, columns_of, grouped, label, panels, style
 from mudline.study.timing import processor_time
 
 if TYPE_CHECKING:  # only who draws loads matplotlib
@@ -41,9 +39,9 @@ class Ladder(NamedTuple):
 class GrowthRow(NamedTuple):
     """Seconds for a size of one thing, the rest kept."""
 
-    what: str
-    size: int
-    seconds: float
+    what: Annotated[str, "number of"]
+    size: Annotated[int, "size"]
+    seconds: Annotated[float, "best time [s]"]
 
 
 class Fit(NamedTuple):
@@ -51,42 +49,20 @@ class Fit(NamedTuple):
 
     exponent: of a power law through all sizes.
     upper: of one through the larger half.
-    factor: time of the largest size over that of the smallest.
     unit: seconds that one more unit costs at the upper end.
     """
 
-    what: str
-    least: int
-    largest: int
-    exponent: float
-    upper: float
-    factor: float
+    what: Annotated[str, "number of"]
+    least: Annotated[int, "from"]
+    largest: Annotated[int, "to"]
+    exponent: Annotated[float, "exponent"]
+    upper: Annotated[float, "exponent, upper half"]
+    factor: Annotated[float, "time, largest / smallest"]
     unit: float
 
 
-FITS = Layout[Fit](
-    "growth",
-    "How time grows",
-    {
-        "number of": lambda fit: fit.what,
-        "from": lambda fit: fit.least,
-        "to": lambda fit: fit.largest,
-        "exponent": lambda fit: fit.exponent,
-        "exponent, upper half": lambda fit: fit.upper,
-        "time, largest / smallest": lambda fit: fit.factor,
-        "time of one more [us]": lambda fit: 1e6 * fit.unit,
-    },
-)
-SIZES = Layout[GrowthRow](
-    "sizes",
-    "Time against size",
-    {
-        "number of": lambda row: row.what,
-        "size": lambda row: row.size,
-        "best time [s]": lambda row: row.seconds,
-    },
-    brief=False,
-)
+FITS = Layout[Fit]("growth", "How time grows", {**columns_of(Fit), "time of one more [us]": lambda fit: 1e6 * fit.unit})
+SIZES = Layout("sizes", "Time against size", columns_of(GrowthRow), brief=False)
 
 
 def study_growth(pipe: Pipe, options: StudyOptions) -> Section:
@@ -190,8 +166,8 @@ def _curves(pipe: Pipe, size: int) -> float:
 def _sets(pipe: Pipe, size: int) -> float:
     """Reading the deck until its evaluator stands."""
     del pipe
-    text = deck_with_sets(size, ELEMENTS).encode()
-    return processor_time(lambda: resolve(load_bytes(text, "sets.keyxm")).contact(), few=True).best
+    text = deck_with_sets(size, ELEMENTS)
+    return processor_time(lambda: scene_of(text, "sets.keyxm").contact(), few=True).best
 
 
 def _planes(pipe: Pipe, size: int) -> float:
@@ -227,28 +203,27 @@ def deck_with_sets(sets: int, elements: int) -> str:
     """The text of a straight line on linear seabeds; the elements are shared out among the sets."""
     edges = [number * elements // sets for number in range(sets + 1)]
     ranges = [(f"Part {number + 1}", first + 1, last) for number, (first, last) in enumerate(pairwise(edges))]
-    return "\n".join(
-        [
-            "$MODEL",
-            "*NODE",
-            " 1, -0.01, 0.0, 0.0",
-            f" {elements + 1}, -0.01, {2.0 * elements}, 0.0",
-            f" GEN=1, {elements + 1}",
-            "*ELEMENT",
-            " 1, 1, 2",
-            f" GEN=1, {elements}",
-            "*ELEMENT SETS",
-            *(f" SET={name}\n GEN={first}, {last}" for name, first, last in ranges),
-            "*GEOMETRIC SETS",
-            " OPTION=RIGID",
-            " SET=ALL",
-            " 207.0E9, 79.6E9, 0.3, 0.25, 7850.0",
-            "*SEABED PROPERTIES",
-            " TYPE=ELASTIC",
-            *(f" SET={name}\n STIFFNESS={50_000 + first}" for name, first, _ in ranges),
-            "$LOAD CASE",
-            "*ANALYSIS TYPE",
-            " TYPE=STATIC",
-            "",
-        ]
-    )
+    sets_of = "".join(f" SET={name}\n GEN={first}, {last}\n" for name, first, last in ranges)
+    stiffnesses = "".join(f" SET={name}\n STIFFNESS={50_000 + first}\n" for name, first, _ in ranges)
+    return f"""\
+$MODEL
+*NODE
+ 1, -0.01, 0.0, 0.0
+ {elements + 1}, -0.01, {2.0 * elements}, 0.0
+ GEN=1, {elements + 1}
+*ELEMENT
+ 1, 1, 2
+ GEN=1, {elements}
+*ELEMENT SETS
+{sets_of}\
+*GEOMETRIC SETS
+ OPTION=RIGID
+ SET=ALL
+ 207.0E9, 79.6E9, 0.3, 0.25, 7850.0
+*SEABED PROPERTIES
+ TYPE=ELASTIC
+{stiffnesses}\
+$LOAD CASE
+*ANALYSIS TYPE
+ TYPE=STATIC
+"""

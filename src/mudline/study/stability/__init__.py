@@ -5,12 +5,9 @@ from __future__ import annotations
 from mudline.scene.model import Scene
 from mudline.study.report import StudyOptions, StudyReport
 from mudline.study.stability.critical import study_steps
-from mudline.study.stability.cycles import study_cycles
 from mudline.study.stability.ladder import study_ladder
 from mudline.study.stability.landings import study_landings
-from mudline.study.stability.release import study_release
-
-__all__ = ["run"]
+from mudline.study.stability.statics import study_cycles, study_release
 
 
 def run(scene: Scene, options: StudyOptions) -> StudyReport:

@@ -1,27 +1,151 @@
-"""Critical steps, predicted and measured: each scheme really steps a mass on each contact of the scene."""
+"""Critical steps, predicted and measured: each scheme really steps a mass on each contact of the scene.
+
+The contacts of a scene are elements that share a law and a section, or nodes; with their stiffness, mass and frequency.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import numpy as np
 
 from mudline.contact import ContactInput, ContactModel, LawAssignment, LawKind
 from mudline.contact.arrays import FloatArray
-from mudline.contact.stiffest import ADVISED_OMEGA_DT, CRITICAL_OMEGA_DT, rounded_down
+from mudline.contact.stiffest import ADVISED_OMEGA_DT, CRITICAL_OMEGA_DT, omega, rounded_down, steepest_slope
+from mudline.scene.assignments import given_stiffness
 from mudline.scene.model import Scene
 from mudline.study.motion import Forces, History, Motion, Scheme, march
-from mudline.study.newton import Newton
-from mudline.study.picture import Picture, label, legend_below
-from mudline.study.report import Layout, Omission, Section, StudyOptions
-from mudline.study.schemes import SCHEMES, OneStep
-from mudline.study.stability.contacts import CONTACTS, Contact, find_contacts, unit_words
+from mudline.study.report import Layout, Omission, Picture, Section, StudyOptions, columns_of, label, legend_below
+from mudline.study.schemes import SCHEMES, Newton, OneStep
 
 if TYPE_CHECKING:  # only who draws loads matplotlib
     from matplotlib.figure import Figure
+
+
+class Contact(NamedTuple):
+    """One kind of contact.
+
+    name: its law, and the set through which its elements have it.
+    element: index of the first of its elements.
+    elements: how many elements share it; of a nodal stiffness how many nodes.
+    stiffness: the largest tangent stiffness below the mudline, per unit length.
+    mass: per unit length.
+    omega: root of stiffness over mass, radians per unit of time.
+    depth: a penetration in the middle of where the law has this stiffness.
+    reach: how far to both sides it has it.
+    scale: the largest distance that the law computes with there: an oscillation below its rounding is not resolved.
+    unloading: whether the stiffness is that of the unloading line.
+    """
+
+    name: Annotated[str, "contact"]
+    element: int
+    elements: Annotated[int, "elements"]
+    stiffness: Annotated[float, "largest stiffness [{force}/{length}2]"]
+    mass: Annotated[float, "mass [{mass}/{length}]"]
+    omega: Annotated[float, "omega [rad/s]"]
+    depth: float
+    reach: float
+    scale: float
+    unloading: bool = False
+
+
+CONTACTS = Layout[Contact](
+    "contacts",
+    "Frequencies of the contacts, the fastest first",
+    {
+        **columns_of(Contact),
+        "advised step, implicit [s]": lambda one: ADVISED_OMEGA_DT / one.omega,
+        "critical step, central-difference [s]": lambda one: CRITICAL_OMEGA_DT["central-difference"] / one.omega,
+        "critical step, rk4 [s]": lambda one: CRITICAL_OMEGA_DT["rk4"] / one.omega,
+    },
+)
+
+
+def find_contacts(scene: Scene) -> tuple[list[Contact], list[Omission]]:
+    """The contacts that oscillate, the fastest first, and those of which no frequency is known."""
+    springs = np.flatnonzero(np.isin(scene.law, (LawKind.CURVE, LawKind.LINEAR)))
+    back = scene.extensions.get("SEABED UNLOADING")
+    ways = np.full(len(scene.law), -1) if back is None else back.of_element
+    kinds = np.column_stack([part[springs] for part in (scene.laws.of_element, scene.section_table.of_element, ways)])
+    returns = np.full(len(scene.law), np.nan) if back is None else given_stiffness(back)
+    masses = scene.mass_per_length
+    found, left_out = _nodal(scene, masses)
+    _, firsts, counts = np.unique(kinds, axis=0, return_index=True, return_counts=True)
+    for element, count in zip(springs[firsts].tolist(), counts.tolist(), strict=True):
+        name = f"{scene.law_names[element]} on {scene.law_sets[element]}"
+        mass = float(masses[element])
+        stiffness, depth, reach, scale = _steepest(scene, element)
+        frequency = float(omega(np.array(stiffness), np.array(mass)))
+        if np.isnan(frequency):
+            what = "the mass per unit length is not known" if np.isnan(mass) else "its law never stiffens"
+            left_out.append(Omission(name, f"no frequency: {what}"))
+            continue
+        found.append(Contact(name, element, count, stiffness, mass, frequency, depth, reach, scale))
+        if (back_stiffness := float(returns[element])) > stiffness:
+            frequency = float(omega(np.array(back_stiffness), np.array(mass)))
+            numbers = back_stiffness, mass, frequency, *_small(scene, element)
+            found.append(Contact(f"unloading of {name}", element, count, *numbers, unloading=True))
+    return sorted(found, key=lambda contact: -contact.omega), left_out
+
+
+def _nodal(scene: Scene, masses: FloatArray) -> tuple[list[Contact], list[Omission]]:
+    """Nodes with a stiffness of their own: of each stiffness the fastest node, per unit of its length."""
+    springs = scene.contact_input().assigned.get("nodal")
+    if springs is None:
+        return [], []
+    stiffness_of = springs.spread("stiffness", len(scene.node_ids))
+    length, mass = np.zeros(len(scene.node_ids)), np.zeros(len(scene.node_ids))
+    for end in scene.element_nodes.T:
+        np.add.at(length, end, 0.5 * scene.length)
+        np.add.at(mass, end, 0.5 * scene.length * masses)
+    frequency = omega(stiffness_of, mass)
+    found: list[Contact] = []
+    left_out: list[Omission] = []
+    for stiffness in np.unique(stiffness_of[stiffness_of > 0.0]).tolist():
+        nodes = np.flatnonzero(stiffness_of == stiffness)
+        if np.isnan(frequency[nodes]).all():
+            what = f"nodal stiffness {stiffness:.6g}"
+            left_out.append(Omission(what, "no frequency: the mass of its nodes is not known"))
+            continue
+        node = int(nodes[np.nanargmax(frequency[nodes])])
+        element = int(np.flatnonzero((scene.element_nodes == node).any(axis=1))[0])
+        name = f"nodal {stiffness:.6g} at node {scene.node_ids[node]}"
+        per_length, own = float(stiffness / length[node]), float(frequency[node])
+        load = float(mass[node] / length[node])
+        found.append(Contact(name, element, len(nodes), per_length, load, own, *_small(scene, element)))
+    return found, left_out
+
+
+def _small(scene: Scene, element: int) -> tuple[float, float, float]:
+    """A depth of a linear law, and as far to both sides: its scale too."""
+    diameter = float(scene.diameter[element])
+    depth = 0.01 * diameter if np.isfinite(diameter) else 0.01
+    return depth, depth, depth
+
+
+def _steepest(scene: Scene, element: int) -> tuple[float, float, float, float]:
+    """Stiffness, depth, reach and scale of the segment of the largest slope.
+
+    The continued end of a curve counts as a segment as wide as the last one.
+    """
+    arrays = scene.law_arrays()
+    if scene.law[element] != LawKind.CURVE:
+        return float(arrays.linear_stiffness[element]), *_small(scene, element)
+    curve, diameter = arrays.curves[int(arrays.curve_index[element])], float(scene.diameter[element])
+    slope = steepest_slope(curve.ratios, curve.slopes)
+    last, width = curve.ratios[-1], curve.ratios[-1] - curve.ratios[-2]
+    with np.errstate(over="ignore"):
+        end = max(last + width, 0.1 + max(last, 0.0))
+    ratios: FloatArray = np.append(curve.ratios, min(end, np.finfo(np.float64).max))
+    slopes = np.append(curve.slopes, curve.slopes[-1])
+    at = int(np.argmax(np.where(ratios[1:] > 0.0, slopes, -np.inf)))
+    low, high = max(float(ratios[at]), 0.0), float(ratios[at + 1])
+    middle, half, far = 0.5 * low + 0.5 * high, 0.5 * high - 0.5 * low, max(abs(float(ratios[at])), high)
+    return slope / diameter, middle * diameter, half * diameter, far * diameter
+
 
 MOST_CONTACTS = 6
 """Stepped by default, the fastest; all of them in a full run."""
@@ -104,7 +228,7 @@ def study_steps(scene: Scene, options: StudyOptions) -> Section:
     for contact in stepped:
         options.progress(f"steps on {contact.name}")
         measured += [measure(scene, contact, scheme) for scheme in SCHEMES.values()]
-    tables = (CONTACTS.table(found, **unit_words(scene.units)), CRITICAL_STEPS.table(measured))
+    tables = (CONTACTS.table(found, scene.units), CRITICAL_STEPS.table(measured))
     pictures = [_picture(measured)] if measured else []
     return Section(tables, pictures, _notes(found, measured), omissions)
 

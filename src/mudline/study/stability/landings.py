@@ -9,15 +9,14 @@ digits that stand here. HHT and generalised-alpha average the forces of both end
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
-from mudline.study.motion import Forces, History, Motion, Scheme, march
-from mudline.study.picture import Picture, label, legend_below, style
-from mudline.study.report import Layout, Section, StudyOptions, grouped
+from mudline.study.laws import Falling, LinearLaw
+from mudline.study.motion import Motion, Scheme, march
+from mudline.study.report import Layout, Picture, Section, StudyOptions, columns_of, grouped, label, legend_below, style
 from mudline.study.schemes import SCHEMES
 
 if TYPE_CHECKING:  # only who draws loads matplotlib
@@ -66,10 +65,10 @@ class Landing(NamedTuple):
     """
 
     scheme: Scheme
-    omega_dt: float
-    least: float
-    mean: float
-    largest: float
+    omega_dt: Annotated[float, "omega dt [-]"]
+    least: Annotated[float, "least [-]"]
+    mean: Annotated[float, "mean [-]"]
+    largest: Annotated[float, "largest [-]"]
     compared: tuple[str, str, str] | None
 
     @property
@@ -88,10 +87,7 @@ LANDINGS = Layout[Landing](
     "Speed after landing over speed before, 400 landing phases",
     {
         "scheme": lambda one: one.scheme.title,
-        "omega dt [-]": lambda one: one.omega_dt,
-        "least [-]": lambda one: one.least,
-        "mean [-]": lambda one: one.mean,
-        "largest [-]": lambda one: one.largest,
+        **columns_of(Landing),
         "compared with": lambda one: "/".join(one.compared or ()),
         "agrees": lambda one: {None: "", True: "yes", False: "NO"}[one.agrees],
     },
@@ -163,26 +159,12 @@ def _last_digit(text: str) -> float:
     return 10.0 ** -max(len(text.partition(".")[2]), 3) * 1.001
 
 
-@dataclass(frozen=True, slots=True)
-class ElasticSeabed:
-    """m a = k max(-x, 0): a seabed below x = 0."""
-
-    mass: FloatArray
-    stiffness: FloatArray
-
-    def forces(self, position: FloatArray, velocity: FloatArray, history: History) -> Forces:
-        """See `System`."""
-        below = position < 0.0
-        force = np.where(below, -self.stiffness * position, 0.0)
-        return Forces(force, np.where(below, -self.stiffness, 0.0), np.zeros(velocity.shape), history)
-
-
 def restitution(scheme: Scheme, omega_dt: float, phases: FloatArray) -> FloatArray:
     """Speed after over speed before contact for landing phases (k,) in (0, 1); NaN where the mass never left again.
 
     The speed after is that of the free flight, when the acceleration that a scheme carries along has died away.
     """
-    system = ElasticSeabed(np.ones(len(phases)), np.full(len(phases), omega_dt * omega_dt))
+    system = Falling(np.ones(len(phases)), LinearLaw("", omega_dt * omega_dt), weight=0.0)
     start = Motion.start(system, np.asarray(phases, np.float64), np.full(len(phases), -1.0))
     run = march(scheme, system, start, 1.0, int(np.ceil(2.0 * np.pi / omega_dt)) + _SETTLING)
     left = (run.position[-1] > 0.0) & (run.velocity[-1] > 0.0)

@@ -1,45 +1,16 @@
-"""Elastic normal laws of a mass on the seabed, with the work they store: what the reference of a drop needs."""
+"""Elastic normal laws of a mass on the seabed, with the work they store, which the reference of a drop needs."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
 from mudline.contact.laws.linear import smoothed_reaction, zone_onset
 from mudline.curves import ForceCurve
-
-
-class Law(Protocol):
-    """Force per unit length over penetration z > 0; nothing above the seabed."""
-
-    @property
-    def name(self) -> str:
-        """What the deck calls it."""
-        ...
-
-    def spring(self, z: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Force and d force / d z at penetrations (k,)."""
-        ...
-
-    def work(self, z: FloatArray) -> FloatArray:
-        """Work from the mudline to z, exactly; 0 above the seabed."""
-        ...
-
-    @property
-    def top(self) -> float:
-        """Height above the mudline at which the seabed begins: the half width of the quadratic zone."""
-        ...
-
-    def breaks(self) -> FloatArray:
-        """Penetrations > 0 at which the slope jumps, ascending."""
-        ...
-
-    def steepest(self, z: float) -> float:
-        """The largest slope between the mudline and z."""
-        ...
+from mudline.study.motion import Forces, History
 
 
 def smoothed_spring(z: FloatArray, stiffness: float, half_width: float | FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -52,32 +23,36 @@ def smoothed_spring(z: FloatArray, stiffness: float, half_width: float | FloatAr
 
 @dataclass(frozen=True, slots=True)
 class LinearLaw:
-    """k z, with the quadratic zone of half width `top` around the mudline where that is > 0."""
+    """k z, with the quadratic zone of half width `top` around the mudline where that is > 0.
+
+    A law gives the force per unit length over the penetration z > 0; above the seabed, which begins at the height `top`
+    above the mudline, there is none.
+    """
 
     name: str
     stiffness: float
     top: float = 0.0
 
     def spring(self, z: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """See `Law`."""
+        """Force and d force / d z at penetrations (k,)."""
         if self.top == 0.0:
             below = z > 0.0
             return np.where(below, self.stiffness * z, 0.0), np.where(below, self.stiffness, 0.0)
         return smoothed_spring(z, self.stiffness, self.top)
 
     def work(self, z: FloatArray) -> FloatArray:
-        """See `Law`; of a smoothed law from the begin of its zone."""
+        """Work from the mudline, or from the begin of the zone, to z, exactly; 0 above the seabed."""
         k, h = self.stiffness, self.top
         zone = np.zeros(z.shape) if h == 0.0 else k * np.clip(z + h, 0.0, 2.0 * h) ** 3 / (12.0 * h)
         below = np.maximum(z, h)
         return zone + 0.5 * k * (below - h) * (below + h)
 
     def breaks(self) -> FloatArray:
-        """See `Law`."""
+        """Penetrations > 0 at which the slope jumps, ascending."""
         return np.array([self.top] if self.top else [])
 
     def steepest(self, z: float) -> float:
-        """See `Law`."""
+        """The largest slope between the mudline and z."""
         del z
         return self.stiffness
 
@@ -92,7 +67,7 @@ class CurveLaw:
     top: float = 0.0
 
     def spring(self, z: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """See `Law`."""
+        """See `LinearLaw`."""
         below = z > 0.0
         if not below.any():
             return np.zeros(z.shape), np.zeros(z.shape)
@@ -100,7 +75,7 @@ class CurveLaw:
         return np.where(below, force, 0.0), np.where(below, slope / self.diameter, 0.0)
 
     def work(self, z: FloatArray) -> FloatArray:
-        """See `Law`: sums of trapezoids, which are exact between points."""
+        """See `LinearLaw`: sums of trapezoids, which are exact between points."""
         at = np.maximum(z, 0.0) / self.diameter
         knots = np.concatenate([[0.0], self.breaks() / self.diameter])
         forces = self.curve.evaluate(knots)[0]
@@ -111,13 +86,45 @@ class CurveLaw:
         return work
 
     def breaks(self) -> FloatArray:
-        """See `Law`."""
+        """See `LinearLaw`."""
         return self.curve.ratios[self.curve.ratios > 0.0] * self.diameter
 
     def steepest(self, z: float) -> float:
-        """See `Law`."""
+        """See `LinearLaw`."""
         knots = self.curve.ratios
         reached = (knots[:-1] <= z / self.diameter) & (knots[1:] > 0.0)
         end = slice(-1, None) if knots[-1] <= 0.0 else slice(0, 1)
         slopes = self.curve.slopes[reached] if reached.any() else self.curve.slopes[end]
         return float(np.abs(slopes).max() / self.diameter)
+
+
+Law: TypeAlias = LinearLaw | CurveLaw
+
+
+@dataclass(frozen=True, slots=True)
+class Falling:
+    """Masses (k,) on the seabed of a law, under a weight in water."""
+
+    mass: FloatArray
+    law: Law
+    weight: float
+
+    def forces(self, position: FloatArray, velocity: FloatArray, history: History) -> Forces:
+        """See `System`."""
+        force, slope = self.law.spring(-position)
+        return Forces(force - self.weight, -slope, np.zeros(velocity.shape), history)
+
+
+class ElasticContact(NamedTuple):
+    """An elastic law of the scene, and the pipe on it, per unit length and in the deck's units."""
+
+    law: Law
+    diameter: float
+    mass: float
+    weight: float
+    element: int
+
+    @property
+    def stiffness(self) -> float:
+        """The law's slope at the mudline."""
+        return self.law.steepest(0.0)
