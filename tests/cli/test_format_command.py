@@ -11,8 +11,8 @@ import pytest
 from mudline.formatting import document
 from mudline.formatting.changes import unified_diff
 from mudline.formatting.document import formatted
+from tests.builders.decks import BAD_NUMBER, CLEAN
 from tests.cli.conftest import Place
-from tests.cli.decks import BAD_NUMBER, CLEAN
 from tests.cli.runner import SAMPLES, run
 from tests.growth import FOURFOLD, TWOFOLD, call_growth, growth
 

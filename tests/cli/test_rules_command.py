@@ -6,7 +6,7 @@ import pytest
 from jsonschema import Draft202012Validator
 
 from mudline.linting.registry import rules
-from tests.cli.decks import CLEAN
+from tests.builders.decks import CLEAN
 from tests.cli.runner import SAMPLES, assert_fits, run
 
 CODES = [rule.code.code for rule in rules()]

@@ -28,7 +28,7 @@ from mudline.contact.arrays import FloatArray, IndexArray
 from mudline.contact.compiled.tables import features_of
 from mudline.contact.seabed import FlatSeabed, PlanesSeabed, ProfileSeabed, Seabed, SlopingSeabed
 from mudline.curves import ForceCurve
-from tests.contact.builders import ALONG_Y, FRICTION, bridge_law, floats, friction, on, suction
+from tests.builders.contact import ALONG_Y, FRICTION, bridge_law, floats, friction, on, suction
 from tests.contact.comparison import Scene, Sizes, compare
 
 NORMAL = ("linear", "smoothed", "curve", "rigid")

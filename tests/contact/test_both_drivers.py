@@ -14,8 +14,7 @@ from mudline.contact.arrays import FloatArray
 from mudline.contact.plan import Backend
 from mudline.contact.seabed import FlatSeabed, PlanesSeabed, ProfileSeabed, Seabed, SlopingSeabed
 from mudline.curves import ForceCurve
-from tests.contact.bits import arrays_of, differences, equal_bits, same_bits
-from tests.contact.builders import (
+from tests.builders.contact import (
     CLAY,
     CURVE,
     LINEAR,
@@ -34,6 +33,7 @@ from tests.contact.builders import (
     suction,
     trench,
 )
+from tests.contact.bits import arrays_of, differences, equal_bits, same_bits
 from tests.contact.comparison import Scene, Sizes, compare
 from tests.contact.random_scenes import LARGEST, LAWS, SUBSETS, main, random_scene
 

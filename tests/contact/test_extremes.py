@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from mudline.contact import ContactModel, ContactResult, ElementError, PositionError
 from mudline.contact.seabed import FlatSeabed, PlanesSeabed, ProfileSeabed, Seabed, SlopingSeabed
-from tests.contact.builders import changed, everything, journey, without
+from tests.builders.contact import changed, everything, journey, without
 
 pytestmark = pytest.mark.slow
 

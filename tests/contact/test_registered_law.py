@@ -19,7 +19,7 @@ from mudline.contact.laws.base import Value, where
 from mudline.contact.laws.linear import RIGID
 from mudline.contact.laws.unloading import UNLOADING
 from mudline.contact.seabed import SlopingSeabed
-from tests.contact.builders import (
+from tests.builders.contact import (
     LINEAR,
     NONE,
     at_depths,

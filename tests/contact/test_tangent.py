@@ -10,7 +10,7 @@ from mudline.contact.arrays import FloatArray
 from mudline.contact.result import ContactResult
 from mudline.contact.seabed import FlatSeabed, PlanesSeabed, Seabed, SlopingSeabed
 from mudline.contact.tables import ContactState
-from tests.contact.builders import everything, line
+from tests.builders.contact import everything, line
 
 SEABEDS: dict[str, Seabed] = {
     "flat": FlatSeabed(),

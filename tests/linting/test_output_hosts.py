@@ -14,7 +14,7 @@ from mudline.diagnostics import Severity
 from mudline.linting.output.forms import form
 from mudline.linting.output.visible import visible
 from mudline.linting.registry import rules
-from tests.cli.decks import BAD_NUMBER
+from tests.builders.decks import BAD_NUMBER
 from tests.cli.runner import run
 from tests.linting.outputs import finding
 

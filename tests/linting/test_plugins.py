@@ -18,11 +18,11 @@ from mudline.linting.plugins import Guarded, load, origin
 from mudline.linting.registry import rules
 from mudline.linting.rule import Rule
 from mudline.plugins import LintContext
+from tests.linting.outputs import NO_FRICTION
 from tests.processes import TIMEOUT
 
 ROOT = Path(__file__).parents[2]
 SOURCE = Path(mudline.__file__).parents[1]
-NO_FRICTION = "$MODEL\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=50000.0\n"
 FRICTION = f"{NO_FRICTION} FRICTION=0.3, 0.6\n"
 
 RULE = '''

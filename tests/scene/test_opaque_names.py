@@ -17,9 +17,10 @@ from mudline.keywords.facts import LINE_SETS, Names
 from mudline.scene.model import resolve
 from mudline.scene.opaque_names import bare, definition_by, external_definers, opaque_labels, opaque_set_names
 from mudline.syntax.fields import read_line
+from tests.builders.decks import PIPE
+from tests.builders.scenes import messages, reported
+from tests.builders.spellings import names, pads, setting, texts
 from tests.growth import FOURFOLD, TWOFOLD, call_growth, growth
-from tests.reading.spellings import names, pads, setting, texts
-from tests.scene.decks import PIPE, messages, reported
 
 LINES = "*LINES\n LINE=SCR\n"
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from tests.scene.decks import PIPE, STEEL, all_reported, members, messages, reported, scene_of
+from tests.builders.decks import PIPE, STEEL
+from tests.builders.scenes import all_reported, members, messages, reported, scene_of
 
 SETS = PIPE + "*ELEMENT SETS\n"
 FIRST = SETS.count("\n") + 1

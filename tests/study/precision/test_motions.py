@@ -23,8 +23,8 @@ from mudline.study.precision.reference import bounce, contact_time
 from mudline.study.report import Omission, StudyError
 from mudline.study.sample import TEXT, sample_scene
 from mudline.study.schemes import SCHEMES
-from tests.contact.builders import changed
-from tests.study.builders import scene_of
+from tests.builders.contact import changed
+from tests.builders.scenes import legal_scene
 
 CLAY = CurveLaw("clay", ForceCurve([(0.0, 0.0), (0.02, 640.0), (0.1, 1480.0), (0.5, 2450.0)]), 0.3)
 
@@ -224,7 +224,7 @@ def test_friction_of_a_deck_is_taken_from_it() -> None:
 
 
 def test_case_that_overflows_is_reported() -> None:
-    found = scene_of(TEXT.replace(", 0.003,", ", 1.0E-307,"))
+    found = legal_scene(TEXT.replace(", 0.003,", ", 1.0E-307,"))
     omissions: list[Omission] = []
     with np.errstate(all="ignore"):
         cases = all_cases(contacts_of(found), omissions)

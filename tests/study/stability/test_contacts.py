@@ -14,14 +14,14 @@ from mudline.study.sample import TEXT, sample_scene
 from mudline.study.schemes import SCHEMES
 from mudline.study.stability.contacts import find_contacts
 from mudline.study.stability.critical import measure
-from tests.study.builders import scene_of
+from tests.builders.scenes import legal_scene
 
 MASS = 7850.0 * 0.25 * np.pi * (0.3**2 - 0.25**2)
 
 
 def curved(rows: str) -> Scene:
     head, tail = TEXT.split(" CURVE=Soft Clay\n")
-    return scene_of(f"{head} CURVE=Soft Clay\n{rows}*SEABED CONTACT{tail.partition('*SEABED CONTACT')[2]}")
+    return legal_scene(f"{head} CURVE=Soft Clay\n{rows}*SEABED CONTACT{tail.partition('*SEABED CONTACT')[2]}")
 
 
 def test_the_contacts_of_the_sample() -> None:
@@ -35,7 +35,7 @@ def test_the_contacts_of_the_sample() -> None:
 
 
 def test_contacts_without_a_frequency_say_why() -> None:
-    found, left_out = find_contacts(scene_of(TEXT.replace("7850.0", "0.0")))
+    found, left_out = find_contacts(legal_scene(TEXT.replace("7850.0", "0.0")))
     assert found == []
     assert {one.reason for one in left_out} == {"no frequency: the mass per unit length is not known"}
     found, left_out = find_contacts(curved(" 0, 1000\n 1, 0\n"))
@@ -44,26 +44,26 @@ def test_contacts_without_a_frequency_say_why() -> None:
 
 
 def test_a_scene_without_springs_has_no_contacts() -> None:
-    assert find_contacts(scene_of("$MODEL\n")) == ([], [])
+    assert find_contacts(legal_scene("$MODEL\n")) == ([], [])
 
 
 def test_nodes_with_a_stiffness_of_their_own() -> None:
     """A node carries the mass of half of each of its elements, 2 m inside the line, 1 m at its end."""
     nodal = TEXT.replace(" SMOOTHING=AUTO", " NODAL STIFFNESS=1.0E5")
-    scene = scene_of(nodal)
+    scene = legal_scene(nodal)
     found, _ = find_contacts(scene)
     one = next(contact for contact in found if contact.name.startswith("nodal"))
     assert (one.name, one.elements) == ("nodal 100000 at node 11", 4)
     assert one.omega == pytest.approx((1e5 / MASS) ** 0.5)
     assert one.stiffness == pytest.approx(1e5)
     assert measure(scene, one, SCHEMES["central-difference"]).as_predicted
-    left_out = find_contacts(scene_of(nodal.replace("7850.0", "0.0")))[1]
+    left_out = find_contacts(legal_scene(nodal.replace("7850.0", "0.0")))[1]
     assert "nodal stiffness 100000" in {omission.what for omission in left_out}
 
 
 def test_unloading_may_be_the_stiffest() -> None:
     back = TEXT.replace("*SEABED SUCTION", "*SEABED UNLOADING\n SET=Clay\n STIFFNESS={}\n*SEABED SUCTION")
-    scene = scene_of(back.format("4.0E5"))
+    scene = legal_scene(back.format("4.0E5"))
     found, _ = find_contacts(scene)
     assert [one.name for one in found] == [
         "unloading of curve:Soft Clay on Clay",
@@ -72,7 +72,7 @@ def test_unloading_may_be_the_stiffest() -> None:
     ]
     assert found[0].omega == pytest.approx((4e5 / MASS) ** 0.5, rel=1e-12)
     assert measure(scene, found[0], SCHEMES["velocity-verlet"]).as_predicted
-    softer, _ = find_contacts(scene_of(back.format("1.0E5")))
+    softer, _ = find_contacts(legal_scene(back.format("1.0E5")))
     assert softer == find_contacts(sample_scene())[0]
 
 

@@ -13,7 +13,7 @@ from mudline.study.stability.contacts import find_contacts
 from mudline.study.stability.critical import BOUNDED, GROWS, SHARES, can_oscillate, measure
 from mudline.study.stability.ladder.cells import all_cells
 from mudline.study.stability.ladder.judging import judge
-from tests.study.builders import scene_of
+from tests.builders.scenes import legal_scene
 
 
 @pytest.mark.parametrize("name", ["central-difference", "rk4", "newmark", "backward-euler", "rk2", "forward-euler"])
@@ -39,7 +39,7 @@ def test_contacts_of_extreme_decks_are_stepped_as_predicted_or_left_out(family: 
     for cell in all_cells():
         if cell.family != family or not judge(cell).results:
             continue
-        scene = scene_of(cell.text)
+        scene = legal_scene(cell.text)
         for contact in filter(can_oscillate, find_contacts(scene)[0]):
             stepped += 1
             for name in ("rk2", "newmark"):

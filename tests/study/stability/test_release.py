@@ -10,7 +10,7 @@ import pytest
 from mudline.contact.laws.suction import SuctionLaw
 from mudline.study.sample import TEXT, sample_scene
 from mudline.study.stability.release import equilibria, releases
-from tests.study.builders import scene_of
+from tests.builders.scenes import legal_scene
 
 
 def test_one_equilibrium_needs_the_stiffness_that_is_given() -> None:
@@ -35,6 +35,6 @@ def test_the_release_is_that_of_a_first_uplift() -> None:
 
 
 def test_suction_of_no_force_asks_for_nothing() -> None:
-    scene = scene_of(TEXT.replace("COHESION=5.0E3", "COHESION=0"))
+    scene = legal_scene(TEXT.replace("COHESION=5.0E3", "COHESION=0"))
     suction = scene.contact_input().assigned["suction"]
     assert releases(scene, suction) == []

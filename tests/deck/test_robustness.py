@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from mudline.deck.loading import dump, load_bytes
 from mudline.deck.model import Deck
 from mudline.diagnostics import Severity
-from tests.reading.decks import MODELLED, deck_texts, mutated
+from tests.builders.keyword_texts import MODELLED, deck_texts, mutated
 from tests.samples import SAMPLES
 
 BROKEN = (SAMPLES / "broken.keyxm").read_bytes()

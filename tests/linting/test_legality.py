@@ -14,9 +14,8 @@ from mudline.linting.engine import LintSettings, lint_bytes, problems_in
 from mudline.linting.lint_file import lint_one
 from mudline.linting.registry import rules
 from mudline.scene.model import resolve
-from tests.generated.decks import document
-from tests.generated.legality import deck, outcome
-from tests.generated.lines import Values
+from tests.builders.documents import Values, document
+from tests.linting.legality import deck, outcome
 
 
 @pytest.mark.parametrize("first", range(0, 400, 50))

@@ -12,8 +12,7 @@ from jsonschema import Draft202012Validator
 from mudline.deck.document import json_schema
 from mudline.deck.loading import dump, load_bytes
 from mudline.deck.model import Deck
-from tests.generated.decks import KEYWORDS, Keyword, alone, block, declared, document
-from tests.generated.lines import Values
+from tests.builders.documents import KEYWORDS, Keyword, Values, alone, block, declared, document
 
 VALIDATOR = Draft202012Validator(json_schema())
 

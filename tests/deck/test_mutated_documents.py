@@ -16,9 +16,8 @@ from mudline.deck.forms.yaml import CoreDumper
 from mudline.deck.loading import dump, load_bytes
 from mudline.deck.model import Deck
 from mudline.diagnostics import DeckError, Diagnostic
-from tests.generated.decks import KEYWORDS, alone, block
-from tests.generated.lines import Values
-from tests.generated.test_round_trips import values
+from tests.builders.documents import KEYWORDS, Values, alone, block
+from tests.deck.test_round_trips import values
 
 VALIDATOR = Draft202012Validator(json_schema())
 
