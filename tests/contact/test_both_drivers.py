@@ -92,6 +92,7 @@ def test_minus_zero_is_not_zero_and_nan_is_nan() -> None:
 # -------------------------------------------------------------------------------------------------------- random scenes
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("number", range(len(SUBSETS)))
 @pytest.mark.parametrize("seed", range(20))
 def test_scenes_with_some_laws(number: int, seed: int) -> None:
@@ -231,6 +232,7 @@ def test_a_force_that_overflows_only_on_the_way_is_mended() -> None:
     assert result.force.ravel() == pytest.approx([1.02e308, 1.156e308])
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("seabed", [None, SlopingSeabed(0.001, 30.0)])
 def test_a_long_line_on_several_threads(seabed: Seabed | None) -> None:
     """Several ranges of elements and of nodes, as they are divided by default."""

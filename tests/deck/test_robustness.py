@@ -178,6 +178,7 @@ LINES = [
 ]
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("piece", LINES)
 @pytest.mark.parametrize("keyword", ["NODE", "ELEMENT SETS"])
 def test_long_input(piece: str, keyword: str) -> None:
@@ -187,6 +188,7 @@ def test_long_input(piece: str, keyword: str) -> None:
     assert any(one.code == "SYN002" and "1O" in one.message for one in deck.diagnose(deck.problems))
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize(
     "head", ["$MODEL\n*NODE\n", "$PREPROCESSOR\n*PARAMETERS\n a, ", "$MODEL\n*SEABED PROPERTIES\n STIFFNESS=", ""]
 )

@@ -18,6 +18,7 @@ from tests.builders.documents import Values, document
 from tests.linting.legality import deck, outcome
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("first", range(0, 400, 50))
 def test_decks_about_a_pipe_on_a_seabed(first: int) -> None:
     for seed in range(first, first + 50):
