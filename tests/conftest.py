@@ -14,7 +14,7 @@ settings.load_profile("mudline-ci" if os.environ.get("CI") else "mudline")
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Trace no coverage in tests of very many inputs: that takes as long as the tests, and their lines are met often."""
+    """Trace no coverage in tests of very many inputs: it takes as long as they do, and other tests meet their lines."""
     if config.getoption("no_cov", default=False):
         return  # nothing to pause: pytest-cov would stumble over the mark
     for item in items:
