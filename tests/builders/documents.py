@@ -6,8 +6,9 @@ from collections.abc import Callable
 from typing import Any
 
 from hypothesis import strategies as st
+from jsonschema import Draft202012Validator
 
-from mudline.deck.document import FORMAT, UNITS
+from mudline.deck.document import FORMAT, UNITS, json_schema
 from mudline.keywords import catalogue
 from mudline.keywords.library.geometric_sets import GeometricSet
 from mudline.keywords.library.seabed_profile import SeabedProfile
@@ -21,6 +22,8 @@ from tests.builders.spellings import comments as comment_lines
 Values = dict[str, Any]
 """What JSON holds of a deck, a block or a record."""
 Keyword = tuple[str, str]
+VALIDATOR = Draft202012Validator(json_schema())
+"""Holds documents to the schema, which takes a while to make."""
 
 
 def declared(keyword: Keyword) -> type[Block]:

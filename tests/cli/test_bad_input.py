@@ -131,6 +131,7 @@ ONE_LINE = {
 }
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("text", ONE_LINE.values(), ids=ONE_LINE)
 @pytest.mark.parametrize("head", ["", "$MODEL\n*SEABED STIFFNESS\n CURVE=A\n ", "$MODEL\n*ELEMENT SETS\n SET="])
 def test_file_of_one_long_line(place: Place, head: str, text: str) -> None:

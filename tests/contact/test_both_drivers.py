@@ -214,6 +214,7 @@ def test_odd_lines(name: str) -> None:
             ContactModel(given_scene.inputs, backend="fast").evaluate(given_scene.positions)
 
 
+@pytest.mark.untraced
 def test_the_curve_law_of_many_elements() -> None:
     elements = 400
     rng = np.random.default_rng(8)

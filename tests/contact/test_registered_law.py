@@ -135,6 +135,7 @@ def test_both_drivers_give_the_same_bits(elements: int, seed: int, slopes: bool)
     assert compare(scene, plain=True) == []
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("seed", range(4))
 def test_its_tangent_is_that_of_central_differences(seed: int) -> None:
     contact = ContactModel(everything_beside(4))

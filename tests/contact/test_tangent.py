@@ -69,6 +69,7 @@ def difference(
     return np.column_stack(columns), np.array(smooth)
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("name", SEABEDS)
 @pytest.mark.parametrize("seed", range(6))
 def test_tangent_against_central_differences(name: str, seed: int) -> None:

@@ -11,19 +11,17 @@ from pathlib import Path
 import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
-from jsonschema import Draft202012Validator
 
-from mudline.deck.document import json_schema
 from mudline.deck.loading import dump, form_of, load_bytes
 from mudline.deck.model import Deck
 from mudline.diagnostics import Severity
+from tests.builders.documents import VALIDATOR
 from tests.builders.keyword_texts import MODELLED, deck_texts, mutated
 from tests.builders.scenes import deck_of
 from tests.samples import SAMPLES
 
 NAME = "deck.keyxm"
 DECKS = sorted(path for path in SAMPLES.glob("*.keyx*") if path.name != "broken.keyxm")
-VALIDATOR = Draft202012Validator(json_schema())
 
 
 def same(one: Deck, other: Deck) -> None:

@@ -33,6 +33,7 @@ def test_documents_of_all_keywords(values: Values) -> None:
     assert found.agrees, found
 
 
+@pytest.mark.untraced
 def test_random_decks_are_neither_all_blocked_nor_all_evaluated() -> None:
     found = [outcome(deck(seed).encode()) for seed in range(100)]
     evaluated = sum(not one.blocking and not one.refused for one in found)

@@ -59,6 +59,7 @@ def in_deck(scene: Scene, *, written: bool = False) -> list[Equation]:
     return [found for section in sections for block in section.blocks for found in equations(block)]
 
 
+@pytest.mark.untraced
 def test_no_equation_is_left_in_random_decks() -> None:
     met = 0
     for seed in range(200):

@@ -126,6 +126,7 @@ def test_a_line_of_very_many_names() -> None:
     assert len(sets_of(f"*LINES\n ADDITIONAL={some}\n")) == 5000
 
 
+@pytest.mark.untraced
 @pytest.mark.slow
 def test_a_hundred_thousand_lines() -> None:
     section = " SECTION=Joint {0}, 12.2, ADDITIONAL=Riser, Joints {0}\n"
@@ -138,6 +139,7 @@ def test_a_hundred_thousand_lines() -> None:
     assert len(opaque_set_names(lines(100_000))) == 200_002
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("unit", ["a=", "a ", '"', "{", '{"', "= ", "LINE=", "[=", "=[", "a,"])
 def test_no_line_takes_long(unit: str) -> None:
     def line(count: int) -> Deck:

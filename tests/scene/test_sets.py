@@ -131,6 +131,7 @@ def test_a_diamond_is_no_circle() -> None:
     assert sets_of(lines)["a"] == [4]
 
 
+@pytest.mark.untraced
 @pytest.mark.slow
 @pytest.mark.parametrize("forward", [True, False])
 def test_a_long_chain(forward: bool) -> None:

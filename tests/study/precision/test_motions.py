@@ -151,6 +151,7 @@ CASES = {
 }
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("name", CASES)
 @pytest.mark.parametrize("scheme", ["velocity-verlet", "rk4", "newmark", "generalised-alpha-0", "backward-euler"])
 def test_errors_fall_with_the_step(name: str, scheme: str) -> None:

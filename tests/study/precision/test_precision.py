@@ -78,12 +78,14 @@ def test_deck_without_a_law() -> None:
     assert "curves" not in {picture.name for picture in report.pictures}
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("stiffness", ["1.0E-300", "1.0E300", "1.0E-3", "1.0E15"])
 def test_extreme_decks_end_in_reasons(stiffness: str) -> None:
     report = precision.run(legal_scene(TEXT.replace("50.0E3", stiffness)), StudyOptions())
     assert report.tables[2].rows
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("point", ["1.0E-290, 450.0", "0.01, 1.0E15", "0.01, 1.0E-300", "0.01, -450.0", "1.0E9, 450.0"])
 def test_extreme_curves_end_in_reasons(point: str) -> None:
     text = TEXT.replace("*SEABED SUCTION\n SET=Clay\n COHESION=5.0E3\n", "")

@@ -33,6 +33,7 @@ def test_the_schemes_and_the_rules_have_the_same_limits() -> None:
     assert limits == {name: scheme.limit for name, scheme in SCHEMES.items()}
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("family", ["segment width", "tiny linear stiffness", "huge curve ratios"])
 def test_contacts_of_extreme_decks_are_stepped_as_predicted_or_left_out(family: str) -> None:
     stepped = 0
