@@ -258,7 +258,7 @@ def test_a_form_is_one_module(tmp_path: Path) -> None:
         "from mudline.deck.reading import read_source\n"
         "from mudline.syntax.source import Source\n"
         "def write(deck):\n    return keyword.write(deck).upper()\n"
-        "def deck_of(data, file):\n    return read_source(Source.from_bytes(data, file))\n",
+        "def read(data, file):\n    return read_source(Source.from_bytes(data, file))\n",
         encoding="utf-8",
     )
     (tmp_path / "a.keyxm").write_text("$MODEL\n*OCEAN\n 500.0, 1025.0, 9.81\nC deep\n", encoding="utf-8")
