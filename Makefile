@@ -54,7 +54,7 @@ demo: $(VENV)/.user ## a look at what mudline does, on samples/
 # ----------------------------------------------------------------------------------------------------------- the work
 
 test: $(VENV)/.developer ## the whole test suite, with coverage
-	$(BIN)/python -m pytest --numprocesses auto --dist loadfile --cov --cov-report=term-missing:skip-covered $(ARGS)
+	$(BIN)/python -m pytest --numprocesses auto --dist worksteal --cov --cov-report=term-missing:skip-covered $(ARGS)
 
 test-fast: $(VENV)/.developer ## the unit tests of the core, in about a minute
 	$(BIN)/python -m pytest --numprocesses auto -m "not slow" $(CORE) $(ARGS)

@@ -1,12 +1,22 @@
-"""How every property test runs: no deadline anywhere, and the same examples on every run under CI."""
+"""How every property test runs: no deadline anywhere, and the same examples on every run under CI; what is traced."""
 
 from __future__ import annotations
 
 import os
 
+import pytest
 from hypothesis import HealthCheck, settings
 
 # A loaded machine draws examples slowly; that says nothing about the code under test.
 settings.register_profile("mudline", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.register_profile("mudline-ci", settings.get_profile("mudline"), derandomize=True, print_blob=True)
 settings.load_profile("mudline-ci" if os.environ.get("CI") else "mudline")
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Trace no coverage in tests of very many inputs: it takes as long as they do, and other tests meet their lines."""
+    if config.getoption("no_cov", default=False):
+        return  # nothing to pause: pytest-cov would stumble over the mark
+    for item in items:
+        if item.get_closest_marker("untraced") or getattr(getattr(item, "obj", None), "is_hypothesis_test", False):
+            item.add_marker(pytest.mark.no_cover)

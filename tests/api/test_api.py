@@ -12,7 +12,7 @@ import pytest
 
 import mudline
 from mudline.deck.loading import load_path
-from tests.cli.decks import BAD_NUMBER, CLEAN, ILLEGAL, UNSORTED, UNUSED
+from tests.builders.decks import BAD_NUMBER, CLEAN, ILLEGAL, UNSORTED, UNUSED
 
 EMPTY = '{"format": "mudline-deck/1", "source": "", "units": "user", "sections": []}'
 NAMES = [name for name in mudline.__all__ if name != "__version__"]

@@ -20,7 +20,7 @@ from mudline.keywords.model import Comment
 from mudline.results.evaluation import evaluate_scene
 from mudline.scene.model import resolve
 from mudline.short_repr import LONGEST, brief, cut, listed, short_repr
-from tests.cli.decks import BAD_NUMBER, CLEAN, ILLEGAL
+from tests.builders.decks import BAD_NUMBER, CLEAN, ILLEGAL
 from tests.processes import TIMEOUT
 
 SAMPLES = Path(__file__).parents[2] / "samples"

@@ -34,7 +34,7 @@ from mudline.contact import ContactInput, ContactModel, LawAssignment
 from mudline.contact.arrays import FloatArray, IndexArray
 from mudline.contact.plan import Backend
 from mudline.contact.seabed import PlanesSeabed, SlopingSeabed
-from tests.contact.builders import ALONG_Y, CLAY, FRICTION, bridge_law, line, on, renumbered, suction
+from tests.builders.contact import ALONG_Y, CLAY, FRICTION, bridge_law, line, on, renumbered, suction
 
 Work = Callable[[], object]
 Clock = Callable[[], float]

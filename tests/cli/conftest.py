@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.decks import CLEAN
+from tests.builders.decks import CLEAN
 
 Place = Callable[..., str]
 

@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.builders.decks import CLEAN
 from tests.cli.conftest import Place
-from tests.cli.decks import CLEAN
 from tests.cli.runner import SAMPLES, Outcome, assert_fits, run
 
 EVERY = [
@@ -131,6 +131,7 @@ ONE_LINE = {
 }
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("text", ONE_LINE.values(), ids=ONE_LINE)
 @pytest.mark.parametrize("head", ["", "$MODEL\n*SEABED STIFFNESS\n CURVE=A\n ", "$MODEL\n*ELEMENT SETS\n SET="])
 def test_file_of_one_long_line(place: Place, head: str, text: str) -> None:

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from mudline.deck.loading import load_bytes, load_path
+from tests.builders.decks import BAD_NUMBER, CLEAN, ILLEGAL, UNSORTED
 from tests.cli.conftest import Place
-from tests.cli.decks import BAD_NUMBER, CLEAN, ILLEGAL, UNSORTED
 from tests.cli.runner import SAMPLES, process, run
 
 LEGIBLE = sorted(path.name for path in SAMPLES.glob("*.key*") if path.stem != "broken")

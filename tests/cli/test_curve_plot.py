@@ -9,8 +9,8 @@ from xml.parsers import expat
 
 import pytest
 
+from tests.builders.decks import BAD_NUMBER, CLEAN, UNUSED
 from tests.cli.conftest import Place
-from tests.cli.decks import BAD_NUMBER, CLEAN, UNUSED
 from tests.cli.runner import run
 
 TEXT = re.compile(r"<!-- (.*?) -->")

@@ -6,8 +6,8 @@ import csv
 
 import pytest
 
+from tests.builders.decks import BAD_NUMBER, CLEAN, LINEAR, UNSORTED, UNUSED
 from tests.cli.conftest import Place
-from tests.cli.decks import BAD_NUMBER, CLEAN, LINEAR, UNSORTED, UNUSED
 from tests.cli.runner import SAMPLES, assert_fits, run
 
 TEXT = """\

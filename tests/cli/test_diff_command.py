@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.builders.decks import BAD_NUMBER, CLEAN, LINEAR
 from tests.cli.conftest import Place
-from tests.cli.decks import BAD_NUMBER, CLEAN, LINEAR
 from tests.cli.runner import assert_fits, run
 
 

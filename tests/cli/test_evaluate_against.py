@@ -11,8 +11,8 @@ import pytest
 from mudline.contact import numpy_driver
 from mudline.results.against import Comparison
 from mudline.results.evaluation import Part
+from tests.builders.decks import CLEAN
 from tests.cli.conftest import Place
-from tests.cli.decks import CLEAN
 from tests.cli.runner import SAMPLES, assert_fits, run
 from tests.cli.test_evaluate_files import STEPS
 

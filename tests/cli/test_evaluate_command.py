@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.builders.decks import BAD_NUMBER, CLEAN, LINEAR, PULLING
 from tests.cli.conftest import Place
-from tests.cli.decks import BAD_NUMBER, CLEAN, LINEAR, PULLING
 from tests.cli.runner import SAMPLES, Json, assert_fits, run
 
 RIGID = CLEAN.partition("*SEABED PROPERTIES")[0] + "*SEABED PROPERTIES\n TYPE=RIGID\n SET=ALL\n"

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from mudline.results import forms
+from tests.builders.decks import CLEAN, PULLING
 from tests.cli.conftest import Place
-from tests.cli.decks import CLEAN, PULLING
 from tests.cli.runner import SAMPLES, assert_fits, no_constant, run
 
 TOY = """

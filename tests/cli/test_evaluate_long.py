@@ -13,8 +13,8 @@ import pytest
 from mudline.contact import ContactModel
 from mudline.contact.model import Stepped
 from mudline.results.forms import parquet
+from tests.builders.decks import CLEAN
 from tests.cli.conftest import Place
-from tests.cli.decks import CLEAN
 from tests.cli.runner import run
 from tests.cli.test_evaluate_files import STEPS
 from tests.cli.test_evaluate_states import BOTH, PULL

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from mudline.results.plots import along, thinned
+from tests.builders.decks import CLEAN, LINEAR
 from tests.cli.conftest import Place
-from tests.cli.decks import CLEAN, LINEAR
 from tests.cli.runner import SAMPLES, run
 from tests.cli.test_evaluate_files import STEPS
 

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.builders.decks import CLEAN
 from tests.cli.conftest import Place
-from tests.cli.decks import CLEAN
 from tests.cli.runner import assert_fits, run
 
 UPLIFT = CLEAN + "*SEABED SUCTION\n SET=Pipe\n COHESION=4000.0\n"

@@ -9,8 +9,8 @@ import pytest
 
 from mudline.deck.loading import load_bytes
 from mudline.deck.parameters import Parameters
+from tests.builders.decks import CLEAN
 from tests.cli.conftest import Place
-from tests.cli.decks import CLEAN
 from tests.cli.runner import SAMPLES, assert_fits, run
 
 STUDY = f"""\

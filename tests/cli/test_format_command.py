@@ -11,8 +11,8 @@ import pytest
 from mudline.formatting import document
 from mudline.formatting.changes import unified_diff
 from mudline.formatting.document import formatted
+from tests.builders.decks import BAD_NUMBER, CLEAN
 from tests.cli.conftest import Place
-from tests.cli.decks import BAD_NUMBER, CLEAN
 from tests.cli.runner import SAMPLES, run
 from tests.growth import FOURFOLD, TWOFOLD, call_growth, growth
 
@@ -253,6 +253,7 @@ def test_far_changes_have_hunks_of_their_own() -> None:
     assert list(unified_diff(old, old, "x.json")) == []
 
 
+@pytest.mark.untraced
 def test_every_second_row_of_a_long_table_changes_in_little_time() -> None:
     def texts(count: int) -> tuple[str, str]:
         old = "".join(f"{number},0\n{number}, 1\n" for number in range(count))

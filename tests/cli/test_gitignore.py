@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from mudline.cli.inputs import collect
+from tests.builders.decks import CLEAN
 from tests.cli.conftest import Place
-from tests.cli.decks import CLEAN
 from tests.cli.runner import run
 
 

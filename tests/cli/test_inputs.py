@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from mudline.cli.inputs import collect
+from tests.builders.decks import BAD_NUMBER, CLEAN
 from tests.cli.conftest import Place
-from tests.cli.decks import BAD_NUMBER, CLEAN
 from tests.cli.runner import run
 from tests.processes import TIMEOUT
 

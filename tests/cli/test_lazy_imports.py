@@ -8,8 +8,8 @@ import sys
 
 import pytest
 
+from tests.builders.decks import BAD_NUMBER, CLEAN, LINEAR
 from tests.cli.conftest import Place
-from tests.cli.decks import BAD_NUMBER, CLEAN, LINEAR
 from tests.processes import TIMEOUT
 
 HEAVY = frozenset({"click", "lark", "matplotlib", "numpy", "pydantic", "rich", "yaml", "numba", "scipy", "pyarrow"})

@@ -16,8 +16,8 @@ from mudline.linting.cache import packed, unpacked
 from mudline.linting.engine import LintSettings
 from mudline.linting.fixing import FileReport, lint_one
 from mudline.linting.registry import rules
+from tests.builders.decks import BAD_NUMBER, CLEAN, UNSORTED
 from tests.cli.conftest import Place
-from tests.cli.decks import BAD_NUMBER, CLEAN, UNSORTED
 from tests.cli.runner import run
 
 Linted = list[str]

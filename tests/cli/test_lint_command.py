@@ -6,9 +6,9 @@ import json
 
 import pytest
 
+from tests.builders.decks import BAD_NUMBER, CLEAN, ILLEGAL, UNSORTED
+from tests.builders.decks import UNUSED as SOFT
 from tests.cli.conftest import Place
-from tests.cli.decks import BAD_NUMBER, CLEAN, ILLEGAL, UNSORTED
-from tests.cli.decks import UNUSED as SOFT
 from tests.cli.runner import SAMPLES, Outcome, assert_fits, run
 
 UNUSED = SOFT.replace(" 0.1, 1.0\n", " 0.1, 100.0\n")

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.builders.decks import BAD_NUMBER, CLEAN
 from tests.cli.conftest import Place
-from tests.cli.decks import BAD_NUMBER, CLEAN
 from tests.cli.runner import assert_fits, run
 
 IDLE = CLEAN.replace(" CURVE=Clay", "C mudline: ignore CRV005\n CURVE=Clay")

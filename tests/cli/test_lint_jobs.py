@@ -14,8 +14,8 @@ from mudline.cli.inputs import Input
 from mudline.linting.engine import LintSettings
 from mudline.linting.fixing import FileReport
 from mudline.linting.registry import rules
+from tests.builders.decks import BAD_NUMBER, CLEAN, UNSORTED
 from tests.cli.conftest import Place
-from tests.cli.decks import BAD_NUMBER, CLEAN, UNSORTED
 from tests.cli.runner import run
 
 

@@ -13,8 +13,8 @@ import pytest
 
 from mudline.cli import lint_watch
 from mudline.cli.lint_watch import Watched
+from tests.builders.decks import BAD_NUMBER, CLEAN
 from tests.cli.conftest import Place
-from tests.cli.decks import BAD_NUMBER, CLEAN
 from tests.cli.runner import Outcome, run
 
 Steps = list[tuple[str, str | None]]

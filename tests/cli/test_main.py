@@ -16,8 +16,8 @@ import pytest
 import mudline
 from mudline.__main__ import main
 from mudline.cli.main import COMMANDS
+from tests.builders.decks import BAD_NUMBER, CLEAN
 from tests.cli.conftest import Place
-from tests.cli.decks import BAD_NUMBER, CLEAN
 from tests.cli.runner import Stream, process, run
 from tests.processes import TIMEOUT
 

@@ -9,8 +9,8 @@ import pytest
 
 from mudline.deck.loading import load_bytes, load_path
 from mudline.migration.verification import Difference, Verdict
+from tests.builders.decks import CLEAN
 from tests.cli.conftest import Place
-from tests.cli.decks import CLEAN
 from tests.cli.runner import SAMPLES, run
 from tests.migration.test_migrating import MIGRATED, SAMPLE
 

@@ -13,8 +13,8 @@ import pytest
 
 from mudline.cli.inputs import collect
 from mudline.files import replacement, write_atomically
+from tests.builders.decks import CLEAN
 from tests.cli.conftest import Place
-from tests.cli.decks import CLEAN
 from tests.cli.runner import run
 from tests.processes import TIMEOUT
 

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.builders.decks import BAD_NUMBER
 from tests.cli.conftest import Place
-from tests.cli.decks import BAD_NUMBER
 from tests.cli.runner import SAMPLES, process
 from tests.processes import TIMEOUT, started
 

@@ -16,8 +16,8 @@ from mudline.cli import view
 from mudline.cli.printing import elided
 from mudline.cli.validate_command import Total, Verdict
 from mudline.cli.view import View
+from tests.builders.decks import CLEAN, ILLEGAL
 from tests.cli.conftest import Place
-from tests.cli.decks import CLEAN, ILLEGAL
 from tests.cli.runner import Outcome, Stream, assert_fits, run
 from tests.cli.screens import screen
 

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.builders.decks import CLEAN, ILLEGAL
 from tests.cli.conftest import Place
-from tests.cli.decks import CLEAN, ILLEGAL
 from tests.cli.runner import SAMPLES, assert_fits, run
 
 DYNAMIC = "$LOAD CASE\n*RESTART\n LAST=static\n$MODEL\n*ELEMENT SETS\n SET=First\n SUBSET=Pipe\n"

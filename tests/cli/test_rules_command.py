@@ -6,7 +6,7 @@ import pytest
 from jsonschema import Draft202012Validator
 
 from mudline.linting.registry import rules
-from tests.cli.decks import CLEAN
+from tests.builders.decks import CLEAN
 from tests.cli.runner import SAMPLES, assert_fits, run
 
 CODES = [rule.code.code for rule in rules()]
@@ -61,18 +61,25 @@ def test_json() -> None:
     assert one == next(rule for rule in found if rule["code"] == "SYN002")
 
 
-@pytest.mark.parametrize("name", sorted(path.name for path in SAMPLES.glob("*.key*") if path.stem != "broken"))
-@pytest.mark.parametrize("options", [(), ("--sorted",)], ids=["as-is", "sorted"])
-def test_schema_describes_what_convert_writes(name: str, options: tuple[str, ...]) -> None:
+@pytest.fixture(scope="module")
+def validator() -> Draft202012Validator:
+    """The schema that the program prints."""
     outcome = run("schema")
     assert (outcome.code, outcome.err) == (0, "")
     schema = outcome.json()
     Draft202012Validator.check_schema(schema)
-    Draft202012Validator(schema).validate(run("convert", SAMPLES / name, "--to", "json", *options).json())
+    return Draft202012Validator(schema)
 
 
-def test_schema_refuses_what_is_no_deck() -> None:
-    validator = Draft202012Validator(run("schema").json())
+@pytest.mark.parametrize("name", sorted(path.name for path in SAMPLES.glob("*.key*") if path.stem != "broken"))
+@pytest.mark.parametrize("options", [(), ("--sorted",)], ids=["as-is", "sorted"])
+def test_schema_describes_what_convert_writes(
+    name: str, options: tuple[str, ...], validator: Draft202012Validator
+) -> None:
+    validator.validate(run("convert", SAMPLES / name, "--to", "json", *options).json())
+
+
+def test_schema_refuses_what_is_no_deck(validator: Draft202012Validator) -> None:
     document = run("convert", "-", "--to", "json", stdin=CLEAN.encode()).json()
     assert validator.is_valid(document)
     document["sections"][0]["blocks"][0]["depth"] = "deep"

@@ -6,8 +6,8 @@ import re
 
 import pytest
 
+from tests.builders.decks import CLEAN, ILLEGAL, LINEAR
 from tests.cli.conftest import Place
-from tests.cli.decks import CLEAN, ILLEGAL, LINEAR
 from tests.cli.runner import SAMPLES, assert_fits, run
 
 TEXT = """\

@@ -7,8 +7,8 @@ import re
 import pytest
 from rich.cells import cell_len
 
+from tests.builders.decks import BAD_NUMBER, CLEAN, UNUSED
 from tests.cli.conftest import Place
-from tests.cli.decks import BAD_NUMBER, CLEAN, UNUSED
 from tests.cli.runner import Outcome, process, run
 
 ESCAPE = re.compile(r"\x1b\[[0-9;]*m")

@@ -6,8 +6,8 @@ import csv
 
 import pytest
 
+from tests.builders.decks import BAD_NUMBER, CLEAN, ILLEGAL, UNUSED
 from tests.cli.conftest import Place
-from tests.cli.decks import BAD_NUMBER, CLEAN, ILLEGAL, UNUSED
 from tests.cli.runner import SAMPLES, assert_fits, run
 
 COLUMNS = ["file", "sections", "keywords", "curves", "elements", "errors", "verdict"]

@@ -8,7 +8,8 @@ from hypothesis import strategies as st
 
 from mudline.comparison.model import Difference
 from mudline.diagnostics import DeckError
-from tests.comparison.decks import deck, differences, told
+from tests.builders.decks import ordered_deck
+from tests.builders.scenes import brief, differences
 
 CHANGES = [
     ("od, 0.5", "od, 0.6", "parameters/od"),
@@ -29,14 +30,14 @@ CHANGES = [
 
 @pytest.mark.parametrize(("written", "other", "where"), CHANGES)
 def test_a_change_is_told_where_it_is(written: str, other: str, where: str) -> None:
-    assert written in deck()
-    assert where in [one.where for one in differences(deck(), deck().replace(written, other))]
+    assert written in ordered_deck()
+    assert where in [one.where for one in differences(ordered_deck(), ordered_deck().replace(written, other))]
 
 
 @pytest.mark.parametrize(("written", "other", "where"), CHANGES)
 def test_the_other_way_round_before_and_after_change_places(written: str, other: str, where: str) -> None:
-    changed = deck().replace(written, other)
-    there, back = differences(deck(), changed), differences(changed, deck())
+    changed = ordered_deck().replace(written, other)
+    there, back = differences(ordered_deck(), changed), differences(changed, ordered_deck())
     assert {swapped(one) for one in there} == {str(one) for one in back}, where
 
 
@@ -49,46 +50,46 @@ def swapped(one: Difference) -> str:
 @given(st.floats(0.01, 99.0), st.sampled_from(["stiffness", "density"]))
 def test_a_changed_number_is_named(value: float, field: str) -> None:
     written = {"stiffness": "50000.0", "density": "7850.0"}[field]
-    found = differences(deck(), deck().replace(written, repr(value)))
+    found = differences(ordered_deck(), ordered_deck().replace(written, repr(value)))
     assert [one for one in found if one.where.endswith(field) and one.after == value]
 
 
 def test_which_of_two_overlapping_laws_comes_later_counts() -> None:
-    text = deck().replace(" SET=Rest\n 3", " SET=Rest\n 2, 3")
+    text = ordered_deck().replace(" SET=Rest\n 3", " SET=Rest\n 2, 3")
     laws = " SET=Pipe\n STIFFNESS=Clay\n FRICTION=0.3, 0.5\n"
     later = text.replace(laws, "").replace("STIFFNESS=50000.0\n", f"STIFFNESS=50000.0\n{laws}")
-    assert ("elements 2/laws", "linear", "curve:Clay") in told(differences(text, later))
+    assert ("elements 2/laws", "linear", "curve:Clay") in brief(differences(text, later))
     assert {one.group for one in differences(text, later)} == {"laws of elements", "bed of elements"}
 
 
 def test_an_option_that_an_earlier_set_gave() -> None:
-    text = deck().replace("7850.0\n", "7850.0\n SET=Pipe\n 207.0E9, 79.6E9, 0.4, 0.3, 7850.0\n")
+    text = ordered_deck().replace("7850.0\n", "7850.0\n SET=Pipe\n 207.0E9, 79.6E9, 0.4, 0.3, 7850.0\n")
     assert differences(text, text.replace(" SET=Pipe\n 207", " OPTION=RIGID\n SET=Pipe\n 207")) == []
 
 
 def test_a_keyword_in_one_deck_only() -> None:
-    more = deck() + "*POINT MASS\n 1, 2\n"
-    found = differences(deck(), more)
-    assert ("*POINT MASS/lines", None, "1, 2") in told(found)
+    more = ordered_deck() + "*POINT MASS\n 1, 2\n"
+    found = differences(ordered_deck(), more)
+    assert ("*POINT MASS/lines", None, "1, 2") in brief(found)
     assert {one.kind for one in found} == {"added"}
-    assert {one.kind for one in differences(more, deck())} == {"removed"}
+    assert {one.kind for one in differences(more, ordered_deck())} == {"removed"}
 
 
 def test_labelled_rows() -> None:
-    text = deck().replace(" 3, 3, 4\n", " 3, 3, {End}\n")
+    text = ordered_deck().replace(" 3, 3, 4\n", " 3, 3, {End}\n")
     found = differences(text, text.replace("{End}", "{Top}"))
-    assert ("elements/3.0", [3.0, 3.0, "{End}"], None) in told(found)
-    assert ("elements/3.0", None, [3.0, 3.0, "{Top}"]) in told(found)
+    assert ("elements/3.0", [3.0, 3.0, "{End}"], None) in brief(found)
+    assert ("elements/3.0", None, [3.0, 3.0, "{Top}"]) in brief(found)
 
 
 def test_sets_of_elements_that_the_deck_does_not_show() -> None:
     text = "$MODEL\n*ELEMENT SETS\n SET=A\n 1, 2, {x}\n SET=B\n GEN=5, 9\n SUBSET=A\n"
     assert differences(text, text.replace("1, 2, {x}", "{X}, 2, 1")) == []
-    found = told(differences(text, text.replace("GEN=5, 9", "GEN=5, 9, 2")))
+    found = brief(differences(text, text.replace("GEN=5, 9", "GEN=5, 9, 2")))
     assert found == [("element sets/B", "5-9, SUBSET=a", "5, 7, 9, SUBSET=a")]
 
 
 @pytest.mark.parametrize("text", ["$MODEL\n*NODE\n 1, x, 0\n", "$MODEL\n*OCEAN\n =[depth], 1025, 9.81\n"])
 def test_a_deck_with_an_unknown_value_is_refused(text: str) -> None:
     with pytest.raises(DeckError):
-        differences(deck(), text)
+        differences(ordered_deck(), text)

@@ -10,7 +10,8 @@ from mudline.comparison.comparing import compare
 from mudline.comparison.model import Difference
 from mudline.deck.loading import load_path
 from mudline.scene.model import resolve
-from tests.comparison.decks import deck, differences, told
+from tests.builders.decks import ordered_deck
+from tests.builders.scenes import brief, differences
 
 FRICTION = "*SEABED FRICTION\n SET=Pipe\n COEFFICIENTS=0.3, 0.6\n STIFFNESS=2e4\n"
 BOUNDARY = "$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n 1, 2\n 1, 3, 0.5\n GEN=1, 3, 1, 4, 0.0\n"
@@ -18,7 +19,7 @@ SOIL = "*P-Y\n SET=Pipe\n DEPTH=0.0\n 0.0, 0.0\n 100.0, 0.1\n DEPTH=2.0\n 0.0, 0
 
 
 def between(old: str, new: str) -> list[tuple[str, object, object]]:
-    return told(differences(deck() + old, deck() + new))
+    return brief(differences(ordered_deck() + old, ordered_deck() + new))
 
 
 def test_an_extension_is_told_by_element_and_by_record() -> None:
@@ -75,14 +76,14 @@ def test_slopes_and_profiles() -> None:
 
 @pytest.mark.parametrize("changed", [False, True])
 def test_points_of_a_profile_in_a_file(tmp_path: Path, changed: bool) -> None:
-    text = deck() + "*SEABED PROFILE\n TYPE=2D\n FILE=bed.txt\n"
+    text = ordered_deck() + "*SEABED PROFILE\n TYPE=2D\n FILE=bed.txt\n"
     for name, points in (("a", "0, 0\n10, 1\n"), ("b", "10, 2\n0, 0\n" if changed else "10, 1\n0, 0\n")):
         (tmp_path / name).mkdir()
         (tmp_path / name / "deck.keyxm").write_text(text, encoding="utf-8")
         (tmp_path / name / "bed.txt").write_text(points, encoding="utf-8")
     one, other = (resolve(load_path(tmp_path / name / "deck.keyxm")) for name in "ab")
     expected = [("seabed/points", "2 points", "2 points")] if changed else []
-    assert told(compare(one, other)) == expected
+    assert brief(compare(one, other)) == expected
 
 
 def test_blocks_without_a_model_compare_by_their_lines() -> None:
@@ -92,19 +93,21 @@ def test_blocks_without_a_model_compare_by_their_lines() -> None:
         ("*VESSEL/lines", "INITIAL POSITION=0, 0, 0", None),
         ("*VESSEL/lines", None, "INITIAL POSITION=0, 0, 5"),
     ]
-    assert ("before the first section/lines", "TITLE", None) in told(differences("TITLE\n" + deck(), deck()))
+    assert ("before the first section/lines", "TITLE", None) in brief(
+        differences("TITLE\n" + ordered_deck(), ordered_deck())
+    )
 
 
 def test_long_blocks_without_a_model_are_compared_between_their_equal_ends() -> None:
     lines = [f" {number}, {number}\n" for number in range(3000)]
     changed = ["C\n", *lines[:10], " new\n", *reversed(lines[10:2990]), *lines[2990:]]
-    found = differences(deck() + "*VESSEL\n" + "".join(lines), deck() + "*VESSEL\n" + "".join(changed))
+    found = differences(ordered_deck() + "*VESSEL\n" + "".join(lines), ordered_deck() + "*VESSEL\n" + "".join(changed))
     assert {one.kind for one in found} == {"added", "removed"}
     assert len(found) == 2 * 2980 + 1
 
 
 def test_units_of_the_decks() -> None:
-    (found,) = differences(deck(), deck(), name="b.keyxi")
+    (found,) = differences(ordered_deck(), ordered_deck(), name="b.keyxi")
     assert found == Difference("changed", "units", "units", "metric", "imperial")
 
 

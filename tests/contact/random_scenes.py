@@ -29,7 +29,7 @@ from mudline.contact.compiled import features_of
 from mudline.contact.seabed import FlatSeabed, PlanesSeabed, Seabed, SlopingSeabed
 from mudline.contact.seabed.profile import ProfileSeabed
 from mudline.curves import ForceCurve
-from tests.contact.builders import ALONG_Y, FRICTION, bridge_law, floats, friction, on, suction
+from tests.builders.contact import ALONG_Y, FRICTION, bridge_law, floats, friction, on, suction
 from tests.contact.comparison import Scene, Sizes, compare
 
 NORMAL = ("linear", "smoothed", "curve", "rigid")

@@ -29,7 +29,7 @@ from mudline.contact.laws.suction import (
     maximum_force,
     step,
 )
-from tests.contact.builders import floats
+from tests.builders.contact import floats
 
 FREE, COMPRESSION, SUCTION, HOLD, BROKEN = SuctionState
 OPEN, STICK, SLIP = FrictionState.OPEN, FrictionState.STICK, FrictionState.SLIP

@@ -7,7 +7,7 @@ import pytest
 
 from mudline.contact import ContactModel
 from mudline.contact.seabed import PlanesSeabed
-from tests.contact.builders import (
+from tests.builders.contact import (
     CLAY,
     CURVE,
     LINEAR,

@@ -15,8 +15,7 @@ from mudline.contact.plan import Backend
 from mudline.contact.seabed import FlatSeabed, PlanesSeabed, Seabed, SlopingSeabed
 from mudline.contact.seabed.profile import ProfileSeabed
 from mudline.curves import ForceCurve
-from tests.contact.bits import arrays_of, differences, equal_bits, same_bits
-from tests.contact.builders import (
+from tests.builders.contact import (
     CLAY,
     CURVE,
     LINEAR,
@@ -35,6 +34,7 @@ from tests.contact.builders import (
     suction,
     trench,
 )
+from tests.contact.bits import arrays_of, differences, equal_bits, same_bits
 from tests.contact.comparison import Scene, Sizes, compare
 from tests.contact.random_scenes import LARGEST, LAWS, SUBSETS, main, random_scene
 
@@ -93,6 +93,7 @@ def test_minus_zero_is_not_zero_and_nan_is_nan() -> None:
 # -------------------------------------------------------------------------------------------------------- random scenes
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("number", range(len(SUBSETS)))
 @pytest.mark.parametrize("seed", range(20))
 def test_scenes_with_some_laws(number: int, seed: int) -> None:
@@ -214,6 +215,7 @@ def test_odd_lines(name: str) -> None:
             ContactModel(given_scene.inputs, backend="fast").evaluate(given_scene.positions)
 
 
+@pytest.mark.untraced
 def test_the_curve_law_of_many_elements() -> None:
     elements = 400
     rng = np.random.default_rng(8)
@@ -232,6 +234,7 @@ def test_a_force_that_overflows_only_on_the_way_is_mended() -> None:
     assert result.force.ravel() == pytest.approx([1.02e308, 1.156e308])
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("seabed", [None, SlopingSeabed(0.001, 30.0)])
 def test_a_long_line_on_several_threads(seabed: Seabed | None) -> None:
     """Several ranges of elements and of nodes, as they are divided by default."""

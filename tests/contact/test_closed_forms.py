@@ -11,7 +11,7 @@ from mudline.contact import ContactModel
 from mudline.contact.arrays import FloatArray
 from mudline.contact.laws.friction import FrictionState
 from mudline.contact.seabed import SlopingSeabed
-from tests.contact.builders import LINEAR, NONE, at_depths, chain, friction, on
+from tests.builders.contact import LINEAR, NONE, at_depths, chain, friction, on
 
 pytestmark = pytest.mark.slow
 

@@ -18,7 +18,7 @@ from mudline.contact.compiled.functions import edition
 from mudline.contact.laws import NormalLaw, law_named
 from mudline.contact.plan import Backend, BackendChoice
 from mudline.contact.tables import Batch
-from tests.contact.builders import CURVE, LINEAR, at_depths, chain, everything, friction, journey
+from tests.builders.contact import CURVE, LINEAR, at_depths, chain, everything, friction, journey
 from tests.processes import TIMEOUT
 
 pytestmark = pytest.mark.slow
@@ -115,7 +115,7 @@ def test_there_is_a_thread_for_each_processor(monkeypatch: pytest.MonkeyPatch) -
 def test_numpy_alone_does_not_load_numba() -> None:
     program = """if True:
         import sys, numpy as np
-        from tests.contact.builders import everything, journey
+        from tests.builders.contact import everything, journey
         from mudline.contact import ContactModel
         positions, velocities, _ = journey(3, 4, 1)
         ContactModel(everything(3, 1)).evaluate(positions, velocities=velocities)

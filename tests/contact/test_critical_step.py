@@ -15,7 +15,7 @@ from mudline.contact.stiffest import (
     rounded_down,
     steepest_slope,
 )
-from tests.contact.builders import bridge_law
+from tests.builders.contact import bridge_law
 
 
 @pytest.mark.parametrize(

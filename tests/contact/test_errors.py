@@ -15,7 +15,7 @@ from mudline.contact import ContactInput, ContactModel, ElementError, LawAssignm
 from mudline.contact.laws import known_laws
 from mudline.contact.seabed import SlopingSeabed
 from mudline.curves import ForceCurve
-from tests.contact.builders import (
+from tests.builders.contact import (
     CURVE,
     LINEAR,
     NONE,

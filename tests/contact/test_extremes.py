@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from mudline.contact import ContactModel, ContactResult, ElementError, PositionError
 from mudline.contact.seabed import FlatSeabed, PlanesSeabed, Seabed, SlopingSeabed
 from mudline.contact.seabed.profile import ProfileSeabed
-from tests.contact.builders import changed, everything, journey, without
+from tests.builders.contact import changed, everything, journey, without
 
 pytestmark = pytest.mark.slow
 

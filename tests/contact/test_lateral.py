@@ -7,7 +7,7 @@ import pytest
 
 from mudline.contact import ContactModel
 from mudline.contact.seabed import PlanesSeabed, SlopingSeabed
-from tests.contact.builders import LINEAR, at_depths, chain, drawn, friction, on, stepped, walk
+from tests.builders.contact import LINEAR, at_depths, chain, drawn, friction, on, stepped, walk
 
 K = 3000.0
 """With an element of 2 m a node gets 3000 N per m of displacement."""

@@ -7,7 +7,7 @@ import tracemalloc
 import numpy as np
 
 from mudline.contact import ContactModel
-from tests.contact.builders import everything, mixed
+from tests.builders.contact import everything, mixed
 
 SLACK = 2**16
 NODES = 10_001

@@ -13,7 +13,7 @@ import pytest
 
 from mudline.contact import ContactModel
 from mudline.contact.arrays import FloatArray
-from tests.contact.builders import LINEAR, NONE, chain, on
+from tests.builders.contact import LINEAR, NONE, chain, on
 
 pytestmark = pytest.mark.slow
 

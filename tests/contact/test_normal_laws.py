@@ -13,7 +13,7 @@ from mudline.contact import ContactModel
 from mudline.contact.arrays import FloatArray
 from mudline.contact.seabed import SlopingSeabed
 from mudline.curves import ForceCurve
-from tests.contact.builders import CURVE, LINEAR, NONE, PULLING, RIGID, SAND, at_depths, chain, depth_at, on
+from tests.builders.contact import CURVE, LINEAR, NONE, PULLING, RIGID, SAND, at_depths, chain, depth_at, on
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from mudline.contact import ContactInput, ContactModel
 from mudline.contact.arrays import FloatArray
 from mudline.contact.seabed import PlanesSeabed
 from mudline.contact.tangent import directions_of
-from tests.contact.builders import LINEAR, at_depths, chain, drawn, friction, on, trench, walk
+from tests.builders.contact import LINEAR, at_depths, chain, drawn, friction, on, trench, walk
 
 
 def along_z(nodes: int, depth: float = 0.02) -> FloatArray:

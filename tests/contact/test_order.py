@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from mudline.contact import ContactInput, ContactModel, ElementError
 from mudline.contact.arrays import as_range
 from mudline.curves import ForceCurve
-from tests.contact.builders import at_depths, everything, mixed, on, rearranged
+from tests.builders.contact import at_depths, everything, mixed, on, rearranged
 
 
 def plain(elements: int, *, curves: int = 1) -> ContactInput:

@@ -14,7 +14,7 @@ import pytest
 from mudline.contact import ContactModel, LawKind
 from mudline.contact.laws import known_laws
 from mudline.short_repr import UnknownNameError
-from tests.contact.builders import (
+from tests.builders.contact import (
     CLAY,
     CURVE,
     LINEAR,

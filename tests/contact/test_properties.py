@@ -12,8 +12,7 @@ from mudline.contact import ContactInput, ContactModel
 from mudline.contact.arrays import FloatArray
 from mudline.contact.laws.trench import wall_coefficient
 from mudline.contact.seabed import FlatSeabed, Seabed, SlopingSeabed
-from tests.contact.bits import same_bits
-from tests.contact.builders import (
+from tests.builders.contact import (
     ALONG_Y,
     PULLING,
     SAND,
@@ -28,6 +27,7 @@ from tests.contact.builders import (
     walk,
     without,
 )
+from tests.contact.bits import same_bits
 
 seeds = st.integers(0, 2**32 - 1)
 lines = st.integers(1, 9)

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mudline.contact import ContactModel
-from tests.contact.builders import CLAY, CURVE, LINEAR, at_depths, chain, changed, mixed, rearranged
+from tests.builders.contact import CLAY, CURVE, LINEAR, at_depths, chain, changed, mixed, rearranged
 
 
 @given(st.integers(1, 60), st.integers(0, 2**32 - 1))

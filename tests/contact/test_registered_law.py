@@ -18,7 +18,7 @@ from mudline.contact.laws import NormalLaw, Parameter, Value, known_laws, law_na
 from mudline.contact.laws.linear import RIGID
 from mudline.contact.laws.unloading import UNLOADING
 from mudline.contact.seabed import SlopingSeabed
-from tests.contact.builders import (
+from tests.builders.contact import (
     LINEAR,
     NONE,
     at_depths,
@@ -134,6 +134,7 @@ def test_both_drivers_give_the_same_bits(elements: int, seed: int, slopes: bool)
     assert compare(scene, plain=True) == []
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("seed", range(4))
 def test_its_tangent_is_that_of_central_differences(seed: int) -> None:
     contact = ContactModel(everything_beside(4))

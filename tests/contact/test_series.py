@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from mudline.contact import ContactModel
+from tests.builders.contact import CURVE, LINEAR, at_depths, chain, everything, journey, mixed
 from tests.contact.bits import same_bits
-from tests.contact.builders import CURVE, LINEAR, at_depths, chain, everything, journey, mixed
 
 
 def series(steps: int, nodes: int) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:

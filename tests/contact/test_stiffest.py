@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from mudline.contact import ContactInput, ContactModel
 from mudline.contact.arrays import FloatArray
 from mudline.curves import ForceCurve
-from tests.contact.builders import (
+from tests.builders.contact import (
     CLAY,
     CURVE,
     LINEAR,

@@ -10,7 +10,7 @@ from mudline.contact.arrays import FloatArray
 from mudline.contact.result import ContactResult
 from mudline.contact.seabed import FlatSeabed, PlanesSeabed, Seabed, SlopingSeabed
 from mudline.contact.tables import ContactState
-from tests.contact.builders import everything, line
+from tests.builders.contact import everything, line
 
 SEABEDS: dict[str, Seabed] = {
     "flat": FlatSeabed(),
@@ -69,6 +69,7 @@ def difference(
     return np.column_stack(columns), np.array(smooth)
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("name", SEABEDS)
 @pytest.mark.parametrize("seed", range(6))
 def test_tangent_against_central_differences(name: str, seed: int) -> None:

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from mudline.contact import ContactInput, ContactModel
 from mudline.contact.arrays import FloatArray
 from mudline.curves import ForceCurve
-from tests.contact.builders import everything, journey, on
+from tests.builders.contact import everything, journey, on
 
 POWERS = {"F": (1, 0), "F/L": (1, -1), "F/L2": (1, -2), "L": (0, 1), "L/T": (0, 1), "1": (0, 0), "deg": (0, 0)}
 """Powers of force and length in the units of parameters; time stays in seconds."""

@@ -17,7 +17,7 @@ from mudline.contact.arrays import FloatArray
 from mudline.contact.laws.curve import steepest_slope
 from mudline.contact.laws.unloading import UnloadingHistory, line_stiffness, on_line, trench_bottom
 from mudline.curves import ForceCurve
-from tests.contact.builders import CURVE, LINEAR, NONE, apart, at_depths, chain, on
+from tests.builders.contact import CURVE, LINEAR, NONE, apart, at_depths, chain, on
 
 EPSILON = float(np.finfo(np.float64).eps)
 

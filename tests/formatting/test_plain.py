@@ -11,7 +11,7 @@ from mudline.keywords.library.element import ElementRow
 from mudline.keywords.library.node import NodeRow
 from mudline.keywords.model import Row, layout
 from mudline.syntax.rows import read_number
-from tests.reading.spellings import numbers
+from tests.builders.spellings import numbers
 
 
 def kind(row: type[Row]) -> RowKind:

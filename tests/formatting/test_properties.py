@@ -16,8 +16,8 @@ from mudline.diagnostics import DeckError, Severity
 from mudline.formatting.document import formatted, same_meaning
 from mudline.keywords import catalogue
 from mudline.syntax.source import Source
+from tests.builders.keyword_texts import deck_texts, mutated
 from tests.growth import FOURFOLD, TWOFOLD, call_growth, calls, growth
-from tests.reading.decks import deck_texts, mutated
 from tests.samples import SAMPLES
 
 pytestmark = pytest.mark.slow

@@ -15,7 +15,7 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from mudline.linting.output import form_names
-from tests.cli.decks import BAD_NUMBER, CLEAN
+from tests.builders.decks import BAD_NUMBER, CLEAN
 from tests.cli.runner import run
 from tests.processes import TIMEOUT
 

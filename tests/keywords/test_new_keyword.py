@@ -18,9 +18,9 @@ from mudline.keywords.catalogue import meant_keyword
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import rules
 from mudline.scene.model import resolve
+from tests.builders.decks import CLAY, PIPE, STEEL
 from tests.docs.keyword_index import keyword_index
 from tests.docs.keyword_page import keyword_page
-from tests.scene.decks import CLAY, PIPE, STEEL
 
 NAME = "SEABED ANCHOR"
 MODULE = '''

@@ -4,21 +4,9 @@ from __future__ import annotations
 
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import rules, select
+from tests.builders import decks
 
-PIPE = """\
-$MODEL
-*NODE
- 1, -0.05, 0.0
- 11, -0.05, 100.0
- GEN=1, 11
-*ELEMENT
- 1, 1, 2
- GEN=1, 10
-*GEOMETRIC SETS
- OPTION=RIGID
- SET=ALL
- 207.0E9, 79.6E9, 0.25, 0.22, 7850.0
-"""
+PIPE = decks.PIPE + decks.STEEL
 PROPERTIES = "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n"
 CURVES = "$MODEL\n*SEABED STIFFNESS\n"
 RESTART = "$LOAD CASE\n*RESTART\n LAST=static\n"

@@ -91,6 +91,7 @@ def test_the_corpus_is_large_and_half_of_it_is_without_error() -> None:
 # ------------------------------------------------------------------------------------------------------------ forms
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("deck", READABLE, ids=corpus.name_of)
 def test_a_deck_is_the_same_in_every_form(deck: Path) -> None:
     first = as_written(deck)
@@ -103,6 +104,7 @@ def test_a_deck_is_the_same_in_every_form(deck: Path) -> None:
         assert again.units == first.units
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("deck", READABLE, ids=corpus.name_of)
 def test_layout_is_settled_at_once_and_keeps_the_findings(deck: Path) -> None:
     once = formatted(deck.read_bytes(), deck.name)
@@ -120,6 +122,7 @@ def test_a_deck_with_an_error_of_reading_is_not_laid_out(deck: Path) -> None:
 # ------------------------------------------------------------------------------------------------------------ fixes
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("deck", FIXABLE, ids=corpus.name_of)
 @pytest.mark.parametrize("fixing", [Fixing.SAFE, Fixing.UNSAFE])
 def test_fixes_bring_no_error_and_are_soon_done(deck: Path, fixing: Fixing) -> None:

@@ -125,6 +125,7 @@ def test_fixing_ends_where_rules_do_not() -> None:
     assert "stopped" in result.note
 
 
+@pytest.mark.untraced
 def test_many_bad_fixes_end_soon() -> None:
     rows = "".join(f" {ratio}.0, {ratio}7.0\n" for ratio in range(300))
     result = fix(f"{CURVES} CURVE=Clay\n{rows}", replacing("7.0$", "x"))

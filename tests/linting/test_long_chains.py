@@ -41,6 +41,7 @@ def codes(text: str, folder: Path) -> list[str]:
     return [found.code for found in mudline.lint(path)]
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("chain", [sets, parameters])
 @pytest.mark.parametrize("step", [1, -1])
 def test_work_is_as_long_as_the_chain(chain: Callable[[int, int], str], step: int, tmp_path: Path) -> None:
@@ -51,6 +52,7 @@ def test_work_is_as_long_as_the_chain(chain: Callable[[int, int], str], step: in
     assert call_growth(lambda path: list(mudline.lint(path)), *paths) < TWOFOLD
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize(("chain", "code"), [(sets, "REF008"), (parameters, "REF014")])
 def test_a_chain_without_an_end_is_told_once(chain: Callable[[int, int], str], code: str, tmp_path: Path) -> None:
     assert codes(closed(chain(LONG, 1), LONG), tmp_path).count(code) == 1

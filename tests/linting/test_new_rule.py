@@ -5,8 +5,8 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
+from typing import NamedTuple
 
 import pytest
 
@@ -54,27 +54,36 @@ from mudline.diagnostics import Code, Severity
 NEW001 = Code("NEW001", "deck-with-model", Severity.WARNING, """{PAGE}""")
 '''
 
-BESIDE = """
+SCRIPT = """
 import sys
 from importlib import import_module
 
-package, folder = sys.argv[1:3]
+package, folder = sys.argv[1:]
 import_module(package).__path__.append(folder)
-del sys.argv[1:3]
-"""
-COMMAND = f"{BESIDE}\nfrom mudline.__main__ import main\n\nmain()\n"
-PAGES = f"""{BESIDE}
+
+from mudline.__main__ import main
 from mudline.linting.registry import find
 from tests.docs.rule_pages import rule_index, rule_page
 
-print(rule_index(find("NEW001")), rule_page(*find("NEW001")), sep="")
+for words in (["rules"], ["rules", "NEW001"], "lint --select NEW --output-format concise deck.keyxm".split()):
+    main(words)
+    print(end="\\0", flush=True)
+print(rule_index(find("NEW001")), rule_page(*find("NEW001")), sep="", end="")
 """
 
-Run = Callable[..., str]
 
-each_kind = pytest.mark.parametrize(
-    ("package", "file", "text"),
-    [
+class Shown(NamedTuple):
+    """What the program and its documentation show of a new module."""
+
+    rules: str
+    page: str
+    findings: str
+    document: str
+
+
+@pytest.fixture(
+    scope="module",
+    params=[
         ("mudline.linting.rules", "new_subject.py", ADVICE),
         ("mudline.linting.rules", "new_family/new_subject.py", ADVICE),
         ("mudline.scene.checks", "new_subject.py", CHECK),
@@ -82,49 +91,42 @@ each_kind = pytest.mark.parametrize(
     ],
     ids=["rule", "package", "check", "code"],
 )
-
-
-@pytest.fixture
-def run(tmp_path: Path, package: str, file: str, text: str) -> Run:
-    """Runs a script with arguments, in a folder with a deck, where a package has one more module."""
-    module = tmp_path / "more" / file
+def shown(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Shown:
+    """What is shown, in a folder with a deck, where a package has one more module."""
+    package, file, text = request.param
+    folder = tmp_path_factory.mktemp("new")
+    module = folder / "more" / file
     module.parent.mkdir(parents=True)
     (module.parent / "__init__.py").write_text('"""New."""\n')
     module.write_text(text)
-    (tmp_path / "deck.keyxm").write_text("$MODEL\n*OCEAN\n 500.0, 1025.0, 9.81\n")
-
-    def ran(script: str, *arguments: str) -> str:
-        done = subprocess.run(
-            [sys.executable, "-c", script, package, str(tmp_path / "more"), *arguments],
-            capture_output=True,
-            text=True,
-            check=False,
-            cwd=tmp_path,
-            env={**os.environ, "PYTHONPATH": os.pathsep.join([str(SOURCE), str(ROOT)])},
-            timeout=TIMEOUT,
-        )
-        assert done.stderr == ""
-        return done.stdout
-
-    return ran
+    (folder / "deck.keyxm").write_text("$MODEL\n*OCEAN\n 500.0, 1025.0, 9.81\n")
+    done = subprocess.run(
+        [sys.executable, "-c", SCRIPT, package, str(folder / "more")],
+        capture_output=True,
+        text=True,
+        check=False,
+        cwd=folder,
+        env={**os.environ, "PYTHONPATH": os.pathsep.join([str(SOURCE), str(ROOT)])},
+        timeout=TIMEOUT,
+    )
+    assert done.stderr == ""
+    return Shown(*done.stdout.split("\0"))
 
 
-@each_kind
-def test_a_new_module_is_listed_and_explained(run: Run) -> None:
-    assert "NEW001 warning deck-with-model A deck has a model." in " ".join(run(COMMAND, "rules").split())
-    page = run(COMMAND, "rules", "NEW001")
-    bad, good = page.partition("Bad (found at line 1, column 1):")[2].split("Good:")
+def test_a_new_module_is_listed_and_explained(shown: Shown) -> None:
+    assert "NEW001 warning deck-with-model A deck has a model." in " ".join(shown.rules.split())
+    bad, good = shown.page.partition("Bad (found at line 1, column 1):")[2].split("Good:")
     assert [line.strip() for line in bad.split("\n") if line] == ["$MODEL", "*OCEAN", "500.0, 1025.0, 9.81"]
     assert [line.strip() for line in good.split("\n") if line] == ["$PREPROCESSOR", "*OCEAN", "500.0, 1025.0, 9.81"]
-    assert "It is left to others to say why not, in ten words or more." in page
+    assert "It is left to others to say why not, in ten words or more." in shown.page
 
 
-@each_kind
-def test_a_new_module_finds_and_has_a_page(run: Run, text: str) -> None:
+def test_a_new_module_finds_and_has_a_page(shown: Shown, request: pytest.FixtureRequest) -> None:
     finding = "deck.keyxm:1:1: NEW001 write no model\n"
-    found = finding if text != DECLARED else ""  # what nothing notices yet
-    assert run(COMMAND, "lint", "--select", "NEW", "--output-format", "concise", "deck.keyxm") == found
-    pages = run(PAGES)
+    noticed = "[code]" not in request.node.name  # nothing finds what is only declared
+    found = finding if noticed else ""
+    assert shown.findings == found
+    pages = shown.document
     assert "\n| [NEW001](NEW001.md) | `deck-with-model` | warning |  | A deck has a model. |\n" in pages
     assert "\n# NEW001 deck-with-model\n\nA deck has a model.\n\nSeverity: warning." in pages
     assert "\nBad:\n\n```text\n$MODEL\n*OCEAN\n 500.0, 1025.0, 9.81\n```\n" in pages

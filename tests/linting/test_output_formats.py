@@ -12,7 +12,7 @@ import pytest
 from mudline.cli.lint_command import complete
 from mudline.linting import output
 from mudline.linting.output import form_module, form_names
-from tests.cli.decks import BAD_NUMBER
+from tests.builders.decks import BAD_NUMBER
 from tests.docs.form_table import form_table
 from tests.processes import TIMEOUT
 

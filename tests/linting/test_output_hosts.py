@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from mudline.diagnostics import Severity
 from mudline.linting.output import form, visible
 from mudline.linting.registry import rules
-from tests.cli.decks import BAD_NUMBER
+from tests.builders.decks import BAD_NUMBER
 from tests.cli.runner import run
 from tests.linting.outputs import finding
 

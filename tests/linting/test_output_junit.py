@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from junitparser import Failure, JUnitXml, TestCase, TestSuite
 
 from mudline.linting.output import form
-from tests.cli.decks import BAD_NUMBER, CLEAN
+from tests.builders.decks import BAD_NUMBER, CLEAN
 from tests.cli.runner import run
 from tests.linting.outputs import finding
 

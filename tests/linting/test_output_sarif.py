@@ -18,7 +18,7 @@ from mudline.diagnostics import Diagnostic, Severity
 from mudline.linting.engine import lint_bytes
 from mudline.linting.output import form
 from mudline.linting.registry import find, rules
-from tests.cli.decks import BAD_NUMBER, CLEAN, UNSORTED
+from tests.builders.decks import BAD_NUMBER, CLEAN, UNSORTED
 from tests.cli.runner import Json, Outcome, run
 from tests.linting.outputs import finding, plugin_lint
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,15 +13,17 @@ import pytest
 
 import mudline
 from mudline.diagnostics import Code, PluginError, Problem, Severity, Span, Where
+from mudline.linting import registry
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import Guarded, load, origin, rules
-from mudline.linting.rule import Rule
+from mudline.linting.rule import RULES, Rule
 from mudline.plugins import LintContext
+from tests.cli.runner import Outcome, run
+from tests.linting.outputs import NO_FRICTION
 from tests.processes import TIMEOUT
 
 ROOT = Path(__file__).parents[2]
 SOURCE = Path(mudline.__file__).parents[1]
-NO_FRICTION = "$MODEL\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=50000.0\n"
 FRICTION = f"{NO_FRICTION} FRICTION=0.3, 0.6\n"
 
 RULE = '''
@@ -76,6 +78,30 @@ class Site:
 @pytest.fixture
 def site(tmp_path: Path) -> Site:
     return Site(tmp_path)
+
+
+@pytest.fixture
+def lint_here(site: Site, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., Outcome]]:
+    """Runs the command in this process, with the rules that there are with the plugins of the site."""
+
+    def lint(*arguments: str) -> Outcome:
+        faults = registry.load(RULES)
+        found = tuple(RULES[code] for code in sorted(RULES))
+        monkeypatch.setattr(registry, "_collected", lambda: (found, faults))
+        (site.folder / "deck.keyxm").write_text(NO_FRICTION)
+        return run("lint", *arguments)
+
+    rules()
+    own, modules = dict(RULES), set(sys.modules)
+    monkeypatch.setattr(registry, "_ORIGINS", {})
+    monkeypatch.syspath_prepend(str(site.folder))
+    monkeypatch.chdir(site.folder)
+    yield lint
+    RULES.clear()
+    RULES.update(own)
+    for name in sys.modules.keys() - modules:
+        if name.startswith("corp_"):
+            del sys.modules[name]
 
 
 @pytest.fixture(scope="module")
@@ -151,14 +177,24 @@ FAULTS = {
 
 
 @pytest.mark.parametrize(("text", "told"), FAULTS.values(), ids=FAULTS)
-def test_a_plugin_with_a_fault_stops_the_run_in_words(site: Site, text: str, told: str) -> None:
+def test_a_plugin_with_a_fault_stops_the_run_in_words(
+    site: Site, lint_here: Callable[..., Outcome], text: str, told: str
+) -> None:
     site.add(text)
+    done = lint_here("deck.keyxm")
+    assert (done.code, done.out) == (2, "")
+    assert done.err.startswith("mudline: the plugin corp_rules of corp_rules 2.1 cannot be used: ")
+    assert told in done.err
+    assert done.err.endswith("or uninstall the package\n")
+    assert "Traceback" not in done.err
+
+
+def test_a_plugin_that_ends_the_program_stops_the_process_in_words(site: Site) -> None:
+    site.add("raise SystemExit(5)")
     done = site.run("lint", "deck.keyxm")
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr.startswith("mudline: the plugin corp_rules of corp_rules 2.1 cannot be used: ")
-    assert told in done.stderr
+    assert done.stderr.startswith("mudline: the plugin corp_rules of corp_rules 2.1 cannot be used: SystemExit: 5: ")
     assert done.stderr.endswith("or uninstall the package\n")
-    assert "Traceback" not in done.stderr
 
 
 def test_every_plugin_with_a_fault_is_told(site: Site) -> None:
@@ -181,12 +217,14 @@ FAILURES = {
 
 
 @pytest.mark.parametrize(("body", "told"), FAILURES.values(), ids=FAILURES)
-def test_a_rule_that_fails_is_a_finding_and_the_run_goes_on(site: Site, body: str, told: str) -> None:
+def test_a_rule_that_fails_is_a_finding_and_the_run_goes_on(
+    site: Site, lint_here: Callable[..., Outcome], body: str, told: str
+) -> None:
     site.add(RULE.format(code="COR001", slug="model", body=body))
     (site.folder / "other.keyxm").write_text("$MODEL\n*SEABED PROPERTIES\n SET=ALL\n")
-    done = site.run("lint", "--output-format", "concise", "deck.keyxm", "other.keyxm")
-    lines = done.stdout.splitlines()
-    assert done.returncode == 1
+    done = lint_here("--output-format", "concise", "deck.keyxm", "other.keyxm")
+    lines = done.out.splitlines()
+    assert done.code == 1
     assert [line.partition(":")[0] for line in lines if "RUN002" in line] == ["deck.keyxm", "other.keyxm"]
     assert all("the rule COR001 of corp_rules 2.1 failed on this deck" in line for line in lines if "RUN002" in line)
     assert told in lines[0]

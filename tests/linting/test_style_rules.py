@@ -254,6 +254,7 @@ def test_numbers_behind_a_key_are_parted_by_blanks_too() -> None:
     assert mended(text, "STY004") == text.replace("1  11 2", "1,  11, 2")
 
 
+@pytest.mark.untraced
 def test_many_names_of_numbers_are_looked_at_in_no_time() -> None:
     def reported(context: LintContext) -> list[Problem]:
         return [problem for rule in STYLE for problem in rule.check(context)]

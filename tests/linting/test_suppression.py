@@ -130,6 +130,7 @@ def test_the_report_of_unused_comments_can_be_hidden_by_name_only() -> None:
     assert "STY010" in codes(unused.replace("$MODEL", "C mudline: ignore-file\n$MODEL"))
 
 
+@pytest.mark.untraced
 def test_of_very_many_idle_comments_the_first_are_told() -> None:
     for word in ("CRV005", "CRVV05"):
         told = lint_bytes((f"C mudline: ignore {word}\n" * 1500).encode(), "deck.keyxm", select(["STY010", "CRV005"]))

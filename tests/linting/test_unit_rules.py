@@ -10,6 +10,7 @@ from mudline.deck.forms.json import to_json
 from mudline.deck.loading import load_bytes
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import select
+from tests.builders.decks import STEEL
 from tests.linting.findings import PIPE, PROPERTIES, curve
 
 CODES = ("UNT002", "UNT004", "UNT005", "UNT006")
@@ -273,7 +274,6 @@ def test_a_curve_over_metres(suffix: str, diameter: float, scale: float, expecte
 
 NODES = "$MODEL\n*NODE\n" + "".join(f" {node}, 0.0, {{{node}}}\n" for node in range(5))
 CHAIN = "*ELEMENT\n 1, 0, 1\n 2, 1, 2\n 3, 2, 3\n 4, 3, 4\n"
-ALL_STEEL = "*GEOMETRIC SETS\n OPTION=RIGID\n SET=ALL\n 207.0E9, 79.6E9, 0.25, 0.22, 7850.0\n"
 
 
 @pytest.mark.parametrize(
@@ -287,13 +287,13 @@ ALL_STEEL = "*GEOMETRIC SETS\n OPTION=RIGID\n SET=ALL\n 207.0E9, 79.6E9, 0.25, 0
     ],
 )
 def test_an_element_longer_than_its_neighbours(y: tuple[int, ...], lines: list[int]) -> None:
-    text = NODES.format(*y) + CHAIN + ALL_STEEL
+    text = NODES.format(*y) + CHAIN + STEEL
     for suffix in ("keyxm", "keyx"):
         assert [one[:3] for one in told(text, suffix)] == [("UNT006", line, 2) for line in lines]
 
 
 def test_an_element_of_another_section_may_be_long() -> None:
-    text = NODES.format(0, 10, 1010, 1020, 1030) + CHAIN + "*ELEMENT SETS\n SET=Tether\n 2\n" + ALL_STEEL
+    text = NODES.format(0, 10, 1010, 1020, 1030) + CHAIN + "*ELEMENT SETS\n SET=Tether\n 2\n" + STEEL
     assert len(told(text)) == 1
     assert told(text + " OPTION=TRUSS\n SET=Tether\n 1E8, 12.0, 0.05\n") == []
 

@@ -6,6 +6,7 @@ import re
 
 import pytest
 from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from mudline.deck.forms.json import to_json
 from mudline.deck.forms.yaml import to_yaml
@@ -16,10 +17,11 @@ from mudline.linting.registry import rules
 from mudline.linting.rule import LintContext
 from mudline.migration.migrating import Migration, legacy_blocks, migrate
 from mudline.migration.verification import verify
-from tests.migration.decks import PIPE, deck_of, legacy_decks
+from tests.builders.decks import PIPE_WITH_SETS
+from tests.builders.scenes import deck_of
 
 SAMPLE = (
-    PIPE
+    PIPE_WITH_SETS
     + """\
 C the old seabed
 *ELASTIC SURFACE
@@ -39,7 +41,7 @@ C the point of rev B
 )
 
 MIGRATED = (
-    PIPE
+    PIPE_WITH_SETS
     + """\
 C the old seabed
 *SEABED PROPERTIES
@@ -74,6 +76,102 @@ C the point of rev B
  1.0, 100.0
 """
 )
+
+# ------------------------------------------------------------------------------------------------------------ many more
+
+SETS = ("ALL", "West", "East Bank", "7", "west")
+numbers = st.floats(min_value=1e-3, max_value=1e6).map(repr)
+coefficients = st.sampled_from(["", "0", "0.0", "0.3", " 0.55 ", "1E-3"])
+lengths = st.sampled_from(["", "0.05", "2.5e-2"])
+characteristic = st.sampled_from(["", "3.048"])
+comments = st.sampled_from(["", "C from the survey\n", "C\n", "C--- rev B ---\n"])
+
+
+@st.composite
+def points(draw: st.DrawFn) -> str:
+    """The rows of a curve, in any order."""
+    ratios = draw(st.lists(st.integers(-20, 400), min_size=2, max_size=6, unique=True))
+    written = st.floats(-1e4, 1e6).map(lambda force: round(force, 6))  # slopes below float64 are refused (CRV011)
+    forces = draw(st.lists(written, min_size=len(ratios), max_size=len(ratios)))
+    rows = [f" {ratio / 100!r}, {force!r}\n" for ratio, force in zip(ratios, forces, strict=True)]
+    return "".join(draw(comments) + row for row in rows)
+
+
+@st.composite
+def embedment(draw: st.DrawFn, first: bool = True) -> str:
+    names = draw(st.lists(st.sampled_from(SETS), min_size=1, max_size=4))
+    curves = [f" SET={name}\n{draw(points())}" for name in names]
+    if first and draw(st.booleans()):
+        curves.insert(0, draw(points()))
+    return "*EMBEDMENT\n" + "".join(draw(comments) + curve for curve in curves)
+
+
+@st.composite
+def elastic(draw: st.DrawFn) -> str:
+    fields = [
+        draw(st.one_of(st.just("1e4"), numbers)),
+        draw(coefficients),
+        draw(coefficients),
+        draw(st.sampled_from(["", "0", "250.0"])),
+        draw(st.sampled_from(["", "300.5"])),
+        draw(st.sampled_from(["", "0.1"])),
+        draw(characteristic),
+        draw(characteristic),
+        draw(st.sampled_from(["", "12.5"])),
+        draw(lengths),
+        draw(lengths),
+    ]
+    row = f" {', '.join(fields[: draw(st.integers(1, 11))])}\n"
+    return "*ELASTIC SURFACE\n" + draw(comments) + row + draw(beds())
+
+
+@st.composite
+def rigid(draw: st.DrawFn) -> str:
+    fields = [
+        draw(st.sampled_from(["0.3", "0"])),
+        draw(coefficients),
+        draw(characteristic),
+        draw(characteristic),
+        draw(st.sampled_from(["", "12.5"])),
+        draw(lengths),
+        draw(lengths),
+    ]
+    row = f" {', '.join(fields[: draw(st.integers(1, 7))])}\n"
+    return "*RIGID SURFACE\n" + draw(comments) + row + draw(beds())
+
+
+@st.composite
+def beds(draw: st.DrawFn) -> str:
+    """Nothing, a slope, or a profile."""
+    kind = draw(st.integers(0, 2))
+    if kind == 0:
+        return ""
+    if kind == 1:
+        return draw(comments) + f" {draw(st.floats(-20, 20))!r}\n"
+    across = draw(st.lists(st.integers(-500, 500), min_size=2, max_size=5, unique=True))
+    return "".join(f"{draw(comments)} {float(y)!r}, {draw(st.floats(-30, 30))!r}\n" for y in across)
+
+
+@st.composite
+def legacy_decks(draw: st.DrawFn) -> str:
+    """A model with a legacy seabed; blocks in any order."""
+    if draw(st.booleans()):
+        blocks = [draw(elastic()), *draw(st.lists(embedment(first=False), max_size=2))]
+        if draw(st.booleans()):
+            blocks.append(draw(embedment()))
+        blocks = draw(st.permutations(blocks))
+    else:
+        blocks = [draw(rigid())]
+    existing = draw(st.sampled_from(["", "*SEABED STIFFNESS\n CURVE=WEST\n 0, 0\n 1, 1\n"]))
+    indent = draw(st.sampled_from([" ", "", "    "]))
+    seabed = "".join(draw(comments) + block for block in blocks)
+    text = PIPE_WITH_SETS + existing + seabed.replace("\n ", f"\n{indent}")
+    text += draw(st.sampled_from(["", "$LOAD CASE\n*ANALYSIS TYPE\n TYPE=STATIC\n"]))
+    end = draw(st.sampled_from(["\n", "\r\n", "\r"]))
+    return text.replace("\n", end)
+
+
+# ---------------------------------------------------------------------------------------------------------------- tests
 
 
 def migrated(text: str | bytes, name: str = "deck.keyxm") -> Migration:
@@ -115,13 +213,13 @@ def test_documents_are_migrated_in_their_own_form(form: str) -> None:
 
 
 def test_a_rigid_bed_without_friction_stays_one() -> None:
-    found = migrated(PIPE + "*RIGID SURFACE\n ,,\n")
+    found = migrated(PIPE_WITH_SETS + "*RIGID SURFACE\n ,,\n")
     assert found.content.decode().endswith("*SEABED PROPERTIES\n TYPE=RIGID\n SET=ALL\n")
     assert verify(found).differences == ()
 
 
 def test_points_before_any_set_mean_all() -> None:
-    found = migrated(PIPE + "*ELASTIC SURFACE\n 1e4\n*EMBEDMENT\n0, 0\n 1, 5\n SET=West\n 0, 0\n 1, 7\n")
+    found = migrated(PIPE_WITH_SETS + "*ELASTIC SURFACE\n 1e4\n*EMBEDMENT\n0, 0\n 1, 5\n SET=West\n 0, 0\n 1, 7\n")
     text = found.content.decode()
     assert " CURVE=ALL\n0, 0\n" in text
     assert text.index("STIFFNESS=1e4") < text.index("STIFFNESS=ALL") < text.index("STIFFNESS=West")
@@ -130,14 +228,14 @@ def test_points_before_any_set_mean_all() -> None:
 
 def test_keys_in_column_one_stay_clear_of_comments() -> None:
     """CURVE= in column 1 begins with C; tools that drop such lines as comments must not meet one."""
-    found = migrated(PIPE + "*ELASTIC SURFACE\n1e4, 0.3\n*EMBEDMENT\nSET=West\n0, 0\n1, 5\n")
+    found = migrated(PIPE_WITH_SETS + "*ELASTIC SURFACE\n1e4, 0.3\n*EMBEDMENT\nSET=West\n0, 0\n1, 5\n")
     assert b"\n CURVE=West\n0, 0\n" in found.content
     assert b"\n TYPE=ELASTIC\n SET=ALL\n" in found.content
 
 
 def test_equations_are_carried_as_written() -> None:
     head = "$PREPROCESSOR\n*PARAMETERS\n k, 2e4\n"
-    found = migrated(head + PIPE + "*ELASTIC SURFACE\n =[k * 2], =[if(k > 1, 0.3, 0)]\n =[k/1e4]\n")
+    found = migrated(head + PIPE_WITH_SETS + "*ELASTIC SURFACE\n =[k * 2], =[if(k > 1, 0.3, 0)]\n =[k/1e4]\n")
     text = found.content.decode()
     assert " STIFFNESS==[k * 2]\n FRICTION==[if(k > 1, 0.3, 0)], 0\n" in text
     assert " SLOPE==[k/1e4]\n" in text
@@ -145,7 +243,7 @@ def test_equations_are_carried_as_written() -> None:
 
 
 def test_a_profile_goes_to_a_file_beside_the_deck() -> None:
-    deck = PIPE + "*RIGID SURFACE\n 0.3\n 100.0, 30.0\nC shore\n 0.0, 0.1D0\n"
+    deck = PIPE_WITH_SETS + "*RIGID SURFACE\n 0.3\n 100.0, 30.0\nC shore\n 0.0, 0.1D0\n"
     found = migrated(deck, "Pipe 7 (rev B).keyxm")
     assert b"TYPE=2D\n INTERPOLATION=LINEAR\n FILE=Pipe-7-rev-B-profile.txt\nC shore\n" in found.content
     head = b"C Y, elevation: profile of *RIGID SURFACE of Pipe 7 (rev B).keyxm\n"
@@ -154,7 +252,7 @@ def test_a_profile_goes_to_a_file_beside_the_deck() -> None:
 
 
 def test_largest_characteristic_lengths_without_effect_are_left_in_a_comment() -> None:
-    found = migrated(PIPE + "*ELASTIC SURFACE\n 1e4, 0.3, 0.5, , , , 3.048, 9.0, , , 0.1\n")
+    found = migrated(PIPE_WITH_SETS + "*ELASTIC SURFACE\n 1e4, 0.3, 0.5, , , , 3.048, 9.0, , , 0.1\n")
     listed = b"C largest characteristic lengths (longitudinal 3.048, transverse 9.0) left out: the default, or without"
     assert listed in found.content
     assert b" FRICTION=0.3, 0.5, , 0.1\n" in found.content

@@ -7,9 +7,10 @@ import pytest
 from mudline.diagnostics import DeckError
 from mudline.migration.migrating import migrate
 from mudline.migration.rewriting import curve_names
-from tests.migration.decks import PIPE, deck_of
+from tests.builders.decks import PIPE_WITH_SETS
+from tests.builders.scenes import deck_of
 
-LINES = PIPE.count("\n")
+LINES = PIPE_WITH_SETS.count("\n")
 SURFACE = "*ELASTIC SURFACE\n 1e4, 0.3, 0.5"
 
 
@@ -30,7 +31,7 @@ SURFACE = "*ELASTIC SURFACE\n 1e4, 0.3, 0.5"
 )
 def test_the_reason_and_its_place(text: str, line: int, column: int, words: str) -> None:
     with pytest.raises(DeckError) as caught:
-        migrate(deck_of(PIPE + text))
+        migrate(deck_of(PIPE_WITH_SETS + text))
     (found,) = [one for one in caught.value.diagnostics if words in one.message]
     assert (found.code, found.line, found.column) == ("MIG001", LINES + line, column)
 
@@ -43,39 +44,39 @@ VARIED = "$PREPROCESSOR\n*VARIATION\n NAME=Soil\n ACTION={}, KEYWORD={}\n"
 )
 def test_variations_of_seabed_keywords(action: str, keyword: str) -> None:
     with pytest.raises(DeckError) as caught:
-        migrate(deck_of(VARIED.format(action, keyword) + PIPE + SURFACE + "\n"))
+        migrate(deck_of(VARIED.format(action, keyword) + PIPE_WITH_SETS + SURFACE + "\n"))
     ((code, line),) = [(one.code, one.line) for one in caught.value.diagnostics]
     assert (code, line) == ("MIG001", 4)
-    assert migrate(deck_of(VARIED.format("ADD", "OCEAN") + PIPE + SURFACE + "\n")).replaced
+    assert migrate(deck_of(VARIED.format("ADD", "OCEAN") + PIPE_WITH_SETS + SURFACE + "\n")).replaced
 
 
 def test_a_value_of_an_equation_is_neither_zero_nor_the_default() -> None:
     head = "$PREPROCESSOR\n*PARAMETERS\n mu, 0\n Lc, 3.048\n"
     for fields in (", =[mu], 0.5, , , , 2.0", ", 0.3, 0.5, , , , =[Lc]"):
         with pytest.raises(DeckError, match="characteristic length"):
-            migrate(deck_of(head + PIPE + f"*ELASTIC SURFACE\n 1e4{fields}\n"))
+            migrate(deck_of(head + PIPE_WITH_SETS + f"*ELASTIC SURFACE\n 1e4{fields}\n"))
 
 
 def test_decks_that_continue_this_one() -> None:
     with pytest.raises(DeckError, match=r"dynamic.keyxm continues this deck"):
-        migrate(deck_of(PIPE + SURFACE + "\n"), ["dynamic.keyxm"])
+        migrate(deck_of(PIPE_WITH_SETS + SURFACE + "\n"), ["dynamic.keyxm"])
 
 
 def test_a_deck_with_errors_is_left_alone() -> None:
     with pytest.raises(DeckError) as caught:
-        migrate(deck_of(PIPE + SURFACE.replace("1e4", "-1e4") + "\n"))
+        migrate(deck_of(PIPE_WITH_SETS + SURFACE.replace("1e4", "-1e4") + "\n"))
     assert [found.code for found in caught.value.diagnostics] == ["SBD010"]
 
 
 def test_default_lengths_of_the_unit_system_are_no_obstacle() -> None:
-    imperial = (PIPE + f"{SURFACE}, , , , 10.0, 10.0\n").encode()
+    imperial = (PIPE_WITH_SETS + f"{SURFACE}, , , , 10.0, 10.0\n").encode()
     assert b"left out" in migrate(deck_of(imperial, "deck.keyxi")).content
     with pytest.raises(DeckError):
         migrate(deck_of(imperial, "deck.keyxm"))
 
 
 def test_a_length_in_a_direction_without_friction_is_no_obstacle() -> None:
-    found = migrate(deck_of(PIPE + "*ELASTIC SURFACE\n 1e4, 0.0, , , , , 2.0, 2.0\n"))
+    found = migrate(deck_of(PIPE_WITH_SETS + "*ELASTIC SURFACE\n 1e4, 0.0, , , , , 2.0, 2.0\n"))
     assert b"(longitudinal 2.0, transverse 2.0) left out" in found.content
 
 

@@ -10,7 +10,8 @@ from mudline.deck.loading import load_bytes
 from mudline.migration.migrating import Migration, migrate
 from mudline.migration.verification import verify
 from mudline.scene.model import resolve
-from tests.migration.decks import PIPE, deck_of
+from tests.builders.decks import PIPE_WITH_SETS
+from tests.builders.scenes import deck_of
 from tests.migration.test_migrating import MIGRATED, SAMPLE
 
 ULP = "4000.0000000000005"
@@ -74,7 +75,7 @@ def test_elements_that_the_deck_does_not_show_are_represented() -> None:
 
 
 def test_a_changed_profile_counts() -> None:
-    found = migrate(deck_of(PIPE + "*RIGID SURFACE\n 0.3\n 100.0, 30.0\n 0.0, 0.0\n"))
+    found = migrate(deck_of(PIPE_WITH_SETS + "*RIGID SURFACE\n 0.3\n 100.0, 30.0\n 0.0, 0.0\n"))
     assert verify(found).differences == ()
     ((name, data),) = found.files.items()
     changed = replace(found, files={name: data.replace(b"30.0", b"30.000000000000004")})
@@ -97,7 +98,7 @@ def test_many_sets_are_compared_one_after_the_other() -> None:
     names = [f"S{index}" for index in range(60)]
     sets = "".join(f" SET={name}\n 1\n" for name in names)
     curves = "".join(f" SET={name}\n 0, 0\n 1, {index + 1}\n" for index, name in enumerate(names))
-    text = PIPE + "*ELEMENT SETS\n" + sets + "*ELASTIC SURFACE\n 1e4\n*EMBEDMENT\n" + curves
+    text = PIPE_WITH_SETS + "*ELEMENT SETS\n" + sets + "*ELASTIC SURFACE\n 1e4\n*EMBEDMENT\n" + curves
     verdict = verify(migrate(deck_of(text)))
     assert verdict.differences == ()
     assert verdict.representatives == 2 * (1 + 60 + 59)

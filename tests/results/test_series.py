@@ -8,24 +8,19 @@ import tracemalloc
 import numpy as np
 import pytest
 
-from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError
 from mudline.results.evaluation import Evaluation, Tension, evaluate_scene, prepare
 from mudline.results.forms import plan_rows
 from mudline.results.totals import StepTotal, Total
-from mudline.scene.model import Scene, resolve
 from mudline.scene.positions import Positions
-from tests.cli.decks import CLEAN, ILLEGAL, PULLING
+from tests.builders.decks import CLEAN, ILLEGAL, PULLING
+from tests.builders.scenes import scene_of
 from tests.results.written import arrays_of, csv_of, csv_pieces, json_of, json_pieces, steps_of, totals_of
-
-
-def scene(text: str = CLEAN) -> Scene:
-    return resolve(load_bytes(text.encode(), "deck.keyxm"))
 
 
 def series(steps: int, text: str = CLEAN, tension: Tension = "keep", *, absent: tuple[int, ...] = ()) -> Evaluation:
     """The deck going down by 1 mm a step."""
-    found = scene(text)
+    found = scene_of(text)
     moved = found.coordinates - np.arange(steps)[:, np.newaxis, np.newaxis] * np.array([0.001, 0.0, 0.0])
     present = ~np.isin(found.node_ids, absent)
     moved[:, ~present] = np.nan
@@ -36,7 +31,7 @@ def long_model(elements: int) -> Evaluation:
     numbers = f"*NODE\n 1, -0.1, 0.0\n {elements + 1}, -0.1, 100.0\n GEN=1, {elements + 1}\n"
     numbers += f"*ELEMENT\n 1, 1, 2\n GEN=1, {elements}\n"
     rest = CLEAN.partition("*ELEMENT SETS\n SET=Pipe\n 1, 2\n")[2].replace("Pipe", "ALL")
-    return evaluate_scene(scene(f"$MODEL\n{numbers}{rest}"))
+    return evaluate_scene(scene_of(f"$MODEL\n{numbers}{rest}"))
 
 
 @pytest.mark.parametrize("absent", [(), (3,), (1, 3), (1, 2, 3)])
@@ -101,7 +96,7 @@ def test_cut_curve_by_step() -> None:
 
 
 def test_totals() -> None:
-    evaluation = evaluate_scene(scene())
+    evaluation = evaluate_scene(scene_of(CLEAN))
     (total,) = totals_of(evaluation)
     assert total == Total("curve:Clay", "Pipe", 2, 1, 0.1, 15000.0)
     assert steps_of(evaluation) == []
@@ -127,24 +122,24 @@ def test_totals_of_nothing() -> None:
 def test_sum_that_overflows_warns_nobody() -> None:
     deck = CLEAN.replace(" 0.1, 1000.0\n 0.5, 3000.0", " 0.2, 1.5E307\n 0.5, 3.0E307").replace(" 3, 0.3,", " 3, -0.1,")
     deck = deck.replace(", 10.0\n", ", 5.0\n").replace(", 20.0\n", ", 15.0\n")
-    (total,) = totals_of(evaluate_scene(scene(deck)))
+    (total,) = totals_of(evaluate_scene(scene_of(deck)))
     assert total.reaction is not None
     assert total.reaction > 1e308
 
 
 def test_plan() -> None:
-    rows = plan_rows(prepare(scene()).model.plan)
+    rows = plan_rows(prepare(scene_of(CLEAN)).model.plan)
     assert rows[0] == {"stage": "floor", "active": True, "why": "one flat seabed at X = 0"}
 
 
 def test_scene_with_errors_is_refused() -> None:
     for refuse in (evaluate_scene, prepare):
         with pytest.raises(DeckError, match="REF001"):
-            refuse(scene(ILLEGAL))
+            refuse(scene_of(ILLEGAL))
 
 
 def test_positions_that_are_not_finite() -> None:
-    found = scene()
+    found = scene_of(CLEAN)
     values = np.zeros((2, 3, 3))
     values[1, 1, 1] = np.inf
     with pytest.raises(DeckError, match=r"RUN001 node 2 at step 1: its position \(0.0, inf, 0.0\) is not finite"):

@@ -9,7 +9,7 @@ import pytest
 
 from mudline.scene.resolved import ByName
 from mudline.short_repr import UnknownNameError
-from tests.scene.decks import scene_of
+from tests.builders.scenes import scene_of
 
 DECK = """$MODEL
 *NODE

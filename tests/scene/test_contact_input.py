@@ -15,20 +15,16 @@ from mudline.contact.tables import Tables
 from mudline.deck.loading import load_bytes, load_path
 from mudline.diagnostics import DeckError
 from mudline.scene.model import resolve
-from tests.scene.contact_decks import METRIC, deck
-from tests.scene.decks import scene_of
+from tests.builders.decks import CURVED_BED, LINEAR_BED, METRIC, line_deck
+from tests.builders.scenes import scene_of
 
-LINEAR = "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=50000\n"
-RUBBING = LINEAR + " FRICTION=0.3, 0.5\n"
-CURVE = (
-    "*SEABED STIFFNESS\n CURVE=Clay\n 0, 0\n 0.5, 4000\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=Clay\n"
-)
+RUBBING = LINEAR_BED + " FRICTION=0.3, 0.5\n"
 NODAL = "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=90000\n"
 WEIGHT = (7850.0 * math.pi / 4 * (0.25**2 - 0.22**2) - 1025.0 * math.pi / 4 * 0.25**2) * 9.81
 
 
 def made(seabed: str) -> ContactInput:
-    return scene_of(deck(METRIC, seabed)).contact_input()
+    return scene_of(line_deck(METRIC, seabed)).contact_input()
 
 
 def made_law(seabed: str, name: str) -> AssignedLaw:
@@ -44,16 +40,18 @@ def everywhere(given: ContactInput, law: str, parameter: str) -> FloatArray:
 
 def refusal(seabed: str) -> str:
     with pytest.raises(DeckError) as caught:
-        scene_of(deck(METRIC, seabed)).contact()
+        scene_of(line_deck(METRIC, seabed)).contact()
     (reported,) = caught.value.diagnostics
-    return f"{reported.line - deck(METRIC, '').count(chr(10))}: {reported.code} {reported.message}"
+    return f"{reported.line - line_deck(METRIC, '').count(chr(10))}: {reported.code} {reported.message}"
 
 
 # normal laws
 
 
 def test_a_nodal_law_replaces_the_others() -> None:
-    scene = scene_of(deck(METRIC, LINEAR + "*SEABED CONTACT\n SET=Right\n NODAL STIFFNESS=90000\n SMOOTHING=NONE\n"))
+    scene = scene_of(
+        line_deck(METRIC, LINEAR_BED + "*SEABED CONTACT\n SET=Right\n NODAL STIFFNESS=90000\n SMOOTHING=NONE\n")
+    )
     assert scene.law_names == ["linear"] * 5 + ["nodal"] * 5
     assert scene.law_sets == ["ALL"] * 5 + ["Right"] * 5
     given = scene.contact_input()
@@ -72,15 +70,15 @@ def test_a_nodal_law_replaces_the_others() -> None:
 
 
 def test_a_node_between_two_nodal_laws_has_the_later_one_and_a_bare_block_takes_none_away() -> None:
-    seabed = LINEAR + "*SEABED CONTACT\n SET=Right\n NODAL STIFFNESS=7\n SET=Left\n NODAL STIFFNESS=5\n"
+    seabed = LINEAR_BED + "*SEABED CONTACT\n SET=Right\n NODAL STIFFNESS=7\n SET=Left\n NODAL STIFFNESS=5\n"
     assert everywhere(made(seabed), "nodal", "stiffness").tolist() == [5.0] * 6 + [7.0] * 5
-    given = made(LINEAR + "*SEABED CONTACT\n SET=Right\n NODAL STIFFNESS=7\n SET=Left\n SMOOTHING=0.01\n")
+    given = made(LINEAR_BED + "*SEABED CONTACT\n SET=Right\n NODAL STIFFNESS=7\n SET=Left\n SMOOTHING=0.01\n")
     assert (everywhere(given, "nodal", "stiffness")[5:] == 7.0).all()
 
 
 def test_a_nodal_law_leaves_rigid_elements_alone() -> None:
     rigid = "*SEABED PROPERTIES\n TYPE=RIGID\n SET=ALL\n"
-    scene = scene_of(deck(METRIC, rigid + NODAL))
+    scene = scene_of(line_deck(METRIC, rigid + NODAL))
     assert scene.law_names == ["rigid"] * 10
     assert refusal(rigid + NODAL).startswith("4: EXT001 *SEABED CONTACT needs an elastic seabed, and the seabed is rig")
 
@@ -89,18 +87,18 @@ def test_a_nodal_law_leaves_rigid_elements_alone() -> None:
 
 
 def test_submerged_weight() -> None:
-    np.testing.assert_allclose(scene_of(deck(METRIC, "")).submerged_weight, WEIGHT, rtol=1e-14)
-    dry = deck(METRIC, "").replace("*OCEAN", "*TIME").replace(" 500.0, 1025.0, 9.81\n", " 0, 1\n")
+    np.testing.assert_allclose(scene_of(line_deck(METRIC, "")).submerged_weight, WEIGHT, rtol=1e-14)
+    dry = line_deck(METRIC, "").replace("*OCEAN", "*TIME").replace(" 500.0, 1025.0, 9.81\n", " 0, 1\n")
     assert np.isnan(scene_of(dry).submerged_weight).all()
-    assumed = deck(METRIC, "").replace("500.0, 1025.0, 9.81", "500.0")
+    assumed = line_deck(METRIC, "").replace("500.0, 1025.0, 9.81", "500.0")
     np.testing.assert_allclose(scene_of(assumed).submerged_weight, WEIGHT, rtol=1e-14)
-    later = deck(METRIC, "*OCEAN\n 500.0, 1025.0, 3.7\n")
+    later = line_deck(METRIC, "*OCEAN\n 500.0, 1025.0, 3.7\n")
     np.testing.assert_allclose(scene_of(later).submerged_weight, WEIGHT * 3.7 / 9.81, rtol=1e-14)
 
 
 def test_widths_of_linear_laws() -> None:
     def width(lines: str) -> list[float]:
-        given = made(LINEAR + f"*SEABED CONTACT\n SET=Left\n{lines}")
+        given = made(LINEAR_BED + f"*SEABED CONTACT\n SET=Left\n{lines}")
         if "smoothed" not in given.assigned:
             return []
         widths = given.assigned["smoothed"].spread("half_width", 10, 0.0)
@@ -109,23 +107,23 @@ def test_widths_of_linear_laws() -> None:
     assert width(" SMOOTHING=0.004\n") == [0.004, 0.0]
     assert width(" SMOOTHING=NONE\n") == []
     assert width("") == [pytest.approx(min(0.1 * WEIGHT / 50000.0, 0.0025)), 0.0]
-    assert set(made(LINEAR).assigned) == {"linear"}
-    assert set(made(CURVE + "*SEABED CONTACT\n SET=ALL\n SMOOTHING=0.01\n").assigned) == {"curve"}
-    one_sided = made_law(LINEAR + "*SEABED CONTACT\n SET=Left\n SMOOTHING=0.01\n FORM=ONE-SIDED\n", "smoothed")
+    assert set(made(LINEAR_BED).assigned) == {"linear"}
+    assert set(made(CURVED_BED + "*SEABED CONTACT\n SET=ALL\n SMOOTHING=0.01\n").assigned) == {"curve"}
+    one_sided = made_law(LINEAR_BED + "*SEABED CONTACT\n SET=Left\n SMOOTHING=0.01\n FORM=ONE-SIDED\n", "smoothed")
     assert one_sided.rows.tolist() == [0, 1, 2, 3, 4]
     assert one_sided["one_sided"].all()
 
 
 def test_widths_of_nodal_laws_count_half_the_elements_of_a_node() -> None:
-    widths = made_law(LINEAR + "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=1000000\n", "nodal")["half_width"]
+    widths = made_law(LINEAR_BED + "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=1000000\n", "nodal")["half_width"]
     np.testing.assert_allclose(widths[[0, 10]], 0.1 * WEIGHT * 5.0 / 1e6)
     np.testing.assert_allclose(widths[1:10], 0.1 * WEIGHT * 10.0 / 1e6)
-    soft = made_law(LINEAR + "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=1000\n", "nodal")
+    soft = made_law(LINEAR_BED + "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=1000\n", "nodal")
     np.testing.assert_allclose(soft["half_width"], np.full(11, 0.0025))
 
 
 def test_without_a_weight_nothing_is_smoothed_and_the_plan_says_so() -> None:
-    text = deck(METRIC, LINEAR + "*SEABED CONTACT\n SET=ALL\n").replace("7850.0", "100.0")
+    text = line_deck(METRIC, LINEAR_BED + "*SEABED CONTACT\n SET=ALL\n").replace("7850.0", "100.0")
     stage = scene_of(text).contact().plan["smoothing"]
     assert not stage.active
     assert stage.why == "none for 10 elements of SMOOTHING=AUTO: no submerged weight above 0 is known"
@@ -135,27 +133,29 @@ def test_without_a_weight_nothing_is_smoothed_and_the_plan_says_so() -> None:
 
 
 def test_unloading_is_for_laws_per_length() -> None:
-    unloading = made_law(LINEAR + "*SEABED UNLOADING\n SET=Left\n STIFFNESS=200000\n", "unloading")
+    unloading = made_law(LINEAR_BED + "*SEABED UNLOADING\n SET=Left\n STIFFNESS=200000\n", "unloading")
     assert unloading.rows.tolist() == [0, 1, 2, 3, 4]
     assert unloading["stiffness"].tolist() == [200000.0] * 5
-    per_node = refusal(LINEAR + NODAL + "*SEABED UNLOADING\n SET=ALL\n STIFFNESS=200000\n")
+    per_node = refusal(LINEAR_BED + NODAL + "*SEABED UNLOADING\n SET=ALL\n STIFFNESS=200000\n")
     assert per_node.startswith("9: EXT009 10 elements (first: 1) have NODAL STIFFNESS=")
-    assert refusal(LINEAR + "*SEABED UNLOADING\n SET=ALL\n STIFFNESS=0\n").startswith(
+    assert refusal(LINEAR_BED + "*SEABED UNLOADING\n SET=ALL\n STIFFNESS=0\n").startswith(
         "7: EXT009 unloading stiffness 0.0: it must be above 0"
     )
-    both = LINEAR + "*SEABED CONTACT\n SET=ALL\n SMOOTHING=0.01\n*SEABED UNLOADING\n SET=ALL\n STIFFNESS=200000\n"
+    both = LINEAR_BED + "*SEABED CONTACT\n SET=ALL\n SMOOTHING=0.01\n*SEABED UNLOADING\n SET=ALL\n STIFFNESS=200000\n"
     assert refusal(both).startswith("9: EXT009 10 elements (first: 1) have smoothing too")
 
 
 def test_suction_of_cohesion_and_of_explicit_laws() -> None:
-    law = made_law(LINEAR + "*SEABED SUCTION\n SET=Right\n COHESION=5000\n CYCLIC=0.5\n CUTOFF=0.1, 0.7\n", "suction")
+    law = made_law(
+        LINEAR_BED + "*SEABED SUCTION\n SET=Right\n COHESION=5000\n CYCLIC=0.5\n CUTOFF=0.1, 0.7\n", "suction"
+    )
     assert law.rows.tolist() == [5, 6, 7, 8, 9]
     np.testing.assert_allclose(law["force_factor"], np.full(5, 1.12 * 0.25 * 5000.0 / 0.25**0.18))
     np.testing.assert_allclose(law["depth_factor"], np.full(5, 0.98 * 0.25))
     assert (law["first_corner"][0], law["second_corner"][0], law["cyclic"][0]) == (0.1, 0.7, 0.5)
     assert law["regularisation"][0] == 1e-3
     own = made_law(
-        LINEAR + "*SEABED SUCTION\n SET=ALL\n COHESION=5000\n FORCE=70, 0.2\n REGULARISATION=0.01\n", "suction"
+        LINEAR_BED + "*SEABED SUCTION\n SET=ALL\n COHESION=5000\n FORCE=70, 0.2\n REGULARISATION=0.01\n", "suction"
     )
     assert (own["force_factor"][0], own["force_exponent"][0], own["depth_exponent"][0]) == (70.0, 0.2, 0.26)
     assert (own["first_corner"][0], own["second_corner"][0], own["regularisation"][0]) == (0.2, 0.8, 0.01)
@@ -166,18 +166,18 @@ def test_suction_of_cohesion_and_of_explicit_laws() -> None:
 @pytest.mark.parametrize(
     ("seabed", "message"),
     [
-        (LINEAR + "*SEABED SUCTION\n SET=ALL\n FORCE=70, 0.2\n", "6: EXT005 the suction law is incomplete"),
+        (LINEAR_BED + "*SEABED SUCTION\n SET=ALL\n FORCE=70, 0.2\n", "6: EXT005 the suction law is incomplete"),
         (
-            LINEAR + "*SEABED SUCTION\n SET=ALL\n COHESION=5\n CUTOFF=0.8, 0.2\n",
+            LINEAR_BED + "*SEABED SUCTION\n SET=ALL\n COHESION=5\n CUTOFF=0.8, 0.2\n",
             "8: EXT004 corners 0.8, 0.2: they must be 0.01 <= first <= second <= 0.99",
         ),
-        (LINEAR + "*SEABED SUCTION\n SET=ALL\n COHESION=5\n CUTOFF=0.001, 0.2\n", "8: EXT004 corners 0.001, 0.2"),
+        (LINEAR_BED + "*SEABED SUCTION\n SET=ALL\n COHESION=5\n CUTOFF=0.001, 0.2\n", "8: EXT004 corners 0.001, 0.2"),
         (
-            LINEAR + " SUCTION=5, 1\n*SEABED SUCTION\n SET=ALL\n COHESION=5\n",
+            LINEAR_BED + " SUCTION=5, 1\n*SEABED SUCTION\n SET=ALL\n COHESION=5\n",
             "7: EXT006 10 elements (first: 1) have SUCTION= of the seabed too",
         ),
         (
-            CURVE.replace("0.5, 4000", "0.5, -4000") + "*SEABED SUCTION\n SET=ALL\n COHESION=5\n",
+            CURVED_BED.replace("0.5, 4000", "0.5, -4000") + "*SEABED SUCTION\n SET=ALL\n COHESION=5\n",
             "10: EXT006 10 elements (first: 1) have a curve that pulls too",
         ),
     ],
@@ -188,7 +188,7 @@ def test_suction_that_cannot_be_evaluated(seabed: str, message: str) -> None:
 
 def test_user_units_have_no_defaults_of_suction() -> None:
     def reported(lines: str) -> str:
-        text = deck(METRIC, LINEAR + "*SEABED SUCTION\n SET=ALL\n" + lines)
+        text = line_deck(METRIC, LINEAR_BED + "*SEABED SUCTION\n SET=ALL\n" + lines)
         scene = resolve(load_bytes(text.encode(), "deck.keyx", units="user"))
         try:
             scene.contact()
@@ -205,23 +205,23 @@ def test_user_units_have_no_defaults_of_suction() -> None:
 
 
 def test_suction_springs() -> None:
-    springs = made_law(LINEAR + " SUCTION=500, 0.2\n", "suction spring")
+    springs = made_law(LINEAR_BED + " SUCTION=500, 0.2\n", "suction spring")
     assert (springs["stiffness"][0], springs["extent"][0]) == (500.0, 0.2)
-    assert "suction spring" not in made(LINEAR + " SUCTION=500\n").assigned
+    assert "suction spring" not in made(LINEAR_BED + " SUCTION=500\n").assigned
 
 
 # friction, lateral, trench
 
 
 def test_friction_of_properties_has_mobilisation_lengths() -> None:
-    friction = made_law(LINEAR + " FRICTION=0.3, 0.5, , 0.02\n", "friction")
+    friction = made_law(LINEAR_BED + " FRICTION=0.3, 0.5, , 0.02\n", "friction")
     assert friction.rows.tolist() == list(range(11))
     assert (friction["axial_mobilisation"][4], friction["lateral_mobilisation"][4]) == (3.048, 0.02)
     assert (friction["axial_coefficient"][4], friction["lateral_coefficient"][4]) == (0.3, 0.5)
     assert np.isnan(friction["axial_stiffness"]).all()
     assert np.isnan(friction["lateral_stiffness"]).all()
     assert np.isnan(friction["angle"]).all()
-    uneven = deck(METRIC, LINEAR + " FRICTION=0.3, 0.5\n")
+    uneven = line_deck(METRIC, LINEAR_BED + " FRICTION=0.3, 0.5\n")
     for number, place in ((2, 1.0), (3, 3.0), (4, 4.0)):
         uneven = uneven.replace(f" {number}, -0.05, {10.0 * (number - 1)}\n", f" {number}, -0.05, {place}\n")
     lengths = scene_of(uneven).contact_input().assigned["friction"]["axial_mobilisation"]
@@ -231,7 +231,7 @@ def test_friction_of_properties_has_mobilisation_lengths() -> None:
 
 
 def test_friction_of_the_keyword_replaces_that_of_properties_at_its_nodes() -> None:
-    seabed = LINEAR + " FRICTION=0.3, 0.5\n*SEABED FRICTION\n SET=Right\n COEFFICIENTS=0.1, 0.2\n STIFFNESS=900\n"
+    seabed = LINEAR_BED + " FRICTION=0.3, 0.5\n*SEABED FRICTION\n SET=Right\n COEFFICIENTS=0.1, 0.2\n STIFFNESS=900\n"
     friction = made_law(seabed + " DIRECTIONS=30\n CRITERION=ELLIPSE\n", "friction")
     assert np.isfinite(friction["axial_stiffness"]).tolist() == [False] * 5 + [True] * 6
     assert (friction["axial_stiffness"][5], friction["lateral_stiffness"][5]) == (900.0, 900.0)
@@ -242,7 +242,7 @@ def test_friction_of_the_keyword_replaces_that_of_properties_at_its_nodes() -> N
 
 
 def test_lateral_springs_take_the_transverse_coefficient_away() -> None:
-    seabed = LINEAR + " FRICTION=0.3, 0.5\n SET=Left\n STIFFNESS=1\n FRICTION=0.3, 0.5\n LATERAL=70\n"
+    seabed = LINEAR_BED + " FRICTION=0.3, 0.5\n SET=Left\n STIFFNESS=1\n FRICTION=0.3, 0.5\n LATERAL=70\n"
     laws = made(seabed).assigned
     assert laws["lateral"].rows.tolist() == [0, 1, 2, 3, 4]
     assert laws["lateral"]["stiffness"].tolist() == [70.0] * 5
@@ -251,7 +251,8 @@ def test_lateral_springs_take_the_transverse_coefficient_away() -> None:
 
 def test_a_trench_counts_its_own_elements() -> None:
     seabed = (
-        LINEAR + " FRICTION=0.3, 0.5\n*SEABED TRENCH\n SET=Right\n GEOMETRY=1, 2, 3\n PEAK=100\n CENTRELINE=0,0,9,9\n"
+        LINEAR_BED
+        + " FRICTION=0.3, 0.5\n*SEABED TRENCH\n SET=Right\n GEOMETRY=1, 2, 3\n PEAK=100\n CENTRELINE=0,0,9,9\n"
     )
     given = made(seabed)
     law = given.assigned["trench peak"]
@@ -271,7 +272,7 @@ def test_a_trench_counts_its_own_elements() -> None:
     ("seabed", "message"),
     [
         (
-            LINEAR + "*SEABED TRENCH\n SET=ALL\n GEOMETRY=1, 2, 3\n PEAK=1\n",
+            LINEAR_BED + "*SEABED TRENCH\n SET=ALL\n GEOMETRY=1, 2, 3\n PEAK=1\n",
             "6: EXT003 10 elements (first: 1) have a trench and no lateral friction spring",
         ),
         (RUBBING + "*SEABED TRENCH\n SET=ALL\n GEOMETRY=1, 3, 2\n PEAK=1\n", "8: EXT003 invalid trench geometry"),
@@ -284,11 +285,11 @@ def test_a_trench_counts_its_own_elements() -> None:
             "10: EXT003 the two points of the centreline are one",
         ),
         (
-            LINEAR + "*SEABED PLANES\n PLANE=a\n POINT=0, 0, 0\n SLOPE=90\n",
+            LINEAR_BED + "*SEABED PLANES\n PLANE=a\n POINT=0, 0, 0\n SLOPE=90\n",
             "8: EXT007 slope 90.0: it must be between -90 and 90 degrees",
         ),
         (
-            LINEAR + "*SEABED PROFILE\n TYPE=2D\n FILE=none.txt\n",
+            LINEAR_BED + "*SEABED PROFILE\n TYPE=2D\n FILE=none.txt\n",
             "5: RUN001 the seabed is not known: 'none.txt' is not there",
         ),
     ],
@@ -301,7 +302,7 @@ def test_what_cannot_be_evaluated_is_told_at_its_line(seabed: str, message: str)
 
 
 def test_a_rigid_bed_restrains_nodes_along_its_normal() -> None:
-    scene = scene_of(deck(METRIC, "*RIGID SURFACE\n 0.3, 0.4\n 1.0\n"))
+    scene = scene_of(line_deck(METRIC, "*RIGID SURFACE\n 0.3, 0.4\n 1.0\n"))
     contact = scene.contact()
     assert contact.plan["friction"].why == "none on a rigid seabed, whose reaction is that of a constraint: 10 elements"
     points = scene.coordinates.copy()
@@ -311,8 +312,8 @@ def test_a_rigid_bed_restrains_nodes_along_its_normal() -> None:
     assert result.restrained[0].tolist() == [False] * 4 + [True] * 7
     assert not result.restrained[1].any()
     assert result.step(0).restrained is not None
-    assert "linear" in made(LINEAR).assigned
-    assert scene_of(deck(METRIC, LINEAR)).contact().evaluate().restrained is None
+    assert "linear" in made(LINEAR_BED).assigned
+    assert scene_of(line_deck(METRIC, LINEAR_BED)).contact().evaluate().restrained is None
 
 
 @pytest.mark.parametrize(
@@ -328,7 +329,7 @@ def test_a_rigid_bed_restrains_nodes_along_its_normal() -> None:
 def test_beds_of_points(tmp_path: Path, keyword: str, content: str, why: str) -> None:
     (tmp_path / "bed.txt").write_text(content)
     path = tmp_path / "deck.keyxm"
-    path.write_text(deck(METRIC, LINEAR + f"*SEABED PROFILE\n {keyword}\n FILE=bed.txt\n"))
+    path.write_text(line_deck(METRIC, LINEAR_BED + f"*SEABED PROFILE\n {keyword}\n FILE=bed.txt\n"))
     contact = resolve(load_path(path)).contact()
     assert why in contact.plan["floor"].why
     assert np.isfinite(contact.evaluate().gap).any()
@@ -338,6 +339,6 @@ def test_a_surface_without_scipy_names_the_extra(tmp_path: Path, monkeypatch: py
     monkeypatch.setattr("mudline.scene.contact_input.find_spec", lambda _: None)
     (tmp_path / "bed.txt").write_text("-1, -9, -9\n-1, 200, -9\n-1, 0, 99\n")
     path = tmp_path / "deck.keyxm"
-    path.write_text(deck(METRIC, LINEAR + "*SEABED PROFILE\n TYPE=3D\n FILE=bed.txt\n"))
+    path.write_text(line_deck(METRIC, LINEAR_BED + "*SEABED PROFILE\n TYPE=3D\n FILE=bed.txt\n"))
     with pytest.raises(DeckError, match=r"mudline\[study\]"):
         resolve(load_path(path)).contact()

@@ -8,12 +8,12 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from mudline.contact import ContactModel
-from tests.scene.contact_decks import FOOT, IMPERIAL, METRIC, POUND, Units, deck, everything
-from tests.scene.decks import scene_of
+from tests.builders.decks import FOOT, IMPERIAL, METRIC, POUND, Units, full_bed, line_deck
+from tests.builders.scenes import scene_of
 
 
 def model(units: Units) -> ContactModel:
-    return scene_of(deck(units, everything(units), span=5.0), f"deck.{units.suffix}").contact()
+    return scene_of(line_deck(units, full_bed(units), span=5.0), f"deck.{units.suffix}").contact()
 
 
 METRES, FEET = model(METRIC), model(IMPERIAL)

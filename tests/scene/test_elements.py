@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mudline.scene.numbering import MOST_GENERATED
-from tests.scene.decks import all_reported, ends_of, messages, reported, scene_of
+from tests.builders.scenes import all_reported, ends_of, messages, reported, scene_of
 
 NODES = "$MODEL\n*NODE\n 1, 0, 0\n 21, 0, 200\n GEN=1, 21\n"
 NODES_END = NODES.count("\n")

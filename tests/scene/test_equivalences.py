@@ -10,7 +10,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from mudline.scene.model import Scene
-from tests.scene.decks import ends_of, members, nodes_of, scene_of
+from tests.builders.scenes import ends_of, members, nodes_of, scene_of
 
 pytestmark = pytest.mark.slow
 

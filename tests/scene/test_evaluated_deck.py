@@ -22,8 +22,9 @@ from mudline.linting.engine import problems_in
 from mudline.linting.registry import rules
 from mudline.linting.rule import LintContext
 from mudline.scene.model import Scene, resolve
-from tests.generated.legality import NAME
-from tests.generated.legality import deck as random_deck
+from tests.builders.scenes import scene_of
+from tests.linting.legality import NAME
+from tests.linting.legality import deck as random_deck
 
 ROOT = Path(mudline.__file__).parent
 WITHOUT = ("contact", "scene", "results", "comparison", "linting", "study")
@@ -31,10 +32,6 @@ WITHOUT = ("contact", "scene", "results", "comparison", "linting", "study")
 
 LAST = "$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n"
 GIVEN = "$PREPROCESSOR\n*PARAMETERS\n dof, 6\n soil, 50.0\n"
-
-
-def scene_of(text: str) -> Scene:
-    return resolve(load_bytes(text.encode(), NAME))
 
 
 def linted(text: str) -> list[Diagnostic]:
@@ -62,6 +59,7 @@ def in_deck(scene: Scene, *, written: bool = False) -> list[Equation]:
     return [found for section in sections for block in section.blocks for found in equations(block)]
 
 
+@pytest.mark.untraced
 def test_no_equation_is_left_in_random_decks() -> None:
     met = 0
     for seed in range(200):

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from tests.scene.decks import CLAY, PIPE, STEEL, all_reported, messages, reported, scene_of
+from tests.builders.decks import CLAY, PIPE, STEEL
+from tests.builders.scenes import all_reported, messages, reported, scene_of
 
 RESTART = "$LOAD CASE\n*RESTART\n LAST=static\n"
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mudline.scene.force_curves import clashes_and_repeats
-from tests.scene.decks import all_reported, messages, reported, scene_of
+from tests.builders.scenes import all_reported, messages, reported, scene_of
 
 STIFFNESS = "$MODEL\n*SEABED STIFFNESS\n"
 

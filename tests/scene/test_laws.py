@@ -8,7 +8,8 @@ import pytest
 
 from mudline.contact.input import LawKind
 from mudline.scene.model import Scene
-from tests.scene.decks import CLAY, PIPE, STEEL, messages, reported, scene_of
+from tests.builders.decks import CLAY, PIPE, STEEL
+from tests.builders.scenes import messages, reported, scene_of
 
 BASE = PIPE + STEEL + "*ELEMENT SETS\n SET=a\n GEN=1, 5\n SET=b\n GEN=4, 8\n"
 NEW = BASE + CLAY + "*SEABED PROPERTIES\n TYPE=ELASTIC\n"

@@ -7,12 +7,9 @@ import sys
 
 import pytest
 
+from tests.builders.decks import CURVED_BED, METRIC, line_deck
 from tests.processes import TIMEOUT
-from tests.scene.contact_decks import METRIC, deck
 
-CURVE = (
-    "*SEABED STIFFNESS\n CURVE=Clay\n 0, 0\n 0.5, 4000\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=Clay\n"
-)
 LINEAR = "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=5000\n"
 
 PROGRAM = """
@@ -26,12 +23,12 @@ print(*(name for name in sys.modules if name.startswith(("mudline.", "scipy"))))
 
 
 def imported(seabed: str) -> set[str]:
-    run = [sys.executable, "-W", "error", "-c", PROGRAM, deck(METRIC, seabed)]
+    run = [sys.executable, "-W", "error", "-c", PROGRAM, line_deck(METRIC, seabed)]
     return set(subprocess.run(run, capture_output=True, text=True, timeout=TIMEOUT, check=True).stdout.split())
 
 
 def test_a_deck_of_curves_on_a_flat_bed_imports_no_other_feature() -> None:
-    found = imported(CURVE)
+    found = imported(CURVED_BED)
     assert "mudline.curves" in found
     assert "scipy" not in found
     assert not {name for name in found if name.startswith("mudline.contact.seabed.")}

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from mudline.deck.loading import load_bytes
 from mudline.scene.model import resolve
-from tests.reading.spellings import names, texts
-from tests.scene.decks import all_reported, messages, reported, scene_of
+from tests.builders.scenes import all_reported, messages, reported, scene_of
+from tests.builders.spellings import names, texts
 
 LINES = "*LINES\n LINE=SCR\n"
 LOCATIONS = "*LINE LOCATIONS\n LINE=SCR\n Seabed End, 0.0\n {Hang-off}, 1200.0\n"

@@ -10,8 +10,9 @@ import pytest
 from mudline.deck.loading import load_bytes
 from mudline.scene.external_elements import read_external
 from mudline.scene.model import resolve
+from tests.builders.decks import PIPE
+from tests.builders.scenes import Finding, all_reported, messages, reported
 from tests.growth import call_growth
-from tests.scene.decks import PIPE, Finding, all_reported, messages, reported
 
 GIVEN = "$PREPROCESSOR\n*PARAMETERS\n dof, 6\n last, 11\n far, 13\n odd, 6.5\n"
 HELD = "$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n"

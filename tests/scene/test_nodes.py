@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mudline.scene.numbering import MOST_GENERATED
-from tests.scene.decks import all_reported, messages, nodes_of, reported, scene_of
+from tests.builders.scenes import all_reported, messages, nodes_of, reported, scene_of
 
 NODE = "$MODEL\n*NODE\n"
 

@@ -17,9 +17,10 @@ from mudline.keywords.facts import LINE_SETS, Names
 from mudline.scene.model import resolve
 from mudline.scene.opaque_names import bare, definition_by, external_definers, opaque_labels, opaque_set_names
 from mudline.syntax.fields import read_line
+from tests.builders.decks import PIPE
+from tests.builders.scenes import messages, reported
+from tests.builders.spellings import names, pads, setting, texts
 from tests.growth import FOURFOLD, TWOFOLD, call_growth, growth
-from tests.reading.spellings import names, pads, setting, texts
-from tests.scene.decks import PIPE, messages, reported
 
 LINES = "*LINES\n LINE=SCR\n"
 
@@ -125,6 +126,7 @@ def test_a_line_of_very_many_names() -> None:
     assert len(sets_of(f"*LINES\n ADDITIONAL={some}\n")) == 5000
 
 
+@pytest.mark.untraced
 @pytest.mark.slow
 def test_a_hundred_thousand_lines() -> None:
     section = " SECTION=Joint {0}, 12.2, ADDITIONAL=Riser, Joints {0}\n"
@@ -137,6 +139,7 @@ def test_a_hundred_thousand_lines() -> None:
     assert len(opaque_set_names(lines(100_000))) == 200_002
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("unit", ["a=", "a ", '"', "{", '{"', "= ", "LINE=", "[=", "=[", "a,"])
 def test_no_line_takes_long(unit: str) -> None:
     def line(count: int) -> Deck:

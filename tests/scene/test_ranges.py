@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.scene.decks import messages, reported
+from tests.builders.scenes import messages, reported
 
 
 @pytest.mark.parametrize(

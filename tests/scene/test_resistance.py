@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tests.scene.decks import PIPE, STEEL, reported, scene_of
+from tests.builders.decks import PIPE, STEEL
+from tests.builders.scenes import reported, scene_of
 
 SETS = "*ELEMENT SETS\n SET=A\n GEN=1, 4\n SET=B\n GEN=3, 6\n"
 NOTHING = float("nan")

@@ -11,7 +11,8 @@ from mudline.contact.input import LawKind
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError
 from mudline.scene.model import resolve
-from tests.scene.decks import CLAY, PIPE, STEEL, scene_of
+from tests.builders.decks import CLAY, PIPE, STEEL
+from tests.builders.scenes import scene_of
 
 FULL = PIPE + STEEL + CLAY + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=Clay\n"
 

@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 from mudline.deck.loading import load_path
 from mudline.scene.model import Scene, resolve
 from mudline.scene.seabed import ProfileError, SeabedKind, SeabedShape, parse_profile, read_profile
-from tests.scene.decks import PIPE, scene_of
+from tests.builders.decks import PIPE
+from tests.builders.scenes import scene_of
 
 PROFILE = "*SEABED PROFILE\n TYPE=2D\n INTERPOLATION=CUBIC SPLINE, DIRECTION=30\n FILE={}\n"
 

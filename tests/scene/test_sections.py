@@ -6,7 +6,8 @@ import math
 
 import pytest
 
-from tests.scene.decks import PIPE, all_reported, reported, scene_of
+from tests.builders.decks import PIPE
+from tests.builders.scenes import all_reported, reported, scene_of
 
 SETS = PIPE + "*ELEMENT SETS\n SET=a\n GEN=1, 5\n SET=b\n GEN=4, 8\n"
 GEOMETRY = SETS + "*GEOMETRIC SETS\n"

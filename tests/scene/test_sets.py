@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from tests.scene.decks import PIPE, STEEL, all_reported, members, messages, reported, scene_of
+from tests.builders.decks import PIPE, STEEL
+from tests.builders.scenes import all_reported, members, messages, reported, scene_of
 
 SETS = PIPE + "*ELEMENT SETS\n"
 FIRST = SETS.count("\n") + 1
@@ -130,6 +131,7 @@ def test_a_diamond_is_no_circle() -> None:
     assert sets_of(lines)["a"] == [4]
 
 
+@pytest.mark.untraced
 @pytest.mark.slow
 @pytest.mark.parametrize("forward", [True, False])
 def test_a_long_chain(forward: bool) -> None:

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from mudline.contact import ContactResult
 from mudline.diagnostics import DeckError
-from tests.scene.contact_decks import FOOT, IMPERIAL, METRIC, POUND, Units, deck
-from tests.scene.decks import scene_of
+from tests.builders.decks import FOOT, IMPERIAL, METRIC, POUND, Units, line_deck
+from tests.builders.scenes import scene_of
 
 PRESSED = 0.05 * 50000.0 * 10.0
 """Normal force in N of a node between two elements of 10 m."""
@@ -35,7 +35,7 @@ def bed(units: Units, trench: str, mu2: float = 0.5) -> str:
 
 def moved(units: Units, seabed: str, sideways: list[float]) -> ContactResult:
     """The line laid straight, then moved by so many m across itself, step by step."""
-    scene = scene_of(deck(units, seabed), f"deck.{units.suffix}")
+    scene = scene_of(line_deck(units, seabed), f"deck.{units.suffix}")
     shift = np.array([0.0, *sideways])[:, None, None] * np.array([0.0, 0.0, 1.0]) / units.length
     return scene.contact().evaluate(scene.coordinates + shift)
 
@@ -99,7 +99,7 @@ def cycles(units: Units, cyclic: str, count: int) -> NDArray[np.float64]:
         f"*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS={u(50000.0, -2, 1)}\n*SEABED SUCTION\n SET=ALL\n"
         f" FORCE={u(900.0, -1, 1)}, 0.0\n DEPTH={u(0.2, 1)}, 0.0\n CYCLIC={cyclic}\n"
     )
-    scene = scene_of(deck(units, seabed), f"deck.{units.suffix}")
+    scene = scene_of(line_deck(units, seabed), f"deck.{units.suffix}")
     heights = np.array([-0.05, 0.1] * count) / units.length
     series = np.repeat(scene.coordinates[None], len(heights), axis=0)
     series[:, :, 0] = heights[:, None]
@@ -132,7 +132,7 @@ def test_a_factor_with_a_floor_is_applied_once_for_each_cycle(units: Units, leng
     ],
 )
 def test_what_no_trench_can_be_is_refused_at_its_line(trench: str, line: int, code: str, message: str) -> None:
-    text = deck(METRIC, bed(METRIC, trench))
+    text = line_deck(METRIC, bed(METRIC, trench))
     with pytest.raises(DeckError) as caught:
         scene_of(text).contact()
     (reported,) = caught.value.diagnostics

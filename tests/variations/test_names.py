@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from mudline.variations.files import Taken, path_fault
 from mudline.variations.names import filled, placeholders, unquoted
-from tests.variations.decks import only, planned, refused, text
+from tests.builders.decks import varied_deck
+from tests.builders.scenes import only, planned, refused
 
 BAD = [
     ("../a", "leads out of the output folder with .."),
@@ -61,22 +62,27 @@ def test_names_that_may_be_used(path: str) -> None:
 def test_no_folder_leads_out_of_the_output_folder(folder: str, key: str) -> None:
     match key:
         case "DIRECTORY":
-            content = text("", f" DIRECTORY={folder}\n DESCRIPTION=d, FILENAME=a\n")
+            content = varied_deck("", f" DIRECTORY={folder}\n DESCRIPTION=d, FILENAME=a\n")
         case "SUBDIRECTORY":
-            content = text("", f" DESCRIPTION=d, SUBDIRECTORY={folder}, FILENAME=a\n")
+            content = varied_deck("", f" DESCRIPTION=d, SUBDIRECTORY={folder}, FILENAME=a\n")
         case _:
-            content = text(f" NAME=v\n PARA=Folder, VALUE={folder}\n", f" DESCRIPTION=d, SUBDIRECTORY={key}\n")
+            content = varied_deck(f" NAME=v\n PARA=Folder, VALUE={folder}\n", f" DESCRIPTION=d, SUBDIRECTORY={key}\n")
     assert only(refused(content))[0] == "EXP001"
 
 
 @pytest.mark.parametrize("file", ["..", "../a", "/a", "b\\c", "NUL", "a:b", "", "%Folder%"])
 def test_no_file_name_leads_out_of_the_output_folder(file: str) -> None:
     variations = " NAME=v\n PARA=Folder, VALUE=../../etc/passwd\n" if "%" in file else ""
-    assert {found.code for found in refused(text(variations, f' DESCRIPTION=d, FILENAME="{file}"\n'))} == {"EXP001"}
+    assert {found.code for found in refused(varied_deck(variations, f' DESCRIPTION=d, FILENAME="{file}"\n'))} == {
+        "EXP001"
+    }
 
 
 def test_an_empty_folder_is_refused() -> None:
-    assert "has a folder without a name" in only(refused(text("", ' DESCRIPTION=d, SUBDIRECTORY="", FILENAME=a\n')))[3]
+    assert (
+        "has a folder without a name"
+        in only(refused(varied_deck("", ' DESCRIPTION=d, SUBDIRECTORY="", FILENAME=a\n')))[3]
+    )
 
 
 def test_a_slash_in_a_folder_makes_folders() -> None:

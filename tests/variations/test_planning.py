@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from mudline.variations.planning import plan
-from tests.variations.decks import deck, only, planned, refused, text
+from tests.builders.decks import varied_deck
+from tests.builders.scenes import deck_of, only, planned, refused
 
 WAVES = " NAME=Waves\n PARA=Period, VALUE=08, 09, 10\n"
 SIDES = " NAME=Sides\n PARA=Offset, VALUE=-100, 100\n PARA=Folder, VALUE=Near, Far side\n"
@@ -99,18 +100,18 @@ def test_a_name_holds_the_value_that_an_equation_has_in_the_case() -> None:
 
 
 def test_the_last_definition_of_a_parameter_is_the_one_that_varies() -> None:
-    content = text(WAVES, " DESCRIPTION=d, FILENAME=%Period%\n").replace("*VARIATION", " period, 7\n*VARIATION")
-    found = plan(deck(content))
+    content = varied_deck(WAVES, " DESCRIPTION=d, FILENAME=%Period%\n").replace("*VARIATION", " period, 7\n*VARIATION")
+    found = plan(deck_of(content))
     assert found.decks[0].values == {"period": "08"}
     assert b" Period , 08\n" in found.content(found.decks[1])
     assert b" period, 09\n" in found.content(found.decks[1])
 
 
 def test_excel_variations_are_reported() -> None:
-    content = text(WAVES, " DESCRIPTION=d, FILENAME=%Period%\n").replace(
+    content = varied_deck(WAVES, " DESCRIPTION=d, FILENAME=%Period%\n").replace(
         "*VARIATION", "*EXCEL VARIATIONS\n EXCEL=a\n*VARIATION"
     )
-    found = plan(deck(content))
+    found = plan(deck_of(content))
     assert found.notes == ["*EXCEL VARIATIONS is not expanded: it is passed through unchanged"]
     assert b"*EXCEL VARIATIONS\n EXCEL=a\n" in found.content(found.decks[0])
 
@@ -171,7 +172,7 @@ START = 11
     ],
 )
 def test_variations_that_cannot_be(variations: str, place: tuple[int, int], code: str, message: str) -> None:
-    found = only(refused(text(variations, " DESCRIPTION=d\n")))
+    found = only(refused(varied_deck(variations, " DESCRIPTION=d\n")))
     assert found[:3] == (code, *place)
     assert message in found[3]
 
@@ -201,38 +202,38 @@ def test_variations_that_cannot_be(variations: str, place: tuple[int, int], code
     ],
 )
 def test_combinations_that_cannot_be(combinations: str, column: int, code: str, message: str) -> None:
-    found = refused(text(WAVES, combinations))
+    found = refused(varied_deck(WAVES, combinations))
     line = START + 2 + combinations.count("\n")
     assert {(one.code, one.line, one.column) for one in found} == {(code, line, column)}
     assert message in found[0].message
 
 
 def test_clashes_are_reported_twenty_times_at_most() -> None:
-    found = refused(text(" NAME=v\n PARA=Depth, GEN=1, 1000\n", " DESCRIPTION=d, FILENAME=a\n"))
+    found = refused(varied_deck(" NAME=v\n PARA=Depth, GEN=1, 1000\n", " DESCRIPTION=d, FILENAME=a\n"))
     assert len(found) == 20
 
 
 @pytest.mark.parametrize("names", ["A, a", "\u00c9, \u00e9", "\u00e9, e\u0301"])
 def test_names_that_some_systems_take_for_one(names: str) -> None:
-    found = only(refused(text(f" NAME=v\n PARA=Folder, VALUE={names}\n", " DESCRIPTION=d, FILENAME=%Folder%\n")))
+    found = only(refused(varied_deck(f" NAME=v\n PARA=Folder, VALUE={names}\n", " DESCRIPTION=d, FILENAME=%Folder%\n")))
     assert "that of the deck with" in found[3]
 
 
 def test_a_file_where_another_deck_needs_a_folder() -> None:
     combinations = " DESCRIPTION=d, SUBDIRECTORY=a.keyxm, FILENAME=b\n DESCRIPTION=e, FILENAME=a\n"
-    assert "its name 'a.keyxm' is that of" in only(refused(text("", combinations)))[3]
+    assert "its name 'a.keyxm' is that of" in only(refused(varied_deck("", combinations)))[3]
     back = " DESCRIPTION=e, FILENAME=a\n DESCRIPTION=d, SUBDIRECTORY=A.keyxm, FILENAME=b\n"
-    assert "its name 'A.keyxm/b.keyxm' is that of" in only(refused(text("", back)))[3]
+    assert "its name 'A.keyxm/b.keyxm' is that of" in only(refused(varied_deck("", back)))[3]
 
 
 def test_the_list_of_decks_has_its_name_for_itself() -> None:
-    found = only(refused(text("", " DESCRIPTION=d, FILENAME=Manifest.json\n")))
+    found = only(refused(varied_deck("", " DESCRIPTION=d, FILENAME=Manifest.json\n")))
     assert "is that of the manifest" in found[3]
 
 
 def test_a_value_that_a_name_needs_and_that_is_none() -> None:
     variations = " NAME=v\n PARA=Depth, VALUE=0, 1\n"
-    content = text(variations, " DESCRIPTION=d, FILENAME=%Part%\n").replace(
+    content = varied_deck(variations, " DESCRIPTION=d, FILENAME=%Part%\n").replace(
         "*VARIATION", " Part, =[1/Depth]\n*VARIATION"
     )
     found = only(refused(content))
@@ -242,7 +243,7 @@ def test_a_value_that_a_name_needs_and_that_is_none() -> None:
 
 def test_the_number_of_decks_is_bounded_before_any_is_made() -> None:
     variations = "".join(f" NAME={name}\n PARA={name}, GEN=1, 2000\n" for name in ("Depth", "Offset", "Period"))
-    found = only(refused(text(variations, " DESCRIPTION=d\n")))
+    found = only(refused(varied_deck(variations, " DESCRIPTION=d\n")))
     assert "8000000000 decks would be written: expected no more than 100000" in found[3]
 
 
@@ -255,4 +256,4 @@ def test_nothing_to_expand(more: str) -> None:
 
 def test_a_deck_with_errors_is_not_expanded() -> None:
     assert {found.code for found in refused("$MODEL\n*NODE\n x\n")} == {"SYN003"}
-    assert only(refused(text("", " DESCRIPTION=d\n").replace("2*Depth", "2*")))[0] == "SYN017"
+    assert only(refused(varied_deck("", " DESCRIPTION=d\n").replace("2*Depth", "2*")))[0] == "SYN017"

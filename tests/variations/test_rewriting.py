@@ -15,11 +15,11 @@ from mudline.diagnostics import DeckError
 from mudline.keywords.values import Equation
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import select
-from mudline.variations.cases import parameter_field
-from mudline.variations.files import ExpansionPlan, path_fault
+from mudline.variations.files import ExpansionPlan, parameter_field, path_fault
 from mudline.variations.planning import plan
+from tests.builders.decks import VARIED_MODEL, VARIED_PARAMETERS, varied_deck
+from tests.builders.scenes import deck_of, only, refused
 from tests.samples import SAMPLES
-from tests.variations.decks import MODEL, PARAMETERS, deck, only, refused, text
 
 ALL = " DESCRIPTION=d, FILENAME=%Period%\n"
 WAVES = " NAME=Waves\n PARA=Period, VALUE=09, =[1+Twice]\n"
@@ -30,15 +30,15 @@ def contents(found: ExpansionPlan) -> list[str]:
 
 
 def test_only_values_change_and_the_two_keywords_go() -> None:
-    new = contents(plan(deck(text(WAVES, ALL))))
-    expected = f"{PARAMETERS}C model\n{MODEL}"
+    new = contents(plan(deck_of(varied_deck(WAVES, ALL))))
+    expected = f"{VARIED_PARAMETERS}C model\n{VARIED_MODEL}"
     assert new == [expected.replace(", 08\n", ", 09\n"), expected.replace(", 08\n", ", =[1+Twice]\n")]
 
 
 def test_comments_and_blank_lines_behind_a_block_stay() -> None:
-    content = text(" NAME=v\nC in it\n\n PARA=Depth, VALUE=2\n\nC behind\n", f"C before\n{ALL}  \nCnote\n\n")
-    new = contents(plan(deck(content)))[0]
-    assert new == f"{PARAMETERS}\nC behind\n  \nCnote\n\nC model\n{MODEL}".replace("100.0", "2")
+    content = varied_deck(" NAME=v\nC in it\n\n PARA=Depth, VALUE=2\n\nC behind\n", f"C before\n{ALL}  \nCnote\n\n")
+    new = contents(plan(deck_of(content)))[0]
+    assert new == f"{VARIED_PARAMETERS}\nC behind\n  \nCnote\n\nC model\n{VARIED_MODEL}".replace("100.0", "2")
 
 
 @pytest.mark.parametrize(
@@ -46,19 +46,19 @@ def test_comments_and_blank_lines_behind_a_block_stay() -> None:
     [("07", "07"), ("=[Point_X+1]", "=[Point_X+1]"), ("a:b", '"a:b"'), ('"c, d"', '"c, d"'), ("e/f", '"e/f"')],
 )
 def test_an_item_of_a_list_varies_in_its_place(value: str, item: str) -> None:
-    found = plan(deck(text(f" NAME=v\n PARA=point_y, VALUE={value}\n", " DESCRIPTION=d, SUBDIRECTORY=a\n")))
+    found = plan(deck_of(varied_deck(f" NAME=v\n PARA=point_y, VALUE={value}\n", " DESCRIPTION=d, SUBDIRECTORY=a\n")))
     assert found.decks[0].values == {"Point_Y": item}
-    assert contents(found) == [f"{PARAMETERS}C model\n{MODEL}".replace("Y:22", f"Y:{item}")]
-    values = Parameters(deck(found.content(found.decks[0]))).values
+    assert contents(found) == [f"{VARIED_PARAMETERS}C model\n{VARIED_MODEL}".replace("Y:22", f"Y:{item}")]
+    values = Parameters(deck_of(found.content(found.decks[0]))).values
     assert values["point_x"] == 11
     assert values["point_y"] == {"07": 7, "=[Point_X+1]": 12}.get(value, value.strip('"'))
 
 
 def test_an_item_of_a_list_in_a_name() -> None:
     lines = " NAME=v\n PARA=Point_X, VALUE=1, =[Offset/2]\n"
-    content = text(lines, " DESCRIPTION=d, FILENAME=%Sum% %Point_x%\n")
+    content = varied_deck(lines, " DESCRIPTION=d, FILENAME=%Sum% %Point_x%\n")
     content = content.replace("*VARIATION", "*PARAMETERS\n Sum, =[Point_X + Point_Y]\n*PARAMETERS\n*VARIATION")
-    assert [new.path for new in plan(deck(content)).decks] == ["23 1.keyxm", "-3 -25.keyxm"]
+    assert [new.path for new in plan(deck_of(content)).decks] == ["23 1.keyxm", "-3 -25.keyxm"]
 
 
 @pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
@@ -66,9 +66,9 @@ def test_an_item_of_a_list_in_a_name() -> None:
 def test_line_ends_and_encodings_stay(end: str, encoding: str, tmp_path: Path) -> None:
     (tmp_path / "block.txt").write_bytes("C \u00fcber\r\n*TITLE\r a\n".encode())
     variations = " NAME=v\n PARA=Folder, VALUE=S\u00fcd\n ACTION=ADD, KEYWORD=TITLE, FILE=block.txt, SECTION=MODEL\n"
-    content = text(variations, " DESCRIPTION=d, FILENAME=%Folder%\n").replace("\n", end).encode(encoding)
-    found = plan(deck(content, folder=tmp_path))
-    expected = f"{PARAMETERS}C model\n{MODEL}".replace('"Near side"', "S\u00fcd")
+    content = varied_deck(variations, " DESCRIPTION=d, FILENAME=%Folder%\n").replace("\n", end).encode(encoding)
+    found = plan(deck_of(content, folder=tmp_path))
+    expected = f"{VARIED_PARAMETERS}C model\n{VARIED_MODEL}".replace('"Near side"', "S\u00fcd")
     expected = expected.replace(" 1, 1, 2\n", " 1, 1, 2\nC \u00fcber\n*TITLE\n a\n")
     assert found.decks[0].path == "S\u00fcd.keyxm"
     assert found.content(found.decks[0]) == expected.replace("\n", end).encode(encoding)
@@ -95,7 +95,7 @@ def test_line_ends_and_encodings_stay(end: str, encoding: str, tmp_path: Path) -
 def test_values_as_fields(text_: str, field: str | None) -> None:
     assert parameter_field(text_) == field
     if field is not None:
-        value = Parameters(deck(f"$PREPROCESSOR\n*PARAMETERS\n x, {field}\n a, 1\n b, 2\n")).definitions["x"].value
+        value = Parameters(deck_of(f"$PREPROCESSOR\n*PARAMETERS\n x, {field}\n a, 1\n b, 2\n")).definitions["x"].value
         assert str(value) == text_.strip('"') or math.isclose(float(str(value)), float(text_))
 
 
@@ -131,7 +131,7 @@ def test_every_combination_is_a_deck_whose_parameters_are_those_of_the_case(
     study: tuple[list[dict[str, list[str]]], str],
 ) -> None:
     columns, lines = study
-    found = plan(deck(text(lines, " DESCRIPTION=d\n VARIATIONS=ALL\n")))
+    found = plan(deck_of(varied_deck(lines, " DESCRIPTION=d\n VARIATIONS=ALL\n")))
     assert len(found.decks) == math.prod(len(next(iter(column.values()))) for column in columns)
     assert len({new.path for new in found.decks}) == len(found.decks)
     for index, new in enumerate(found.decks):
@@ -144,7 +144,7 @@ def test_every_combination_is_a_deck_whose_parameters_are_those_of_the_case(
         read = load_bytes(found.content(new), new.path)
         assert read.problems == []
         parameters = Parameters(read)
-        expected = f"{PARAMETERS}C model\n{MODEL}"
+        expected = f"{VARIED_PARAMETERS}C model\n{VARIED_MODEL}"
         for name, written in cases.items():
             assert same(parameters.values[folded(name)], written)
             expected = expected.replace(OLD[name], f"{OLD[name].partition(',')[0]}, {parameter_field(written)}\n")
@@ -188,11 +188,11 @@ SHARDS = [
 @given(st.lists(st.tuples(st.integers(0, 420), st.integers(0, 9), st.sampled_from(["", *SHARDS])), max_size=4))
 @settings(max_examples=100)
 def test_a_damaged_deck_is_refused_or_gives_decks_that_read(changes: list[tuple[int, int, str]]) -> None:
-    content = text(WAVES + " PARA=Point_X, GEN=1, 2\n ACTION=REMOVE, KEYWORD=OFFSET, SECTION=LOAD CASE\n", ALL)
+    content = varied_deck(WAVES + " PARA=Point_X, GEN=1, 2\n ACTION=REMOVE, KEYWORD=OFFSET, SECTION=LOAD CASE\n", ALL)
     for at, length, shard in changes:
         content = content[:at] + shard + content[at + length :]
     try:
-        found = plan(deck(content))
+        found = plan(deck_of(content))
     except DeckError:
         return
     assert len({new.path for new in found.decks}) == len(found.decks)
@@ -205,25 +205,27 @@ def test_a_damaged_deck_is_refused_or_gives_decks_that_read(changes: list[tuple[
 
 
 def acting(*actions: str) -> str:
-    return text(" NAME=v\n" + "".join(f" ACTION={action}\n" for action in actions), " DESCRIPTION=d, FILENAME=a\n")
+    return varied_deck(
+        " NAME=v\n" + "".join(f" ACTION={action}\n" for action in actions), " DESCRIPTION=d, FILENAME=a\n"
+    )
 
 
-BARE = f"{PARAMETERS}C model\n{MODEL}"
+BARE = f"{VARIED_PARAMETERS}C model\n{VARIED_MODEL}"
 
 
 def test_a_block_is_removed_and_its_comments_stay() -> None:
-    new = contents(plan(deck(acting("REMOVE, KEYWORD=OFFSET", "Remove, keyword=wave-regular, section=$load case"))))
+    new = contents(plan(deck_of(acting("REMOVE, KEYWORD=OFFSET", "Remove, keyword=wave-regular, section=$load case"))))
     assert new == [BARE.replace("*OFFSET\n =[Offset]\n", "").replace("*WAVE-REGULAR\n 1.0, =[Period], 0.0\n", "")]
 
 
 def test_all_blocks_of_a_keyword_are_removed_once() -> None:
     content = acting("REMOVE, KEYWORD=OFFSET", "REMOVE, KEYWORD=OFFSET") + "$LOAD CASE\n*OFFSET\n 1\nC end"
-    assert contents(plan(deck(content))) == [BARE.replace("*OFFSET\n =[Offset]\n", "") + "$LOAD CASE\nC end"]
+    assert contents(plan(deck_of(content))) == [BARE.replace("*OFFSET\n =[Offset]\n", "") + "$LOAD CASE\nC end"]
 
 
 def test_data_that_looks_like_a_comment_goes_with_its_block() -> None:
     more = "$MODEL\n*SEABED STIFFNESS\nCURVE=a\n 0, 0\n 1, 1\nCURVE=b\nCnote\n*OCEAN\n 1\n"
-    found = plan(deck(acting("REMOVE, KEYWORD=SEABED STIFFNESS") + more))
+    found = plan(deck_of(acting("REMOVE, KEYWORD=SEABED STIFFNESS") + more))
     assert contents(found) == [BARE + "$MODEL\nCnote\n*OCEAN\n 1\n"]
 
 
@@ -240,23 +242,23 @@ def test_data_that_looks_like_a_comment_goes_with_its_block() -> None:
 )
 def test_a_block_is_added_behind_the_last_of_its_section(data: bytes, added: str, tmp_path: Path) -> None:
     (tmp_path / "my block.txt").write_bytes(data)
-    found = plan(deck(acting('ADD, KEYWORD=OFFSET, FILE="my block.txt"'), folder=tmp_path))
+    found = plan(deck_of(acting('ADD, KEYWORD=OFFSET, FILE="my block.txt"'), folder=tmp_path))
     assert contents(found) == [BARE + added]
 
 
 def test_blocks_without_a_file_and_sections_without_a_block() -> None:
     content = acting("ADD, KEYWORD=NO FRICTION, SECTION=LOAD CASE", "ADD, KEYWORD=FRICTION, SECTION=MODES")
-    assert contents(plan(deck(content + "$MODES\n"))) == [BARE + "*NO FRICTION\n$MODES\n*FRICTION\n"]
+    assert contents(plan(deck_of(content + "$MODES\n"))) == [BARE + "*NO FRICTION\n$MODES\n*FRICTION\n"]
 
 
 def test_a_file_without_a_last_line_end_gets_one_before_what_is_added() -> None:
     content = acting("ADD, KEYWORD=VESSEL,INTEGRATED", "ADD, KEYWORD=NO FRICTION, SECTION=LOAD CASE").removesuffix("\n")
     added = BARE.replace(" 1, 1, 2\n", " 1, 1, 2\n*VESSEL,INTEGRATED\n")
-    assert contents(plan(deck(content))) == [added + "*NO FRICTION\n"]
+    assert contents(plan(deck_of(content))) == [added + "*NO FRICTION\n"]
 
 
 def test_a_block_may_take_the_place_of_another() -> None:
-    found = plan(deck(acting("ADD, KEYWORD=WAVE-REGULAR", "REMOVE, KEYWORD=WAVE-REGULAR")))
+    found = plan(deck_of(acting("ADD, KEYWORD=WAVE-REGULAR", "REMOVE, KEYWORD=WAVE-REGULAR")))
     assert contents(found) == [BARE.replace(" 1.0, =[Period], 0.0\n", "")]
 
 
@@ -315,8 +317,10 @@ def test_a_deck_from_nowhere_has_no_files_beside_it() -> None:
 
 @pytest.mark.parametrize("form", ["json", "yaml"])
 def test_a_deck_in_another_form_gives_decks_in_that_form(form: str) -> None:
-    original = deck(text(WAVES + " PARA=Folder, VALUE=Far side, b\n", " DESCRIPTION=d, FILENAME=Wave %Period%\n"))
-    found = plan(deck(dump(original, form), f"study.{form}"))
+    original = deck_of(
+        varied_deck(WAVES + " PARA=Folder, VALUE=Far side, b\n", " DESCRIPTION=d, FILENAME=Wave %Period%\n")
+    )
+    found = plan(deck_of(dump(original, form), f"study.{form}"))
     assert [new.path for new in found.decks] == [f"Wave 09.{form}", f"Wave 201.{form}"]
     by_text = plan(original)
     for new, other in zip(found.decks, by_text.decks, strict=True):
@@ -327,13 +331,15 @@ def test_a_deck_in_another_form_gives_decks_in_that_form(form: str) -> None:
 
 
 def test_the_suffix_of_a_name_tells_the_form() -> None:
-    found = plan(deck(text(WAVES, "".join(f" DESCRIPTION=d, FILENAME=%Period%.{end}\n" for end in ("json", "keyx")))))
+    found = plan(
+        deck_of(varied_deck(WAVES, "".join(f" DESCRIPTION=d, FILENAME=%Period%.{end}\n" for end in ("json", "keyx"))))
+    )
     ends = {new.path: found.content(new)[:1] for new in found.decks}
     assert ends == {"09.json": b"{", "201.json": b"{", "09.keyx": b"$", "201.keyx": b"$"}
 
 
 def test_a_fault_of_a_json_deck_is_reported_at_its_place_there() -> None:
-    content = dump(deck(text(WAVES, " DESCRIPTION=d, FILENAME=%Period%\n VARIATIONS=Wave\n")), "json")
+    content = dump(deck_of(varied_deck(WAVES, " DESCRIPTION=d, FILENAME=%Period%\n VARIATIONS=Wave\n")), "json")
     line = content[: content.index('["Wave"]')].count("\n") + 1
     found = only(refused(content, "study.json"))
     assert found[:2] == ("EXP001", line)
@@ -351,11 +357,11 @@ def test_new_decks_of_samples_are_found_fault_with_as_little_as_their_source(nam
 
 @pytest.mark.parametrize("form", FORMS)
 def test_findings_are_those_of_the_source(form: str) -> None:
-    content = text(WAVES, ALL) + "$MODEL\n*SEABED STIFFNESS\n CURVE=Clay\n 1, 1\n 0, 0\n"
-    original = deck(content)
+    content = varied_deck(WAVES, ALL) + "$MODEL\n*SEABED STIFFNESS\n CURVE=Clay\n 1, 1\n 0, 0\n"
+    original = deck_of(content)
     suffix = {"keyword": "keyxm"}.get(form, form)
     source = dump(original, form).encode() if form != "keyword" else content.encode()
-    found = plan(deck(source, f"study.{suffix}"))
+    found = plan(deck_of(source, f"study.{suffix}"))
     before = sorted(finding.code for finding in lint_bytes(source, f"study.{suffix}", select()))
     assert "CRV002" in before
     for new in found.decks:

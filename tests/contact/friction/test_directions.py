@@ -14,7 +14,7 @@ from mudline.contact.arrays import FloatArray
 from mudline.contact.tables import Tables
 from mudline.contact.tangent import directions_of
 from mudline.contact.vectors import in_plane
-from tests.contact.builders import LINEAR, chain, friction
+from tests.builders.contact import LINEAR, chain, friction
 
 UP = np.array([[1.0, 0.0, 0.0]])
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from mudline.contact import ContactModel
 from mudline.contact.arrays import FloatArray
-from tests.contact.builders import LINEAR, NONE, at_depths, chain, drawn, friction, on, trench, walk
+from tests.builders.contact import LINEAR, NONE, at_depths, chain, drawn, friction, on, trench, walk
 from tests.contact.single import SLIP, STICK
 
 PATH = [0.0, 0.003, 0.010, 0.006, 0.000, -0.010, -0.012, 0.000]

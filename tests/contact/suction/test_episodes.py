@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mudline.contact import ContactModel, ContactResult
-from tests.contact.builders import (
+from tests.builders.contact import (
     CURVE,
     LINEAR,
     NONE,

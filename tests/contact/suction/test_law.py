@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from mudline.contact import ElementError
 from mudline.contact.laws.suction import SuctionFactors, from_cohesion
-from tests.contact.builders import LINEAR, bridge_law, chain, floats, suction
+from tests.builders.contact import LINEAR, bridge_law, chain, floats, suction
 from tests.contact.single import DEPTH, FORCE, breakout, largest, pull
 
 # D, cu, v, alpha_f, alpha_D, F_max, Delta_B, dF/dv

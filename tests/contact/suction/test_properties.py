@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from mudline.contact.arrays import FloatArray
 from mudline.contact.laws.suction import Suction, SuctionHistory, SuctionLaw, SuctionState, step
-from tests.contact.builders import bridge_law, floats
+from tests.builders.contact import bridge_law, floats
 from tests.contact.single import largest, lift
 
 Path = list[tuple[float, float]]

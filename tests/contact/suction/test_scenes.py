@@ -7,19 +7,7 @@ import pytest
 
 from mudline.contact import ContactModel, ElementError
 from mudline.curves import ForceCurve
-from tests.contact.builders import (
-    CURVE,
-    LINEAR,
-    NONE,
-    PULLING,
-    at_depths,
-    bridge_law,
-    chain,
-    heave,
-    on,
-    suction,
-    walk,
-)
+from tests.builders.contact import CURVE, LINEAR, NONE, PULLING, at_depths, bridge_law, chain, heave, on, suction, walk
 from tests.contact.single import BROKEN, COMPRESSION, DEPTH, FORCE, FREE, SUCTION
 
 pytestmark = pytest.mark.slow

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from mudline.contact.laws.suction import SuctionHistory, SuctionState, step
+from tests.builders.contact import bridge_law, floats
 from tests.contact.bits import same_bits
-from tests.contact.builders import bridge_law, floats
 from tests.contact.single import BROKEN, COMPRESSION, DEPTH, FORCE, FREE, HOLD, SUCTION, lift
 
 REST = 0.048791855079

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mudline.contact.laws.suction import Suction, step
-from tests.contact.builders import bridge_law
+from tests.builders.contact import bridge_law
 from tests.contact.single import BROKEN, DEPTH, HOLD, lifted, pull
 
 V_MAX = 0.1

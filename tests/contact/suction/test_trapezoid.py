@@ -7,7 +7,7 @@ import pytest
 
 from mudline.contact.laws.linear import spring_suction
 from mudline.contact.laws.suction import step, trapezoid
-from tests.contact.builders import bridge_law, floats
+from tests.builders.contact import bridge_law, floats
 from tests.contact.single import BROKEN, DEPTH, FORCE, SUCTION, lift, lifted, pull
 
 # share of the uplift at breakout, uplift, suction at 0.1 m/s

@@ -10,7 +10,7 @@ from mudline.contact.arrays import FloatArray, IndexArray
 from mudline.contact.line import Line
 from mudline.contact.tables import Tables
 from mudline.contact.trenches import LaidCentreline
-from tests.contact.builders import ALONG_Y, NONE, chain, friction, trench
+from tests.builders.contact import ALONG_Y, NONE, chain, friction, trench
 
 
 def nearest(

@@ -11,7 +11,7 @@ from mudline.contact import ElementError
 from mudline.contact.laws.friction import ExtraLimit
 from mudline.contact.laws.trench import on_wall, peak_share, peak_slope, wall_coefficient
 from mudline.contact.trenches import tabulated
-from tests.contact.builders import ALONG_Y, LINEAR, chain, on
+from tests.builders.contact import ALONG_Y, LINEAR, chain, on
 from tests.contact.single import SLIP, anchored, coulomb, move
 
 PEAK = 900.0

@@ -10,7 +10,7 @@ import pytest
 
 from mudline.contact import ContactInput, ContactModel, LawAssignment
 from mudline.contact.arrays import FloatArray
-from tests.contact.builders import ALONG_Y, LINEAR, NONE, chain, drawn, friction, on, trench
+from tests.builders.contact import ALONG_Y, LINEAR, NONE, chain, drawn, friction, on, trench
 
 MU = 0.4
 WIDTHS = {"bottom": 0.5, "upper": 1.7, **ALONG_Y}

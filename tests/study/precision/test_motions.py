@@ -27,8 +27,8 @@ from mudline.study.precision.integration import Case, row
 from mudline.study.precision.pull import Drag, Pull, SuctionNumbers, breakout, drag_case, pull_case
 from mudline.study.report import Omission, StudyError
 from mudline.study.schemes import SCHEMES
-from tests.contact.builders import changed
-from tests.study.builders import scene_of
+from tests.builders.contact import changed
+from tests.builders.scenes import legal_scene
 
 CLAY = CurveLaw("clay", ForceCurve([(0.0, 0.0), (0.02, 640.0), (0.1, 1480.0), (0.5, 2450.0)]), 0.3)
 
@@ -155,6 +155,7 @@ CASES = {
 }
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("name", CASES)
 @pytest.mark.parametrize("scheme", ["velocity-verlet", "rk4", "newmark", "generalised-alpha-0", "backward-euler"])
 def test_errors_fall_with_the_step(name: str, scheme: str) -> None:
@@ -228,7 +229,7 @@ def test_friction_of_a_deck_is_taken_from_it() -> None:
 
 
 def test_case_that_overflows_is_reported() -> None:
-    found = scene_of(SAMPLE_TEXT.replace(", 0.003,", ", 1.0E-307,"))
+    found = legal_scene(SAMPLE_TEXT.replace(", 0.003,", ", 1.0E-307,"))
     omissions: list[Omission] = []
     with np.errstate(all="ignore"):
         cases = all_cases(contacts_of(found), omissions)

@@ -12,7 +12,7 @@ from mudline.study import SAMPLE_TEXT, precision, sample_scene
 from mudline.study.precision import curves as curve_study
 from mudline.study.precision import integration
 from mudline.study.report import StudyOptions
-from tests.study.builders import scene_of
+from tests.builders.scenes import legal_scene
 
 SAMPLES = Path(__file__).parents[3] / "samples"
 
@@ -59,41 +59,43 @@ def test_deck_with_less() -> None:
         "*SEABED STIFFNESS\n CURVE=Soft Clay\n",
         "*SEABED STIFFNESS\n CURVE=Soft Clay\n 0, 0\n 0.3, 9\n CURVE=Second\n 0, 0\n 0.3, 7\n CURVE=Third\n",
     )
-    report = precision.run(scene_of(text), StudyOptions())
+    report = precision.run(legal_scene(text), StudyOptions())
     assert "curve Third" in {omission.what for omission in report.omissions}
     assert any("mass of the pipe is not known" in note for note in report.notes)
     assert any("submerged weight of the pipe is unknown" in note for note in report.notes)
     assert [row[0] for row in report.tables[2].rows] == ["drop-reference", "drop-linear", "pull", "drag"]
-    full = precision.run(scene_of(text), StudyOptions(full=True))
+    full = precision.run(legal_scene(text), StudyOptions(full=True))
     assert "curve Third" not in {omission.what for omission in full.omissions}
 
 
 def test_deck_without_a_law() -> None:
     report = precision.run(
-        scene_of("$MODEL\n*NODE\n 1, 0.0, 0.0, 0.0\n 2, 0.0, 1.0, 0.0\n*ELEMENT\n 1, 1, 2\n"), StudyOptions()
+        legal_scene("$MODEL\n*NODE\n 1, 0.0, 0.0, 0.0\n 2, 0.0, 1.0, 0.0\n*ELEMENT\n 1, 1, 2\n"), StudyOptions()
     )
     assert any("only the reference case was run" in note for note in report.notes)
     assert [row[0] for row in report.tables[2].rows] == ["drop-reference"]
     assert "curves" not in {picture.name for picture in report.pictures}
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("stiffness", ["1.0E-300", "1.0E300", "1.0E-3", "1.0E15"])
 def test_extreme_decks_end_in_reasons(stiffness: str) -> None:
-    report = precision.run(scene_of(SAMPLE_TEXT.replace("50.0E3", stiffness)), StudyOptions())
+    report = precision.run(legal_scene(SAMPLE_TEXT.replace("50.0E3", stiffness)), StudyOptions())
     assert report.tables[2].rows
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("point", ["1.0E-290, 450.0", "0.01, 1.0E15", "0.01, 1.0E-300", "0.01, -450.0", "1.0E9, 450.0"])
 def test_extreme_curves_end_in_reasons(point: str) -> None:
     text = SAMPLE_TEXT.replace("*SEABED SUCTION\n SET=Clay\n COHESION=5.0E3\n", "")
-    report = precision.run(scene_of(text.replace("0.01,  450.0", point)), StudyOptions())
+    report = precision.run(legal_scene(text.replace("0.01,  450.0", point)), StudyOptions())
     assert report.tables[0].rows
     assert json.loads(report.json())["study"] == "precision"
 
 
 def test_imperial_deck() -> None:
     deck = SAMPLES / "imperial-riser.keyxi"
-    found = scene_of(deck.read_text(encoding="utf-8"), deck.name)
+    found = legal_scene(deck.read_text(encoding="utf-8"), deck.name)
     around = surroundings(found.deck)
     assert 32.0 < around.gravity < 32.4
     assert 1.9 < around.density < 2.1

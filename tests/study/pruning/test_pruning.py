@@ -27,10 +27,10 @@ from mudline.study.pruning.growth import (
 from mudline.study.pruning.scenes import CURVE, Pipe, Variant, line, variants
 from mudline.study.report import Omission, StudyOptions, StudyReport
 from mudline.study.timing import Timing, processor_time
+from tests.builders.contact import CLAY, everything
+from tests.builders.scenes import legal_scene
 from tests.cli.runner import run
-from tests.contact.builders import CLAY, everything
 from tests.growth import calls
-from tests.study.builders import scene_of
 
 SAMPLES = Path(__file__).parents[3] / "samples"
 ELEMENTS, LONGEST = growth.ELEMENTS, growth.LADDERS["sets"].sizes[-1]
@@ -63,7 +63,7 @@ def without_interpreters(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def report(text: str = SAMPLE_TEXT, *, full: bool = False) -> StudyReport:
-    return pruning.run(scene_of(text), StudyOptions(full))
+    return pruning.run(legal_scene(text), StudyOptions(full))
 
 
 def test_fits_find_power_laws() -> None:
@@ -152,7 +152,7 @@ def test_an_interpreter_that_fails_is_an_omission(monkeypatch: pytest.MonkeyPatc
 
 @pytest.mark.parametrize("sets", [1, 3, 16])
 def test_decks_with_sets_share_out_the_elements(sets: int) -> None:
-    scene = scene_of(deck_with_sets(sets, 16))
+    scene = legal_scene(deck_with_sets(sets, 16))
     inputs = scene.contact_input()
     assert len(scene.element_ids) == 16
     assert len(set(inputs.assigned["linear"]["stiffness"])) == sets

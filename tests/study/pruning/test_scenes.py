@@ -28,7 +28,7 @@ from mudline.study.pruning.scenes import (
     tiled,
     variants,
 )
-from tests.contact.builders import CLAY, everything, only
+from tests.builders.contact import CLAY, everything, only
 
 PIPE = Pipe(CLAY, 6.0e4, 0.3, 2.0)
 STAGES = {

@@ -17,14 +17,14 @@ from mudline.study.stability import critical
 from mudline.study.stability.critical import BOUNDED, GROWS, SHARES, can_oscillate, find_contacts, measure
 from mudline.study.stability.judging import judge
 from mudline.study.stability.ladder import all_cells
-from tests.study.builders import scene_of
+from tests.builders.scenes import legal_scene
 
 MASS = 7850.0 * 0.25 * np.pi * (0.3**2 - 0.25**2)
 
 
 def curved(rows: str) -> Scene:
     head, tail = SAMPLE_TEXT.split(" CURVE=Soft Clay\n")
-    return scene_of(f"{head} CURVE=Soft Clay\n{rows}*SEABED CONTACT{tail.partition('*SEABED CONTACT')[2]}")
+    return legal_scene(f"{head} CURVE=Soft Clay\n{rows}*SEABED CONTACT{tail.partition('*SEABED CONTACT')[2]}")
 
 
 def test_the_contacts_of_the_sample() -> None:
@@ -38,7 +38,7 @@ def test_the_contacts_of_the_sample() -> None:
 
 
 def test_contacts_without_a_frequency_say_why() -> None:
-    found, left_out = find_contacts(scene_of(SAMPLE_TEXT.replace("7850.0", "0.0")))
+    found, left_out = find_contacts(legal_scene(SAMPLE_TEXT.replace("7850.0", "0.0")))
     assert found == []
     assert {one.reason for one in left_out} == {"no frequency: the mass per unit length is not known"}
     found, left_out = find_contacts(curved(" 0, 1000\n 1, 0\n"))
@@ -47,26 +47,26 @@ def test_contacts_without_a_frequency_say_why() -> None:
 
 
 def test_a_scene_without_springs_has_no_contacts() -> None:
-    assert find_contacts(scene_of("$MODEL\n")) == ([], [])
+    assert find_contacts(legal_scene("$MODEL\n")) == ([], [])
 
 
 def test_nodes_with_a_stiffness_of_their_own() -> None:
     """A node carries the mass of half of each of its elements, 2 m inside the line, 1 m at its end."""
     nodal = SAMPLE_TEXT.replace(" SMOOTHING=AUTO", " NODAL STIFFNESS=1.0E5")
-    scene = scene_of(nodal)
+    scene = legal_scene(nodal)
     found, _ = find_contacts(scene)
     one = next(contact for contact in found if contact.name.startswith("nodal"))
     assert (one.name, one.elements) == ("nodal 100000 at node 11", 4)
     assert one.omega == pytest.approx((1e5 / MASS) ** 0.5)
     assert one.stiffness == pytest.approx(1e5)
     assert measure(scene, one, SCHEMES["central-difference"]).as_predicted
-    left_out = find_contacts(scene_of(nodal.replace("7850.0", "0.0")))[1]
+    left_out = find_contacts(legal_scene(nodal.replace("7850.0", "0.0")))[1]
     assert "nodal stiffness 100000" in {omission.what for omission in left_out}
 
 
 def test_unloading_may_be_the_stiffest() -> None:
     back = SAMPLE_TEXT.replace("*SEABED SUCTION", "*SEABED UNLOADING\n SET=Clay\n STIFFNESS={}\n*SEABED SUCTION")
-    scene = scene_of(back.format("4.0E5"))
+    scene = legal_scene(back.format("4.0E5"))
     found, _ = find_contacts(scene)
     assert [one.name for one in found] == [
         "unloading of curve:Soft Clay on Clay",
@@ -75,7 +75,7 @@ def test_unloading_may_be_the_stiffest() -> None:
     ]
     assert found[0].omega == pytest.approx((4e5 / MASS) ** 0.5, rel=1e-12)
     assert measure(scene, found[0], SCHEMES["velocity-verlet"]).as_predicted
-    softer, _ = find_contacts(scene_of(back.format("1.0E5")))
+    softer, _ = find_contacts(legal_scene(back.format("1.0E5")))
     assert softer == find_contacts(sample_scene())[0]
 
 
@@ -136,13 +136,14 @@ def test_the_schemes_and_the_rules_have_the_same_limits() -> None:
     assert limits == {name: scheme.limit for name, scheme in SCHEMES.items()}
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("family", ["segment width", "tiny linear stiffness", "huge curve ratios"])
 def test_contacts_of_extreme_decks_are_stepped_as_predicted_or_left_out(family: str) -> None:
     stepped = 0
     for cell in all_cells():
         if cell.family != family or not judge(cell).results:
             continue
-        scene = scene_of(cell.text)
+        scene = legal_scene(cell.text)
         for contact in filter(can_oscillate, find_contacts(scene)[0]):
             stepped += 1
             for name in ("rk2", "newmark"):

@@ -12,7 +12,7 @@ from mudline.study.schemes import SCHEMES
 from mudline.study.stability import critical, ladder, run
 from mudline.study.stability.judging import Judgement, Verdict, judge
 from mudline.study.stability.ladder import all_cells
-from tests.study.builders import scene_of
+from tests.builders.scenes import legal_scene
 
 TABLES = ["contacts", "critical-steps", "landings", "newton-cycles", "release", "ladder", "ladder-cells"]
 
@@ -63,7 +63,7 @@ def test_a_deck_without_mass_or_suction_is_reported(monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(ladder, "RANDOM_DECKS", 5)
     text = SAMPLE_TEXT.partition("*SEABED CONTACT")[0].replace("7850.0", "0.0")
     progress: list[str] = []
-    found = run(scene_of(text, "deck.keyx", "user"), StudyOptions(full=True, progress=progress.append))
+    found = run(legal_scene(text, "deck.keyx", "user"), StudyOptions(full=True, progress=progress.append))
     assert found.notes[0].startswith("No contact of this deck has a frequency")
     assert {one.what for one in found.omissions} >= {"release of suction", "linear on Sand"}
     assert "force/length2" in found.tables[0].columns[2].unit
@@ -85,7 +85,7 @@ def test_a_segment_too_narrow_to_oscillate_in_is_left_out(monkeypatch: pytest.Mo
     monkeypatch.setattr(ladder, "suction_cells", list)
     monkeypatch.setattr(critical, "SCHEMES", {})
     text = SAMPLE_TEXT.replace(" 0.02,  640.0\n", " 0.0100000000001,  640.0\n")
-    found = run(scene_of(text), StudyOptions())
+    found = run(legal_scene(text), StudyOptions())
     assert [tuple(one) for one in found.omissions] == [
         ("curve:Soft Clay on Clay", "not stepped: a small oscillation there is below rounding")
     ]

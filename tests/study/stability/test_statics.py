@@ -22,7 +22,7 @@ from mudline.study.stability.statics import (
     releases,
     residual,
 )
-from tests.study.builders import scene_of
+from tests.builders.scenes import legal_scene
 
 
 def test_one_equilibrium_needs_the_stiffness_that_is_given() -> None:
@@ -47,7 +47,7 @@ def test_the_release_is_that_of_a_first_uplift() -> None:
 
 
 def test_suction_of_no_force_asks_for_nothing() -> None:
-    scene = scene_of(SAMPLE_TEXT.replace("COHESION=5.0E3", "COHESION=0"))
+    scene = legal_scene(SAMPLE_TEXT.replace("COHESION=5.0E3", "COHESION=0"))
     suction = scene.contact_input().assigned["suction"]
     assert releases(scene, suction) == []
 

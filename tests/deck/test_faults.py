@@ -6,13 +6,13 @@ from typing import cast
 
 import pytest
 
-from mudline.deck.loading import load_bytes
-from mudline.deck.model import Deck, Opaque
+from mudline.deck.model import Opaque
 from mudline.diagnostics import Severity
 from mudline.keywords.library.embedment import Embedment
 from mudline.keywords.library.ocean import Ocean
 from mudline.keywords.library.parameters import Parameters
 from mudline.keywords.library.seabed_stiffness import SeabedStiffness
+from tests.builders.scenes import deck_of
 
 Found = tuple[str, int, int]
 Faults = list[tuple[str, list[Found]]]
@@ -20,18 +20,14 @@ ENDS = {"LF": "\n", "CRLF": "\r\n", "CR": "\r"}
 MODEL = "$MODEL\n"
 
 
-def read(text: str, name: str = "deck.keyxm") -> Deck:
-    return load_bytes(text.encode(), name)
-
-
 def problems(text: str, name: str = "deck.keyxm") -> list[Found]:
     """Code, line and column of what was noticed in reading a text."""
-    deck = read(text, name)
+    deck = deck_of(text, name)
     return [(found.code, found.line, found.column) for found in deck.diagnose(deck.problems)]
 
 
 def messages(text: str) -> list[str]:
-    deck = read(text)
+    deck = deck_of(text)
     return [found.message for found in deck.diagnose(deck.problems)]
 
 
@@ -141,7 +137,7 @@ def test_a_bad_line_hides_no_other(bad: str, place: int) -> None:
 
 
 def test_good_rows_beside_bad_ones_are_read() -> None:
-    deck = read(MODEL + CURVE + " 1, x\n 2, 20\n")
+    deck = deck_of(MODEL + CURVE + " 1, x\n 2, 20\n")
     _, block = next(deck.blocks("SEABED STIFFNESS"))
     points = cast("SeabedStiffness", block).curves[0].points
     assert points.values[[0, 2]].tolist() == [[0.0, 0.0], [2.0, 20.0]]
@@ -157,7 +153,7 @@ def test_comment_lines(line: str) -> None:
 
 @pytest.mark.parametrize("line", ["Csomething", "Clay, 1", "Cd, 1.2", "CURV=b", "Cxx"])
 def test_a_c_before_a_letter_is_a_comment_with_a_warning(line: str) -> None:
-    deck = read(MODEL + CURVE + line + "\n 1, 1\n")
+    deck = deck_of(MODEL + CURVE + line + "\n 1, 1\n")
     (found,) = deck.diagnose(deck.problems)
     assert (found.code, found.severity, found.line, found.column) == ("SYN013", Severity.WARNING, 5, 1)
     assert line in found.message
@@ -168,7 +164,7 @@ def test_a_c_before_a_letter_is_a_comment_with_a_warning(line: str) -> None:
 
 
 def test_curve_in_column_one_is_data_where_the_keyword_knows_it() -> None:
-    deck = read(MODEL + "*SEABED STIFFNESS\nCURVE=a\n 0, 0\nCurve = b\n 1, 1\n")
+    deck = deck_of(MODEL + "*SEABED STIFFNESS\nCURVE=a\n 0, 0\nCurve = b\n 1, 1\n")
     assert deck.problems == []
     _, block = next(deck.blocks("SEABED STIFFNESS"))
     assert [curve.name for curve in cast("SeabedStiffness", block).curves] == ["a", "b"]
@@ -179,7 +175,7 @@ def test_curve_in_column_one_is_data_where_the_keyword_knows_it() -> None:
 
 def test_an_indented_c_is_data() -> None:
     assert problems(MODEL + CURVE + " C x\n") == [("SYN003", 5, 2)]
-    deck = read("$PREPROCESSOR\n*PARAMETERS\n C x, 1\n C, 2\n")
+    deck = deck_of("$PREPROCESSOR\n*PARAMETERS\n C x, 1\n C, 2\n")
     assert deck.problems == []
     _, block = next(deck.blocks("PARAMETERS", "PREPROCESSOR"))
     assert [item.name for item in cast("Parameters", block).parameters] == ["C x", "C"]
@@ -193,7 +189,7 @@ def test_an_indented_c_is_data() -> None:
     ],
 )
 def test_settings(line: str, stiffness: object) -> None:
-    deck = read(MODEL + SEABED + line + "\n")
+    deck = deck_of(MODEL + SEABED + line + "\n")
     assert deck.problems == []
     _, block = next(deck.blocks("SEABED PROPERTIES"))
     assert block.sets[0].stiffness == stiffness
@@ -210,14 +206,14 @@ def test_settings(line: str, stiffness: object) -> None:
     ],
 )
 def test_rows(row: str) -> None:
-    deck = read(MODEL + f"*ocean\n {row}\n")
+    deck = deck_of(MODEL + f"*ocean\n {row}\n")
     assert deck.problems == []
     ocean = cast("Ocean", next(deck.blocks("OCEAN"))[1])
     assert (ocean.depth, ocean.density, ocean.gravity) == (500.0, 1025.0, 9.81)
 
 
 def test_labels_with_commas_hold_together() -> None:
-    deck = read(MODEL + "*ELEMENT SETS\n SET=a\n {x, y}, 3, {z}\n*ELEMENT\n 1, {a, b}, 2\n")
+    deck = deck_of(MODEL + "*ELEMENT SETS\n SET=a\n {x, y}, 3, {z}\n*ELEMENT\n 1, {a, b}, 2\n")
     assert deck.problems == []
     assert next(deck.blocks("ELEMENT SETS"))[1].sets[0].members[0].elements == ["{x, y}", 3, "{z}"]
 
@@ -226,7 +222,7 @@ def test_labels_with_commas_hold_together() -> None:
     "head", ["*NODE, CURVILINEAR", "*node,curvilinear", "* Node ,  Curvilinear", "\t*NODE ,CURVILINEAR  "]
 )
 def test_a_keyword_with_a_comma(head: str) -> None:
-    deck = read(f"  $ model \n{head}\n any, {{thing\n")
+    deck = deck_of(f"  $ model \n{head}\n any, {{thing\n")
     assert deck.problems == []
     assert deck.sections[0].blocks == [Opaque(keyword="NODE,CURVILINEAR", lines=[" any, {thing"])]
 
@@ -277,7 +273,7 @@ def test_a_row_whose_format_was_misspelt_is_not_judged() -> None:
 
 def test_severities() -> None:
     text = "x\n$MODEL\n*OCEAN\n 1,0, 2,0\nCx\n*NEW THING\n*HYDRODYNAMIC SET\n$NEW\n$LOADCASE\n"
-    deck = read(text)
+    deck = deck_of(text)
     found = [(one.code, one.severity.value) for one in deck.diagnose(deck.problems)]
     wanted = "SYN011 warning, SYN015 warning, SYN013 warning, SYN009 info, SYN009 warning, SYN010 info, SYN010 warning"
     assert ", ".join(f"{code} {severity}" for code, severity in found) == wanted
@@ -298,7 +294,7 @@ def test_messages_say_what_to_do(text: str, word: str) -> None:
 
 
 def test_a_set_line_that_is_missing() -> None:
-    deck = read(MODEL + "*EMBEDMENT\n 0, 0\n 1, 1\n SET=a\n 0, 0\n 2, 2\n")
+    deck = deck_of(MODEL + "*EMBEDMENT\n 0, 0\n 1, 1\n SET=a\n 0, 0\n 2, 2\n")
     assert deck.problems == []
     curves = cast("Embedment", next(deck.blocks("EMBEDMENT"))[1]).curves
     assert [curve.set_name for curve in curves] == [None, "a"]

@@ -10,6 +10,7 @@ from mudline.deck.loading import load_bytes
 from mudline.diagnostics import MOST_REPORTED
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize(
     ("code", "text"),
     [
@@ -29,6 +30,7 @@ def test_the_first_are_told_and_then_that_there_are_more(code: str, text: str) -
     assert Counter(problem.code.code for problem in deck.problems)[code] == len(told)
 
 
+@pytest.mark.untraced
 def test_a_thousand_are_all_told() -> None:
     deck = load_bytes(("$MODEL\n" + "*NOBODY KNOWS\n" * MOST_REPORTED).encode(), "deck.keyxm")
     assert len(deck.problems) == MOST_REPORTED

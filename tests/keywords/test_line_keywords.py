@@ -10,8 +10,9 @@ from mudline.deck.loading import dump
 from mudline.deck.model import Opaque
 from mudline.keywords import catalogue
 from mudline.keywords.facts import Kept, Names
-from tests.reading.spellings import no_head, texts
-from tests.reading.test_forms import held, read
+from tests.builders.scenes import deck_of, faults
+from tests.builders.spellings import no_head, texts
+from tests.deck.test_forms import held
 
 KEPT = [kept for kept in catalogue.kept() if kept.sections == ("MODEL",)]
 MODELLED = ("line_section_groups", "line_path_sections")
@@ -40,16 +41,11 @@ $MODEL
 
 def block(text: str) -> dict[str, object]:
     """The only block of a deck as it stands in a document; reading it finds nothing."""
-    deck = read(text)
+    deck = deck_of(text)
     assert deck.problems == []
     held(deck)
     (found,) = deck.sections[0].blocks
     return found.model_dump(mode="json", exclude_defaults=True)
-
-
-def faults(text: str) -> list[str]:
-    deck = read(text)
-    return [f"{found.line}:{found.column} {found.code} {found.message}" for found in deck.diagnose(deck.problems)]
 
 
 # ------------------------------------------------------------------------------------------------------------- models
@@ -59,7 +55,7 @@ def faults(text: str) -> list[str]:
 def test_examples(module: str) -> None:
     declared = catalogue.load(module)
     text = "$MODEL\n" + declared.example
-    assert dump(read(text), "keyword") == text
+    assert dump(deck_of(text), "keyword") == text
     assert list(block(text)) != []
 
 
@@ -86,13 +82,13 @@ def test_paths() -> None:
 
 @pytest.mark.parametrize("text", [GROUPS, PATHS])
 def test_written_as_read(text: str) -> None:
-    assert dump(read(text), "keyword") == text
+    assert dump(deck_of(text), "keyword") == text
 
 
 def test_mesh_before_the_additional_sets() -> None:
     before = "$MODEL\n*LINE SECTION GROUPS\n NAME=a\n SECTION=b, 1.0\n 0.5\n ADDITIONAL=c,\n"
     after = "$MODEL\n*LINE SECTION GROUPS\n NAME=a\n SECTION=b, 1.0\n ADDITIONAL=c\n 0.5\n"
-    assert dump(read(before), "keyword") == after
+    assert dump(deck_of(before), "keyword") == after
 
 
 @pytest.mark.parametrize(
@@ -133,7 +129,7 @@ def test_faults(lines: str, fault: str) -> None:
 
 
 def test_blocks_with_faults_keep_what_could_be_read() -> None:
-    deck = read("$MODEL\n*LINE SECTION GROUPS\n NAME=g\n SECTION=a\n SECTION=b, 2.0\n")
+    deck = deck_of("$MODEL\n*LINE SECTION GROUPS\n NAME=g\n SECTION=a\n SECTION=b, 2.0\n")
     (_, found), *_ = deck.blocks("LINE SECTION GROUPS")
     assert [section.section.set_name for section in found.groups[0].sections] == ["a", "b"]
 
@@ -158,7 +154,7 @@ def test_what_a_kept_keyword_says_of_itself(kept: Kept) -> None:
 @pytest.mark.parametrize("kept", KEPT, ids=lambda kept: kept.names[0])
 def test_examples_of_kept_keywords(kept: Kept) -> None:
     text = "$MODEL\n" + kept.example
-    deck = read(text)
+    deck = deck_of(text)
     assert deck.problems == []
     assert deck.sections[0].blocks == [Opaque(keyword=kept.names[0], lines=kept.example.splitlines()[1:])]
     assert dump(deck, "keyword") == text
@@ -175,7 +171,7 @@ def test_other_keywords_are_not_kept_with_a_module() -> None:
 @settings(max_examples=100)
 def test_nothing_of_a_kept_block_is_lost(keyword: str, lines: list[str]) -> None:
     text = f"$MODEL\n*{keyword}\n" + "".join(f"{no_head(line)}\n" for line in lines)
-    deck = read(text)
+    deck = deck_of(text)
     assert {problem.code.code for problem in deck.problems} == ({"SYN012"} if "\ufeff" in text else set())
     held(deck)
     assert dump(deck, "keyword") == text

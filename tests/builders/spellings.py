@@ -42,20 +42,8 @@ def _spelled(value: float, spelling: str) -> str:
 _SPELLINGS = ["repr", "repr", "exponent", "upper", "fortran", "signed"]
 _finite = st.floats(allow_nan=False, allow_infinity=False) | st.floats(-1e4, 1e4)
 ODD_NUMBERS = [
-    "0",
-    "-0",
-    "-0.0",
-    "1.",
-    ".5",
-    "+1",
-    "01",
-    "-.5",
-    "1.E3",
-    "1d3",
-    "007.250",
-    "4.9e-324",
-    "2.5E-310",
-    "1" * 25,
+    *("0", "-0", "-0.0", "1.", ".5", "+1", "01", "-.5", "1.E3"),
+    *("1d3", "007.250", "4.9e-324", "2.5E-310", "1" * 25),
 ]
 numbers = st.builds(_spelled, _finite, st.sampled_from(_SPELLINGS)) | st.sampled_from(ODD_NUMBERS)
 """Any finite double, as people and programs spell it."""
@@ -67,13 +55,8 @@ wholes = st.builds(
 """Whole numbers."""
 
 EQUATIONS = [
-    "=[od]",
-    "=[ 0.5*(OD - 2*wt) ]",
-    "=[if(a > b, 1.0, list[2])]",
-    '=["a, ] b"]',
-    "=[]",
-    "=[Tiefe \u00fc\u00e9^2]",
-    "=[{x, y}]",
+    *("=[od]", "=[ 0.5*(OD - 2*wt) ]", "=[if(a > b, 1.0, list[2])]", '=["a, ] b"]'),
+    *("=[]", "=[Tiefe \u00fc\u00e9^2]", "=[{x, y}]"),
 ]
 equations = st.sampled_from(EQUATIONS)
 labels = st.sampled_from(["{Seabed End}", "{a, b}", "{}", "{1}", "{\u00e9 \xa0}", '{"}', "{=[x]}"])
@@ -85,21 +68,8 @@ _names = st.text("abcXYZ019 ._%+-:;()'\u00e9\u00df\xa0\u2028", min_size=1, max_s
     lambda name: name.strip(" ") or "n"
 )
 NAMES = [
-    "ALL",
-    "Flow Line",
-    "12",
-    "1e5",
-    "no",
-    "null",
-    "~",
-    "0x1F",
-    '"a, b"',
-    "{lab, el}",
-    "C",
-    "- x",
-    "true",
-    "C x",
-    "2001-01-01",
+    *("ALL", "Flow Line", "12", "1e5", "no", "null", "~", "0x1F", '"a, b"'),
+    *("{lab, el}", "C", "- x", "true", "C x", "2001-01-01"),
 ]
 names = _names | st.sampled_from(NAMES)
 """Names of sets, curves and parameters, those that look like something else included."""

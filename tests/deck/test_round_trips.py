@@ -7,15 +7,10 @@ import json
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from jsonschema import Draft202012Validator
 
-from mudline.deck.document import json_schema
 from mudline.deck.loading import dump, load_bytes
 from mudline.deck.model import Deck
-from tests.generated.decks import KEYWORDS, Keyword, alone, block, declared, document
-from tests.generated.lines import Values
-
-VALIDATOR = Draft202012Validator(json_schema())
+from tests.builders.documents import KEYWORDS, VALIDATOR, Keyword, Values, alone, block, declared, document
 
 
 def read(text: str, form: str) -> Deck:

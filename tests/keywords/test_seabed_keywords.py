@@ -8,15 +8,15 @@ from typing import cast
 
 import numpy as np
 import pytest
-from jsonschema import Draft202012Validator
 
-from mudline.deck.document import FORMAT, json_schema
+from mudline.deck.document import FORMAT
 from mudline.deck.forms.keyword import to_keyword
 from mudline.deck.loading import dump, load_bytes
 from mudline.diagnostics import DeckError
 from mudline.formatting.document import formatted
 from mudline.keywords.library.seabed_suction import CyclicLoading, SeabedSuction, SuctionSet
 from mudline.keywords.library.seabed_trench import Centreline, SeabedTrench, TrenchSet
+from tests.builders.documents import VALIDATOR
 
 TRENCH = "*SEABED TRENCH\n SET=ALL\n GEOMETRY=1, 2, 3\n"
 
@@ -200,7 +200,7 @@ def test_every_form_holds_cyclic_loading_and_trenches(block: str) -> None:
         again = load_bytes(dump(deck, form).encode(), f"deck.{form}")
         assert again.sections == deck.sections
         assert dump(again, "keyword") == text
-    Draft202012Validator(json_schema()).validate(json.loads(dump(deck, "json")))
+    VALIDATOR.validate(json.loads(dump(deck, "json")))
     assert load_bytes(formatted(text.encode(), "deck.keyxm"), "deck.keyxm").sections == deck.sections
 
 

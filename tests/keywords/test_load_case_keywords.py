@@ -11,8 +11,9 @@ from hypothesis import strategies as st
 from mudline.deck.loading import dump
 from mudline.deck.model import Opaque
 from mudline.keywords import catalogue
-from tests.reading.spellings import cased, equations, idents, names, reals, rows, setting, whole_fields
-from tests.reading.test_forms import held, read
+from tests.builders.scenes import deck_of, faults
+from tests.builders.spellings import cased, equations, idents, names, reals, rows, setting, whole_fields
+from tests.deck.test_forms import held
 
 MODULES = ("p_y", "t_z", "restart", "time", "boundary", "friction")
 Lines = list[str]
@@ -20,17 +21,12 @@ Lines = list[str]
 
 def values(section: str, lines: str) -> dict[str, object]:
     """The only block of a deck as it stands in a document; reading it finds nothing, and it goes through every form."""
-    deck = read(f"${section}\n{lines}")
+    deck = deck_of(f"${section}\n{lines}")
     assert deck.problems == []
     held(deck)
     (found,) = deck.sections[0].blocks
     assert not isinstance(found, Opaque)
     return found.model_dump(mode="json", exclude_defaults=True)
-
-
-def faults(text: str) -> list[str]:
-    deck = read(text)
-    return [f"{found.line}:{found.column} {found.code} {found.message}" for found in deck.diagnose(deck.problems)]
 
 
 @pytest.mark.parametrize("module", MODULES)
@@ -51,7 +47,7 @@ def test_friction_belongs_in_two_sections() -> None:
 def test_no_friction_is_kept_wherever_it_stands() -> None:
     assert catalogue.sections_of("NO FRICTION") == ()
     for section in ("LOAD CASE", "MODEL", "MODES"):
-        deck = read(f"${section}\n*NO FRICTION\n")
+        deck = deck_of(f"${section}\n*NO FRICTION\n")
         assert deck.problems == []
         assert isinstance(deck.sections[0].blocks[0], Opaque)
 
@@ -96,7 +92,7 @@ def test_boundary() -> None:
 
 def test_a_degree_of_freedom_is_written_as_a_whole_number() -> None:
     text = "$LOAD CASE\n*BOUNDARY\n TYPE=CONSTANT\n GEN=1, 9, 2, 3\n GEN=1, 9, 2, 6, 0.0\n"
-    assert dump(read(text), "keyword") == text
+    assert dump(deck_of(text), "keyword") == text
 
 
 def test_a_wrong_number_of_values_in_a_known_form_is_told() -> None:
@@ -165,7 +161,7 @@ KEPT = [
 def test_a_form_that_is_not_public_is_kept_without_a_finding(case: str) -> None:
     section, lines = case.split("|")
     text = f"${section}\n{lines}"
-    deck = read(text)
+    deck = deck_of(text)
     assert deck.problems == []
     (block,) = deck.sections[0].blocks
     assert isinstance(block, Opaque)
@@ -235,7 +231,7 @@ BLOCKS = {
 def test_round_trips(drawn: tuple[str, Lines]) -> None:
     name, lines = drawn
     section, keyword = name.split("|")
-    deck = read("\n".join([f"${section}", f"*{keyword}", *lines, ""]))
+    deck = deck_of("\n".join([f"${section}", f"*{keyword}", *lines, ""]))
     assert [str(found) for found in deck.diagnose(deck.problems)] == []
     assert not isinstance(deck.sections[0].blocks[0], Opaque)
     held(deck)

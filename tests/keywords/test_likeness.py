@@ -9,7 +9,7 @@ import pytest
 import mudline
 from mudline.diagnostics import Severity
 from mudline.keywords.catalogue import meant_in, meant_keyword, meant_section
-from tests.reading.test_forms import read
+from tests.builders.scenes import deck_of
 
 TABLE = "$MODEL\n*OCEAN\n 350.0, 1025.0, 9.81\n"
 
@@ -56,7 +56,7 @@ def test_a_keyword_of_another_section_may_be_a_slip() -> None:
 
 
 def test_words_behind_a_name_are_told_and_can_be_removed() -> None:
-    deck = read(f"{TABLE}*NODE  (6 nodes)\n 1, 0.0, 0.0\n")
+    deck = deck_of(f"{TABLE}*NODE  (6 nodes)\n 1, 0.0, 0.0\n")
     (told,) = [problem for problem in deck.problems if problem.code.code == "SYN009"]
     assert told.weight is Severity.WARNING
     assert "(did you mean NODE, with nothing behind the name?)" in told.message
@@ -76,7 +76,7 @@ def test_sets_of_a_misplaced_keyword_may_be_there(tmp_path: Path) -> None:
 @pytest.mark.parametrize("number", ["85 000.0", "1 250", "-2'500.5", "1_000_000"])
 def test_groups_of_digits_are_no_name_of_a_curve(number: str) -> None:
     text = f"{TABLE}*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS={number}\n"
-    (told,) = read(text).problems
+    (told,) = deck_of(text).problems
     plain = number.translate({ord(mark): None for mark in " '_"})
     assert told.code.code == "SYN002"
     assert f"write {plain} for STIFFNESS=" in told.message
@@ -84,4 +84,4 @@ def test_groups_of_digits_are_no_name_of_a_curve(number: str) -> None:
 
 @pytest.mark.parametrize("name", ["Clay 100", "85 00", "5 to 6", "1 2345"])
 def test_other_names_stay_names(name: str) -> None:
-    assert read(f"{TABLE}*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS={name}\n").problems == []
+    assert deck_of(f"{TABLE}*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS={name}\n").problems == []

@@ -14,11 +14,11 @@ from mudline.linting.fixing import lint_one
 from mudline.linting.registry import rules
 from mudline.linting.rule import LintContext
 from mudline.scene.model import resolve
-from tests.generated.decks import document
-from tests.generated.legality import deck, outcome
-from tests.generated.lines import Values
+from tests.builders.documents import Values, document
+from tests.linting.legality import deck, outcome
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("first", range(0, 400, 50))
 def test_decks_about_a_pipe_on_a_seabed(first: int) -> None:
     for seed in range(first, first + 50):
@@ -33,6 +33,7 @@ def test_documents_of_all_keywords(values: Values) -> None:
     assert found.agrees, found
 
 
+@pytest.mark.untraced
 def test_random_decks_are_neither_all_blocked_nor_all_evaluated() -> None:
     found = [outcome(deck(seed).encode()) for seed in range(100)]
     evaluated = sum(not one.blocking and not one.refused for one in found)

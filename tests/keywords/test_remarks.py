@@ -88,6 +88,7 @@ def test_what_is_no_remark(line: str) -> None:
     assert advice_on(line) == ""
 
 
+@pytest.mark.untraced
 def test_very_many_faults_on_a_line_take_no_time() -> None:
     def loaded(data: bytes) -> Deck:
         return load_bytes(data, "a.keyxm")

@@ -11,22 +11,17 @@ from pathlib import Path
 import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
-from jsonschema import Draft202012Validator
 
-from mudline.deck.document import json_schema
 from mudline.deck.loading import dump, form_of, load_bytes
 from mudline.deck.model import Deck
 from mudline.diagnostics import Severity
-from tests.reading.decks import MODELLED, deck_texts, mutated
+from tests.builders.documents import VALIDATOR
+from tests.builders.keyword_texts import MODELLED, deck_texts, mutated
+from tests.builders.scenes import deck_of
 from tests.samples import SAMPLES
 
 NAME = "deck.keyxm"
 DECKS = sorted(path for path in SAMPLES.glob("*.keyx*") if path.name != "broken.keyxm")
-VALIDATOR = Draft202012Validator(json_schema())
-
-
-def read(text: str, name: str = NAME) -> Deck:
-    return load_bytes(text.encode(), name)
 
 
 def same(one: Deck, other: Deck) -> None:
@@ -40,17 +35,17 @@ def held(deck: Deck) -> None:
     """Every way between the forms gives the same deck and the same text, and the schema takes what is written."""
     as_json = dump(deck, "json")
     VALIDATOR.validate(json.loads(as_json))
-    from_json = read(as_json, "deck.json")
+    from_json = deck_of(as_json, "deck.json")
     same(deck, from_json)
     assert (from_json.source, from_json.units) == (deck.source, deck.units)
     assert dump(from_json, "json") == as_json
     as_yaml = dump(from_json, "yaml")
-    from_yaml = read(as_yaml, "deck.yaml")
+    from_yaml = deck_of(as_yaml, "deck.yaml")
     same(deck, from_yaml)
     assert dump(from_yaml, "json") == as_json
     assert dump(from_yaml, "yaml") == as_yaml
     as_keyword = dump(deck, "keyword")
-    again = read(as_keyword)
+    again = deck_of(as_keyword)
     same(deck, again)
     assert dump(again, "keyword") == as_keyword
     assert dump(from_yaml, "keyword") == as_keyword
@@ -73,7 +68,7 @@ def test_samples(path: Path) -> None:
 @given(deck_texts())
 @settings(max_examples=100)
 def test_decks(text: str) -> None:
-    deck = read(text)
+    deck = deck_of(text)
     assert [str(found) for found in deck.diagnose(deck.problems) if found.severity is Severity.ERROR] == []
     held(deck)
 
@@ -85,7 +80,7 @@ def test_no_comment_is_lost(text: str) -> None:
     numbered = re.sub(
         r"(?m)^[Cc](?=[ \t]|\r|\n|$|-|=|\*|#|~|\.).*?(?=\r|\n|$)", lambda _: f"C remark {next(lines)} .", text
     )
-    written = dump(read(numbered), "keyword")
+    written = dump(deck_of(numbered), "keyword")
     wanted = re.findall(r"remark (\d+) \.", numbered)
     assert sorted(re.findall(r"remark (\d+) \.", written)) == sorted(wanted)  # settings find their order, too
 
@@ -152,7 +147,7 @@ def test_a_comment_before_every_line(keyword: str) -> None:
     section = MODELLED[keyword][0]
     lines = [f"${section}", f"*{keyword}", *LINES[keyword], "*TITLE", " opaque", f"*{keyword}", *LINES[keyword]]
     text = "".join(f"C before {index}\n{line}\n" for index, line in enumerate(lines)) + "C end\n"
-    deck = read(text)
+    deck = deck_of(text)
     assert [str(found) for found in deck.diagnose(deck.problems)] == []
     held(deck)
     written = dump(deck, "keyword").splitlines()
@@ -171,10 +166,10 @@ def test_every_keyword_is_tried() -> None:
 @settings(max_examples=60)
 def test_numbers_to_the_last_bit(points: list[tuple[float, float]]) -> None:
     text = "$MODEL\n*SEABED STIFFNESS\nCURVE=a\n" + "".join(f"{x!r},{y!r}\n" for x, y in points)
-    deck = read(text)
+    deck = deck_of(text)
     held(deck)
     for form, name in (("json", "d.json"), ("yaml", "d.yaml"), ("keyword", NAME)):
-        _, block = next(read(dump(deck, form), name).blocks("SEABED STIFFNESS"))
+        _, block = next(deck_of(dump(deck, form), name).blocks("SEABED STIFFNESS"))
         values = block.curves[0].points.values
         assert [value.hex() for row in values.tolist() for value in row] == [v.hex() for p in points for v in p]
 
@@ -182,12 +177,12 @@ def test_numbers_to_the_last_bit(points: list[tuple[float, float]]) -> None:
 @pytest.mark.parametrize("field", ["-0", "-0.0", "0", "+0", "-0."])
 @pytest.mark.parametrize("end", ["", "\n 7, 1, 2, 3", "\n =[n], 1, 2"])
 def test_zero_as_a_node_number(field: str, end: str) -> None:
-    held(read(f"$MODEL\n*NODE\n {field}, -0, 2{end}\n*ELEMENT\n {field}, {field}, 2\n"))
+    held(deck_of(f"$MODEL\n*NODE\n {field}, -0, 2{end}\n*ELEMENT\n {field}, {field}, 2\n"))
 
 
 def test_comments_among_settings_in_another_order() -> None:
     settings_ = ["C a", " SUCTION=3", "C b", " FRICTION=,1", "C c", " STIFFNESS=1", "C d", " LATERAL=0"]
-    deck = read("\n".join(["$MODEL", "*SEABED PROPERTIES", " SET=x", *settings_, ""]))
+    deck = deck_of("\n".join(["$MODEL", "*SEABED PROPERTIES", " SET=x", *settings_, ""]))
     assert deck.problems == []
     held(deck)
     assert sorted(remarks(dump(deck, "keyword"))) == [" a", " b", " c", " d"]
@@ -196,12 +191,12 @@ def test_comments_among_settings_in_another_order() -> None:
 @pytest.mark.parametrize("keyword", ["SEABED STIFFNESS", "EMBEDMENT"])
 def test_a_curve_without_points(keyword: str) -> None:
     key = "CURVE" if keyword == "SEABED STIFFNESS" else "SET"
-    held(read(f"$MODEL\n*{keyword}\n {key}=a\n {key}=b\n 1, 2\n {key}=c\n"))
+    held(deck_of(f"$MODEL\n*{keyword}\n {key}=a\n {key}=b\n 1, 2\n {key}=c\n"))
 
 
 @pytest.mark.parametrize("row", [" =[n], 1, 2, 3,", " 1, 2, =[x], 4, , ,", " 1, 2, 3, ,", " 1, =[x], 2,"])
 def test_commas_behind_the_last_field(row: str) -> None:
-    deck = read(f"$MODEL\n*NODE\n{row}\n 5, 0, 0\n")
+    deck = deck_of(f"$MODEL\n*NODE\n{row}\n 5, 0, 0\n")
     assert deck.problems == []
     held(deck)
 
@@ -217,7 +212,7 @@ def test_equations_and_opaque_lines_stay_as_written() -> None:
         "-: yaml #",
     ]
     text = "$MODEL\n*OCEAN\n" + "\n".join(lines) + "\n"
-    deck = read(text)
+    deck = deck_of(text)
     held(deck)
     assert dump(deck, "keyword") == text
     assert json.loads(dump(deck, "json"))["sections"][0]["blocks"] == [
@@ -228,7 +223,7 @@ def test_equations_and_opaque_lines_stay_as_written() -> None:
 
 def test_a_long_table_in_yaml_is_a_block_of_rows() -> None:
     rows = [f" {i}, =[x, {i}], 2" if i % 7 == 0 else f" {i}, -0.{i}1, {i}.5, " for i in range(1, 60)]
-    deck = read("$MODEL\n*NODE\n" + "\n".join(rows) + "\n")
+    deck = deck_of("$MODEL\n*NODE\n" + "\n".join(rows) + "\n")
     assert deck.problems == []
     assert "nodes: |" in dump(deck, "yaml")
     held(deck)
@@ -250,7 +245,7 @@ def test_form_of(name: str, form: str) -> None:
 
 
 def test_a_form_and_units_can_be_given() -> None:
-    text = dump(read("$MODEL\n*OCEAN\n 1.0\n"), "json")
+    text = dump(deck_of("$MODEL\n*OCEAN\n 1.0\n"), "json")
     deck = load_bytes(text.encode(), "<stdin>", form="json", units="imperial")
     assert deck.units == "imperial"
     assert load_bytes(b"\xef\xbb\xbf" + text.encode(), "a.yaml", form="json").units == "metric"

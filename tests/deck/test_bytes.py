@@ -6,10 +6,10 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from mudline.deck.loading import dump, load_bytes
-from tests.generated.decks import document
-from tests.generated.test_round_trips import of
-from tests.reading.decks import mutated
-from tests.reading.test_lossless import BOM, read_back
+from tests.builders.documents import document
+from tests.builders.keyword_texts import mutated
+from tests.deck.test_round_trips import of
+from tests.syntax.test_lossless import BOM, read_back
 
 texts = document().map(lambda made: dump(of(made), "keyword"))
 ends = st.sampled_from([["\n"], ["\r\n"], ["\r"], ["\n", "\r\n"], ["\r", "\r\n"]])

@@ -1,6 +1,6 @@
 """Random decks of all keywords, and whether linting and evaluating agree about what keeps a deck from being evaluated.
 
-`python -m tests.generated.legality --decks 100000` looks at as many decks as one likes.
+`python -m tests.linting.legality --decks 100000` looks at as many decks as one likes.
 """
 
 from __future__ import annotations

@@ -8,19 +8,14 @@ from typing import Any
 import yaml
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from jsonschema import Draft202012Validator
 
-from mudline.deck.document import json_schema
 from mudline.deck.faults import DocumentPath, path_text
 from mudline.deck.forms.yaml import CoreDumper
 from mudline.deck.loading import dump, load_bytes
 from mudline.deck.model import Deck
 from mudline.diagnostics import DeckError, Diagnostic
-from tests.generated.decks import KEYWORDS, alone, block
-from tests.generated.lines import Values
-from tests.generated.test_round_trips import values
-
-VALIDATOR = Draft202012Validator(json_schema())
+from tests.builders.documents import KEYWORDS, VALIDATOR, Values, alone, block
+from tests.deck.test_round_trips import values
 
 blocks = st.sampled_from(KEYWORDS).flatmap(lambda keyword: block(keyword).map(lambda made: alone(keyword, made)))
 

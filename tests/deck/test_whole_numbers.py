@@ -8,7 +8,7 @@ import pytest
 
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError
-from tests.reading.test_faults import messages
+from tests.deck.test_faults import messages
 
 LIMIT = "needs a whole number of at most 2^53 (9007199254740992)"
 

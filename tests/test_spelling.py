@@ -76,6 +76,7 @@ def sets(count: int) -> str:
     return f"$MODEL\n*NODE\n 1, 0.0, 0.0\n 2, 0.0, 1.0\n*ELEMENT\n 1, 1, 2\n*ELEMENT SETS\n{named}"
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("text", [parameters, keywords, settings, sets])
 def test_misspelt_names_cost_as_much_as_they_are_many(text: object, tmp_path: Path) -> None:
     assert callable(text)

@@ -11,16 +11,14 @@ import pytest
 import yaml
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from jsonschema import Draft202012Validator
 
-from mudline.deck.document import json_schema
 from mudline.deck.loading import dump, load_bytes
 from mudline.deck.model import Deck
 from mudline.diagnostics import DeckError, Diagnostic
+from tests.builders.documents import VALIDATOR
+from tests.builders.keyword_texts import deck_texts, mutated
 from tests.processes import TIMEOUT
-from tests.reading.decks import deck_texts, mutated
 
-VALIDATOR = Draft202012Validator(json_schema())
 TEXT = """\
 C title
 $MODEL

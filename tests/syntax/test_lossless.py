@@ -17,7 +17,7 @@ from mudline.linting.fixing import fix_bytes
 from mudline.linting.registry import select
 from mudline.syntax.source import Source
 from mudline.syntax.tree import line_grammar, mark_of, parse
-from tests.reading.decks import deck_texts, mutated
+from tests.builders.keyword_texts import deck_texts, mutated
 from tests.samples import SAMPLES
 
 FILES = sorted(path for path in SAMPLES.iterdir() if path.is_file())

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from mudline.diagnostics import Span
 from mudline.syntax.rows import Rows, read_number, read_rows, read_rows_apart, read_rows_fast, read_rows_slow
-from tests.reading.spellings import ODD_NUMBERS, numbers
+from tests.builders.spellings import ODD_NUMBERS, numbers
 
 STRANGE = [
     *(

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from mudline.deck.loading import dump, load_bytes
 from mudline.deck.model import Deck
 from mudline.diagnostics import Severity
-from tests.reading.decks import MODELLED, deck_texts, mutated
+from tests.builders.keyword_texts import MODELLED, deck_texts, mutated
 from tests.samples import SAMPLES
 
 BROKEN = (SAMPLES / "broken.keyxm").read_bytes()
@@ -178,6 +178,7 @@ LINES = [
 ]
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("piece", LINES)
 @pytest.mark.parametrize("keyword", ["NODE", "ELEMENT SETS"])
 def test_long_input(piece: str, keyword: str) -> None:
@@ -187,6 +188,7 @@ def test_long_input(piece: str, keyword: str) -> None:
     assert any(one.code == "SYN002" and "1O" in one.message for one in deck.diagnose(deck.problems))
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize(
     "head", ["$MODEL\n*NODE\n", "$PREPROCESSOR\n*PARAMETERS\n a, ", "$MODEL\n*SEABED PROPERTIES\n STIFFNESS=", ""]
 )

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from mudline.deck.loading import load_bytes
 from mudline.deck.reading import TextOrigin
 from mudline.linting.engine import LONGEST_BLOCK, MOST_BLOCKS, BlockMemory
-from tests.generated.test_bytes import texts
-from tests.reading.decks import mutated
+from tests.builders.keyword_texts import mutated
+from tests.deck.test_bytes import texts
 
 COMMENT = "C a line more\n"
 
