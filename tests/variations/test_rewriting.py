@@ -15,7 +15,8 @@ from mudline.diagnostics import DeckError
 from mudline.keywords.values import Equation
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import select
-from mudline.variations.files import ExpansionPlan, parameter_field, path_fault
+from mudline.variations.cases import parameter_field
+from mudline.variations.files import ExpansionPlan, path_fault
 from mudline.variations.planning import plan
 from tests.builders.decks import VARIED_MODEL, VARIED_PARAMETERS, varied_deck
 from tests.builders.scenes import deck_of, only, refused
