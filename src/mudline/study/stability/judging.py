@@ -129,7 +129,7 @@ class Judgement:
     results: Annotated[int, "numbers compared"] = 0
     error: Annotated[float, "largest error [2^-53]"] = 0.0
     bound: Annotated[float, "bound [2^-53]"] = 0.0
-    message: Annotated[str, "message"] = ""
+    message: Annotated[str, "told"] = ""
 
 
 def judge(cell: Cell) -> Judgement:
