@@ -2,17 +2,26 @@
 
 from __future__ import annotations
 
+import os
+from unittest.mock import patch
+
 import pytest
 
 from mudline.cli.main import COMMANDS
-from tests.cli.runner import Outcome, process
+from tests.cli.runner import Outcome, run
 
 
 def complete(*words: str, shell: str = "bash") -> Outcome:
     """What a shell is offered for the last word."""
     env = {"_MUDLINE_COMPLETE": f"{shell}_complete", "COMP_WORDS": " ".join(("mudline", *words))}
     env["COMP_CWORD"] = words[-1] if shell == "fish" else str(len(words))
-    return process(env=env)
+    return answered(env)
+
+
+def answered(env: dict[str, str]) -> Outcome:
+    """What the program answers in an environment."""
+    with patch.dict(os.environ, env):
+        return run()
 
 
 def offered(*words: str) -> list[str]:
@@ -23,7 +32,7 @@ def offered(*words: str) -> list[str]:
 
 @pytest.mark.parametrize(("shell", "sign"), [("bash", "complete -o"), ("zsh", "compdef"), ("fish", "complete --no")])
 def test_script_of_a_shell(shell: str, sign: str) -> None:
-    outcome = process(env={"_MUDLINE_COMPLETE": f"{shell}_source"})
+    outcome = answered({"_MUDLINE_COMPLETE": f"{shell}_source"})
     assert outcome.code == 0
     assert sign in outcome.out
     assert f"_MUDLINE_COMPLETE={shell}_complete" in outcome.out
@@ -44,5 +53,5 @@ def test_options_and_their_words_are_offered() -> None:
 
 
 def test_an_unknown_question_is_answered_by_nothing() -> None:
-    outcome = process(env={"_MUDLINE_COMPLETE": "tcsh_source"})
+    outcome = answered({"_MUDLINE_COMPLETE": "tcsh_source"})
     assert (outcome.code, outcome.out, outcome.err) == (1, "", "")

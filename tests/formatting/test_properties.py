@@ -54,6 +54,7 @@ def ink(data: bytes) -> str:
     return re.sub(r"[\s,]", "", Source.from_bytes(data, "deck.keyxm").text).upper()
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
 @pytest.mark.parametrize("end", [b"\n", b"\r\n", b"\r"], ids=["LF", "CRLF", "CR"])
 @pytest.mark.parametrize("mark", [b"", BOM], ids=["plain", "BOM"])
@@ -71,6 +72,7 @@ def test_the_example_of_every_keyword(module: str) -> None:
     assert ink(check(text.lower().encode())) == ink(text.encode())
 
 
+@pytest.mark.untraced
 def test_a_long_table_takes_little_time() -> None:
     def table(count: int) -> bytes:
         rows = "".join(f"{node},{node * 0.37:.3f} ,\t{node / 7}\n" for node in range(1, count + 1))

@@ -50,6 +50,7 @@ def test_formats_agree(absent: tuple[int, ...]) -> None:
     assert arrays["reaction"].shape == (5, 3 - len(absent), 3)
 
 
+@pytest.mark.untraced
 def test_pieces_are_small() -> None:
     evaluation = series(36_000)
     tracemalloc.start()
@@ -67,6 +68,7 @@ def test_pieces_are_small() -> None:
     assert peak < 30e6, "the results of a chunk, not of all steps"
 
 
+@pytest.mark.untraced
 def test_pieces_of_a_large_model_are_small() -> None:
     evaluation = long_model(100_000)
     tracemalloc.start()
