@@ -7,16 +7,48 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
-from mudline.deck.forms import json, yaml
+from mudline.deck import model
+from mudline.deck.forms import json, keyword, yaml
 from mudline.deck.loading import load_bytes, load_path
-from mudline.deck.model import Deck
 from mudline.diagnostics import Diagnostic
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import select as _chosen
+from mudline.scene.model import Scene, resolve
 
 _KEYWORD = re.compile(r"\s*[$*][A-Z][A-Z &/-]*\s*", re.IGNORECASE)
 _SECTION = re.compile(r"^\s*\$[A-Z]", re.IGNORECASE | re.MULTILINE)
 _YAML = re.compile(r"^(?:%YAML|---|(?:format|source|units|sections)\s*:)", re.MULTILINE)
+
+
+class Deck(model.Deck):
+    """A deck: its sections and blocks as validated models, equations as written.
+
+    `read`, `from_keyword`, `from_json` and `from_yaml` make decks.
+    """
+
+    def to_json(self) -> str:
+        """Return the deck as JSON text; nothing but layout is lost."""
+        return json.to_json(self.alone)
+
+    def to_yaml(self) -> str:
+        """Return the deck as YAML 1.2 text; nothing but layout is lost."""
+        return yaml.to_yaml(self.alone)
+
+    def to_keyword(self) -> str:
+        """Return the deck as keyword text.
+
+        Raises:
+            DeckError: a name, comment or raw line cannot be written in a keyword file.
+        """
+        return keyword.to_keyword(self.alone)
+
+    def scene(self) -> Scene:
+        """Return the deck resolved: equations evaluated, sets expanded, diameters, lengths and laws as arrays.
+
+        Raises:
+            DeckError: the deck has errors on which a result depends.
+        """
+        return resolve(self.alone).require()
 
 
 def read(path: str | os.PathLike[str], *, units: str | None = None) -> Deck:
@@ -32,7 +64,7 @@ def read(path: str | os.PathLike[str], *, units: str | None = None) -> Deck:
         ValueError: `path` is the text of a deck.
         TypeError: `path` is no path.
     """
-    return load_path(_path(path), units=units).require()
+    return _public(load_path(_path(path), units=units))
 
 
 def from_keyword(text: str | bytes, *, units: str | None = None) -> Deck:
@@ -50,7 +82,7 @@ def from_keyword(text: str | bytes, *, units: str | None = None) -> Deck:
     data = text if isinstance(text, bytes) else text.encode(errors="replace")
     deck = load_bytes(data, "<keyword>", form="keyword", units=units)
     deck.source = ""
-    return deck.require()
+    return _public(deck)
 
 
 def from_json(text: str | bytes) -> Deck:
@@ -59,7 +91,7 @@ def from_json(text: str | bytes) -> Deck:
     Raises:
         DeckError: the text is no JSON, has a key twice, or breaks the schema.
     """
-    return json.read(text, "<json>") if isinstance(text, bytes) else json.from_json(text)
+    return _public(json.read(text, "<json>") if isinstance(text, bytes) else json.from_json(text))
 
 
 def from_yaml(text: str | bytes) -> Deck:
@@ -68,7 +100,7 @@ def from_yaml(text: str | bytes) -> Deck:
     Raises:
         DeckError: the text is no YAML, has a key twice or an alias, or breaks the schema.
     """
-    return yaml.read(text, "<yaml>") if isinstance(text, bytes) else yaml.from_yaml(text)
+    return _public(yaml.read(text, "<yaml>") if isinstance(text, bytes) else yaml.from_yaml(text))
 
 
 def lint(
@@ -93,6 +125,11 @@ def lint(
     """
     file = _path(path, "save it to a file")
     return lint_bytes(file.read_bytes(), file.as_posix(), _chosen(select, ignore), units=units, folder=file.parent)
+
+
+def _public(deck: model.Deck) -> Deck:
+    """A deck that was read as users have it; raises DeckError when something in it could not be read."""
+    return Deck(**vars(deck.require()))
 
 
 def _path(given: object, advice: str = "use mudline.{}(text)") -> Path:

@@ -17,7 +17,6 @@ from mudline.diagnostics import DeckError
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import rules, select
 from mudline.scene import restart
-from mudline.scene.continued import ContinuedDeck
 from mudline.scene.model import Scene, resolve
 from tests.linting.findings import CLAY, CURVES, PIPE, PROPERTIES
 from tests.samples import sample
@@ -151,7 +150,6 @@ def test_names(tmp_path: Path, written: str, file: str) -> None:
     text = "$PREPROCESSOR\n*PARAMETERS\n Hs, Far\n N, =[4*2]\n" + RESTART.format(written)
     found = scene(tmp_path, text)
     assert len(found.element_ids) == 10
-    assert isinstance(found.deck, ContinuedDeck)
     assert [base.deck.file for base in found.deck.bases] == [path.as_posix()]
 
 
@@ -243,7 +241,6 @@ def test_a_very_long_chain_ends(tmp_path: Path) -> None:
     for number in range(30):
         (tmp_path / f"run{number}.keyxm").write_text(RESTART.format(f"run{number + 1}"))
     found = resolve(load_path(tmp_path / "run0.keyxm"))
-    assert isinstance(found.deck, ContinuedDeck)
     assert len(found.deck.bases) == 20
     assert found.context.restart is True
     assert found.problems == []

@@ -11,7 +11,6 @@ from mudline.contact import LawKind
 from mudline.deck.model import Opaque
 from mudline.results.curves import followers, static_embedment
 from mudline.results.quantities import finite
-from mudline.scene.continued import ContinuedDeck
 from mudline.scene.model import Scene
 from mudline.scene.seabed import SeabedKind, SeabedShape
 
@@ -22,7 +21,7 @@ def summarise(scene: Scene) -> dict[str, Any]:
     return {
         "file": deck.file,
         "units": deck.units,
-        "continues": [base.deck.file for base in deck.bases] if isinstance(deck, ContinuedDeck) else [],
+        "continues": [base.deck.file for base in deck.bases],
         "sections": [
             {
                 "name": section.name,

@@ -20,7 +20,6 @@ from mudline.diagnostics import MORE, MOST_REPORTED, Blocks, Code, Problem, Seve
 from mudline.keywords import catalogue
 from mudline.keywords.catalogue import meant_in, meant_keyword
 from mudline.keywords.model import ListRow
-from mudline.scene.continued import ContinuedDeck
 from mudline.scene.numbering import LARGEST
 from mudline.scene.opaque_names import (
     definition_by,
@@ -56,7 +55,7 @@ class Context:
     def __post_init__(self) -> None:
         for i, section in enumerate(self.deck.sections):
             for j, block in enumerate(section.blocks):
-                if self.deck.origin.lost(i, j):
+                if self.deck.lost(Where(i, j)):
                     self.unread.add(block.keyword)
 
     def report(self, code: Code, message: str, where: Where, severity: Severity | None = None) -> None:
@@ -113,10 +112,10 @@ class Context:
 
     def has_read_errors(self, where: Where) -> bool:
         """Whether something at this place, or a line below it, could not be used."""
-        if self.deck.origin.damaged(where):
+        if self.deck.damaged(where):
             return True
         if where.section >= len(self.deck.own_sections):  # of a deck that is continued: what it lost is in no line here
-            return self.deck.origin.lost(where.section, where.block) > 0
+            return self.deck.lost(where) > 0
         if not self._unread_lines:
             return False
         lines = self._lines(where)
@@ -152,8 +151,7 @@ class Context:
 
     def lacks_value(self, where: Where, key: str) -> bool:
         """Whether the setting `key` of a record was written without a value that could be read."""
-        origin = self.deck.origin
-        return origin.damaged(where) and origin.written(where.inside(key))
+        return self.deck.damaged(where) and self.deck.written(where.inside(key))
 
     def generator(self, given: ListRow, where: Where) -> tuple[int, int, int] | None:
         """The three values of a GEN=, the last one 1 unless given; None when one of them is not known."""
@@ -161,7 +159,7 @@ class Context:
         if values[2] is None and not self.without_value(given, where):
             values[2] = 1
         usable = all(isinstance(value, int) and abs(value) <= LARGEST for value in values)
-        return (values[0], values[1], values[2]) if usable and not self.deck.origin.damaged(where) else None
+        return (values[0], values[1], values[2]) if usable and not self.deck.damaged(where) else None
 
     def without_value(self, row: ListRow, where: Where) -> bool:
         """Whether an equation of a row has no value."""
@@ -199,7 +197,7 @@ class Context:
 
     def _position(self, problem: Problem) -> tuple[int, int]:
         """Line and column of a problem."""
-        place = self.deck.origin.place(problem)
+        place = self.deck.place(problem)
         return place.line, place.column
 
     @cached_property
@@ -210,9 +208,7 @@ class Context:
     @cached_property
     def restart(self) -> bool:
         """Whether the deck continues another one that is not known."""
-        if isinstance(self.deck, ContinuedDeck):
-            return self.deck.incomplete
-        return "RESTART" in self.deck.keywords("LOAD CASE")
+        return self.deck.incomplete if self.deck.bases else "RESTART" in self.deck.keywords("LOAD CASE")
 
     @cached_property
     def _guessed_labels(self) -> set[tuple[int, int]]:

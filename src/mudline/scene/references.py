@@ -98,7 +98,7 @@ def check_boundaries(context: Context, nodes: Numbered) -> None:
     named: list[tuple[object, Where]] = []
     for where, block in context.deck.blocks("BOUNDARY", "LOAD CASE"):
         types = cast("Boundary", block).types
-        if not types and not context.deck.origin.lost(where.section, where.block):
+        if not types and not context.deck.lost(where):
             message = "*BOUNDARY is empty: give TYPE= and nodes below it, or remove it"
             context.report(SYN001, message, where, Severity.WARNING)
         for i, held in enumerate(types):
@@ -115,7 +115,7 @@ def check_boundaries(context: Context, nodes: Numbered) -> None:
 def _check_range(context: Context, nodes: Numbered, entry: FixedRange, where: Where) -> None:
     """The nodes of a GEN=, without building them, and their degree of freedom."""
     values = cast("FixedValues | None", entry.generate)
-    if values is None or context.deck.origin.damaged(where) or context.without_value(values, where):
+    if values is None or context.deck.damaged(where) or context.without_value(values, where):
         return
     at, step = _freedom_and_step(values)
     freedom = (values.third, values.fourth)[at - 2]
