@@ -13,9 +13,8 @@ from typing import Any, cast
 from mudline.codes.fields import SYN016
 from mudline.codes.lines import SYN001
 from mudline.codes.words import SYN004
-from mudline.deck.evaluation import EvaluatedDeck
 from mudline.deck.model import Deck, Opaque
-from mudline.deck.parameters import folded
+from mudline.deck.parameters import EvaluatedDeck, folded
 from mudline.diagnostics import MORE, MOST_REPORTED, Blocks, Code, Problem, Severity, Where
 from mudline.keywords import catalogue
 from mudline.keywords.catalogue import meant_in, meant_keyword

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal
 
-from mudline.deck.evaluation import evaluated
 from mudline.deck.model import Deck
+from mudline.deck.parameters import evaluated
 from mudline.diagnostics import Blocks, DeckError, Problem, Severity
 from mudline.scene.checks.declaring import checked
 from mudline.scene.context import Context

@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mudline.contact.input import LawKind
-from mudline.deck.evaluation import EvaluatedDeck
-from mudline.deck.parameters import folded
+from mudline.deck.parameters import EvaluatedDeck, folded
 from mudline.diagnostics import Problem
 from mudline.keywords.text import suggestion
 from mudline.scene.context import Context

@@ -11,10 +11,9 @@ from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 from mudline.codes.references import REF015
-from mudline.deck.evaluation import evaluated
 from mudline.deck.loading import load_path
 from mudline.deck.model import Base, BaseProblem, Deck
-from mudline.deck.parameters import Parameters
+from mudline.deck.parameters import Parameters, evaluated
 from mudline.diagnostics import DeckError, Problem, Where
 from mudline.keywords.text import shown
 from mudline.scene.deck_values import LARGEST_FILE, file_name, find_file
