@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from mudline.keywords import catalogue
-from mudline.keywords.facts import Kept
 from mudline.keywords.model import Block
+from mudline.keywords.values import Kept
 from tests.docs.keyword_fields import inferences, tables
 from tests.docs.keyword_format import format_lines
 from tests.docs.keyword_rules import Declared, rules_of

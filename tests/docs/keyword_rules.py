@@ -12,8 +12,8 @@ from collections.abc import Iterator
 from functools import cache
 
 from mudline.keywords import catalogue
-from mudline.keywords.facts import Kept
 from mudline.keywords.model import Block
+from mudline.keywords.values import Kept
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import rules
 from mudline.linting.rule import Rule

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from mudline.keywords import catalogue
-from mudline.keywords.facts import Kept
+from mudline.keywords.values import Kept
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import rules
 from tests.docs import make

@@ -30,8 +30,8 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from mudline.keywords.facts import Facts
-from mudline.keywords.facts import Names
+from mudline.keywords.values import Facts
+from mudline.keywords.values import Names
 from mudline.keywords.model import Block, Record, about, setting
 from mudline.keywords.values import Name, Real
 

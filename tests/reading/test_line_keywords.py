@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from mudline.deck.loading import dump
 from mudline.deck.model import Opaque
 from mudline.keywords import catalogue
-from mudline.keywords.facts import Kept, Names
+from mudline.keywords.values import Kept, Names
 from tests.reading.spellings import no_head, texts
 from tests.reading.test_forms import held, read
 

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple, NewType, cast
 from mudline.codes.fields import SYN002, SYN006, SYN017
 from mudline.codes.references import REF013, REF014
 from mudline.deck.model import Deck
-from mudline.deck.model import Deck
 from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.expression import Expression, ExpressionError, UndefinedName, UnknownFunction, evaluate, parse
 from mudline.keywords.model import ListRow, Part, Slot, columns_of, layout

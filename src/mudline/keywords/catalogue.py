@@ -8,8 +8,8 @@ from importlib import import_module
 from itertools import takewhile
 from typing import cast
 
-from mudline.keywords.facts import Kept
 from mudline.keywords.model import Block
+from mudline.keywords.values import Kept
 from mudline.spelling import Effort, nearest
 
 _LIBRARY = "mudline.keywords.library"

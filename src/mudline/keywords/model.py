@@ -22,10 +22,8 @@ from pydantic.fields import FieldInfo
 from pydantic_core import CoreSchema, core_schema
 
 from mudline.diagnostics import Code
-from mudline.keywords.facts import Facts, Names
-from mudline.keywords.listing import AS_TABLES, Listing, checked_by_parts, read_table
-from mudline.keywords.table import LARGEST_WHOLE, Cell, Column, Table
-from mudline.keywords.values import Count, Equation, Kind, Label, Text
+from mudline.keywords.table import AS_TABLES, LARGEST_WHOLE, Cell, Column, Listing, Table, checked_by_parts, read_table
+from mudline.keywords.values import Count, Equation, Facts, Kind, Label, Names, Text
 from mudline.short_repr import with_fields
 
 _MOST_KEYS = 100

@@ -8,9 +8,8 @@ from typing import Any
 
 from pydantic_core import to_json
 
-from mudline.keywords.listing import Listing
 from mudline.keywords.model import Block, Part, Record, Rows, Setting, Slot, columns_of, layout
-from mudline.keywords.table import Cell, Table
+from mudline.keywords.table import Cell, Listing, Table
 
 Item = tuple[list[str], int]
 """Lines that comments can stand before, and how many items they count for: a line each of a table, else one."""

@@ -9,8 +9,8 @@ from mudline.codes import MIG001
 from mudline.deck.model import Deck
 from mudline.diagnostics import Problem, Where
 from mudline.keywords.catalogue import in_order, is_superseded, supersedes
+from mudline.keywords.common import Surface
 from mudline.keywords.model import Block
-from mudline.keywords.surface import Surface
 from mudline.keywords.values import Equation
 from mudline.syntax.tree import canonical_name
 

@@ -12,9 +12,9 @@ from mudline.deck.model import Deck
 from mudline.deck.parameters import folded
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Span, Where
+from mudline.keywords.common import Surface
 from mudline.keywords.library.embedment import Embedment
 from mudline.keywords.model import layout
-from mudline.keywords.surface import Surface
 from mudline.keywords.text import reads_as_name
 from mudline.migration.refusals import DIRECTIONS, surfaces
 from mudline.syntax.edits import TextEdit

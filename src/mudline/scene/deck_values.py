@@ -10,7 +10,7 @@ from mudline.deck.model import Deck
 from mudline.diagnostics import Where
 
 if TYPE_CHECKING:
-    from mudline.keywords.surface import Surface
+    from mudline.keywords.common import Surface
 
 
 FOOT = 0.3048

@@ -9,8 +9,8 @@ from mudline.deck.model import Deck, Opaque
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Span
 from mudline.keywords import catalogue
-from mudline.keywords.facts import LINE_SETS, Names
 from mudline.keywords.model import Block, Part, Row, layout
+from mudline.keywords.values import LINE_SETS, Names
 from mudline.syntax.fields import read_line
 from mudline.syntax.rows import read_number
 

@@ -17,10 +17,9 @@ from mudline.codes.words import SYN005
 from mudline.deck.model import Deck
 from mudline.deck.parameters import folded
 from mudline.diagnostics import MOST_REPORTED, Code, Severity, Where
-from mudline.keywords.facts import Names
 from mudline.keywords.model import Block, names_given
 from mudline.keywords.text import shown
-from mudline.keywords.values import Label
+from mudline.keywords.values import Label, Names
 from mudline.scene.context import Context
 from mudline.scene.laws import LawTable
 from mudline.scene.numbering import Numbered

@@ -13,9 +13,9 @@ from typing import NamedTuple, cast
 
 from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin
-from mudline.keywords.facts import Names
 from mudline.keywords.model import Block, names_given
 from mudline.keywords.text import shown
+from mudline.keywords.values import Names
 from mudline.scene.deck_values import file_name, find_file
 from mudline.syntax.fields import read_line
 from mudline.syntax.tree import Kind, RawBlock

@@ -15,7 +15,7 @@ from pydantic_core import to_json as compact
 from mudline.deck.document import decoded, from_document, to_document
 from mudline.deck.faults import DocumentPath, path_text, refusal
 from mudline.deck.model import Deck, Range
-from mudline.keywords.listing import Listing
+from mudline.keywords.table import Listing
 from mudline.syntax.source import Source
 
 _INDENT = " "

@@ -12,7 +12,7 @@ from mudline.deck.document import decoded, from_document, to_document
 from mudline.deck.faults import DocumentPath, Locate, refusal
 from mudline.deck.model import START, Deck, Range
 from mudline.diagnostics import DeckError
-from mudline.keywords.listing import Listing
+from mudline.keywords.table import Listing
 from mudline.keywords.writer import joined
 
 try:

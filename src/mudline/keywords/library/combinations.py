@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Literal
 
-from mudline.keywords.facts import Facts
 from mudline.keywords.model import Block, Record, setting
-from mudline.keywords.values import Name
+from mudline.keywords.values import Facts, Name
 
 _BEHIND = "DESCRIPTION"
 

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Literal
 
-from mudline.keywords.common import SUCTION_STIFFNESS
-from mudline.keywords.facts import Facts
+from mudline.keywords.common import (
+    SUCTION_STIFFNESS,
+    SURFACE_SUCCESSORS,
+    FrictionCoefficients,
+    FrictionLengths,
+    Surface,
+)
 from mudline.keywords.model import Row, about
-from mudline.keywords.surface import SUCCESSORS, FrictionCoefficients, FrictionLengths, Surface
-from mudline.keywords.values import Real
+from mudline.keywords.values import Facts, Real
 
 
 class _Stiffness(Row):
@@ -40,7 +44,7 @@ class ElasticSurface(Surface):
 
     rule: ClassVar[str] = "elastic_surface"
     names: ClassVar[tuple[str, ...]] = ("ELASTIC SURFACE",)
-    facts: ClassVar[Facts] = Facts(superseded_by=SUCCESSORS, seabed_type="ELASTIC")
+    facts: ClassVar[Facts] = Facts(superseded_by=SURFACE_SUCCESSORS, seabed_type="ELASTIC")
     summary: ClassVar[str] = "Elastic seabed: stiffness, friction, slope or profile (superseded by *SEABED PROPERTIES)."
     example: ClassVar[str] = "*ELASTIC SURFACE\n 50000.0, 0.3, 0.5\n"
 

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Literal
 
-from mudline.keywords.facts import Facts
 from mudline.keywords.model import Block, ListRow, Record, Row, about, rows, setting
 from mudline.keywords.table import Table
-from mudline.keywords.values import Ident, Real, Whole
+from mudline.keywords.values import Facts, Ident, Real, Whole
 
 _AXIS = "component {} of the vector that orients the local {} axis of the undeformed element"
 

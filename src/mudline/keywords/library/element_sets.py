@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Literal
 
-from mudline.keywords.facts import Facts
 from mudline.keywords.model import Block, ListRow, Record, about, setting
-from mudline.keywords.values import Ident, Name, Whole
+from mudline.keywords.values import Facts, Ident, Name, Whole
 
 
 class ElementRange(ListRow):

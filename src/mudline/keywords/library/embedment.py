@@ -7,10 +7,9 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from mudline.keywords.common import NO_SET, POINTS, CurvePoint
-from mudline.keywords.facts import Facts, Names, Successor
 from mudline.keywords.model import Block, Record, rows, setting
 from mudline.keywords.table import Table
-from mudline.keywords.values import Name
+from mudline.keywords.values import Facts, Name, Names, Successor
 
 
 class EmbedmentCurve(Record):

@@ -6,9 +6,8 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field, model_validator
 
-from mudline.keywords.facts import Facts, Names
 from mudline.keywords.model import Block, Record, Row, about, setting
-from mudline.keywords.values import Name, Real
+from mudline.keywords.values import Facts, Name, Names, Real
 
 _DO = "external diameter"
 _CURVE = "curve of non-linear {}; the number on the property line is then left empty"

@@ -5,7 +5,7 @@ Its format is not public: the lines are kept, the names in them are used.
 
 from __future__ import annotations
 
-from mudline.keywords.facts import Kept, Names
+from mudline.keywords.values import Kept, Names
 
 KEPT = Kept(
     names=("LINE LOCATIONS",),

@@ -5,7 +5,7 @@ Its format is not public: the lines are kept, the names in them are used.
 
 from __future__ import annotations
 
-from mudline.keywords.facts import LINE_SETS, Kept
+from mudline.keywords.values import LINE_SETS, Kept
 
 KEPT = Kept(
     names=("LINES",),

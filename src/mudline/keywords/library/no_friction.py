@@ -5,7 +5,7 @@ Its format page is not public, and neither is its section: the lines are kept, i
 
 from __future__ import annotations
 
-from mudline.keywords.facts import Kept
+from mudline.keywords.values import Kept
 
 KEPT = Kept(
     names=("NO FRICTION",),

@@ -5,7 +5,7 @@ Its format is not public: the lines are kept. Its nodes have no coordinates here
 
 from __future__ import annotations
 
-from mudline.keywords.facts import Kept
+from mudline.keywords.values import Kept
 
 KEPT = Kept(
     names=("NODE,CURVILINEAR",),

@@ -7,10 +7,9 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from mudline.diagnostics import Code
-from mudline.keywords.facts import Facts, Names
+from mudline.keywords.common import OTHER_SOIL_FORMS, CurvesFile, SoilCurves
 from mudline.keywords.model import Block, Record, setting
-from mudline.keywords.soil import OTHER_FORMS, CurvesFile, SoilCurves
-from mudline.keywords.values import Name
+from mudline.keywords.values import Facts, Name, Names
 
 _OTHERS = "the types of other soil models are not public: a block with one is passed through unchanged"
 
@@ -39,7 +38,7 @@ class LateralSoil(Block):
         "Lateral soil springs by set and depth: points of resistance P and displacement y, resistance first."
     )
     tabular: ClassVar[bool] = True
-    unpublished: ClassVar[tuple[Code, ...]] = OTHER_FORMS
+    unpublished: ClassVar[tuple[Code, ...]] = OTHER_SOIL_FORMS
     example: ClassVar[str] = (
         "*P-Y\n TYPE=USER\n SET=Conductor\n DEPTH=0.0\n 0.0, 0.0\n 4000.0, 0.01\n 9000.0, 0.1\n"
         " DEPTH=10.0\n 0.0, 0.0\n 40000.0, 0.01\n 90000.0, 0.1\n"

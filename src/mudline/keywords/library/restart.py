@@ -8,9 +8,8 @@ from pydantic import Field
 
 from mudline.codes.words import SYN004
 from mudline.diagnostics import Code
-from mudline.keywords.facts import Names
 from mudline.keywords.model import Block, setting
-from mudline.keywords.values import Name
+from mudline.keywords.values import Name, Names
 
 _WORDS = "the words of the manual are taken as they are, and not checked"
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar, Literal
 
-from mudline.keywords.facts import Facts
+from mudline.keywords.common import SURFACE_SUCCESSORS, FrictionCoefficients, FrictionLengths, Surface
 from mudline.keywords.model import about
-from mudline.keywords.surface import SUCCESSORS, FrictionCoefficients, FrictionLengths, Surface
+from mudline.keywords.values import Facts
 
 
 class RigidProperties(FrictionLengths, FrictionCoefficients):
@@ -18,7 +18,7 @@ class RigidSurface(Surface):
 
     rule: ClassVar[str] = "rigid_surface"
     names: ClassVar[tuple[str, ...]] = ("RIGID SURFACE",)
-    facts: ClassVar[Facts] = Facts(superseded_by=SUCCESSORS, seabed_type="RIGID")
+    facts: ClassVar[Facts] = Facts(superseded_by=SURFACE_SUCCESSORS, seabed_type="RIGID")
     summary: ClassVar[str] = "Rigid seabed: friction, slope or profile (superseded by *SEABED PROPERTIES)."
     example: ClassVar[str] = "*RIGID SURFACE\n 0.3, 0.5\n"
 

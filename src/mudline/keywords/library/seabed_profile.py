@@ -6,9 +6,8 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field, model_validator
 
-from mudline.keywords.facts import Facts, Names
 from mudline.keywords.model import Block, setting
-from mudline.keywords.values import Name, Real
+from mudline.keywords.values import Facts, Name, Names, Real
 
 _SETTINGS = ("INTERPOLATION", "SLOPE", "FILE")
 _NEEDS = {"SLOPING": ("SLOPE",), "2D": ("FILE",), "3D": ("FILE",)}

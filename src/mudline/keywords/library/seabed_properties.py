@@ -7,9 +7,8 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from mudline.keywords.common import CONSTANT_FRICTION, NO_SET, SUCTION_STIFFNESS
-from mudline.keywords.facts import Facts, Names
 from mudline.keywords.model import Block, Record, Row, about, setting
-from mudline.keywords.values import Name, Real, RealOrName
+from mudline.keywords.values import Facts, Name, Names, Real, RealOrName
 
 _RANGE = "it is above 0, as friction divides by it; the manual gives no range"
 _MODAL = "the unit, which the manual does not give: that of the linear stiffness"

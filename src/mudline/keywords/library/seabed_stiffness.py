@@ -5,10 +5,9 @@ from __future__ import annotations
 from typing import Annotated, ClassVar, Literal
 
 from mudline.keywords.common import POINTS, CurvePoint
-from mudline.keywords.facts import Facts
 from mudline.keywords.model import Block, Record, rows, setting
 from mudline.keywords.table import Table
-from mudline.keywords.values import Name
+from mudline.keywords.values import Facts, Name
 
 
 class StiffnessCurve(Record):

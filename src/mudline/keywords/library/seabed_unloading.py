@@ -6,9 +6,8 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from mudline.keywords.facts import Facts, Names
 from mudline.keywords.model import Block, Record, setting
-from mudline.keywords.values import Name, Real
+from mudline.keywords.values import Facts, Name, Names, Real
 
 
 class UnloadingSet(Record):

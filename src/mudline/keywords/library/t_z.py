@@ -7,10 +7,9 @@ from typing import Annotated, ClassVar, Literal
 from pydantic import Field
 
 from mudline.diagnostics import Code
-from mudline.keywords.facts import Facts, Names
+from mudline.keywords.common import OTHER_SOIL_FORMS, CurvesFile, SoilCurves
 from mudline.keywords.model import Block, Record, setting
-from mudline.keywords.soil import OTHER_FORMS, CurvesFile, SoilCurves
-from mudline.keywords.values import Name
+from mudline.keywords.values import Facts, Name, Names
 
 
 class AxialSprings(Record):
@@ -34,7 +33,7 @@ class AxialSoil(Block):
         "Axial soil springs by set and depth: points of resistance T and displacement z, resistance first."
     )
     tabular: ClassVar[bool] = True
-    unpublished: ClassVar[tuple[Code, ...]] = OTHER_FORMS
+    unpublished: ClassVar[tuple[Code, ...]] = OTHER_SOIL_FORMS
     example: ClassVar[str] = (
         "*T-Z\n SET=Conductor\n DEPTH=0.0\n 0.0, 0.0\n 1500.0, 0.005\n DEPTH=10.0\n 0.0, 0.0\n 12000.0, 0.005\n"
     )

@@ -6,9 +6,8 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import model_validator
 
-from mudline.keywords.facts import Facts, Names
 from mudline.keywords.model import Block, ListRow, Record, about, setting
-from mudline.keywords.values import Name, Real
+from mudline.keywords.values import Facts, Name, Names, Real
 
 
 class ValueRange(ListRow):

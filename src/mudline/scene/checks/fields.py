@@ -10,10 +10,10 @@ from mudline.codes.references import REF015
 from mudline.deck.model import Deck
 from mudline.deck.parameters import Parameters
 from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
-from mudline.keywords.facts import Names
 from mudline.keywords.model import Block, ListRow, Part, Rows, Slot, layout, names_given
 from mudline.keywords.table import Table
 from mudline.keywords.text import shown
+from mudline.keywords.values import Names
 from mudline.scene.checks.declaring import check
 from mudline.scene.deck_values import file_name, find_file
 
