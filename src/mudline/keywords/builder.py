@@ -13,8 +13,8 @@ from mudline.diagnostics import Problem, Span
 from mudline.keywords.grammar import ROW, Content, Node
 from mudline.keywords.model import Block, ListRow, Part, Record, Slot, layout, row_format
 from mudline.keywords.places import Path, Places
-from mudline.keywords.tables import TableBuilder
 from mudline.keywords.text import (
+    TableBuilder,
     UnreadableError,
     Value,
     cut_number,
