@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from mudline.diagnostics import Blocks, DeckError, Severity
-from mudline.scene.checks.declaring import all_checks
+from mudline.scene.checks import all_checks
 from tests.scene.decks import PIPE, STEEL, scene_of
 
 LINEAR = "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=50000\n"

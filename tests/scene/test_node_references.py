@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from mudline.deck.loading import load_bytes
-from mudline.scene.external_elements import read_external
+from mudline.scene.csv_file import read_external
 from mudline.scene.model import resolve
 from tests.growth import call_growth
 from tests.scene.decks import PIPE, Finding, all_reported, messages, reported

@@ -14,8 +14,8 @@ from mudline.deck.model import Deck
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Span
 from mudline.keywords.values import LINE_SETS, Names
+from mudline.scene.deck_values import bare, definition_by, external_definers, opaque_labels, opaque_set_names
 from mudline.scene.model import resolve
-from mudline.scene.opaque_names import bare, definition_by, external_definers, opaque_labels, opaque_set_names
 from mudline.syntax.fields import read_line
 from tests.growth import FOURFOLD, TWOFOLD, call_growth, growth
 from tests.reading.spellings import names, pads, setting, texts

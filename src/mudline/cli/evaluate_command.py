@@ -36,7 +36,7 @@ from mudline.results.formats import CsvForm, JsonForm, plan_rows
 from mudline.results.plot_data import PlotData
 from mudline.results.quantities import csv_lines
 from mudline.results.totals import Digest
-from mudline.scene.external_elements import read_external
+from mudline.scene.csv_file import read_external
 from mudline.scene.model import Scene, resolve
 from mudline.scene.positions import Positions, read_positions
 

@@ -10,7 +10,7 @@ from mudline.diagnostics import PluginError
 from mudline.linting import plugins
 from mudline.linting.rule import RULES, Noticed, Rule, add, described_by
 from mudline.resources import modules_of
-from mudline.scene.checks.declaring import all_checks
+from mudline.scene.checks import all_checks
 from mudline.spelling import nearest
 
 

@@ -19,14 +19,14 @@ from mudline.diagnostics import MORE, MOST_REPORTED, Blocks, Code, Problem, Seve
 from mudline.keywords import catalogue
 from mudline.keywords.catalogue import meant_in, meant_keyword
 from mudline.keywords.model import ListRow
-from mudline.scene.numbering import LARGEST
-from mudline.scene.opaque_names import (
+from mudline.scene.deck_values import (
     definition_by,
     external_definers,
     is_read_definer,
     opaque_labels,
     opaque_set_names,
 )
+from mudline.scene.numbering import LARGEST
 from mudline.short_repr import short_repr
 from mudline.spelling import Effort, nearest
 from mudline.syntax.tree import canonical_name, mark_of

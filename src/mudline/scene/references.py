@@ -21,9 +21,9 @@ from mudline.keywords.model import Block, names_given
 from mudline.keywords.text import shown
 from mudline.keywords.values import Label, Names
 from mudline.scene.context import Context
+from mudline.scene.deck_values import bare, makes_labels
 from mudline.scene.laws import LawTable
 from mudline.scene.numbering import Numbered
-from mudline.scene.opaque_names import bare, makes_labels
 from mudline.scene.sets import Sets
 
 if TYPE_CHECKING:

@@ -12,8 +12,7 @@ from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.linting.context import LintContext
 from mudline.linting.rule import rule
 from mudline.scene.deck_values import surfaces
-from mudline.scene.extensions import Extension
-from mudline.scene.laws import typed_blocks
+from mudline.scene.laws import Extension, typed_blocks
 from mudline.scene.sets import ALL
 
 SBD007 = Code("SBD007", "lateral-and-friction", Severity.WARNING)

@@ -13,7 +13,7 @@ from mudline.deck.parameters import folded
 from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.keywords.text import advice_on, shown
 from mudline.keywords.values import Names
-from mudline.scene.checks.declaring import check
+from mudline.scene.checks import check
 from mudline.scene.laws import NOTHING, typed_blocks
 from mudline.scene.references import given_names
 
