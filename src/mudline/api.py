@@ -8,8 +8,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from mudline.deck import model
-from mudline.deck.forms import json, keyword, yaml
-from mudline.deck.loading import load_bytes, load_path
+from mudline.deck.loading import KEYWORD, dump, load_bytes, load_path
 from mudline.diagnostics import Diagnostic
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import select as _chosen
@@ -28,11 +27,11 @@ class Deck(model.Deck):
 
     def to_json(self) -> str:
         """Return the deck as JSON text; nothing but layout is lost."""
-        return json.to_json(self.alone)
+        return dump(self.alone, "json")
 
     def to_yaml(self) -> str:
         """Return the deck as YAML 1.2 text; nothing but layout is lost."""
-        return yaml.to_yaml(self.alone)
+        return dump(self.alone, "yaml")
 
     def to_keyword(self) -> str:
         """Return the deck as keyword text.
@@ -40,7 +39,7 @@ class Deck(model.Deck):
         Raises:
             DeckError: a name, comment or raw line cannot be written in a keyword file.
         """
-        return keyword.to_keyword(self.alone)
+        return dump(self.alone, "keyword")
 
     def scene(self) -> Scene:
         """Return the deck resolved: equations evaluated, sets expanded, diameters, lengths and laws as arrays.
@@ -79,10 +78,9 @@ def from_keyword(text: str | bytes, *, units: str | None = None) -> Deck:
     Raises:
         DeckError: the text cannot be read; `.diagnostics` has the places.
     """
-    data = text if isinstance(text, bytes) else text.encode(errors="replace")
-    deck = load_bytes(data, "<keyword>", form="keyword", units=units)
+    deck = _from_text(text, KEYWORD, units)
     deck.source = ""
-    return _public(deck)
+    return deck
 
 
 def from_json(text: str | bytes) -> Deck:
@@ -91,7 +89,7 @@ def from_json(text: str | bytes) -> Deck:
     Raises:
         DeckError: the text is no JSON, has a key twice, or breaks the schema.
     """
-    return _public(json.read(text, "<json>") if isinstance(text, bytes) else json.from_json(text))
+    return _from_text(text, "json")
 
 
 def from_yaml(text: str | bytes) -> Deck:
@@ -100,7 +98,7 @@ def from_yaml(text: str | bytes) -> Deck:
     Raises:
         DeckError: the text is no YAML, has a key twice or an alias, or breaks the schema.
     """
-    return _public(yaml.read(text, "<yaml>") if isinstance(text, bytes) else yaml.from_yaml(text))
+    return _from_text(text, "yaml")
 
 
 def lint(
@@ -125,6 +123,13 @@ def lint(
     """
     file = _path(path, "save it to a file")
     return lint_bytes(file.read_bytes(), file.as_posix(), _chosen(select, ignore), units=units, folder=file.parent)
+
+
+def _from_text(text: str | bytes, form: str, units: str | None = None) -> Deck:
+    """The deck of a text in a form. What no file can hold is replaced in a keyword text, and refused in a document."""
+    errors = "replace" if form == KEYWORD else "surrogatepass"
+    data = text if isinstance(text, bytes) else text.encode(errors=errors)
+    return _public(load_bytes(data, f"<{form}>", form=form, units=units))
 
 
 def _public(deck: model.Deck) -> Deck:

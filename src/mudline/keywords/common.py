@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar
+from typing import Annotated
 
 from mudline.codes.lines import SYN001
 from mudline.codes.words import SYN004, SYN005
@@ -40,7 +40,7 @@ class CurvePoint(Row):
 class AdditionalSets(Record):
     """More sets that the elements of a section belong to."""
 
-    rule: ClassVar[str] = "additional_sets"
+    rule = "additional_sets"
     sets: Annotated[
         list[Name],
         setting("ADDITIONAL", "more element sets that hold this section", inferred="the line may be repeated"),
@@ -65,7 +65,7 @@ class SoilPoint(Row):
 class DepthCurve(Record):
     """The curve of a depth."""
 
-    rule: ClassVar[str] = "depth_curve"
+    rule = "depth_curve"
     depth: Annotated[Real, setting("DEPTH", "depth below the mudline, negative above it", unit="L")]
     points: Annotated[Table, rows(SoilPoint, _SOIL_POINTS, unordered=True)]
 
@@ -73,7 +73,7 @@ class DepthCurve(Record):
 class NodeCurve(Record):
     """The curve of a node."""
 
-    rule: ClassVar[str] = "node_curve"
+    rule = "node_curve"
     node: Annotated[Ident, setting("NODE", "node that the curve belongs to", inferred="in place of DEPTH=")]
     points: Annotated[Table, rows(SoilPoint, _SOIL_POINTS, unordered=True)]
 
@@ -135,8 +135,6 @@ class Surface(Block):
         Table | None,
         rows(ProfilePoint, "arbitrary profile: Y and elevation, a line of two values a point", unordered=True),
     ] = None
-
-    example: ClassVar[str]
 
     @classmethod
     def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:

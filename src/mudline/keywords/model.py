@@ -215,7 +215,6 @@ class Block(Record):
     as it is, without a finding. Where it depends on more than the code, `other_form` says so.
     """
 
-    names: ClassVar[tuple[str, ...]]
     sections: ClassVar[tuple[str, ...]] = ("MODEL",)
     facts: ClassVar[Facts] = Facts()
     summary: ClassVar[str]

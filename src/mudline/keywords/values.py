@@ -160,7 +160,7 @@ class Kept:
     confirmed: in another one it is not reported.
     """
 
-    names: tuple[str, ...]
+    keyword: str
     summary: str
     example: str
     certain: str

@@ -27,6 +27,9 @@ def to_json(deck: Deck) -> str:
     return "".join(_pretty(to_document(deck), "")) + "\n"
 
 
+write = to_json  # as `dump` knows it
+
+
 def _pretty(value: Any, indent: str) -> Iterator[str]:
     inner = indent + _INDENT
     if isinstance(value, dict) and value:
@@ -62,11 +65,6 @@ def _inline(value: Any) -> str:
 
 def _cells(row: list[Any]) -> str:
     return ", ".join(map(_inline, row))
-
-
-def write(deck: Deck) -> str:
-    """What `dump` calls."""
-    return to_json(deck)
 
 
 def read(data: bytes, file: str) -> Deck:

@@ -28,6 +28,9 @@ def to_keyword(deck: Deck) -> str:
     return _text(deck)
 
 
+write = to_keyword  # as `dump` knows it
+
+
 def _require_survival(deck: Deck) -> None:
     """Write the deck with shortened tables and read it again: all must be there, comments in their order too."""
     light = sampled(deck)
@@ -53,11 +56,6 @@ def as_text(deck: Deck) -> Deck:
         return deck
     source = Source.from_bytes(to_keyword(deck).encode(), deck.file)
     return replace(read_source(source, units=deck.units), source=deck.source, folder=deck.folder)
-
-
-def write(deck: Deck) -> str:
-    """What `dump` calls."""
-    return to_keyword(deck)
 
 
 def _text(deck: Deck) -> str:

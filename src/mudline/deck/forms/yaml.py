@@ -90,6 +90,9 @@ def to_yaml(deck: Deck) -> str:
     return yaml.dump(_node(to_document(deck)), Dumper=_Dumper, sort_keys=False, allow_unicode=True, width=2**30)
 
 
+write = to_yaml  # as `dump` knows it
+
+
 class _Literal(str):
     """Text that is written as a literal block."""
 
@@ -133,11 +136,6 @@ def _table(listing: Listing) -> Any:
     if len(listing) > SHORT_TABLE:
         return _Literal("".join(f"{piece}\n" for piece in listing.lines(joined)))
     return [_Flow(row) for row in listing.rows()]
-
-
-def write(deck: Deck) -> str:
-    """What `dump` calls."""
-    return to_yaml(deck)
 
 
 def read(data: bytes, file: str) -> Deck:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from mudline.keywords.values import Kept, Names
 
 KEPT = Kept(
-    names=("LINE LOCATIONS",),
+    keyword="LINE LOCATIONS",
     summary="Labels for nodes at given distances along a line.",
     example="*LINE LOCATIONS\n LINE=Umbilical\n Touchdown, 200.0\n",
     certain="It gives labels to nodes at a distance along a line.",

@@ -8,7 +8,7 @@ from __future__ import annotations
 from mudline.keywords.values import LINE_SETS, Kept
 
 KEPT = Kept(
-    names=("LINE PATHS",),
+    keyword="LINE PATHS",
     summary="Lines that follow a path; their sections are given in *LINE PATH SECTIONS.",
     example="*LINE PATHS\n LINE=Flowline\n 0.0, 0.0, 0.0\n 0.0, 850.0, 0.0\n",
     certain="It defines the lines that *LINE PATH SECTIONS divides into sections, with bends.",

@@ -8,7 +8,7 @@ from __future__ import annotations
 from mudline.keywords.values import LINE_SETS, Kept
 
 KEPT = Kept(
-    names=("LINES",),
+    keyword="LINES",
     summary="Lines made of sections: nodes, elements, labels and element sets in one.",
     example="*LINES\n LINE=Umbilical\n SECTION=Static Section, 200.0\n SECTION=Dynamic Section, 365.6\n",
     certain=(
