@@ -210,6 +210,8 @@ def test_document_that_is_none(read: object) -> None:
     with pytest.raises(mudline.DeckError) as caught:
         read("{")
     assert caught.value.diagnostics[0].code == "DOC001"
+    with pytest.raises(mudline.DeckError, match="not UTF-8"):
+        read(EMPTY.replace('"source": ""', '"source": "\ud800"'))
 
 
 # ------------------------------------------------------------------------------------------------------------- linting

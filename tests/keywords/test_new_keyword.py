@@ -10,7 +10,7 @@ import pytest
 
 from mudline.comparison.comparing import compare
 from mudline.deck.document import json_schema
-from mudline.deck.forms.json import from_json, to_json
+from mudline.deck.forms.json import read, to_json
 from mudline.deck.forms.keyword import to_keyword
 from mudline.deck.loading import load_bytes
 from mudline.keywords import catalogue, grammar, library
@@ -131,7 +131,7 @@ def test_spelling() -> None:
 
 def test_every_form() -> None:
     deck = load_bytes((DECK + " SET=ALL\n SPACING=12.0\n").encode(), "deck.keyxm")
-    assert from_json(to_json(deck)).sections == deck.sections
+    assert read(to_json(deck).encode(), "deck.json").sections == deck.sections
     assert to_keyword(deck).endswith(f"*{NAME}\n SET=ALL\n SPACING=12.0\n")
 
 

@@ -68,12 +68,8 @@ def _cells(row: list[Any]) -> str:
 
 
 def read(data: bytes, file: str) -> Deck:
-    """The deck of a file's content; raises DeckError."""
-    return from_json(decoded(data, file, "JSON"), file)
-
-
-def from_json(text: str, file: str = "<json>") -> Deck:
-    """The deck of a JSON text; raises DeckError for what is no JSON, has a key twice, or breaks the schema."""
+    """The deck of a file's content; raises DeckError for what is not JSON, has a key twice, or breaks the schema."""
+    text = decoded(data, file, "JSON")
     try:
         document = json.loads(text, object_pairs_hook=_unique, parse_constant=_no_constant)
     except json.JSONDecodeError as error:

@@ -139,15 +139,11 @@ def _table(listing: Listing) -> Any:
 
 
 def read(data: bytes, file: str) -> Deck:
-    """The deck of a file's content; raises DeckError."""
-    return from_yaml(decoded(data, file, "YAML"), file)
+    """The deck of a file's content.
 
-
-def from_yaml(text: str, file: str = "<yaml>") -> Deck:
-    """The deck of a YAML text.
-
-    Raises DeckError for what is no YAML, has a key twice or an alias, or breaks the schema.
+    Raises DeckError for what is not YAML, has a key twice or an alias, or breaks the schema.
     """
+    text = decoded(data, file, "YAML")
     try:
         _look_over(text, file)
         root = yaml.compose(text, Loader=CoreLoader)
