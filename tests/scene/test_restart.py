@@ -96,6 +96,19 @@ def test_what_the_deck_says_itself_holds(folder: Path) -> None:
     assert [section.name for section in found.deck.own_sections] == ["MODEL", "LOAD CASE"]
 
 
+def test_of_two_legacy_surfaces_that_of_the_deck_itself_holds(folder: Path) -> None:
+    def surface(stiffness: float, friction: float, slope: float) -> str:
+        return f"$MODEL\n*ELASTIC SURFACE\n {stiffness}, {friction}, {friction}\n {slope}\n"
+
+    (folder / "static.keyxm").write_text(STATIC + surface(50000.0, 0.3, 1.0))
+    found = scene(folder, DYNAMIC + surface(70000.0, 0.1, 5.0))
+    surfaces = [law for law in found.laws.set_laws if law.family == "legacy" and law.stiffness > 0.0]
+    assert surfaces[-1].stiffness == 70000.0
+    assert found.resistance.values[0].friction == (0.3, 0.3)
+    assert found.resistance.values[1].friction == (0.1, 0.1)
+    assert found.seabed.slope == 5.0
+
+
 def test_a_repeated_definition_is_no_error(folder: Path) -> None:
     assert {line.split()[1] for line in lint(folder, DYNAMIC + PIPE)} <= {"warning"}
 

@@ -139,16 +139,14 @@ class Deck:
     incomplete: bool = False
 
     def __repr__(self) -> str:
-        parts = [self.units, counted(len(self.sections), "section"), counted(self._count_blocks(), "block")]
+        blocks = sum(len(section.blocks) for section in self.sections)
+        parts = [self.units, counted(len(self.sections), "section"), counted(blocks, "block")]
         if errors := len(self._errors()):
             parts.append(counted(errors, "error"))
         return outline(f"{type(self).__name__} {cut(self.file, 80)!r}", ", ".join(parts))
 
     def __dir__(self) -> list[str]:
         return [name for name in super().__dir__() if name not in _INTERNAL]
-
-    def _count_blocks(self) -> int:
-        return sum(len(section.blocks) for section in self.sections)
 
     @property
     def alone(self) -> Self:
@@ -208,19 +206,18 @@ class Deck:
         What the deck continues comes first, so that what it says itself holds. The caller knows the class that the
         keyword has; it is not imported for a deck that lacks the keyword.
         """
+        return self._modelled(lambda block: block.keyword == keyword, section)
+
+    def blocks_that(self, fact: Callable[[type[Block]], object], section: str = "MODEL") -> Iterator[tuple[Where, Any]]:
+        """The modelled blocks whose declaration has a fact, in the order of `blocks`."""
+        return self._modelled(lambda block: fact(type(block)), section)
+
+    def _modelled(self, wanted: Callable[[Block], object], section: str) -> Iterator[tuple[Where, Block]]:
         own = len(self.own_sections)
         for i in (*range(own, len(self.sections)), *range(own)):
             if self.sections[i].name == section:
                 for j, block in enumerate(self.sections[i].blocks):
-                    if block.keyword == keyword and isinstance(block, Block):
-                        yield Where(i, j), block
-
-    def blocks_that(self, fact: Callable[[type[Block]], object], section: str = "MODEL") -> Iterator[tuple[Where, Any]]:
-        """The modelled blocks whose declaration has a fact, in all sections of a name, in the order of the file."""
-        for i, found in enumerate(self.sections):
-            if found.name == section:
-                for j, block in enumerate(found.blocks):
-                    if isinstance(block, Block) and fact(type(block)):
+                    if isinstance(block, Block) and wanted(block):
                         yield Where(i, j), block
 
     def keywords(self, section: str = "MODEL") -> set[str]:

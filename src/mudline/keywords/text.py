@@ -51,19 +51,28 @@ def read_value(field: Field, slot: Slot, problems: list[Problem]) -> Value:
 
 def _number(field: Field, slot: Slot, problems: list[Problem]) -> Value:
     number = read_number(field.text)
-    if slot.kind is Kind.WHOLE:
-        return _whole(field, number, slot)
-    if slot.kind is Kind.IDENT:
-        return _ident(field, number, slot, problems)
-    return _real(field, number, slot)
-
-
-def _real(field: Field, number: float | None, slot: Slot) -> float | str:
     if number is None:
+        if slot.kind is Kind.IDENT:
+            return _label(field, slot, problems)
         if slot.kind is Kind.REAL_OR_NAME and not field.text.startswith("=[") and not _looks_numeric(field.text):
             return field.text
         raise UnreadableError(Problem(SYN002, number_fault(field.text, slot.label), field.span))
-    return number
+    if slot.kind not in (Kind.WHOLE, Kind.IDENT):
+        return number
+    if not number.is_integer() or abs(number) > LARGEST_WHOLE:
+        raise UnreadableError(Problem(SYN002, not_whole(field.text, number, slot.label), field.span))
+    return int(number)
+
+
+def _label(field: Field, slot: Slot, problems: list[Problem]) -> Label:
+    if label := Label.match(field.text):
+        return label
+    braced = maybe_label(field.text)
+    if braced is None:
+        raise UnreadableError(Problem(SYN002, number_fault(field.text, slot.label, Kind.IDENT), field.span))
+    message = f"{shown(field.text)} is not a number: if it is a label, write {braced}"
+    problems.append(Problem(SYN016, message, field.span, repair=in_braces(field.text, field.span)))
+    return braced
 
 
 def reads_as_name(text: str) -> bool:
@@ -191,27 +200,6 @@ def _choice(field: Field, slot: Slot) -> str:
     near = nearest(word, slot.choices)
     message = f"{shown(field.text)} is not allowed for {slot.label}: expected {listed}{hint(near)}"
     raise UnreadableError(Problem(SYN005, message, field.span, repair=instead(near, field.span)))
-
-
-def _whole(field: Field, number: float | None, slot: Slot) -> int:
-    if number is None:
-        raise UnreadableError(Problem(SYN002, number_fault(field.text, slot.label), field.span))
-    if not number.is_integer() or abs(number) > LARGEST_WHOLE:
-        raise UnreadableError(Problem(SYN002, not_whole(field.text, number, slot.label), field.span))
-    return int(number)
-
-
-def _ident(field: Field, number: float | None, slot: Slot, problems: list[Problem]) -> int | Label:
-    if number is not None:
-        return _whole(field, number, slot)
-    if label := Label.match(field.text):
-        return label
-    braced = maybe_label(field.text)
-    if braced is None:
-        raise UnreadableError(Problem(SYN002, number_fault(field.text, slot.label, Kind.IDENT), field.span))
-    message = f"{shown(field.text)} is not a number: if it is a label, write {braced}"
-    problems.append(Problem(SYN016, message, field.span, repair=in_braces(field.text, field.span)))
-    return braced
 
 
 _MARK = re.compile(r"(?<=[ \t])(?:!|(?:[#;]|//|--)[ \t])")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from bisect import bisect_left
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import isnan
@@ -19,6 +19,7 @@ from mudline.diagnostics import MORE, MOST_REPORTED, Blocks, Code, Problem, Seve
 from mudline.keywords import catalogue
 from mudline.keywords.catalogue import meant_in, meant_keyword
 from mudline.keywords.model import ListRow
+from mudline.keywords.text import hint
 from mudline.scene.deck_values import (
     definition_by,
     external_definers,
@@ -104,6 +105,11 @@ class Context:
     def misplaced_keywords(self) -> list[str]:
         """Keywords that stand where they are not read, or are misspelt."""
         return list(self._misplaced)
+
+    def hint(self, word: str, names: Mapping[str, str]) -> str:
+        """` (did you mean X?)` for the name spelt nearly as `word`, or nothing; `names` have their folded forms as keys."""
+        near = self.near(word, names)
+        return hint(names[near]) if near else ""
 
     def near(self, word: str, known: Collection[str]) -> str:
         """The name among `known`, all of them folded, that is spelt nearly as `word`, or ""."""

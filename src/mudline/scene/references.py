@@ -206,9 +206,7 @@ def _check_name(context: Context, what: tuple[str, str, str], name: str, where: 
     key, thing, keyword = what
     if folded(bare(name)) in known:
         return
-    near = context.near(name, known)
-    hint = f" (did you mean {known[near]}?)" if near else ""
-    message = f"{key} names no {thing}: {shown(name)} is not defined{hint}; define it in {keyword}"
+    message = f"{key} names no {thing}: {shown(name)} is not defined{context.hint(name, known)}; define it in {keyword}"
     source = context.possible_definition(keyword[1:])
     context.report(REF001, f"{message}; {source}" if source else message, where, Severity.WARNING)
 

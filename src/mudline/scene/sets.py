@@ -195,8 +195,7 @@ class _Reader:
                 elif other in self.definitions:
                     waiting.append(other)
                 elif other not in named:
-                    near = self.context.near(name, self._names)
-                    hint = f" (did you mean {self._names[near]}?)" if near else ""
+                    hint = self.context.hint(name, self._names)
                     message = f"SUBSET= names no set: {shown(name)} is not defined{hint}; define it"
                     place = where.inside("members", index, "subset")
                     self.context.report_missing(REF008, message, place, "ELEMENT SETS")

@@ -294,8 +294,7 @@ def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
     for _, where, name in given_names(scene.deck, Names.CURVE):
         if folded(name) in names:
             continue
-        near = scene.context.near(name, names)
-        hint = f" (did you mean {names[near]}?)" if near else ""
+        hint = scene.context.hint(name, names)
         advice = advice_on(name) or "*SEABED STIFFNESS has no such curve"
         problem = scene.context.missing(
             REF002, f"curve {shown(name)} is not defined{hint}: {advice}", where, "SEABED STIFFNESS"
