@@ -107,7 +107,7 @@ class Context:
         return list(self._misplaced)
 
     def hint(self, word: str, names: Mapping[str, str]) -> str:
-        """` (did you mean X?)` for the name spelt nearly as `word`, or nothing; `names` have their folded forms as keys."""
+        """` (did you mean X?)` for the name spelt nearly as `word`, or nothing; the keys of `names` are folded."""
         near = self.near(word, names)
         return hint(names[near]) if near else ""
 
