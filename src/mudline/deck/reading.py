@@ -18,7 +18,7 @@ from mudline.keywords.catalogue import meant_in, meant_keyword, meant_section, w
 from mudline.keywords.model import Comment
 from mudline.keywords.reader import BlockReader, ReadBlock, read_block
 from mudline.keywords.text import hint, instead
-from mudline.short_repr import short_repr
+from mudline.short_repr import counted, short_repr
 from mudline.syntax.fields import trimmed
 from mudline.syntax.source import Source
 from mudline.syntax.tree import Kind, Leaf, RawBlock, RawSection, SyntaxTree, parse
@@ -79,7 +79,7 @@ class Findings:
     def stray(self, count: int, place: str, span: Span | None = None, where: Where | None = None) -> None:
         """Data lines of a place under no keyword, the first of which is given: one finding for all of them."""
         if self._reports(SYN011, span, where):
-            lines = "1 line" if count == 1 else f"{count} lines"
+            lines = counted(count, "line")
             message = f"{lines} {place} under no keyword: not read; write a title as a comment, C and a space"
             self.problems.append(Problem(SYN011, message, span, None, where))
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import chain, islice
 from typing import Any, NamedTuple, cast
 
@@ -14,6 +14,7 @@ from pydantic_core import CoreSchema, ErrorDetails, InitErrorDetails, PydanticCu
 
 from mudline.diagnostics import Span
 from mudline.keywords.values import Equation, Kind, Label
+from mudline.short_repr import counted
 from mudline.syntax.rows import Rows as RawRows
 from mudline.syntax.rows import read_rows
 
@@ -165,7 +166,7 @@ def from_cells(cells: list[object], columns: Sequence[Column]) -> Table:
     fewest, width = _fewest(columns), int(lengths.max(initial=0))
     if width > len(columns) or (len(rows) and int(lengths.min()) < fewest):
         row = int(np.flatnonzero((lengths > len(columns)) | (lengths < fewest))[0])
-        raise _misfit(f"{_fields(lengths[row])}, expected {_count(columns)}", row)
+        raise _misfit(f"{counted(int(lengths[row]), 'field')}, expected {_count(columns)}", row)
     table = _numbers(rows, lengths, width) or _cells(rows, lengths, width, columns)
     for (row, column), fault in _not_whole(table, columns).items():
         raise _misfit(fault, row, column)
@@ -240,7 +241,7 @@ def from_rows(raw: RawRows, columns: Sequence[Column]) -> tuple[Table, dict[tupl
     fewest = _fewest(columns)
     wrong = (raw.lengths < fewest) | (raw.lengths > len(columns))
     for row in np.flatnonzero(wrong).tolist() if wrong.any() else ():
-        faults[row, -1] = f"{_fields(raw.lengths[row])}, expected {_count(columns)}"
+        faults[row, -1] = f"{counted(int(raw.lengths[row]), 'field')}, expected {_count(columns)}"
         raw.values[row, 1:] = math.nan  # the row still defines its number
     table = _without_empty_ends(Table(raw.values, lengths, words), columns)
     return table, faults | _not_whole(table, columns)
@@ -263,12 +264,13 @@ def _word(text: str) -> Equation | Label | None:
     return None if text == "" else Label.match(text) or Equation.match(text)
 
 
+def fewest_fields(required: Iterable[bool]) -> int:
+    """How many fields a row must have: all up to the last that is required."""
+    return max((index + 1 for index, needed in enumerate(required) if needed), default=0)
+
+
 def _fewest(columns: Sequence[Column]) -> int:
-    return max((index + 1 for index, column in enumerate(columns) if column.required), default=0)
-
-
-def _fields(count: int) -> str:
-    return "1 field" if count == 1 else f"{count} fields"
+    return fewest_fields(column.required for column in columns)
 
 
 def _count(columns: Sequence[Column]) -> str:

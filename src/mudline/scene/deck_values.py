@@ -90,8 +90,7 @@ def external_definers(deck: Deck) -> list[str]:
 
 def is_read_definer(keyword: str) -> bool:
     """Whether a keyword is read, and the lines that it is about make things which the deck does not show."""
-    declared = catalogue.declared(keyword)
-    return declared is not None and bool(declared.facts.makes)
+    return bool(catalogue.facts_of(keyword).makes)
 
 
 def definition_by(definer: str, keyword: str) -> str:
@@ -110,10 +109,8 @@ def makes_labels(definer: str) -> bool:
 
 
 def _makes(keyword: str) -> tuple[str, ...]:
-    if declared := catalogue.declared(keyword):
-        return declared.facts.makes
     kept = catalogue.kept_of("MODEL", keyword)
-    return kept.makes if kept else ()
+    return kept.makes if kept else catalogue.facts_of(keyword).makes
 
 
 def opaque_set_names(deck: Deck) -> dict[str, str]:
