@@ -11,7 +11,7 @@ import pytest
 from mudline.deck.loading import load_bytes
 from mudline.deck.parameters import Parameters
 from mudline.keywords.library.geometric_sets import FlexibleSection, GeometricSets
-from mudline.scene.external_elements import read_external
+from mudline.scene.csv_file import read_external
 from mudline.scene.model import resolve
 from mudline.scene.positions import read_positions
 from tests.samples import SAMPLES, Evaluated, evaluated, penetration, sample, submerged_weight

@@ -13,10 +13,9 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from mudline.api import from_json, from_keyword, from_yaml, lint, read
+    from mudline.api import Deck, from_json, from_keyword, from_yaml, lint, read
     from mudline.contact import ContactModel, ContactResult, ContactState, Plan, PositionError
     from mudline.curves import CurveError, ForceCurve
-    from mudline.deck.model import Deck
     from mudline.diagnostics import DeckError, Diagnostic, Severity
     from mudline.scene.model import Scene
 
@@ -48,7 +47,7 @@ _HOMES = {
     "ContactResult": "contact",
     "ContactState": "contact",
     "CurveError": "curves",
-    "Deck": "deck.model",
+    "Deck": "api",
     "DeckError": "diagnostics",
     "Diagnostic": "diagnostics",
     "ForceCurve": "curves",

@@ -7,16 +7,47 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
-from mudline.deck.forms import json, yaml
-from mudline.deck.loading import load_bytes, load_path
-from mudline.deck.model import Deck
+from mudline.deck import model
+from mudline.deck.loading import KEYWORD, dump, load_bytes, load_path
 from mudline.diagnostics import Diagnostic
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import select as _chosen
+from mudline.scene.model import Scene, resolve
 
 _KEYWORD = re.compile(r"\s*[$*][A-Z][A-Z &/-]*\s*", re.IGNORECASE)
 _SECTION = re.compile(r"^\s*\$[A-Z]", re.IGNORECASE | re.MULTILINE)
 _YAML = re.compile(r"^(?:%YAML|---|(?:format|source|units|sections)\s*:)", re.MULTILINE)
+
+
+class Deck(model.Deck):
+    """A deck: its sections and blocks as validated models, equations as written.
+
+    `read`, `from_keyword`, `from_json` and `from_yaml` make decks.
+    """
+
+    def to_json(self) -> str:
+        """Return the deck as JSON text; nothing but layout is lost."""
+        return dump(self.alone, "json")
+
+    def to_yaml(self) -> str:
+        """Return the deck as YAML 1.2 text; nothing but layout is lost."""
+        return dump(self.alone, "yaml")
+
+    def to_keyword(self) -> str:
+        """Return the deck as keyword text.
+
+        Raises:
+            DeckError: a name, comment or raw line cannot be written in a keyword file.
+        """
+        return dump(self.alone, "keyword")
+
+    def scene(self) -> Scene:
+        """Return the deck resolved: equations evaluated, sets expanded, diameters, lengths and laws as arrays.
+
+        Raises:
+            DeckError: the deck has errors on which a result depends.
+        """
+        return resolve(self.alone).require()
 
 
 def read(path: str | os.PathLike[str], *, units: str | None = None) -> Deck:
@@ -32,7 +63,7 @@ def read(path: str | os.PathLike[str], *, units: str | None = None) -> Deck:
         ValueError: `path` is the text of a deck.
         TypeError: `path` is no path.
     """
-    return load_path(_path(path), units=units).require()
+    return _public(load_path(_path(path), units=units))
 
 
 def from_keyword(text: str | bytes, *, units: str | None = None) -> Deck:
@@ -47,10 +78,9 @@ def from_keyword(text: str | bytes, *, units: str | None = None) -> Deck:
     Raises:
         DeckError: the text cannot be read; `.diagnostics` has the places.
     """
-    data = text if isinstance(text, bytes) else text.encode(errors="replace")
-    deck = load_bytes(data, "<keyword>", form="keyword", units=units)
+    deck = _from_text(text, KEYWORD, units)
     deck.source = ""
-    return deck.require()
+    return deck
 
 
 def from_json(text: str | bytes) -> Deck:
@@ -59,7 +89,7 @@ def from_json(text: str | bytes) -> Deck:
     Raises:
         DeckError: the text is no JSON, has a key twice, or breaks the schema.
     """
-    return json.read(text, "<json>") if isinstance(text, bytes) else json.from_json(text)
+    return _from_text(text, "json")
 
 
 def from_yaml(text: str | bytes) -> Deck:
@@ -68,7 +98,7 @@ def from_yaml(text: str | bytes) -> Deck:
     Raises:
         DeckError: the text is no YAML, has a key twice or an alias, or breaks the schema.
     """
-    return yaml.read(text, "<yaml>") if isinstance(text, bytes) else yaml.from_yaml(text)
+    return _from_text(text, "yaml")
 
 
 def lint(
@@ -93,6 +123,18 @@ def lint(
     """
     file = _path(path, "save it to a file")
     return lint_bytes(file.read_bytes(), file.as_posix(), _chosen(select, ignore), units=units, folder=file.parent)
+
+
+def _from_text(text: str | bytes, form: str, units: str | None = None) -> Deck:
+    """The deck of a text in a form. What no file can hold is replaced in a keyword text, and refused in a document."""
+    errors = "replace" if form == KEYWORD else "surrogatepass"
+    data = text if isinstance(text, bytes) else text.encode(errors=errors)
+    return _public(load_bytes(data, f"<{form}>", form=form, units=units))
+
+
+def _public(deck: model.Deck) -> Deck:
+    """A deck that was read as users have it; raises DeckError when something in it could not be read."""
+    return Deck(**vars(deck.require()))
 
 
 def _path(given: object, advice: str = "use mudline.{}(text)") -> Path:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import copy
+import dataclasses
 import importlib
 import inspect
+import pickle
 from pathlib import Path
 from typing import cast
 
@@ -119,9 +122,12 @@ def test_file_that_is_missing(tmp_path: Path) -> None:
 
 def test_every_deck_is_of_one_class(path: Path) -> None:
     deck = mudline.read(path)
-    made = [deck, mudline.from_keyword(CLEAN), mudline.from_json(deck.to_json()), mudline.from_yaml(deck.to_yaml())]
-    made += [deck.scene().deck, load_path(path)]
+    texts = [mudline.from_keyword(CLEAN), mudline.from_json(deck.to_json()), mudline.from_yaml(deck.to_yaml())]
+    copies = [copy.deepcopy(deck), dataclasses.replace(deck, units="user"), pickle.loads(pickle.dumps(deck))]  # noqa: S301 - our own bytes
+    made: list[object] = [deck, *texts, *copies, deck.scene().deck]
     assert [type(each) for each in made] == [mudline.Deck] * len(made)
+    assert isinstance(deck, type(load_path(path)))
+    assert copies[::2] == [deck, deck]
 
 
 def test_deck_of_a_scene_that_continues_another_is_a_deck_too(path: Path) -> None:
@@ -204,6 +210,8 @@ def test_document_that_is_none(read: object) -> None:
     with pytest.raises(mudline.DeckError) as caught:
         read("{")
     assert caught.value.diagnostics[0].code == "DOC001"
+    with pytest.raises(mudline.DeckError, match="not UTF-8"):
+        read(EMPTY.replace('"source": ""', '"source": "\ud800"'))
 
 
 # ------------------------------------------------------------------------------------------------------------- linting

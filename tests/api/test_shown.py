@@ -37,7 +37,7 @@ USED = {
     "curve": "evaluate extrapolated forces name ratios ratios_at_force segment slopes",
 }
 INTERNAL = {
-    "deck": "alone diagnose folder_of origin own_sections require",
+    "deck": "alone base_of bases damaged diagnose folder_of incomplete lost origin own_sections place require written",
     "scene": "bed context extensions floor grant laws nodes section_table set_table table",
 }
 

@@ -16,7 +16,8 @@ TAKES = {
 
 def format_lines(block: type[Block]) -> list[str]:
     """The keyword and the lines below it, deeper ones indented."""
-    return [f"*{block.names[0]}", *_lines(block, 1)]
+    keyword = block.model_fields["keyword"].default
+    return [f"*{keyword}", *_lines(block, 1)]
 
 
 def _lines(part: type[Part], depth: int) -> list[str]:

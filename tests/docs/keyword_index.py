@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from mudline.keywords import catalogue
 from tests.docs.keyword_page import declarations, models, page_name, sections_of, title
-from tests.docs.keyword_rules import Declared
+from tests.docs.keyword_rules import Declared, keyword_of
 from tests.docs.marking import MADE, marked
 
 _PAGE = """{made}
@@ -66,7 +66,7 @@ def _rows(declared: Sequence[Declared]) -> str:
 
 def _passing() -> Iterator[str]:
     """The keywords that are known by name only, by section."""
-    declared = {name for each in declarations() for name in each.names}
+    declared = set(map(keyword_of, declarations()))
     by_section: dict[str, list[str]] = {}
     for keyword in catalogue.keywords():
         if keyword not in declared:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from mudline.keywords import catalogue
-from mudline.keywords.facts import Kept
 from mudline.keywords.model import Block
+from mudline.keywords.values import Kept
 from tests.docs.keyword_fields import inferences, tables
 from tests.docs.keyword_format import format_lines
-from tests.docs.keyword_rules import Declared, rules_of
+from tests.docs.keyword_rules import Declared, keyword_of, rules_of
 from tests.docs.marking import MADE, marked
 
 _HEAD = """{made}
@@ -71,12 +71,12 @@ def models() -> list[type[Block]]:
 
 def title(declared: Declared) -> str:
     """The keyword as it is written."""
-    return f"*{declared.names[0]}"
+    return f"*{keyword_of(declared)}"
 
 
 def page_name(declared: Declared) -> str:
     """The file of a page, without its suffix: `seabed-properties`."""
-    return declared.names[0].lower().replace(" ", "-").replace(",", "-")
+    return keyword_of(declared).lower().replace(" ", "-").replace(",", "-")
 
 
 def sections_of(declared: Declared) -> str:

@@ -12,8 +12,8 @@ from collections.abc import Iterator
 from functools import cache
 
 from mudline.keywords import catalogue
-from mudline.keywords.facts import Kept
 from mudline.keywords.model import Block
+from mudline.keywords.values import Kept
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import rules
 from mudline.linting.rule import Rule
@@ -25,11 +25,16 @@ _LAST = re.compile(rf"{_NUMBER.pattern}$", re.MULTILINE)
 _ALL = re.compile(r"=ALL\b")
 
 
+def keyword_of(declared: Declared) -> str:
+    """The name of a keyword."""
+    return declared.keyword if isinstance(declared, Kept) else str(declared.model_fields["keyword"].default)
+
+
 def rules_of(declared: Declared) -> list[Rule]:
     """The rules that concern a keyword, by code."""
     own = [rule for rule in rules() if not rule.code.code.startswith(("SYN", "STY"))]
     found = _in_examples(declared)
-    return [rule for rule in own if rule.code.code in found or not _told_by(rule).isdisjoint(declared.names)]
+    return [rule for rule in own if rule.code.code in found or keyword_of(declared) in _told_by(rule)]
 
 
 @cache

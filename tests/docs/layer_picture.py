@@ -12,8 +12,6 @@ ROOT = Path(__file__).parents[2] / "src" / "mudline"
 
 BASE = "diagnostics, files, ..."
 API = ("api", "plugins")
-UPWARDS = ("deck", "scene")
-"""`Deck.scene()`, which users call: the one import against the direction of the layers."""
 
 _WIDTH, _ROW, _BOX = 760, 74, (118, 34)
 _STYLE = "font-family:sans-serif;font-size:13px"
@@ -32,7 +30,7 @@ def packages() -> Graph:
         importer = names.get(inside.parts[0].removesuffix(".py"))
         for imported in _imported(path):
             target = names.get(imported)
-            if importer and target and importer != target and (importer, target) != UPWARDS:
+            if importer and target and importer != target:
                 graph[importer].add(target)
     return graph
 

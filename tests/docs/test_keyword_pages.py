@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from mudline.keywords import catalogue
-from mudline.keywords.facts import Kept
+from mudline.keywords.values import Kept
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import rules
 from tests.docs import make
@@ -18,7 +18,7 @@ from tests.docs.keyword_fields import inferences
 from tests.docs.keyword_format import format_lines
 from tests.docs.keyword_index import keyword_index
 from tests.docs.keyword_page import declarations, keyword_page, keyword_pages, page_name, title
-from tests.docs.keyword_rules import Declared, rules_of
+from tests.docs.keyword_rules import Declared, keyword_of, rules_of
 
 DECLARED = declarations()
 
@@ -28,7 +28,7 @@ def of(module: str) -> set[str]:
 
 
 def test_every_keyword_that_a_module_declares_has_a_page() -> None:
-    assert {name for each in DECLARED for name in each.names} >= {
+    assert set(map(keyword_of, DECLARED)) >= {
         keyword for keyword in catalogue.keywords() for section in catalogue.SECTIONS if known(section, keyword)
     }
     assert max(Counter(map(page_name, DECLARED)).values()) == 1

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from mudline.deck.loading import dump
 from mudline.deck.model import Opaque
 from mudline.keywords import catalogue
-from mudline.keywords.facts import Kept, Names
+from mudline.keywords.values import Kept, Names
 from tests.builders.scenes import deck_of, faults
 from tests.builders.spellings import no_head, texts
 from tests.deck.test_forms import held
@@ -137,9 +137,9 @@ def test_blocks_with_faults_keep_what_could_be_read() -> None:
 # --------------------------------------------------------------------------------------------------------------- kept
 
 
-@pytest.mark.parametrize("kept", KEPT, ids=lambda kept: kept.names[0])
+@pytest.mark.parametrize("kept", KEPT, ids=lambda kept: kept.keyword)
 def test_what_a_kept_keyword_says_of_itself(kept: Kept) -> None:
-    (name,) = kept.names
+    name = kept.keyword
     assert kept.sections == ("MODEL",) == catalogue.sections_of(name)
     assert catalogue.kept_of("MODEL", name) is kept
     assert catalogue.block_class("MODEL", name) is None
@@ -151,12 +151,12 @@ def test_what_a_kept_keyword_says_of_itself(kept: Kept) -> None:
     assert ("ELEMENT SETS" in kept.makes) <= (Names.SET in kept.name_settings.values())
 
 
-@pytest.mark.parametrize("kept", KEPT, ids=lambda kept: kept.names[0])
+@pytest.mark.parametrize("kept", KEPT, ids=lambda kept: kept.keyword)
 def test_examples_of_kept_keywords(kept: Kept) -> None:
     text = "$MODEL\n" + kept.example
     deck = deck_of(text)
     assert deck.problems == []
-    assert deck.sections[0].blocks == [Opaque(keyword=kept.names[0], lines=kept.example.splitlines()[1:])]
+    assert deck.sections[0].blocks == [Opaque(keyword=kept.keyword, lines=kept.example.splitlines()[1:])]
     assert dump(deck, "keyword") == text
 
 
@@ -166,7 +166,7 @@ def test_other_keywords_are_not_kept_with_a_module() -> None:
     assert catalogue.kept_keywords("LOAD CASE") == ["NO FRICTION"]
 
 
-@given(st.sampled_from([kept.names[0] for kept in KEPT]), st.lists(texts, max_size=5))
+@given(st.sampled_from([kept.keyword for kept in KEPT]), st.lists(texts, max_size=5))
 @example("LINES", ["\ufeff$"])
 @settings(max_examples=100)
 def test_nothing_of_a_kept_block_is_lost(keyword: str, lines: list[str]) -> None:

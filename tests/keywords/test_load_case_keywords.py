@@ -34,7 +34,7 @@ def test_examples(module: str) -> None:
     declared = catalogue.load(module)
     for section in declared.sections:
         assert values(section, declared.example) != {}
-        assert catalogue.block_class(section, declared.names[0]) is declared
+        assert catalogue.block_class(section, declared.model_fields["keyword"].default) is declared
 
 
 def test_friction_belongs_in_two_sections() -> None:

@@ -10,7 +10,7 @@ import pytest
 
 from mudline.comparison.comparing import compare
 from mudline.deck.document import json_schema
-from mudline.deck.forms.json import from_json, to_json
+from mudline.deck.forms.json import read, to_json
 from mudline.deck.forms.keyword import to_keyword
 from mudline.deck.loading import load_bytes
 from mudline.keywords import catalogue, grammar, library
@@ -26,20 +26,18 @@ NAME = "SEABED ANCHOR"
 MODULE = '''
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mudline.keywords.facts import Facts
-from mudline.keywords.facts import Names
-from mudline.keywords.model import Block, Record, about, setting
-from mudline.keywords.values import Name, Real
+from mudline.keywords.model import Block, Record, setting
+from mudline.keywords.values import Facts, Name, Names, Real
 
 
 class AnchorSet(Record):
     """What one SET= gets, taken whole."""
 
-    rule: ClassVar[str] = "anchor_set"
+    rule = "anchor_set"
     set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
     curve: Annotated[Name | None, setting("CURVE", "force of the anchor", names=Names.CURVE)] = None
     file: Annotated[Name | None, setting("FILE", "test of the anchor", names=Names.FILE)] = None
@@ -51,11 +49,10 @@ class AnchorSet(Record):
 class SeabedAnchor(Block):
     """Anchors by set."""
 
-    rule: ClassVar[str] = "seabed_anchor"
-    names: ClassVar[tuple[str, ...]] = ("SEABED ANCHOR",)
-    facts: ClassVar[Facts] = Facts(extension=True, later_wins=True)
-    summary: ClassVar[str] = "Anchors by element set (extension)."
-    example: ClassVar[str] = "*SEABED ANCHOR\\n SET=ALL\\n SPACING=12.0\\n"
+    rule = "seabed_anchor"
+    facts = Facts(extension=True, later_wins=True)
+    summary = "Anchors by element set (extension)."
+    example = "*SEABED ANCHOR\\n SET=ALL\\n SPACING=12.0\\n"
 
     keyword: Literal["SEABED ANCHOR"] = "SEABED ANCHOR"
     sets: list[AnchorSet] = []
@@ -134,7 +131,7 @@ def test_spelling() -> None:
 
 def test_every_form() -> None:
     deck = load_bytes((DECK + " SET=ALL\n SPACING=12.0\n").encode(), "deck.keyxm")
-    assert from_json(to_json(deck)).sections == deck.sections
+    assert read(to_json(deck).encode(), "deck.json").sections == deck.sections
     assert to_keyword(deck).endswith(f"*{NAME}\n SET=ALL\n SPACING=12.0\n")
 
 

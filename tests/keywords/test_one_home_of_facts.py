@@ -9,6 +9,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 from pathlib import Path
+from typing import get_args
 
 import mudline
 from mudline.keywords import catalogue
@@ -74,8 +75,8 @@ def test_no_module_lists_keywords_to_know_a_fact() -> None:
 def test_the_index_of_the_catalogue_says_what_the_classes_say() -> None:
     for module in catalogue.modules():
         block = catalogue.load(module)
-        (name,) = block.names
-        assert block.model_fields["keyword"].default == name
+        name = block.model_fields["keyword"].default
+        assert get_args(block.model_fields["keyword"].annotation) == (name,)
         assert catalogue.declared(name) is block
         assert set(block.sections) <= set(catalogue.SECTIONS)
 
@@ -83,7 +84,7 @@ def test_the_index_of_the_catalogue_says_what_the_classes_say() -> None:
 def test_facts_fit_each_other() -> None:
     blocks = [catalogue.load(module) for module in catalogue.modules()]
     newer = {successor.keyword for block in blocks for successor in block.facts.superseded_by}
-    assert newer == {block.names[0] for block in blocks if block.facts.supersedes}
+    assert newer == {block.model_fields["keyword"].default for block in blocks if block.facts.supersedes}
     for block in blocks:
         assert ("(extension)" in block.summary) == block.facts.extension
         assert ("superseded by" in block.summary) == bool(block.facts.superseded_by)

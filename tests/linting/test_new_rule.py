@@ -33,7 +33,7 @@ HEAD = '''"""A new module."""
 
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.linting.rule import rule
-from mudline.scene.checks.declaring import check
+from mudline.scene.checks import check
 
 NEW001 = Code("NEW001", "deck-with-model", Severity.WARNING)
 '''

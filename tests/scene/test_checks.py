@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from mudline.diagnostics import Blocks, DeckError, Severity
-from mudline.scene.checks.declaring import all_checks
+from mudline.scene.checks import all_checks
 from tests.builders.decks import LINEAR_BED, PIPE, STEEL
 from tests.builders.scenes import scene_of
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError
-from mudline.scene.external_elements import ExternalElements, read_external
+from mudline.scene.csv_file import ExternalElements, read_external
 from mudline.scene.model import resolve
 
 HEADER = "element,node1,node2,diameter,length,sets"

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from mudline.deck.loading import load_bytes
-from mudline.scene.external_elements import read_external
+from mudline.scene.csv_file import read_external
 from mudline.scene.model import resolve
 from tests.builders.decks import PIPE
 from tests.builders.scenes import Finding, all_reported, messages, reported

@@ -13,9 +13,9 @@ from mudline.deck.loading import load_bytes
 from mudline.deck.model import Deck
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Span
-from mudline.keywords.facts import LINE_SETS, Names
+from mudline.keywords.values import LINE_SETS, Names
+from mudline.scene.deck_values import bare, definition_by, external_definers, opaque_labels, opaque_set_names
 from mudline.scene.model import resolve
-from mudline.scene.opaque_names import bare, definition_by, external_definers, opaque_labels, opaque_set_names
 from mudline.syntax.fields import read_line
 from tests.builders.decks import PIPE
 from tests.builders.scenes import messages, reported

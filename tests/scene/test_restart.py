@@ -17,7 +17,6 @@ from mudline.diagnostics import DeckError
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import rules, select
 from mudline.scene import restart
-from mudline.scene.continued import ContinuedDeck
 from mudline.scene.model import Scene, resolve
 from tests.linting.findings import CLAY, CURVES, PIPE, PROPERTIES
 from tests.samples import sample
@@ -97,6 +96,19 @@ def test_what_the_deck_says_itself_holds(folder: Path) -> None:
     assert [section.name for section in found.deck.own_sections] == ["MODEL", "LOAD CASE"]
 
 
+def test_of_two_legacy_surfaces_that_of_the_deck_itself_holds(folder: Path) -> None:
+    def surface(stiffness: float, friction: float, slope: float) -> str:
+        return f"$MODEL\n*ELASTIC SURFACE\n {stiffness}, {friction}, {friction}\n {slope}\n"
+
+    (folder / "static.keyxm").write_text(STATIC + surface(50000.0, 0.3, 1.0))
+    found = scene(folder, DYNAMIC + surface(70000.0, 0.1, 5.0))
+    surfaces = [law for law in found.laws.set_laws if law.family == "legacy" and law.stiffness > 0.0]
+    assert surfaces[-1].stiffness == 70000.0
+    assert found.resistance.values[0].friction == (0.3, 0.3)
+    assert found.resistance.values[1].friction == (0.1, 0.1)
+    assert found.seabed.slope == 5.0
+
+
 def test_a_repeated_definition_is_no_error(folder: Path) -> None:
     assert {line.split()[1] for line in lint(folder, DYNAMIC + PIPE)} <= {"warning"}
 
@@ -151,7 +163,6 @@ def test_names(tmp_path: Path, written: str, file: str) -> None:
     text = "$PREPROCESSOR\n*PARAMETERS\n Hs, Far\n N, =[4*2]\n" + RESTART.format(written)
     found = scene(tmp_path, text)
     assert len(found.element_ids) == 10
-    assert isinstance(found.deck, ContinuedDeck)
     assert [base.deck.file for base in found.deck.bases] == [path.as_posix()]
 
 
@@ -243,7 +254,6 @@ def test_a_very_long_chain_ends(tmp_path: Path) -> None:
     for number in range(30):
         (tmp_path / f"run{number}.keyxm").write_text(RESTART.format(f"run{number + 1}"))
     found = resolve(load_path(tmp_path / "run0.keyxm"))
-    assert isinstance(found.deck, ContinuedDeck)
     assert len(found.deck.bases) == 20
     assert found.context.restart is True
     assert found.problems == []

@@ -27,7 +27,7 @@ from mudline.results.evaluation import Evaluation, Part, Prepared, Tension, eval
 from mudline.results.forms import Output, ResultConsumer, Sink, Together, form_module, form_names, plan_rows, text_form
 from mudline.results.quantities import csv_lines
 from mudline.results.totals import Digest, PlotData
-from mudline.scene.external_elements import read_external
+from mudline.scene.csv_file import read_external
 from mudline.scene.model import Scene, resolve
 from mudline.scene.positions import Positions, read_positions
 

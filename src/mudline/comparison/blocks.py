@@ -11,10 +11,9 @@ from mudline.comparison.model import Difference, Pair, Side, Value, plain
 from mudline.deck.model import Opaque
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Where
-from mudline.keywords.facts import Names
 from mudline.keywords.model import Block, ListRow, Part, Record, Rows, Slot, columns_of, layout
 from mudline.keywords.table import Cell, Table
-from mudline.keywords.values import Kind
+from mudline.keywords.values import Kind, Names
 from mudline.keywords.writer import field_text, joined
 
 _KEYS = ("set", "name", "curve")

@@ -10,13 +10,13 @@ from pydantic import BaseModel, TypeAdapter, ValidationError
 from pydantic.json_schema import models_json_schema
 
 from mudline.deck.faults import DocumentPath, Faults, Locate, document_path, refusal, shown
-from mudline.deck.findings import Findings
 from mudline.deck.model import START, Deck, Nowhere, Opaque, Range, Section
+from mudline.deck.reading import Findings
 from mudline.diagnostics import Problem, Severity, Where
 from mudline.keywords import catalogue
-from mudline.keywords.listing import AS_TABLES
 from mudline.keywords.model import Block, Comment
 from mudline.keywords.reader import read_block
+from mudline.keywords.table import AS_TABLES
 from mudline.keywords.values import Text
 from mudline.syntax.source import Source
 from mudline.syntax.tree import Kind, Leaf, canonical_name, mark_of, parse

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, Self
+from typing import Any, NamedTuple, Protocol, Self
 
 from mudline.diagnostics import Blocks, Code, DeckError, Diagnostic, Edit, Fix, Problem, Repair, Severity, Where
 from mudline.keywords.model import Block, Comment, Part, layout
 from mudline.keywords.values import Text
-from mudline.short_repr import counted, cut, listed, outline
-
-if TYPE_CHECKING:
-    from mudline.scene.model import Scene
+from mudline.short_repr import counted, cut, listed, outline, short_repr
 
 
 class Opaque(Part):
@@ -49,7 +46,24 @@ class Range(NamedTuple):
 _LONGEST = 1000
 """Characters of a message; names of the deck are part of it, and may be of any length."""
 
-_INTERNAL = frozenset({"alone", "diagnose", "folder_of", "origin", "own_sections", "problems", "require"})
+_INTERNAL = frozenset(
+    [
+        "alone",
+        "base_of",
+        "bases",
+        "damaged",
+        "diagnose",
+        "folder_of",
+        "incomplete",
+        "lost",
+        "origin",
+        "own_sections",
+        "place",
+        "problems",
+        "require",
+        "written",
+    ]
+)
 """What the rest of the program uses of a deck; `dir` leaves it out."""
 
 START = Range(1, 1, 1, 1)
@@ -95,7 +109,7 @@ class Nowhere:
 class Deck:
     """A deck: its sections and blocks as validated models, equations as written.
 
-    `mudline.read`, `mudline.from_keyword`, `mudline.from_json` and `mudline.from_yaml` make decks.
+    `mudline.Deck` is this class with the methods that make texts and scenes of a deck.
 
     Attributes:
         file: name of the file in messages.
@@ -108,6 +122,8 @@ class Deck:
         origin: tells where in the file a value stands.
         folder: where files that the deck names are looked for; None for a deck that came from no path: nothing is then
             read but the deck itself.
+        bases: the decks that it continues, the nearest first, once they are found; their models are the last sections.
+        incomplete: the first of them all was not found.
     """
 
     file: str
@@ -119,9 +135,12 @@ class Deck:
     problems: list[Problem] = field(default_factory=list, compare=False)
     origin: Origin = field(default_factory=Nowhere, compare=False, repr=False)
     folder: Path | None = field(default=None, compare=False)
+    bases: tuple[Base, ...] = ()
+    incomplete: bool = False
 
     def __repr__(self) -> str:
-        parts = [self.units, counted(len(self.sections), "section"), counted(self._count_blocks(), "block")]
+        blocks = sum(len(section.blocks) for section in self.sections)
+        parts = [self.units, counted(len(self.sections), "section"), counted(blocks, "block")]
         if errors := len(self._errors()):
             parts.append(counted(errors, "error"))
         return outline(f"{type(self).__name__} {cut(self.file, 80)!r}", ", ".join(parts))
@@ -129,72 +148,76 @@ class Deck:
     def __dir__(self) -> list[str]:
         return [name for name in super().__dir__() if name not in _INTERNAL]
 
-    def _count_blocks(self) -> int:
-        return sum(len(section.blocks) for section in self.sections)
-
-    def to_json(self) -> str:
-        """Return the deck as JSON text; nothing but layout is lost."""
-        from mudline.deck.forms.json import to_json  # noqa: PLC0415 - the module of a form is loaded where it is used
-
-        return to_json(self.alone)
-
-    def to_yaml(self) -> str:
-        """Return the deck as YAML 1.2 text; nothing but layout is lost."""
-        from mudline.deck.forms.yaml import to_yaml  # noqa: PLC0415 - as in to_json
-
-        return to_yaml(self.alone)
-
-    def to_keyword(self) -> str:
-        """Return the deck as keyword text.
-
-        Raises:
-            DeckError: a name, comment or raw line cannot be written in a keyword file.
-        """
-        from mudline.deck.forms.keyword import to_keyword  # noqa: PLC0415 - as in to_json
-
-        return to_keyword(self.alone)
-
-    def scene(self) -> Scene:
-        """Return the deck resolved: equations evaluated, sets expanded, diameters, lengths and laws as arrays.
-
-        Raises:
-            DeckError: the deck has errors on which a result depends.
-        """
-        from mudline.scene.model import resolve  # noqa: PLC0415 - the one way up: a deck that is read knows no physics
-
-        return resolve(self.alone).require()
-
     @property
-    def alone(self) -> Deck:
+    def alone(self) -> Self:
         """The deck without those that it continues."""
-        return self
+        return replace(self, sections=[*self.own_sections], bases=(), incomplete=False) if self.bases else self
 
     @property
     def own_sections(self) -> Sequence[Section]:
-        """The sections of this file; a deck that was put together from several has others besides."""
-        return self.sections
+        """The sections of this file; the models of the decks that it continues stand behind them."""
+        return self.sections[: len(self.sections) - sum(len(base.sections) for base in self.bases)]
+
+    def base_of(self, where: Where | None) -> tuple[Deck, Where] | None:
+        """The deck that a value was taken from, and its place there; None for one of the deck itself."""
+        if where is None or not self.bases:
+            return None
+        places = [(base.deck, number) for base in reversed(self.bases) for number in base.sections]
+        index = where.section - len(self.sections) + len(places)
+        return (places[index][0], where._replace(section=places[index][1])) if index >= 0 else None
+
+    def _at(self, where: Where) -> tuple[Deck, Where]:
+        return self.base_of(where) or (self, where)
+
+    def _owned(self, problem: Problem) -> tuple[Deck, Problem]:
+        """The deck that a problem belongs to, and the problem in that deck's own terms."""
+        if isinstance(problem, BaseProblem):
+            return problem.deck, problem
+        found = self.base_of(problem.where)
+        return (found[0], replace(problem, where=found[1])) if found else (self, problem)
+
+    def place(self, problem: Problem) -> Range:
+        """Lines and columns of a problem, in the file that it belongs to."""
+        deck, own = self._owned(problem)
+        return deck.origin.place(own)
+
+    def damaged(self, where: Where) -> bool:
+        """Whether something at this place could not be read."""
+        deck, inner = self._at(where)
+        return deck.origin.damaged(inner)
+
+    def lost(self, where: Where) -> int:
+        """How many lines of a block could not be used at all."""
+        deck, inner = self._at(where)
+        return deck.origin.lost(inner.section, inner.block)
+
+    def written(self, where: Where) -> bool:
+        """Whether exactly this value stands in its file."""
+        deck, inner = self._at(where)
+        return deck.origin.written(inner)
 
     def folder_of(self, where: Where) -> Path | None:
         """Where the files are looked for that the deck names at a place."""
-        return self.folder
+        return self._at(where)[0].folder
 
     def blocks(self, keyword: str, section: str = "MODEL") -> Iterator[tuple[Where, Any]]:
         """The modelled blocks of a keyword in all sections of a name, in the order of the file.
 
-        The caller knows the class that the keyword has; it is not imported for a deck that lacks the keyword.
+        What the deck continues comes first, so that what it says itself holds. The caller knows the class that the
+        keyword has; it is not imported for a deck that lacks the keyword.
         """
-        for i, found in enumerate(self.sections):
-            if found.name == section:
-                for j, block in enumerate(found.blocks):
-                    if block.keyword == keyword and isinstance(block, Block):
-                        yield Where(i, j), block
+        return self._modelled(lambda block: block.keyword == keyword, section)
 
     def blocks_that(self, fact: Callable[[type[Block]], object], section: str = "MODEL") -> Iterator[tuple[Where, Any]]:
-        """The modelled blocks whose declaration has a fact, in all sections of a name, in the order of the file."""
-        for i, found in enumerate(self.sections):
-            if found.name == section:
-                for j, block in enumerate(found.blocks):
-                    if isinstance(block, Block) and fact(type(block)):
+        """The modelled blocks whose declaration has a fact, in the order of `blocks`."""
+        return self._modelled(lambda block: fact(type(block)), section)
+
+    def _modelled(self, wanted: Callable[[Block], object], section: str) -> Iterator[tuple[Where, Block]]:
+        own = len(self.own_sections)
+        for i in (*range(own, len(self.sections)), *range(own)):
+            if self.sections[i].name == section:
+                for j, block in enumerate(self.sections[i].blocks):
+                    if isinstance(block, Block) and wanted(block):
                         yield Where(i, j), block
 
     def keywords(self, section: str = "MODEL") -> set[str]:
@@ -202,24 +225,8 @@ class Deck:
         return {block.keyword for found in self.sections if found.name == section for block in found.blocks}
 
     def diagnose(self, problems: Sequence[Problem]) -> list[Diagnostic]:
-        """Problems as diagnostics, in the order of the file."""
-        return sorted((self._diagnostic(problem) for problem in problems), key=lambda found: found.sort_key)
-
-    def _diagnostic(self, problem: Problem) -> Diagnostic:
-        code: Code = problem.code
-        place = self.origin.place(problem)
-        message = problem.message if len(problem.message) <= _LONGEST else problem.message[: _LONGEST - 3] + "..."
-        if not message.isprintable():  # names of the deck are quoted verbatim
-            message = "".join(char if char.isprintable() else "\ufffd" for char in message)
-        fix = self._fix(problem.repair, code) if problem.repair else None
-        blocks = problem.blocking is not Blocks.NEVER
-        return Diagnostic(self.file, code.code, code.slug, problem.weight, message, *place, fix, blocks)
-
-    def _fix(self, repair: Repair, code: Code) -> Fix:
-        """A repair in lines and columns."""
-        places = [(self.origin.place(Problem(code, "", span)), text) for span, text in repair.edits]
-        edits = tuple(Edit((p.line, p.column), (p.end_line, p.end_column), text) for p, text in places)
-        return Fix(repair.applicability, repair.message, edits)
+        """Problems as diagnostics, each in the file that it belongs to, in the order of the file."""
+        return sorted((_diagnostic(*self._owned(problem)) for problem in problems), key=lambda found: found.sort_key)
 
     def require(self) -> Self:
         """The deck itself; raises DeckError when something in it could not be read."""
@@ -246,3 +253,49 @@ def _comments_in(part: Part) -> Iterator[str]:
     for slot in layout(type(part)).slots:
         for record in (getattr(part, slot.name, None) or ()) if slot.record else ():
             yield from _comments_in(record)
+
+
+@dataclass(frozen=True, slots=True)
+class Base:
+    """A deck that another one continues: as written, its `$MODEL` sections evaluated, and what is wrong in it.
+
+    `sections` has them by their number in the deck.
+    """
+
+    deck: Deck
+    sections: dict[int, Section]
+    problems: tuple[Problem, ...]
+
+    __repr__ = short_repr
+
+    @property
+    def errors(self) -> list[Problem]:
+        """What keeps its model from being used."""
+        return [problem for problem in self.problems if problem.blocking is Blocks.ALWAYS]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BaseProblem(Problem):
+    """A problem of a deck that is continued, in that deck's own terms."""
+
+    deck: Deck
+
+    __repr__ = short_repr
+
+
+def _diagnostic(deck: Deck, problem: Problem) -> Diagnostic:
+    code: Code = problem.code
+    place = deck.origin.place(problem)
+    message = problem.message if len(problem.message) <= _LONGEST else problem.message[: _LONGEST - 3] + "..."
+    if not message.isprintable():  # names of the deck are quoted verbatim
+        message = "".join(char if char.isprintable() else "\ufffd" for char in message)
+    fix = _fix(deck.origin, problem.repair, code) if problem.repair else None
+    blocks = problem.blocking is not Blocks.NEVER
+    return Diagnostic(deck.file, code.code, code.slug, problem.weight, message, *place, fix, blocks)
+
+
+def _fix(origin: Origin, repair: Repair, code: Code) -> Fix:
+    """A repair in lines and columns."""
+    places = [(origin.place(Problem(code, "", span)), text) for span, text in repair.edits]
+    edits = tuple(Edit((p.line, p.column), (p.end_line, p.end_column), text) for p, text in places)
+    return Fix(repair.applicability, repair.message, edits)

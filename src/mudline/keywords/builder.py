@@ -12,8 +12,9 @@ from mudline.diagnostics import Problem, Span
 from mudline.keywords.grammar import ROW, Content, Node
 from mudline.keywords.model import Block, ListRow, Part, Record, Slot, layout, row_format
 from mudline.keywords.places import Path, Places
-from mudline.keywords.tables import TableBuilder
+from mudline.keywords.table import fewest_fields
 from mudline.keywords.text import (
+    TableBuilder,
     UnreadableError,
     Value,
     cut_number,
@@ -284,7 +285,7 @@ class Builder:
     def _counted(self, columns: Sequence[Slot], fields: list[Field], path: Path) -> list[Field]:
         """The fields without trailing empty ones; a wrong number of them is a problem."""
         required = [slot.required for slot in columns]
-        fewest = max((index + 1 for index, needed in enumerate(required) if needed), default=0)
+        fewest = fewest_fields(required)
         if len(fields) == 1 and len(columns) > 1 and blank_separated(fields[0].text):
             fields = self._apart(fields[0])
         while len(fields) > max(fewest, 1) and not fields[-1].text:

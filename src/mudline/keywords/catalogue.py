@@ -8,8 +8,8 @@ from importlib import import_module
 from itertools import takewhile
 from typing import cast
 
-from mudline.keywords.facts import Kept
 from mudline.keywords.model import Block
+from mudline.keywords.values import Facts, Kept
 from mudline.spelling import Effort, nearest
 
 _LIBRARY = "mudline.keywords.library"
@@ -232,28 +232,30 @@ def sections_of(keyword: str) -> tuple[str, ...] | None:
     return _OPAQUE.get(keyword)
 
 
+def facts_of(keyword: str) -> Facts:
+    """What the class of a keyword says of it besides its fields; nothing of a keyword whose lines are not read."""
+    found = declared(keyword)
+    return found.facts if found else Block.facts
+
+
 def is_extension(keyword: str) -> bool:
     """Whether a keyword is mudline's own."""
-    found = declared(keyword)
-    return found is not None and found.facts.extension
+    return facts_of(keyword).extension
 
 
 def is_superseded(keyword: str) -> bool:
     """Whether newer keywords take the place of a keyword."""
-    found = declared(keyword)
-    return found is not None and bool(found.facts.superseded_by)
+    return bool(facts_of(keyword).superseded_by)
 
 
 def supersedes(keyword: str) -> bool:
     """Whether a keyword takes the place of older ones."""
-    found = declared(keyword)
-    return found is not None and found.facts.supersedes
+    return facts_of(keyword).supersedes
 
 
 def holds_in_soil(keyword: str) -> bool:
     """Whether a keyword gives soil springs."""
-    found = declared(keyword)
-    return found is not None and found.facts.soil_springs
+    return facts_of(keyword).soil_springs
 
 
 def begins_keyword(text: str) -> bool:

@@ -22,10 +22,18 @@ from pydantic.fields import FieldInfo
 from pydantic_core import CoreSchema, core_schema
 
 from mudline.diagnostics import Code
-from mudline.keywords.facts import Facts, Names
-from mudline.keywords.listing import AS_TABLES, Listing, checked_by_parts, read_table
-from mudline.keywords.table import LARGEST_WHOLE, Cell, Column, Table
-from mudline.keywords.values import Count, Equation, Kind, Label, Text
+from mudline.keywords.table import (
+    AS_TABLES,
+    LARGEST_WHOLE,
+    Cell,
+    Column,
+    Listing,
+    Table,
+    checked_by_parts,
+    fewest_fields,
+    read_table,
+)
+from mudline.keywords.values import Count, Equation, Facts, Kind, Label, Names, Text
 from mudline.short_repr import with_fields
 
 _MOST_KEYS = 100
@@ -85,7 +93,7 @@ class Rows(About):
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         columns = self.columns()
-        fewest = max((index + 1 for index, column in enumerate(columns) if column.required), default=0)
+        fewest = fewest_fields(column.required for column in columns)
         listed = {
             "type": "array",
             "prefixItems": [_cell_schema(column) for column in columns],
@@ -217,7 +225,6 @@ class Block(Record):
     as it is, without a finding. Where it depends on more than the code, `other_form` says so.
     """
 
-    names: ClassVar[tuple[str, ...]]
     sections: ClassVar[tuple[str, ...]] = ("MODEL",)
     facts: ClassVar[Facts] = Facts()
     summary: ClassVar[str]
@@ -276,7 +283,7 @@ class Layout:
     @property
     def fewest(self) -> int:
         """How many fields a row must have."""
-        return max((index + 1 for index, slot in enumerate(self.columns) if slot.required), default=0)
+        return fewest_fields(slot.required for slot in self.columns)
 
     @property
     def wanted(self) -> str:
@@ -286,11 +293,11 @@ class Layout:
 
 def row_format(labels: list[str], required: list[bool]) -> str:
     """`a, b [, c]`, with empty-able fields before the last required one in brackets."""
-    last = max((index for index, needed in enumerate(required) if needed), default=-1)
+    fewest = fewest_fields(required)
     text = ""
     for index, (label, needed) in enumerate(zip(labels, required, strict=True)):
         comma = ", " if index else ""
-        if index > last:
+        if index >= fewest:
             text += f" [{comma.strip()} {label}]" if index else f"[{label}]"
         else:
             text += comma + (label if needed else f"[{label}]")

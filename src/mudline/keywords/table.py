@@ -1,23 +1,26 @@
-"""Tables of rows as arrays, with the few fields that are no numbers beside them."""
+"""Tables of rows as arrays, with the few fields that are no numbers beside them; tables and lists of documents."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
-from itertools import chain
-from typing import NamedTuple, cast
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from itertools import chain, islice
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import ValidationError
+from pydantic_core import CoreSchema, ErrorDetails, InitErrorDetails, PydanticCustomError, core_schema, to_json
 
 from mudline.diagnostics import Span
 from mudline.keywords.values import Equation, Kind, Label
+from mudline.short_repr import counted
 from mudline.syntax.rows import Rows as RawRows
 from mudline.syntax.rows import read_rows
 
 Cell = float | int | str | None
 LARGEST_WHOLE = 2**53
-_PART = 8192
+_ROWS_AT_ONCE = 8192
 
 
 def not_whole(written: str, value: float, label: str) -> str:
@@ -27,12 +30,11 @@ def not_whole(written: str, value: float, label: str) -> str:
     return f"{written} is not a whole number: {label} needs one"
 
 
-class CellError(ValueError):
-    """A cell or, without a column, a row of a list that a table cannot hold."""
-
-    def __init__(self, message: str, row: int, column: int | None = None) -> None:
-        self.place = (row,) if column is None else (row, column)
-        super().__init__(message)
+def _misfit(message: str, row: int, column: int | None = None) -> ValidationError:
+    """The fault of a cell or, without a column, of a row of a list that a table cannot hold."""
+    kind = PydanticCustomError("table", "{fault}", {"fault": message})
+    place = InitErrorDetails(type=kind, loc=(row,) if column is None else (row, column), input=None)
+    return ValidationError.from_exception_data("table", [place])
 
 
 class Part(NamedTuple):
@@ -127,9 +129,9 @@ class Table:
         odd = (self.lengths != self.values.shape[1]) | np.isnan(self.values).any(axis=1)
         words: dict[int, list[tuple[int, int]]] = {}
         for place in self.words:
-            words.setdefault(place[0] // _PART, []).append(place)
-        for number, start in enumerate(range(0, len(self), _PART)):
-            part = slice(start, start + _PART)
+            words.setdefault(place[0] // _ROWS_AT_ONCE, []).append(place)
+        for number, start in enumerate(range(0, len(self), _ROWS_AT_ONCE)):
+            part = slice(start, start + _ROWS_AT_ONCE)
             plain = not odd[part].any()
             rows = _lists(self.values[part], columns)
             if not plain:
@@ -155,19 +157,19 @@ def _lists(values: NDArray[np.float64], columns: Sequence[Column]) -> list[list[
 
 
 def from_cells(cells: list[object], columns: Sequence[Column]) -> Table:
-    """A table from lists, as JSON holds them. Raises CellError for the first row or cell that does not fit."""
+    """A table from lists, as JSON holds them. Raises ValidationError for the first row or cell that does not fit."""
     for row, fields in enumerate(cells):
         if type(fields) is not list:
-            raise CellError(f"expected a row: a list of {_count(columns)} values", row)
+            raise _misfit(f"expected a row: a list of {_count(columns)} values", row)
     rows = cast("list[list[object]]", cells)
     lengths = np.fromiter(map(len, rows), dtype=np.intp, count=len(rows))
     fewest, width = _fewest(columns), int(lengths.max(initial=0))
     if width > len(columns) or (len(rows) and int(lengths.min()) < fewest):
         row = int(np.flatnonzero((lengths > len(columns)) | (lengths < fewest))[0])
-        raise CellError(f"{_fields(lengths[row])}, expected {_count(columns)}", row)
+        raise _misfit(f"{counted(int(lengths[row]), 'field')}, expected {_count(columns)}", row)
     table = _numbers(rows, lengths, width) or _cells(rows, lengths, width, columns)
     for (row, column), fault in _not_whole(table, columns).items():
-        raise CellError(fault, row, column)
+        raise _misfit(fault, row, column)
     return table
 
 
@@ -197,9 +199,9 @@ def _cells(rows: list[list[object]], lengths: NDArray[np.intp], width: int, colu
             if isinstance(cell, int | float) and not isinstance(cell, bool):
                 values[row, column] = _finite(cell, row, column)
             elif cell is not None and (not isinstance(cell, str) or not cell):
-                raise CellError(f"{cell!r} cannot stand here: expected {columns[column].kind.value}", row, column)
+                raise _misfit(f"{cell!r} cannot stand here: expected {columns[column].kind.value}", row, column)
             elif fault := columns[column].fault(cell or ""):
-                raise CellError(fault, row, column)
+                raise _misfit(fault, row, column)
             else:
                 words[row, column] = _word(cell or "")
     return _without_empty_ends(Table(values, lengths, words), columns)
@@ -211,15 +213,15 @@ def _finite(cell: float, row: int, column: int) -> float:
     except OverflowError:
         value = math.inf
     if not math.isfinite(value):
-        raise CellError("the number is not finite, or too large for double precision", row, column)
+        raise _misfit("the number is not finite, or too large for double precision", row, column)
     return value
 
 
 def from_text(text: str, columns: Sequence[Column]) -> Table:
-    """A table from a block of rows, as YAML holds a long one. Raises CellError for the first fault."""
+    """A table from a block of rows, as YAML holds a long one. Raises ValidationError for the first fault."""
     table, faults = from_rows(read_rows(text, Span(0, len(text)), len(columns)), columns)
     for (row, column), fault in sorted(faults.items()):
-        raise CellError(fault, row, column if column >= 0 else None)
+        raise _misfit(fault, row, column if column >= 0 else None)
     return table
 
 
@@ -239,7 +241,7 @@ def from_rows(raw: RawRows, columns: Sequence[Column]) -> tuple[Table, dict[tupl
     fewest = _fewest(columns)
     wrong = (raw.lengths < fewest) | (raw.lengths > len(columns))
     for row in np.flatnonzero(wrong).tolist() if wrong.any() else ():
-        faults[row, -1] = f"{_fields(raw.lengths[row])}, expected {_count(columns)}"
+        faults[row, -1] = f"{counted(int(raw.lengths[row]), 'field')}, expected {_count(columns)}"
         raw.values[row, 1:] = math.nan  # the row still defines its number
     table = _without_empty_ends(Table(raw.values, lengths, words), columns)
     return table, faults | _not_whole(table, columns)
@@ -262,12 +264,13 @@ def _word(text: str) -> Equation | Label | None:
     return None if text == "" else Label.match(text) or Equation.match(text)
 
 
+def fewest_fields(required: Iterable[bool]) -> int:
+    """How many fields a row must have: all up to the last that is required."""
+    return max((index + 1 for index, needed in enumerate(required) if needed), default=0)
+
+
 def _fewest(columns: Sequence[Column]) -> int:
-    return max((index + 1 for index, column in enumerate(columns) if column.required), default=0)
-
-
-def _fields(count: int) -> str:
-    return "1 field" if count == 1 else f"{count} fields"
+    return fewest_fields(column.required for column in columns)
 
 
 def _count(columns: Sequence[Column]) -> str:
@@ -300,3 +303,93 @@ def _all_whole(values: NDArray[np.float64], columns: Sequence[Column]) -> bool:
         return False
     first = values[:, :count]
     return bool(((first == np.floor(first)) & (first != 0.0) & (np.abs(first) <= LARGEST_WHOLE)).all())
+
+
+_ENTRIES_AT_ONCE = 32
+"""Entries checked at once; lists are nested three deep at most."""
+
+_UNCHECKED = PydanticCustomError("unchecked", "not looked at, nor what follows: mend the entries before first")
+
+
+def checked_by_parts(schema: CoreSchema) -> CoreSchema:
+    """The schema of a model with a limit on each of its own lists; those of the models in it have theirs."""
+    found = cast("dict[str, Any]", schema)
+    if found["type"] == "list":
+        return core_schema.no_info_wrap_validator_function(_by_parts, schema)
+    if "schema" in found:
+        found["schema"] = checked_by_parts(found["schema"])
+    if found["type"] == "model-fields":
+        for field in found["fields"].values():
+            field["schema"] = checked_by_parts(field["schema"])
+    return schema
+
+
+def _by_parts(given: object, check: core_schema.ValidatorFunctionWrapHandler) -> list[object]:
+    """All entries, or the faults of the first part that has any. Entries may be made as they are checked."""
+    if not isinstance(given, list | Iterator) or (isinstance(given, list) and len(given) <= _ENTRIES_AT_ONCE):
+        return cast("list[object]", check(given))
+    made: list[object] = []
+    entries = iter(given)
+    while part := list(islice(entries, _ENTRIES_AT_ONCE)):
+        try:
+            made += check(part)
+        except ValidationError as error:
+            start = len(made)
+            moved = [_moved(fault, start) for fault in error.errors(include_url=False)]
+            if any(True for _ in entries):
+                moved.append(InitErrorDetails(type=_UNCHECKED, loc=(start + _ENTRIES_AT_ONCE,), input=None))
+            raise ValidationError.from_exception_data(error.title, moved) from error
+    return made
+
+
+def _moved(fault: ErrorDetails, start: int) -> InitErrorDetails:
+    """A fault of a part as one of the whole list."""
+    kind = PydanticCustomError(
+        cast("Any", fault["type"]), "{message}", {**fault.get("ctx", {}), "message": fault["msg"]}
+    )
+    index, *rest = fault["loc"]
+    return InitErrorDetails(type=kind, loc=(cast("int", index) + start, *rest), input=fault["input"])
+
+
+AS_TABLES = "as tables"
+"""The serialization context in which a table becomes a Listing, not lists."""
+
+
+class Listing:
+    """A table and its columns, to be written as text at once: lists of a million rows would take half a second more."""
+
+    __slots__ = ("columns", "table")
+
+    def __init__(self, table: Table, columns: Sequence[Column]) -> None:
+        self.table = table
+        self.columns = columns
+
+    def __len__(self) -> int:
+        return len(self.table)
+
+    def rows(self) -> list[list[Cell]]:
+        """The rows as lists."""
+        return self.table.rows(self.columns)
+
+    def lines(self, spelled: Callable[[list[Cell]], str]) -> Iterator[str]:
+        """The rows as text, some thousand at a time, separated by line feeds.
+
+        Cells are separated by a comma and a space; `spelled` writes a row that is not of numbers only.
+        """
+        for rows, plain in self.table.parts(self.columns):
+            if plain:
+                text = to_json(rows).decode("ascii")
+                yield text[2:-2].replace("],[", "\n").replace(",", ", ")
+            else:
+                yield "\n".join(map(spelled, rows))
+
+
+def read_table(given: object, columns: Sequence[Column]) -> Table:
+    """The table of lists, or of a text of rows. Raises ValidationError with row and column, or ValueError."""
+    if isinstance(given, Table):
+        return given
+    if isinstance(given, list):
+        return from_cells(given, columns)
+    if isinstance(given, str):
+        return from_text(given, columns)
+    raise ValueError("expected rows: a list of lists, or a text with a row a line")

@@ -1,4 +1,4 @@
-"""The text of one field to its value, by the kind of the field; remarks behind the data of a line."""
+"""The text of fields and of runs of rows to values, by the kind of the field; remarks behind the data of a line."""
 
 from __future__ import annotations
 
@@ -6,16 +6,21 @@ import re
 from collections.abc import Iterable
 from dataclasses import replace
 from itertools import pairwise
+from typing import Protocol
+
+import numpy as np
 
 from mudline.codes.fields import SYN002, SYN003, SYN015, SYN016
 from mudline.codes.lines import SYN005
 from mudline.diagnostics import Problem, Repair, Severity, Span
-from mudline.keywords.model import Slot, layout
-from mudline.keywords.table import LARGEST_WHOLE, not_whole
+from mudline.keywords.model import Slot, columns_of, layout, row_format
+from mudline.keywords.places import Path, Places
+from mudline.keywords.table import LARGEST_WHOLE, Column, Table, from_rows, not_whole
 from mudline.keywords.values import Equation, Kind, Label
 from mudline.spelling import Effort, nearest
 from mudline.syntax.fields import Field, split
-from mudline.syntax.rows import read_number, spells_number
+from mudline.syntax.rows import Rows as RawRows
+from mudline.syntax.rows import line_spans, read_number, read_rows, row_fields, spells_number
 
 Value = float | int | str | None
 _REAL = (Kind.REAL, Kind.REAL_OR_NAME)
@@ -46,19 +51,28 @@ def read_value(field: Field, slot: Slot, problems: list[Problem]) -> Value:
 
 def _number(field: Field, slot: Slot, problems: list[Problem]) -> Value:
     number = read_number(field.text)
-    if slot.kind is Kind.WHOLE:
-        return _whole(field, number, slot)
-    if slot.kind is Kind.IDENT:
-        return _ident(field, number, slot, problems)
-    return _real(field, number, slot)
-
-
-def _real(field: Field, number: float | None, slot: Slot) -> float | str:
     if number is None:
+        if slot.kind is Kind.IDENT:
+            return _label(field, slot, problems)
         if slot.kind is Kind.REAL_OR_NAME and not field.text.startswith("=[") and not _looks_numeric(field.text):
             return field.text
         raise UnreadableError(Problem(SYN002, number_fault(field.text, slot.label), field.span))
-    return number
+    if slot.kind not in (Kind.WHOLE, Kind.IDENT):
+        return number
+    if not number.is_integer() or abs(number) > LARGEST_WHOLE:
+        raise UnreadableError(Problem(SYN002, not_whole(field.text, number, slot.label), field.span))
+    return int(number)
+
+
+def _label(field: Field, slot: Slot, problems: list[Problem]) -> Label:
+    if label := Label.match(field.text):
+        return label
+    braced = maybe_label(field.text)
+    if braced is None:
+        raise UnreadableError(Problem(SYN002, number_fault(field.text, slot.label, Kind.IDENT), field.span))
+    message = f"{shown(field.text)} is not a number: if it is a label, write {braced}"
+    problems.append(Problem(SYN016, message, field.span, repair=in_braces(field.text, field.span)))
+    return braced
 
 
 def reads_as_name(text: str) -> bool:
@@ -188,27 +202,6 @@ def _choice(field: Field, slot: Slot) -> str:
     raise UnreadableError(Problem(SYN005, message, field.span, repair=instead(near, field.span)))
 
 
-def _whole(field: Field, number: float | None, slot: Slot) -> int:
-    if number is None:
-        raise UnreadableError(Problem(SYN002, number_fault(field.text, slot.label), field.span))
-    if not number.is_integer() or abs(number) > LARGEST_WHOLE:
-        raise UnreadableError(Problem(SYN002, not_whole(field.text, number, slot.label), field.span))
-    return int(number)
-
-
-def _ident(field: Field, number: float | None, slot: Slot, problems: list[Problem]) -> int | Label:
-    if number is not None:
-        return _whole(field, number, slot)
-    if label := Label.match(field.text):
-        return label
-    braced = maybe_label(field.text)
-    if braced is None:
-        raise UnreadableError(Problem(SYN002, number_fault(field.text, slot.label, Kind.IDENT), field.span))
-    message = f"{shown(field.text)} is not a number: if it is a label, write {braced}"
-    problems.append(Problem(SYN016, message, field.span, repair=in_braces(field.text, field.span)))
-    return braced
-
-
 _MARK = re.compile(r"(?<=[ \t])(?:!|(?:[#;]|//|--)[ \t])")
 _LETTER = re.compile(r"[^\W\d_]")
 _OF_FIELDS = frozenset({SYN002, SYN003, SYN005, SYN015, SYN016})
@@ -272,3 +265,126 @@ def _remarks(text: str, problems: list[Problem]) -> list[Span | None]:
             remark = Span(start, start + len(words)) if words else None
         found.append(remark)
     return found
+
+
+MOST_FAULTS = 1000
+"""Faults reported one by one; more of them in one table are counted."""
+
+
+class BlockReading(Protocol):
+    """The reading of a block, which a table in it adds to."""
+
+    text: str
+    places: Places
+    problems: list[Problem]
+    lost: int
+    unclosed: Span | None
+
+    def damage(self, path: Path, problem: Problem) -> None:
+        """Note a value that could not be read."""
+
+    def short(self, path: Path, message: str, span: Span) -> None:
+        """Note a row that is too short."""
+
+
+class TableBuilder:
+    """Collects the runs of one table."""
+
+    def __init__(self, builder: BlockReading, slot: Slot, path: Path) -> None:
+        self.builder = builder
+        self.columns: list[Column] = columns_of(slot)
+        self.path = path
+        self.parts: list[Table] = []
+        self.count = 0
+
+    def add(self, span: Span) -> int:
+        """Read one run; returns its number of rows."""
+        text = self.builder.text
+        raw = read_rows(text, span, len(self.columns))
+        self.builder.places.runs.setdefault(self.path, []).append((self.count, span))
+        table, faults = from_rows(raw, self.columns)
+        if faults:
+            self._report(span, raw, table, faults)
+        self.parts.append(table)
+        self.count += len(table)
+        return len(table)
+
+    def finish(self) -> Table:
+        """All rows in one table."""
+        if len(self.parts) == 1:
+            return self.parts[0]
+        width = max((part.values.shape[1] for part in self.parts), default=0)
+        values = np.full((self.count, width), np.nan)
+        words: dict[tuple[int, int], Equation | Label | None] = {}
+        start = 0
+        for part in self.parts:
+            values[start : start + len(part), : part.values.shape[1]] = part.values
+            words |= {(row + start, column): word for (row, column), word in part.words.items()}
+            start += len(part)
+        lengths = [part.lengths for part in self.parts] or [np.zeros(0, dtype=np.intp)]
+        return Table(values, np.concatenate(lengths), words)
+
+    def _report(self, span: Span, raw: RawRows, table: Table, faults: dict[tuple[int, int], str]) -> None:
+        lines = list(line_spans(self.builder.text, span))
+        short = {row for row, column in faults if column < 0}
+        reported = 0
+        broken: set[int] = set()
+        for (row, column), fault in sorted(faults.items()):
+            if row in short and column >= 0:
+                continue
+            if self._label(table, raw, lines[row], row, column):
+                continue
+            reported += 1
+            if reported > MOST_FAULTS:
+                continue
+            if row not in broken and self._brackets(lines[row]):
+                broken.add(row)
+            if row not in broken:
+                self._fault(lines[row], row, column, fault, raw)
+        if reported > MOST_FAULTS:
+            message = f"{reported - MOST_FAULTS} more faulty rows or fields in this table"
+            self.builder.damage(self.path[:-1], Problem(SYN002, message, lines[-1]))
+
+    def _label(self, table: Table, raw: RawRows, line: Span, row: int, column: int) -> bool:
+        """A word where a node number belongs is taken for a label whose braces were forgotten."""
+        word = raw.words.get((row, column), "")
+        if column < 0 or self.columns[column].kind is not Kind.IDENT or (label := maybe_label(word)) is None:
+            return False
+        table.words[row, column] = label
+        place = row_fields(self.builder.text, line, len(self.columns))[column].span
+        message = f"{word!r} is not a number: if it is a label, write {label}"
+        self.builder.problems.append(Problem(SYN016, message, place, repair=in_braces(word, place)))
+        return True
+
+    def _brackets(self, line: Span) -> bool:
+        """Whether the fault of a row is an unclosed bracket, which is then reported instead."""
+        _, problems = split(self.builder.text, line)
+        for problem in problems:
+            if problem.span != self.builder.unclosed:
+                self.builder.damage(self.path[:-1], problem)
+        return bool(problems)
+
+    def _fault(self, line: Span, row: int, column: int, fault: str, raw: RawRows) -> None:
+        text = self.builder.text
+        self.builder.lost += column == 0
+        if column < 0:
+            fields, _ = split(text, line)
+            required = [column.required for column in self.columns]
+            if problem := decimal_comma(fields, [column.kind for column in self.columns], sum(required)):
+                self.builder.problems.append(problem)
+            wanted = row_format([column.label for column in self.columns], required)
+            place = Span(fields[0].span.start, fields[-1].span.end)
+            message = f"{fault} (`{wanted}`)"
+            if len(fields) < sum(required):
+                self.builder.short(self.path[:-1], message, place)
+            else:
+                self.builder.damage(self.path[:-1], Problem(SYN003, message, place))
+            return
+        place = row_fields(text, line, len(self.columns))[column].span
+        word = raw.words.get((row, column))
+        if word:
+            fault = number_fault(word, self.columns[column].label, self.columns[column].kind)
+        if word == "":
+            self.builder.short(self.path[:-1], fault, place)
+        else:
+            self.builder.damage(self.path[:-1], Problem(SYN002, fault, place))

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from pydantic_core import to_json
 
-from mudline.keywords.listing import Listing
-from mudline.keywords.model import Block, Part, Record, Rows, Setting, Slot, columns_of, layout
-from mudline.keywords.table import Cell, Table
+from mudline.keywords.model import Block, Comment, Part, Record, Rows, Setting, Slot, columns_of, layout
+from mudline.keywords.table import Cell, Listing, Table
 
 Item = tuple[list[str], int]
 """Lines that comments can stand before, and how many items they count for: a line each of a table, else one."""
@@ -19,7 +18,7 @@ Item = tuple[list[str], int]
 def block_lines(block: Block) -> Iterator[str]:
     """The lines of a block, from its `*KEYWORD` on, without line ends."""
     yield f"*{block.keyword}"
-    yield from _with_comments(block, list(_items(block)))
+    yield from with_comments(block.comments, _items(block))
 
 
 def _record_lines(record: Record) -> Iterator[str]:
@@ -27,7 +26,7 @@ def _record_lines(record: Record) -> Iterator[str]:
     items = list(_items(record))
     if _opens(record) and items:
         yield from items.pop(0)[0]
-    yield from _with_comments(record, items)
+    yield from with_comments(record.comments, items)
 
 
 def _opens(record: Record) -> bool:
@@ -36,8 +35,9 @@ def _opens(record: Record) -> bool:
     return first is not None and isinstance(first.about, Setting)
 
 
-def _with_comments(record: Record, items: list[Item]) -> Iterator[str]:
-    comments = sorted(record.comments, key=lambda comment: comment.before)
+def with_comments(comments: list[Comment], items: Iterable[Item]) -> Iterator[str]:
+    """The lines of items in their order, and the comments where they stood."""
+    comments = sorted(comments, key=lambda comment: comment.before)
     at = index = 0
     for lines, count in items:
         done = 0

@@ -9,12 +9,12 @@ from enum import StrEnum
 from pathlib import Path
 
 from mudline.deck.loading import load_bytes
+from mudline.deck.model import BaseProblem, Deck
 from mudline.diagnostics import Blocks, DeckError, Diagnostic, Problem, Severity
 from mudline.keywords.model import Block
 from mudline.keywords.reader import ReadBlock, read_block
 from mudline.linting.rule import LintContext, Rule
 from mudline.linting.suppression import suppressions
-from mudline.scene.continued import of_base
 from mudline.syntax.tree import Leaf, RawBlock
 
 
@@ -58,7 +58,13 @@ def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
     Suppressed problems are among them; unused suppression comments are not.
     """
     found = (_advice(problem) if rule.advises else problem for rule in chosen for problem in rule.check(context))
-    return [problem for problem in found if not of_base(context.deck, problem)]
+    return [problem for problem in found if not _of_base(context.deck, problem)]
+
+
+def _of_base(deck: Deck, problem: Problem) -> bool:
+    """Whether a problem of a scene lies in a deck that `deck` continues, and not in `deck` itself."""
+    beyond = problem.where is not None and problem.where.section >= len(deck.sections)
+    return beyond or isinstance(problem, BaseProblem)
 
 
 def _advice(problem: Problem) -> Problem:

@@ -16,7 +16,7 @@ from mudline.codes import all_codes
 from mudline.diagnostics import Code, PluginError, Problem, Severity, Where
 from mudline.linting.rule import RULES, Check, LintContext, Noticed, Rule, add, described_by
 from mudline.resources import modules_of
-from mudline.scene.checks.declaring import all_checks
+from mudline.scene.checks import all_checks
 from mudline.spelling import nearest
 
 if TYPE_CHECKING:

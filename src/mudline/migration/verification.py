@@ -14,7 +14,7 @@ from mudline.contact.model import ContactModel
 from mudline.curves import ForceCurve
 from mudline.deck.parameters import folded
 from mudline.migration.migrating import Migration
-from mudline.scene.external_elements import ExternalElements
+from mudline.scene.csv_file import ExternalElements
 from mudline.scene.laws import ResistanceValues
 from mudline.scene.model import Scene, resolve
 from mudline.scene.numbering import Floats, Indices

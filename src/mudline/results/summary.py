@@ -13,7 +13,6 @@ from mudline.contact.laws.linear import penetration_under, smoothed_reaction
 from mudline.deck.model import Opaque
 from mudline.results.quantities import finite
 from mudline.scene.assignments import element_smoothing, nodal_springs
-from mudline.scene.continued import ContinuedDeck
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices, summed
 from mudline.scene.resolved import LawArrays
@@ -29,7 +28,7 @@ def summarise(scene: Scene) -> dict[str, Any]:
     return {
         "file": deck.file,
         "units": deck.units,
-        "continues": [base.deck.file for base in deck.bases] if isinstance(deck, ContinuedDeck) else [],
+        "continues": [base.deck.file for base in deck.bases],
         "sections": [
             {
                 "name": section.name,

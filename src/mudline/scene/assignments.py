@@ -9,7 +9,7 @@ import numpy as np
 
 from mudline.contact.input import LawAssignment, LawKind
 from mudline.scene.deck_values import FORCE_UNIT, LARGEST_MOBILISATION, LENGTH_UNIT, number
-from mudline.scene.extensions import Extension
+from mudline.scene.laws import Extension
 from mudline.scene.numbering import Floats, Indices, Mask, at_nodes, marked, picked, summed, touched
 from mudline.scene.resolved import ResolvedDeck
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from bisect import bisect_left
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import isnan
@@ -12,22 +12,21 @@ from typing import Any, cast
 
 from mudline.codes.fields import SYN016
 from mudline.codes.lines import SYN001, SYN004
-from mudline.deck.evaluation import EvaluatedDeck
 from mudline.deck.model import Deck, Opaque
-from mudline.deck.parameters import folded
+from mudline.deck.parameters import EvaluatedDeck, folded
 from mudline.diagnostics import MORE, MOST_REPORTED, Blocks, Code, Problem, Severity, Where
 from mudline.keywords import catalogue
 from mudline.keywords.catalogue import meant_in, meant_keyword
 from mudline.keywords.model import ListRow
-from mudline.scene.continued import ContinuedDeck
-from mudline.scene.numbering import LARGEST
-from mudline.scene.opaque_names import (
+from mudline.keywords.text import hint
+from mudline.scene.deck_values import (
     definition_by,
     external_definers,
     is_read_definer,
     opaque_labels,
     opaque_set_names,
 )
+from mudline.scene.numbering import LARGEST
 from mudline.short_repr import short_repr
 from mudline.spelling import Effort, nearest
 from mudline.syntax.tree import canonical_name, mark_of
@@ -55,7 +54,7 @@ class Context:
     def __post_init__(self) -> None:
         for i, section in enumerate(self.deck.sections):
             for j, block in enumerate(section.blocks):
-                if self.deck.origin.lost(i, j):
+                if self.deck.lost(Where(i, j)):
                     self.unread.add(block.keyword)
 
     def report(self, code: Code, message: str, where: Where, severity: Severity | None = None) -> None:
@@ -106,16 +105,21 @@ class Context:
         """Keywords that stand where they are not read, or are misspelt."""
         return list(self._misplaced)
 
+    def hint(self, word: str, names: Mapping[str, str]) -> str:
+        """` (did you mean X?)` for the name spelt nearly as `word`, or nothing; the keys of `names` are folded."""
+        near = self.near(word, names)
+        return hint(names[near]) if near else ""
+
     def near(self, word: str, known: Collection[str]) -> str:
         """The name among `known`, all of them folded, that is spelt nearly as `word`, or ""."""
         return nearest(folded(word), known, self._effort)
 
     def has_read_errors(self, where: Where) -> bool:
         """Whether something at this place, or a line below it, could not be used."""
-        if self.deck.origin.damaged(where):
+        if self.deck.damaged(where):
             return True
         if where.section >= len(self.deck.own_sections):  # of a deck that is continued: what it lost is in no line here
-            return self.deck.origin.lost(where.section, where.block) > 0
+            return self.deck.lost(where) > 0
         if not self._unread_lines:
             return False
         lines = self._lines(where)
@@ -151,8 +155,7 @@ class Context:
 
     def lacks_value(self, where: Where, key: str) -> bool:
         """Whether the setting `key` of a record was written without a value that could be read."""
-        origin = self.deck.origin
-        return origin.damaged(where) and origin.written(where.inside(key))
+        return self.deck.damaged(where) and self.deck.written(where.inside(key))
 
     def generator(self, given: ListRow, where: Where) -> tuple[int, int, int] | None:
         """The three values of a GEN=, the last one 1 unless given; None when one of them is not known."""
@@ -160,7 +163,7 @@ class Context:
         if values[2] is None and not self.without_value(given, where):
             values[2] = 1
         usable = all(isinstance(value, int) and abs(value) <= LARGEST for value in values)
-        return (values[0], values[1], values[2]) if usable and not self.deck.origin.damaged(where) else None
+        return (values[0], values[1], values[2]) if usable and not self.deck.damaged(where) else None
 
     def without_value(self, row: ListRow, where: Where) -> bool:
         """Whether an equation of a row has no value."""
@@ -198,7 +201,7 @@ class Context:
 
     def _position(self, problem: Problem) -> tuple[int, int]:
         """Line and column of a problem."""
-        place = self.deck.origin.place(problem)
+        place = self.deck.place(problem)
         return place.line, place.column
 
     @cached_property
@@ -209,9 +212,7 @@ class Context:
     @cached_property
     def restart(self) -> bool:
         """Whether the deck continues another one that is not known."""
-        if isinstance(self.deck, ContinuedDeck):
-            return self.deck.incomplete
-        return "RESTART" in self.deck.keywords("LOAD CASE")
+        return self.deck.incomplete if self.deck.bases else "RESTART" in self.deck.keywords("LOAD CASE")
 
     @cached_property
     def _guessed_labels(self) -> set[tuple[int, int]]:

@@ -1,16 +1,24 @@
-"""Values that the parts of a deck give: numbers, files, legacy surfaces, units."""
+"""What a deck gives: numbers, files, legacy surfaces, units, and the names that unread lines make."""
 
 from __future__ import annotations
 
 import math
+import re
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mudline.deck.model import Deck
-from mudline.diagnostics import Where
+from mudline.deck.model import Deck, Opaque
+from mudline.deck.parameters import folded
+from mudline.diagnostics import Span, Where
+from mudline.keywords import catalogue
+from mudline.keywords.model import Block, Part, Row, layout
+from mudline.keywords.values import LINE_SETS, Names
+from mudline.syntax.fields import read_line
+from mudline.syntax.rows import read_number
 
 if TYPE_CHECKING:
-    from mudline.keywords.surface import Surface
+    from mudline.keywords.common import Surface
 
 
 FOOT = 0.3048
@@ -64,3 +72,138 @@ def find_file(folder: Path | None, written: str) -> Path | None:
         return path if path.is_file() else None
     except OSError:
         return None
+
+
+_COMMENT = re.compile(r"[Cc](?:[ \t]|[-*=#_.~+]{2}|$)|C[A-Za-z]")
+_KEY = re.compile(r"[ \t]*[A-Za-z][\w \t-]*")
+_PIECE = re.compile(r'(?:[^,"{]++|"[^"]*+"|\{[^}]*+\}|["{].*+)++')
+_MANY = 1000
+_WORD = re.compile(r"[^-+.,0-9 \t]")
+
+
+def external_definers(deck: Deck) -> list[str]:
+    """Keywords of the model that make nodes, elements or sets which the deck does not show; those not read first."""
+    present = catalogue.in_order(deck.keywords())
+    found = [keyword for keyword in present if _makes(keyword)]
+    return sorted(found, key=is_read_definer)
+
+
+def is_read_definer(keyword: str) -> bool:
+    """Whether a keyword is read, and the lines that it is about make things which the deck does not show."""
+    return bool(catalogue.facts_of(keyword).makes)
+
+
+def definition_by(definer: str, keyword: str) -> str:
+    """How a definer may define a thing that is a matter of `keyword`, in words; "" when it cannot."""
+    if keyword not in _makes(definer):
+        return ""
+    if is_read_definer(definer):
+        return f"the lines of *{definer}, which this deck does not show, may define it"
+    return f"*{definer}, which is not read, may define it"
+
+
+def makes_labels(definer: str) -> bool:
+    """Whether a definer gives labels to nodes."""
+    kept = catalogue.kept_of("MODEL", definer)
+    return kept is not None and kept.labels
+
+
+def _makes(keyword: str) -> tuple[str, ...]:
+    kept = catalogue.kept_of("MODEL", keyword)
+    return kept.makes if kept else catalogue.facts_of(keyword).makes
+
+
+def opaque_set_names(deck: Deck) -> dict[str, str]:
+    """Names of the element sets that lines make, as first written, by their folded form."""
+    return _first_written(name for block in _model(deck) for name in _sets(block))
+
+
+def opaque_labels(deck: Deck) -> dict[str, str]:
+    """Texts among the lines of kept blocks that may be labels of nodes, as first written, by their folded form."""
+    return _first_written(text for block in _model(deck) for text in _texts(block))
+
+
+def bare(name: str) -> str:
+    """A name without blanks, quotes or braces around it."""
+    text = name.strip(" \t")
+    if len(text) > 1 and text[0] + text[-1] in ('""', "{}"):
+        text = text[1:-1].strip(" \t")
+    return text
+
+
+def _first_written(names: Iterable[str]) -> dict[str, str]:
+    found: dict[str, str] = {}
+    for name in names:
+        if text := bare(name):
+            found.setdefault(folded(text), text)
+    return found
+
+
+def _model(deck: Deck) -> Iterator[Block | Opaque]:
+    """Every block of `$MODEL`, read or not."""
+    return (block for section in deck.sections if section.name == "MODEL" for block in section.blocks)
+
+
+def _sets(block: Block | Opaque) -> Iterator[str]:
+    """The element sets that a block of lines names."""
+    if isinstance(block, Opaque):
+        kept = catalogue.kept_of("MODEL", block.keyword)
+        if kept and kept.name_settings:
+            yield from _given_in_lines(block.lines, kept.name_settings)
+    elif block.facts.makes:
+        yield from _given_in_parts(block)
+
+
+def _given_in_lines(lines: Iterable[str], keys: Mapping[str, Names]) -> Iterator[str]:
+    for line in _data(lines):
+        if "=" not in line:
+            continue
+        for key, values in _groups(line):
+            if kind := keys.get(key):
+                yield from values if kind is Names.SETS else values[:1]
+
+
+def _given_in_parts(part: Part) -> Iterator[str]:
+    """The same settings of a keyword that is read; what could not be read of it is None."""
+    for slot in layout(type(part)).slots:
+        value = getattr(part, slot.name)
+        if slot.record:
+            for child in value:
+                yield from _given_in_parts(child)
+        elif slot.key in LINE_SETS:
+            if isinstance(value, Row):
+                value = getattr(value, layout(type(value)).columns[0].name)
+            yield from (name for name in (value if isinstance(value, list) else [value]) if name)
+
+
+def _texts(block: Block | Opaque) -> Iterator[str]:
+    """Every value of a block that is neither a number nor an equation."""
+    kept = catalogue.kept_of("MODEL", block.keyword)
+    if not isinstance(block, Opaque) or kept is None or not kept.labels:
+        return
+    for line in _data(block.lines):
+        if _WORD.search(line):
+            for _, values in _groups(line):
+                yield from (text for text in values if read_number(text) is None and not text.startswith("=["))
+
+
+def _groups(line: str) -> Iterator[tuple[str, list[str]]]:
+    """The KEYs of a line with their values, "" for values without one. What `read_line` says, in less time."""
+    if "[" in line or line.count(",") > _MANY:
+        groups = read_line(line, Span(0, len(line))).groups
+        yield from ((group.key, [given.text for given in group.fields]) for group in groups)
+        return
+    key, values = "", list[str]()
+    for piece in _PIECE.findall(line) if '"' in line or "{" in line else line.split(","):
+        head, equals, value = piece.partition("=")
+        if equals and _KEY.fullmatch(head):
+            yield key, values
+            key, values = " ".join(head.split()).upper(), [value.strip(" \t")]
+        else:
+            values.append(piece.strip(" \t"))
+    yield key, values
+
+
+def _data(lines: Iterable[str]) -> Iterator[str]:
+    """The lines that are no comments. One with C and a letter in column 1 is one: no key that counts here begins so."""
+    return (line for line in lines if not _COMMENT.match(line))

@@ -30,7 +30,7 @@ from mudline.short_repr import short_repr
 if TYPE_CHECKING:
     from mudline.keywords.library.element import ElementPattern, ElementRows, Elements
     from mudline.keywords.library.node import NodeRange, NodeRows, Nodes
-    from mudline.scene.external_elements import ExternalElements
+    from mudline.scene.csv_file import ExternalElements
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,14 +6,13 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal
 
-from mudline.deck.evaluation import evaluated
 from mudline.deck.model import Deck
+from mudline.deck.parameters import evaluated
 from mudline.diagnostics import Blocks, DeckError, Problem, Severity
-from mudline.scene.checks.declaring import checked
+from mudline.scene.checks import checked
 from mudline.scene.context import Context
-from mudline.scene.extensions import read_extensions
 from mudline.scene.force_curves import read_curves
-from mudline.scene.laws import read_laws, read_resistance
+from mudline.scene.laws import read_extensions, read_laws, read_resistance
 from mudline.scene.mesh import read_elements, read_nodes
 from mudline.scene.references import check_boundaries, check_lines, check_references, check_soil
 from mudline.scene.resolved import ResolvedDeck
@@ -27,7 +26,7 @@ if TYPE_CHECKING:
     from mudline.contact.input import ContactInput
     from mudline.contact.model import ContactModel
     from mudline.contact.plan import Backend
-    from mudline.scene.external_elements import ExternalElements
+    from mudline.scene.csv_file import ExternalElements
 
 _INTERNAL = frozenset(
     [

@@ -16,14 +16,13 @@ from mudline.codes.references import REF001, REF005, REF006, REF010
 from mudline.deck.model import Deck
 from mudline.deck.parameters import folded
 from mudline.diagnostics import MOST_REPORTED, Code, Severity, Where
-from mudline.keywords.facts import Names
 from mudline.keywords.model import Block, names_given
 from mudline.keywords.text import shown
-from mudline.keywords.values import Label
+from mudline.keywords.values import Label, Names
 from mudline.scene.context import Context
+from mudline.scene.deck_values import bare, makes_labels
 from mudline.scene.laws import LawTable
 from mudline.scene.numbering import Numbered
-from mudline.scene.opaque_names import bare, makes_labels
 from mudline.scene.sets import Sets
 
 if TYPE_CHECKING:
@@ -97,7 +96,7 @@ def check_boundaries(context: Context, nodes: Numbered) -> None:
     named: list[tuple[object, Where]] = []
     for where, block in context.deck.blocks("BOUNDARY", "LOAD CASE"):
         types = cast("Boundary", block).types
-        if not types and not context.deck.origin.lost(where.section, where.block):
+        if not types and not context.deck.lost(where):
             message = "*BOUNDARY is empty: give TYPE= and nodes below it, or remove it"
             context.report(SYN001, message, where, Severity.WARNING)
         for i, held in enumerate(types):
@@ -114,7 +113,7 @@ def check_boundaries(context: Context, nodes: Numbered) -> None:
 def _check_range(context: Context, nodes: Numbered, entry: FixedRange, where: Where) -> None:
     """The nodes of a GEN=, without building them, and their degree of freedom."""
     values = cast("FixedValues | None", entry.generate)
-    if values is None or context.deck.origin.damaged(where) or context.without_value(values, where):
+    if values is None or context.deck.damaged(where) or context.without_value(values, where):
         return
     at, step = _freedom_and_step(values)
     freedom = (values.third, values.fourth)[at - 2]
@@ -206,9 +205,7 @@ def _check_name(context: Context, what: tuple[str, str, str], name: str, where: 
     key, thing, keyword = what
     if folded(bare(name)) in known:
         return
-    near = context.near(name, known)
-    hint = f" (did you mean {known[near]}?)" if near else ""
-    message = f"{key} names no {thing}: {shown(name)} is not defined{hint}; define it in {keyword}"
+    message = f"{key} names no {thing}: {shown(name)} is not defined{context.hint(name, known)}; define it in {keyword}"
     source = context.possible_definition(keyword[1:])
     context.report(REF001, f"{message}; {source}" if source else message, where, Severity.WARNING)
 

@@ -11,14 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mudline.contact.input import LawKind
-from mudline.deck.evaluation import EvaluatedDeck
-from mudline.deck.parameters import folded
+from mudline.deck.parameters import EvaluatedDeck, folded
 from mudline.diagnostics import Problem
 from mudline.keywords.text import suggestion
 from mudline.scene.context import Context
-from mudline.scene.extensions import Extension, with_nodal_stiffness
 from mudline.scene.force_curves import SceneCurve
-from mudline.scene.laws import LawTable, SeabedResistance, SetLaw
+from mudline.scene.laws import Extension, LawTable, SeabedResistance, SetLaw, with_nodal_stiffness
 from mudline.scene.mesh import ElementTable
 from mudline.scene.numbering import Floats, Ids, Indices, Mask, Numbered
 from mudline.scene.seabed import SeabedShape

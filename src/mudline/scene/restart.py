@@ -4,19 +4,18 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from dataclasses import fields, replace
 from functools import lru_cache
 from itertools import islice
 from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 from mudline.codes.references import REF015
-from mudline.deck.evaluation import evaluated
 from mudline.deck.loading import load_path
-from mudline.deck.model import Deck
-from mudline.deck.parameters import Parameters
+from mudline.deck.model import Base, BaseProblem, Deck
+from mudline.deck.parameters import Parameters, evaluated
 from mudline.diagnostics import DeckError, Problem, Where
 from mudline.keywords.text import shown
-from mudline.scene.continued import Base, as_base_problem, continuation
 from mudline.scene.deck_values import LARGEST_FILE, file_name, find_file
 
 if TYPE_CHECKING:
@@ -70,8 +69,20 @@ def continued(deck: Deck) -> tuple[Deck, list[Problem]]:
     if not chain.bases:
         return deck, problems
     for base in chain.bases:
-        problems += (as_base_problem(problem, base.deck) for problem in base.errors)
-    return continuation(deck, chain.bases, incomplete=bool(chain.fault)), problems
+        problems += (_of_base(problem, base.deck) for problem in base.errors)
+    units = (each.units for each in (deck, *(base.deck for base in chain.bases)))
+    whole = replace(
+        deck,
+        units=next((name for name in units if name != "user"), "user"),
+        sections=[*deck.sections, *(model for base in reversed(chain.bases) for model in base.sections.values())],
+        bases=tuple(chain.bases),
+        incomplete=bool(chain.fault),
+    )
+    return whole, problems
+
+
+def _of_base(problem: Problem, deck: Deck) -> BaseProblem:
+    return BaseProblem(**{each.name: getattr(problem, each.name) for each in fields(Problem)}, deck=deck)
 
 
 def decks_before(deck: Deck) -> list[Path]:

@@ -16,14 +16,14 @@ from mudline.keywords.text import shown
 from mudline.scene.context import Context
 from mudline.scene.deck_values import LARGEST_FILE, file_name, find_file, number, surfaces
 from mudline.scene.numbering import Floats
-from mudline.short_repr import short_repr
+from mudline.short_repr import counted, short_repr
 from mudline.syntax.rows import read_number
 from mudline.syntax.source import Source
 
 if TYPE_CHECKING:
+    from mudline.keywords.common import Surface
     from mudline.keywords.library.seabed_planes import Plane, SeabedPlanes
     from mudline.keywords.library.seabed_profile import SeabedProfile
-    from mudline.keywords.surface import Surface
 
 
 _NO_POINTS = np.zeros((0, 2))
@@ -188,8 +188,7 @@ def parse_profile(data: bytes, name: str, columns: int) -> Floats:
                 raise ProfileError(f"line {at}: expected {columns} numbers (`{wanted}`), found {len(words)}")
             rows.append([_number(word, at) for word in words])
     if len(rows) < 2:
-        count = f"{len(rows)} point" + "s" * (len(rows) != 1)
-        raise ProfileError(f"the file has {count}: a profile needs at least two lines `{wanted}`")
+        raise ProfileError(f"the file has {counted(len(rows), 'point')}: a profile needs at least two lines `{wanted}`")
     return np.array(rows, dtype=np.float64)
 
 

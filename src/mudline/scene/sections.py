@@ -19,7 +19,7 @@ from mudline.short_repr import short_repr
 if TYPE_CHECKING:
     from mudline.keywords.library.geometric_sets import GeometricSet, GeometricSets
     from mudline.keywords.model import Part
-    from mudline.scene.external_elements import ExternalElements
+    from mudline.scene.csv_file import ExternalElements
 
 _FORMATS = ("flexible", "rigid", "mooring", "truss")
 

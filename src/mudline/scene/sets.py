@@ -14,8 +14,8 @@ from mudline.deck.parameters import folded
 from mudline.diagnostics import Severity, Where
 from mudline.keywords.text import advice_on, shown
 from mudline.scene.context import Context
+from mudline.scene.deck_values import bare
 from mudline.scene.numbering import Ids, Indices, Numbered, constant, identity
-from mudline.scene.opaque_names import bare
 from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
         SetList,
         SetSubset,
     )
-    from mudline.scene.external_elements import ExternalElements
+    from mudline.scene.csv_file import ExternalElements
 
 ALL = "all"
 _NOTHING = np.zeros(0, dtype=np.intp)
@@ -195,8 +195,7 @@ class _Reader:
                 elif other in self.definitions:
                     waiting.append(other)
                 elif other not in named:
-                    near = self.context.near(name, self._names)
-                    hint = f" (did you mean {self._names[near]}?)" if near else ""
+                    hint = self.context.hint(name, self._names)
                     message = f"SUBSET= names no set: {shown(name)} is not defined{hint}; define it"
                     place = where.inside("members", index, "subset")
                     self.context.report_missing(REF008, message, place, "ELEMENT SETS")

@@ -17,10 +17,10 @@ from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import Span
 from mudline.keywords import catalogue
-from mudline.keywords.facts import Names
 from mudline.keywords.model import Block, names_given
 from mudline.keywords.reader import all_keys
 from mudline.keywords.text import shown
+from mudline.keywords.values import Names
 from mudline.scene.deck_values import file_name, find_file
 from mudline.short_repr import short_repr
 from mudline.syntax.edits import TextEdit, edited_bytes

@@ -15,7 +15,7 @@ from pydantic_core import to_json as compact
 from mudline.deck.document import decoded, from_document, to_document
 from mudline.deck.faults import DocumentPath, path_text, refusal
 from mudline.deck.model import Deck, Range
-from mudline.keywords.listing import Listing
+from mudline.keywords.table import Listing
 from mudline.syntax.source import Source
 
 _INDENT = " "
@@ -25,6 +25,9 @@ _HALF_PAIR = re.compile(r"[\ud800-\udfff]")
 def to_json(deck: Deck) -> str:
     """The deck as JSON text: a line for each value, rows of a table on one line."""
     return "".join(_pretty(to_document(deck), "")) + "\n"
+
+
+write = to_json  # as `dump` knows it
 
 
 def _pretty(value: Any, indent: str) -> Iterator[str]:
@@ -64,18 +67,9 @@ def _cells(row: list[Any]) -> str:
     return ", ".join(map(_inline, row))
 
 
-def write(deck: Deck) -> str:
-    """What `dump` calls."""
-    return to_json(deck)
-
-
 def read(data: bytes, file: str) -> Deck:
-    """The deck of a file's content; raises DeckError."""
-    return from_json(decoded(data, file, "JSON"), file)
-
-
-def from_json(text: str, file: str = "<json>") -> Deck:
-    """The deck of a JSON text; raises DeckError for what is no JSON, has a key twice, or breaks the schema."""
+    """The deck of a file's content; raises DeckError for what is not JSON, has a key twice, or breaks the schema."""
+    text = decoded(data, file, "JSON")
     try:
         document = json.loads(text, object_pairs_hook=_unique, parse_constant=_no_constant)
     except json.JSONDecodeError as error:

@@ -13,9 +13,9 @@ from mudline.deck.faults import DocumentPath, document_path, path_text, shown
 from mudline.deck.model import Deck, Opaque, Section
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import DeckError, Problem, Where
-from mudline.keywords.model import Block, Comment, Part, layout
+from mudline.keywords.model import Block, Part, layout
 from mudline.keywords.table import Table
-from mudline.keywords.writer import block_lines
+from mudline.keywords.writer import block_lines, with_comments
 from mudline.syntax.source import Source
 
 
@@ -26,6 +26,9 @@ def to_keyword(deck: Deck) -> str:
     """
     _require_survival(deck)
     return _text(deck)
+
+
+write = to_keyword  # as `dump` knows it
 
 
 def _require_survival(deck: Deck) -> None:
@@ -55,52 +58,22 @@ def as_text(deck: Deck) -> Deck:
     return replace(read_source(source, units=deck.units), source=deck.source, folder=deck.folder)
 
 
-def write(deck: Deck) -> str:
-    """What `dump` calls."""
-    return to_keyword(deck)
-
-
 def _text(deck: Deck) -> str:
     return "\n".join([*_lines(deck), ""])
 
 
 def _lines(deck: Deck) -> Iterator[str]:
     yield from deck.preamble
-    comments = _Comments(deck.comments)
-    for index, section in enumerate(deck.sections):
-        yield from comments.before(index)
-        yield f"${section.name}"
-        yield from _section(section)
-    yield from comments.rest()
+    yield from with_comments(deck.comments, ((_section(section), 1) for section in deck.sections))
 
 
-def _section(section: Section) -> Iterator[str]:
-    yield from section.lines
-    comments = _Comments(section.comments)
-    for index, block in enumerate(section.blocks):
-        yield from comments.before(index)
-        if isinstance(block, Opaque):
-            yield f"*{block.keyword}"
-            yield from block.lines
-        else:
-            yield from block_lines(block)
-    yield from comments.rest()
+def _section(section: Section) -> list[str]:
+    blocks = with_comments(section.comments, ((_block(block), 1) for block in section.blocks))
+    return [f"${section.name}", *section.lines, *blocks]
 
 
-class _Comments:
-    """Comments in their order, given out as the items that they precede come by."""
-
-    def __init__(self, comments: list[Comment]) -> None:
-        self.waiting = sorted(comments, key=lambda comment: comment.before)[::-1]
-
-    def before(self, index: int) -> Iterator[str]:
-        """The lines before an item."""
-        while self.waiting and self.waiting[-1].before <= index:
-            yield f"C{self.waiting.pop().text}"
-
-    def rest(self) -> Iterator[str]:
-        """The lines behind the last item."""
-        yield from (f"C{comment.text}" for comment in reversed(self.waiting))
+def _block(block: Block | Opaque) -> list[str]:
+    return [f"*{block.keyword}", *block.lines] if isinstance(block, Opaque) else list(block_lines(block))
 
 
 _P = TypeVar("_P", bound=Part)

@@ -12,7 +12,7 @@ from mudline.deck.document import decoded, from_document, to_document
 from mudline.deck.faults import DocumentPath, Locate, refusal
 from mudline.deck.model import START, Deck, Range
 from mudline.diagnostics import DeckError
-from mudline.keywords.listing import Listing
+from mudline.keywords.table import Listing
 from mudline.keywords.writer import joined
 
 try:
@@ -90,6 +90,9 @@ def to_yaml(deck: Deck) -> str:
     return yaml.dump(_node(to_document(deck)), Dumper=_Dumper, sort_keys=False, allow_unicode=True, width=2**30)
 
 
+write = to_yaml  # as `dump` knows it
+
+
 class _Literal(str):
     """Text that is written as a literal block."""
 
@@ -135,21 +138,12 @@ def _table(listing: Listing) -> Any:
     return [_Flow(row) for row in listing.rows()]
 
 
-def write(deck: Deck) -> str:
-    """What `dump` calls."""
-    return to_yaml(deck)
-
-
 def read(data: bytes, file: str) -> Deck:
-    """The deck of a file's content; raises DeckError."""
-    return from_yaml(decoded(data, file, "YAML"), file)
+    """The deck of a file's content.
 
-
-def from_yaml(text: str, file: str = "<yaml>") -> Deck:
-    """The deck of a YAML text.
-
-    Raises DeckError for what is no YAML, has a key twice or an alias, or breaks the schema.
+    Raises DeckError for what is not YAML, has a key twice or an alias, or breaks the schema.
     """
+    text = decoded(data, file, "YAML")
     try:
         _look_over(text, file)
         root = yaml.compose(text, Loader=CoreLoader)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection
-from typing import Annotated, ClassVar, Literal, cast
+from typing import Annotated, Literal, cast
 
 from pydantic import BeforeValidator, Field
 
@@ -38,7 +38,7 @@ Either = Annotated[Count | Finite | Equation, Field(union_mode="left_to_right"),
 class FixedNode(Record):
     """A node that is held in a degree of freedom."""
 
-    rule: ClassVar[str] = "fixed_node"
+    rule = "fixed_node"
     node: Annotated[Ident, about("node number, or its label")]
     dof: Annotated[Whole, about(_DOF)]
     value: Annotated[Real | None, about(_VALUE, default="0")] = None
@@ -60,7 +60,7 @@ class FixedValues(ListRow):
 class FixedRange(Record):
     """Nodes that are held in a degree of freedom."""
 
-    rule: ClassVar[str] = "fixed_range"
+    rule = "fixed_range"
     generate: Annotated[FixedValues, setting("GEN", "nodes from one number to another, and how they are held")]
     fixation: Fixation = None
 
@@ -68,7 +68,7 @@ class FixedRange(Record):
 class BoundaryType(Record):
     """Conditions of one type."""
 
-    rule: ClassVar[str] = "boundary_type"
+    rule = "boundary_type"
     type_: Annotated[
         Literal["CONSTANT"], setting("TYPE", "what the conditions are: here constant ones", inferred=_OTHERS)
     ] = Field(alias="type")
@@ -78,11 +78,10 @@ class BoundaryType(Record):
 class Boundary(Block):
     """Boundary conditions."""
 
-    rule: ClassVar[str] = "boundary"
-    names: ClassVar[tuple[str, ...]] = ("BOUNDARY",)
-    sections: ClassVar[tuple[str, ...]] = ("LOAD CASE",)
-    summary: ClassVar[str] = "Nodes that are held, or moved, in single degrees of freedom."
-    example: ClassVar[str] = "*BOUNDARY\n TYPE=CONSTANT\n 1, 2\n 1, 3, 0.0, FIXATION=RELATIVE\n GEN=11, 20, 1, 6, 0.0\n"
+    rule = "boundary"
+    sections = ("LOAD CASE",)
+    summary = "Nodes that are held, or moved, in single degrees of freedom."
+    example = "*BOUNDARY\n TYPE=CONSTANT\n 1, 2\n 1, 3, 0.0, FIXATION=RELATIVE\n GEN=11, 20, 1, 6, 0.0\n"
 
     keyword: Literal["BOUNDARY"] = "BOUNDARY"
     types: list[BoundaryType] = []

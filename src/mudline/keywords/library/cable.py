@@ -5,10 +5,10 @@ Its format is not public: the lines are kept, the names in them are used.
 
 from __future__ import annotations
 
-from mudline.keywords.facts import LINE_SETS, Kept
+from mudline.keywords.values import LINE_SETS, Kept
 
 KEPT = Kept(
-    names=("CABLE",),
+    keyword="CABLE",
     summary="Cables along which *NODE,CURVILINEAR places nodes (superseded by *LINES).",
     example="*CABLE\n 1, 41, 565.6\n",
     certain="Nodes can be given by their distance along a cable; *LINES supersedes it, and it is still legal.",

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
-from mudline.keywords.facts import Facts
 from mudline.keywords.model import Block, Record, setting
-from mudline.keywords.values import Name
+from mudline.keywords.values import Facts, Name
 
 _BEHIND = "DESCRIPTION"
 
@@ -14,7 +13,7 @@ _BEHIND = "DESCRIPTION"
 class CombinedVariations(Record):
     """A line of names; the language allows 20 on it."""
 
-    rule: ClassVar[str] = "combined_variations"
+    rule = "combined_variations"
     names: Annotated[
         list[Name],
         setting(
@@ -28,7 +27,7 @@ class CombinedVariations(Record):
 class Combination(Record):
     """One deck for every combination of the cases of some variations."""
 
-    rule: ClassVar[str] = "combination"
+    rule = "combination"
     description: Annotated[Name, setting("DESCRIPTION", "what the decks show")]
     subdirectory: Annotated[
         Name | None,
@@ -46,12 +45,11 @@ class Combination(Record):
 class Combinations(Block):
     """Combinations."""
 
-    rule: ClassVar[str] = "combinations"
-    names: ClassVar[tuple[str, ...]] = ("COMBINATIONS",)
-    sections: ClassVar[tuple[str, ...]] = ("PREPROCESSOR",)
-    facts: ClassVar[Facts] = Facts(plans_decks=True)
-    summary: ClassVar[str] = "The decks that `mudline expand` makes from variations, and the names of their files."
-    example: ClassVar[str] = (
+    rule = "combinations"
+    sections = ("PREPROCESSOR",)
+    facts = Facts(plans_decks=True)
+    summary = "The decks that `mudline expand` makes from variations, and the names of their files."
+    example = (
         "*COMBINATIONS\n DIRECTORY=Soils\n DESCRIPTION=All soils, SUBDIRECTORY=Case %case%, FILENAME=su %su%\n"
         " VARIATIONS=ALL\n"
     )

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
-from mudline.keywords.common import SUCTION_STIFFNESS
-from mudline.keywords.facts import Facts
+from mudline.keywords.common import (
+    SUCTION_STIFFNESS,
+    SURFACE_SUCCESSORS,
+    FrictionCoefficients,
+    FrictionLengths,
+    Surface,
+)
 from mudline.keywords.model import Row, about
-from mudline.keywords.surface import SUCCESSORS, FrictionCoefficients, FrictionLengths, Surface
-from mudline.keywords.values import Real
+from mudline.keywords.values import Facts, Real
 
 
 class _Stiffness(Row):
@@ -38,11 +42,10 @@ class ElasticProperties(FrictionLengths, _Resistance, FrictionCoefficients, _Sti
 class ElasticSurface(Surface):
     """Elastic seabed."""
 
-    rule: ClassVar[str] = "elastic_surface"
-    names: ClassVar[tuple[str, ...]] = ("ELASTIC SURFACE",)
-    facts: ClassVar[Facts] = Facts(superseded_by=SUCCESSORS, seabed_type="ELASTIC")
-    summary: ClassVar[str] = "Elastic seabed: stiffness, friction, slope or profile (superseded by *SEABED PROPERTIES)."
-    example: ClassVar[str] = "*ELASTIC SURFACE\n 50000.0, 0.3, 0.5\n"
+    rule = "elastic_surface"
+    facts = Facts(superseded_by=SURFACE_SUCCESSORS, seabed_type="ELASTIC")
+    summary = "Elastic seabed: stiffness, friction, slope or profile (superseded by *SEABED PROPERTIES)."
+    example = "*ELASTIC SURFACE\n 50000.0, 0.3, 0.5\n"
 
     keyword: Literal["ELASTIC SURFACE"] = "ELASTIC SURFACE"
     properties: Annotated[ElasticProperties, about("stiffness, friction, lateral resistance, suction")]

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
-from mudline.keywords.facts import Facts
 from mudline.keywords.model import Block, ListRow, Record, Row, about, rows, setting
 from mudline.keywords.table import Table
-from mudline.keywords.values import Ident, Real, Whole
+from mudline.keywords.values import Facts, Ident, Real, Whole
 
 _AXIS = "component {} of the vector that orients the local {} axis of the undeformed element"
 
@@ -37,26 +36,25 @@ class ElementPattern(ListRow):
 class ElementRows(Record):
     """Elements by their nodes."""
 
-    rule: ClassVar[str] = "element_rows"
+    rule = "element_rows"
     elements: Annotated[Table, rows(ElementRow, "elements: number and two nodes")]
 
 
 class ElementGenerate(Record):
     """Elements stepped from a master."""
 
-    rule: ClassVar[str] = "element_generate"
+    rule = "element_generate"
     generate: Annotated[ElementPattern, setting("GEN", "elements stepped from a master defined before")]
 
 
 class Elements(Block):
     """Elements."""
 
-    rule: ClassVar[str] = "element"
-    names: ClassVar[tuple[str, ...]] = ("ELEMENT",)
-    facts: ClassVar[Facts] = Facts(defines="elements")
-    summary: ClassVar[str] = "Elements by number and their two nodes."
-    tabular: ClassVar[bool] = True
-    example: ClassVar[str] = "*ELEMENT\n 1, 1, 2\n GEN=1, 10\n"
+    rule = "element"
+    facts = Facts(defines="elements")
+    summary = "Elements by number and their two nodes."
+    tabular = True
+    example = "*ELEMENT\n 1, 1, 2\n GEN=1, 10\n"
 
     keyword: Literal["ELEMENT"] = "ELEMENT"
     entries: list[ElementRows | ElementGenerate] = []

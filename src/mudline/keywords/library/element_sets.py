@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
-from mudline.keywords.facts import Facts
 from mudline.keywords.model import Block, ListRow, Record, about, setting
-from mudline.keywords.values import Ident, Name, Whole
+from mudline.keywords.values import Facts, Ident, Name, Whole
 
 
 class ElementRange(ListRow):
@@ -20,28 +19,28 @@ class ElementRange(ListRow):
 class SetList(Record):
     """Elements by number or label; the language allows 20 on a line."""
 
-    rule: ClassVar[str] = "set_list"
+    rule = "set_list"
     elements: Annotated[list[Ident], about("element numbers or {labels}")]
 
 
 class SetGenerate(Record):
     """A range of element numbers."""
 
-    rule: ClassVar[str] = "set_generate"
+    rule = "set_generate"
     generate: Annotated[ElementRange, setting("GEN", "range of element numbers")]
 
 
 class SetSubset(Record):
     """All elements of another set."""
 
-    rule: ClassVar[str] = "set_subset"
+    rule = "set_subset"
     subset: Annotated[Name, setting("SUBSET", "another set, all of whose elements belong to this one too")]
 
 
 class ElementSet(Record):
     """A set."""
 
-    rule: ClassVar[str] = "element_set"
+    rule = "element_set"
     name: Annotated[Name, setting("SET", "set name: up to 256 characters, case does not count, spaces do")]
     members: list[SetList | SetGenerate | SetSubset] = []
 
@@ -49,11 +48,10 @@ class ElementSet(Record):
 class ElementSets(Block):
     """Element sets."""
 
-    rule: ClassVar[str] = "element_sets"
-    names: ClassVar[tuple[str, ...]] = ("ELEMENT SETS",)
-    facts: ClassVar[Facts] = Facts(passes_in=("CLEAR", "DATABASE POSTPROCESSING", "POSTPROCESSING"), defines="sets")
-    summary: ClassVar[str] = "Named groups of elements; ALL is predefined."
-    example: ClassVar[str] = "*ELEMENT SETS\n SET=Riser\n 1, 2, 3\n GEN=10, 20, 2\n SET=Everything\n SUBSET=Riser\n"
+    rule = "element_sets"
+    facts = Facts(passes_in=("CLEAR", "DATABASE POSTPROCESSING", "POSTPROCESSING"), defines="sets")
+    summary = "Named groups of elements; ALL is predefined."
+    example = "*ELEMENT SETS\n SET=Riser\n 1, 2, 3\n GEN=10, 20, 2\n SET=Everything\n SUBSET=Riser\n"
 
     keyword: Literal["ELEMENT SETS"] = "ELEMENT SETS"
     sets: list[ElementSet] = []

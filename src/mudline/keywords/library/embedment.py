@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
 from mudline.keywords.common import NO_SET, POINTS, CurvePoint
-from mudline.keywords.facts import Facts, Names, Successor
 from mudline.keywords.model import Block, Record, rows, setting
 from mudline.keywords.table import Table
-from mudline.keywords.values import Name
+from mudline.keywords.values import Facts, Name, Names, Successor
 
 
 class EmbedmentCurve(Record):
     """A curve and the set that it holds for."""
 
-    rule: ClassVar[str] = "embedment_curve"
+    rule = "embedment_curve"
     set_name: Annotated[
         Name | None,
         setting("SET", "element set of the curve", default="ALL", inferred=NO_SET, names=Names.SET),
@@ -27,9 +26,8 @@ class EmbedmentCurve(Record):
 class Embedment(Block):
     """Force-embedment curves by set."""
 
-    rule: ClassVar[str] = "embedment"
-    names: ClassVar[tuple[str, ...]] = ("EMBEDMENT",)
-    facts: ClassVar[Facts] = Facts(
+    rule = "embedment"
+    facts = Facts(
         superseded_by=(
             Successor("SEABED STIFFNESS"),
             Successor("SEABED PROPERTIES", "STIFFNESS"),
@@ -37,11 +35,9 @@ class Embedment(Block):
         defines="curves",
         computed_in="normal-laws",
     )
-    summary: ClassVar[str] = (
-        "Force-embedment curves of an elastic seabed, by element set (superseded by *SEABED STIFFNESS)."
-    )
-    tabular: ClassVar[bool] = True
-    example: ClassVar[str] = "*EMBEDMENT\n SET=Flowline\n 0.0, 0.0\n 0.1, 1200.0\n 0.5, 10000.0\n"
+    summary = "Force-embedment curves of an elastic seabed, by element set (superseded by *SEABED STIFFNESS)."
+    tabular = True
+    example = "*EMBEDMENT\n SET=Flowline\n 0.0, 0.0\n 0.1, 1200.0\n 0.5, 10000.0\n"
 
     keyword: Literal["EMBEDMENT"] = "EMBEDMENT"
     curves: list[EmbedmentCurve] = []

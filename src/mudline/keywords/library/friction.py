@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
 from mudline.codes.lines import SYN001, SYN004, SYN014
-from mudline.diagnostics import Code
 from mudline.keywords.model import Block, about
 from mudline.keywords.values import Real
 
@@ -15,14 +14,11 @@ _NEEDS = "; a direction whose coefficient is 0 stays free"
 class LinearFriction(Block):
     """Stiffnesses that stand for friction; both zero mean that the model is held fast."""
 
-    rule: ClassVar[str] = "friction"
-    names: ClassVar[tuple[str, ...]] = ("FRICTION",)
-    sections: ClassVar[tuple[str, ...]] = ("LOAD CASE", "MODES")
-    summary: ClassVar[str] = (
-        "Stiffnesses that stand for seabed friction in the frequency domain and in modes; both 0: held fast."
-    )
-    unpublished: ClassVar[tuple[Code, ...]] = (SYN001, SYN004, SYN014)
-    example: ClassVar[str] = "*FRICTION\n 500.0, 250.0\n"
+    rule = "friction"
+    sections = ("LOAD CASE", "MODES")
+    summary = "Stiffnesses that stand for seabed friction in the frequency domain and in modes; both 0: held fast."
+    unpublished = (SYN001, SYN004, SYN014)
+    example = "*FRICTION\n 500.0, 250.0\n"
 
     keyword: Literal["FRICTION"] = "FRICTION"
     longitudinal: Annotated[

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from mudline.keywords.facts import Facts, Names
 from mudline.keywords.model import Block, Record, Row, about, setting
-from mudline.keywords.values import Name, Real
+from mudline.keywords.values import Facts, Name, Names, Real
 
 _DO = "external diameter"
 _CURVE = "curve of non-linear {}; the number on the property line is then left empty"
@@ -77,8 +76,8 @@ class TrussSection(Row):
 class GeometricSet(Record):
     """The properties of a set; `option` is given where it changes."""
 
-    rule: ClassVar[str] = "geometric_set"
-    sticky: ClassVar[str] = "option"
+    rule = "geometric_set"
+    sticky = "option"
     option: Annotated[
         Literal["FLEXIBLE", "RIGID", "MOORING", "TRUSS"] | None,
         setting("OPTION", "format of the property line; holds until it is changed", default="FLEXIBLE"),
@@ -125,11 +124,10 @@ class GeometricSet(Record):
 class GeometricSets(Block):
     """Section properties by set."""
 
-    rule: ClassVar[str] = "geometric_sets"
-    names: ClassVar[tuple[str, ...]] = ("GEOMETRIC SETS",)
-    facts: ClassVar[Facts] = Facts(later_wins=True)
-    summary: ClassVar[str] = "Stiffness, mass and diameters of element sets, in one of four formats."
-    example: ClassVar[str] = "*GEOMETRIC SETS\n OPTION=RIGID\n SET=ALL\n 207.0E9, 79.9E9, 0.3239, 0.2731, 7850.0\n"
+    rule = "geometric_sets"
+    facts = Facts(later_wins=True)
+    summary = "Stiffness, mass and diameters of element sets, in one of four formats."
+    example = "*GEOMETRIC SETS\n OPTION=RIGID\n SET=ALL\n 207.0E9, 79.9E9, 0.3239, 0.2731, 7850.0\n"
 
     keyword: Literal["GEOMETRIC SETS"] = "GEOMETRIC SETS"
     sets: list[GeometricSet] = []

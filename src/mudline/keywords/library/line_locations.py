@@ -5,10 +5,10 @@ Its format is not public: the lines are kept, the names in them are used.
 
 from __future__ import annotations
 
-from mudline.keywords.facts import Kept, Names
+from mudline.keywords.values import Kept, Names
 
 KEPT = Kept(
-    names=("LINE LOCATIONS",),
+    keyword="LINE LOCATIONS",
     summary="Labels for nodes at given distances along a line.",
     example="*LINE LOCATIONS\n LINE=Umbilical\n Touchdown, 200.0\n",
     certain="It gives labels to nodes at a distance along a line.",

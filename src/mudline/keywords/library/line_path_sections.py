@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
 from mudline.keywords.common import AdditionalSets
-from mudline.keywords.facts import Facts
 from mudline.keywords.model import Block, Record, Row, about, setting
-from mudline.keywords.values import Name, Real
+from mudline.keywords.values import Facts, Name, Real
 
 _DISTANCE = "; a negative one counts back from the end of the line, bend radii do not count"
 
@@ -25,7 +24,7 @@ class SectionStretch(Row):
 class PathSection(Record):
     """A section of a line."""
 
-    rule: ClassVar[str] = "path_section"
+    rule = "path_section"
     section: Annotated[SectionStretch, setting("SECTION", "element set of the section, and where it lies")]
     repeat: Annotated[
         Name | None, setting("REPEAT", "group of *LINE SECTION GROUPS that is repeated here", inline=True)
@@ -36,7 +35,7 @@ class PathSection(Record):
 class PathLine(Record):
     """A line and its sections."""
 
-    rule: ClassVar[str] = "path_line"
+    rule = "path_line"
     line: Annotated[Name, setting("LINE", "line of *LINE PATHS", inferred="it is an element set too")]
     sections: list[PathSection] = []
 
@@ -44,11 +43,10 @@ class PathLine(Record):
 class LinePathSections(Block):
     """Sections of lines that follow a path."""
 
-    rule: ClassVar[str] = "line_path_sections"
-    names: ClassVar[tuple[str, ...]] = ("LINE PATH SECTIONS",)
-    facts: ClassVar[Facts] = Facts(makes=("NODE", "ELEMENT", "ELEMENT SETS"))
-    summary: ClassVar[str] = "Sections of the lines of *LINE PATHS: element sets by distance along the line."
-    example: ClassVar[str] = (
+    rule = "line_path_sections"
+    facts = Facts(makes=("NODE", "ELEMENT", "ELEMENT SETS"))
+    summary = "Sections of the lines of *LINE PATHS: element sets by distance along the line."
+    example = (
         "*LINE PATH SECTIONS\n"
         " LINE=Flowline\n"
         " SECTION=Start Zone, 0.0, 150.0\n ADDITIONAL=Coated Pipe\n"

@@ -5,10 +5,10 @@ Its format is not public: the lines are kept, the names in them are used.
 
 from __future__ import annotations
 
-from mudline.keywords.facts import LINE_SETS, Kept
+from mudline.keywords.values import LINE_SETS, Kept
 
 KEPT = Kept(
-    names=("LINE PATHS",),
+    keyword="LINE PATHS",
     summary="Lines that follow a path; their sections are given in *LINE PATH SECTIONS.",
     example="*LINE PATHS\n LINE=Flowline\n 0.0, 0.0, 0.0\n 0.0, 850.0, 0.0\n",
     certain="It defines the lines that *LINE PATH SECTIONS divides into sections, with bends.",

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
 from mudline.keywords.common import AdditionalSets
-from mudline.keywords.facts import Facts
 from mudline.keywords.model import Block, Record, Row, about, setting
-from mudline.keywords.values import Name, Real
+from mudline.keywords.values import Facts, Name, Real
 
 _RANGE = "it is not negative; the manual gives no range"
 
@@ -32,7 +31,7 @@ class SectionMesh(Row):
 class GroupSection(Record):
     """A section of a group."""
 
-    rule: ClassVar[str] = "group_section"
+    rule = "group_section"
     section: Annotated[SectionLength, setting("SECTION", "element set and length of the section")]
     additional: list[AdditionalSets] = []
     mesh: Annotated[SectionMesh | None, about("element lengths along the section")] = None
@@ -41,7 +40,7 @@ class GroupSection(Record):
 class SectionGroup(Record):
     """A group."""
 
-    rule: ClassVar[str] = "section_group"
+    rule = "section_group"
     name: Annotated[Name, setting("NAME", "name of the group", inferred="it is an element set too")]
     sections: list[GroupSection] = []
 
@@ -49,11 +48,10 @@ class SectionGroup(Record):
 class LineSectionGroups(Block):
     """Groups of line sections."""
 
-    rule: ClassVar[str] = "line_section_groups"
-    names: ClassVar[tuple[str, ...]] = ("LINE SECTION GROUPS",)
-    facts: ClassVar[Facts] = Facts(makes=("NODE", "ELEMENT", "ELEMENT SETS"))
-    summary: ClassVar[str] = "Groups of line sections, one behind the other, for the REPEAT= of *LINE PATH SECTIONS."
-    example: ClassVar[str] = (
+    rule = "line_section_groups"
+    facts = Facts(makes=("NODE", "ELEMENT", "ELEMENT SETS"))
+    summary = "Groups of line sections, one behind the other, for the REPEAT= of *LINE PATH SECTIONS."
+    example = (
         "*LINE SECTION GROUPS\n"
         " NAME=Joint\n"
         " SECTION=Pipe Joint, 11.8\n ADDITIONAL=Coated Pipe, Riser\n 0.5, 2.0, 0.5\n"

@@ -5,10 +5,10 @@ Its format is not public: the lines are kept, the names in them are used.
 
 from __future__ import annotations
 
-from mudline.keywords.facts import LINE_SETS, Kept
+from mudline.keywords.values import LINE_SETS, Kept
 
 KEPT = Kept(
-    names=("LINES",),
+    keyword="LINES",
     summary="Lines made of sections: nodes, elements, labels and element sets in one.",
     example="*LINES\n LINE=Umbilical\n SECTION=Static Section, 200.0\n SECTION=Dynamic Section, 365.6\n",
     certain=(

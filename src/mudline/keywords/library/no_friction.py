@@ -5,10 +5,10 @@ Its format page is not public, and neither is its section: the lines are kept, i
 
 from __future__ import annotations
 
-from mudline.keywords.facts import Kept
+from mudline.keywords.values import Kept
 
 KEPT = Kept(
-    names=("NO FRICTION",),
+    keyword="NO FRICTION",
     summary="A run without seabed friction, whatever coefficients the seabed has.",
     example="*NO FRICTION\n",
     certain="Friction acts if any coefficient is not zero; this keyword suppresses it for a run.",

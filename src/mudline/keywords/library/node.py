@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
-from mudline.keywords.facts import Facts
 from mudline.keywords.model import Block, ListRow, Record, Row, about, rows, setting
 from mudline.keywords.table import Table
-from mudline.keywords.values import Real, Whole
+from mudline.keywords.values import Facts, Real, Whole
 
 
 class NodeRow(Row):
@@ -30,26 +29,25 @@ class NodeRange(ListRow):
 class NodeRows(Record):
     """Nodes by coordinates."""
 
-    rule: ClassVar[str] = "node_rows"
+    rule = "node_rows"
     nodes: Annotated[Table, rows(NodeRow, "nodes: number, x, y and z")]
 
 
 class NodeGenerate(Record):
     """Equally spaced nodes on the straight line between two nodes."""
 
-    rule: ClassVar[str] = "node_generate"
+    rule = "node_generate"
     generate: Annotated[NodeRange, setting("GEN", "equally spaced nodes between two existing ones")]
 
 
 class Nodes(Block):
     """Nodes."""
 
-    rule: ClassVar[str] = "node"
-    names: ClassVar[tuple[str, ...]] = ("NODE",)
-    facts: ClassVar[Facts] = Facts(defines="nodes")
-    summary: ClassVar[str] = "Nodes by number and coordinates; X is vertical."
-    tabular: ClassVar[bool] = True
-    example: ClassVar[str] = "*NODE\n 1, 0.0, 0.0\n 11, 0.0, 100.0\n GEN=1, 11\n"
+    rule = "node"
+    facts = Facts(defines="nodes")
+    summary = "Nodes by number and coordinates; X is vertical."
+    tabular = True
+    example = "*NODE\n 1, 0.0, 0.0\n 11, 0.0, 100.0\n GEN=1, 11\n"
 
     keyword: Literal["NODE"] = "NODE"
     entries: list[NodeRows | NodeGenerate] = []

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
 from mudline.keywords.model import Block, about
 from mudline.keywords.values import Real
@@ -11,10 +11,9 @@ from mudline.keywords.values import Real
 class Ocean(Block):
     """The sea."""
 
-    rule: ClassVar[str] = "ocean"
-    names: ClassVar[tuple[str, ...]] = ("OCEAN",)
-    summary: ClassVar[str] = "Water depth, density of sea water, gravity."
-    example: ClassVar[str] = "*OCEAN\n 500.0, 1025.0, 9.81\n"
+    rule = "ocean"
+    summary = "Water depth, density of sea water, gravity."
+    example = "*OCEAN\n 500.0, 1025.0, 9.81\n"
 
     keyword: Literal["OCEAN"] = "OCEAN"
     depth: Annotated[Real, about("water depth", unit="L", above=0)]

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mudline.diagnostics import Code
-from mudline.keywords.facts import Facts, Names
+from mudline.keywords.common import OTHER_SOIL_FORMS, CurvesFile, SoilCurves
 from mudline.keywords.model import Block, Record, setting
-from mudline.keywords.soil import OTHER_FORMS, CurvesFile, SoilCurves
-from mudline.keywords.values import Name
+from mudline.keywords.values import Facts, Name, Names
 
 _OTHERS = "the types of other soil models are not public: a block with one is passed through unchanged"
 
@@ -18,7 +16,7 @@ _OTHERS = "the types of other soil models are not public: a block with one is pa
 class LateralSprings(Record):
     """The curves of a set."""
 
-    rule: ClassVar[str] = "lateral_springs"
+    rule = "lateral_springs"
     type_: Annotated[
         Literal["USER"] | None, setting("TYPE", "curves given by points", default="USER", inferred=_OTHERS)
     ] = Field(default=None, alias="type")
@@ -32,15 +30,12 @@ class LateralSprings(Record):
 class LateralSoil(Block):
     """Lateral soil springs."""
 
-    rule: ClassVar[str] = "p_y"
-    names: ClassVar[tuple[str, ...]] = ("P-Y",)
-    facts: ClassVar[Facts] = Facts(soil_springs=True)
-    summary: ClassVar[str] = (
-        "Lateral soil springs by set and depth: points of resistance P and displacement y, resistance first."
-    )
-    tabular: ClassVar[bool] = True
-    unpublished: ClassVar[tuple[Code, ...]] = OTHER_FORMS
-    example: ClassVar[str] = (
+    rule = "p_y"
+    facts = Facts(soil_springs=True)
+    summary = "Lateral soil springs by set and depth: points of resistance P and displacement y, resistance first."
+    tabular = True
+    unpublished = OTHER_SOIL_FORMS
+    example = (
         "*P-Y\n TYPE=USER\n SET=Conductor\n DEPTH=0.0\n 0.0, 0.0\n 4000.0, 0.01\n 9000.0, 0.1\n"
         " DEPTH=10.0\n 0.0, 0.0\n 40000.0, 0.01\n 90000.0, 0.1\n"
     )

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
-from mudline.keywords.facts import Facts
 from mudline.keywords.model import Block, Record, about
-from mudline.keywords.values import Name, RealOrName
+from mudline.keywords.values import Facts, Name, RealOrName
 
 
 class Parameter(Record):
     """One line: a name with its value, or a prefix with a list between slashes."""
 
-    rule: ClassVar[str] = "parameter"
+    rule = "parameter"
     name: Annotated[Name, about("parameter name, or the prefix of a list of parameters")]
     value: Annotated[
         RealOrName,
@@ -26,15 +25,12 @@ class Parameter(Record):
 class Parameters(Block):
     """Named values."""
 
-    rule: ClassVar[str] = "parameters"
-    names: ClassVar[tuple[str, ...]] = ("PARAMETERS",)
-    sections: ClassVar[tuple[str, ...]] = ("PREPROCESSOR",)
-    facts: ClassVar[Facts] = Facts(defines="parameters")
-    summary: ClassVar[str] = "Named values for equations, and for the variations of a deck."
-    slashes: ClassVar[bool] = True
-    example: ClassVar[str] = (
-        "*PARAMETERS\n depth, 500.0\n vessel x, =[depth+5]\n Point, /X:11, Y:22, Z:=[Point_X+10]/\n"
-    )
+    rule = "parameters"
+    sections = ("PREPROCESSOR",)
+    facts = Facts(defines="parameters")
+    summary = "Named values for equations, and for the variations of a deck."
+    slashes = True
+    example = "*PARAMETERS\n depth, 500.0\n vessel x, =[depth+5]\n Point, /X:11, Y:22, Z:=[Point_X+10]/\n"
 
     keyword: Literal["PARAMETERS"] = "PARAMETERS"
     parameters: list[Parameter] = []

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
 from mudline.codes.lines import SYN004
-from mudline.diagnostics import Code
-from mudline.keywords.facts import Names
 from mudline.keywords.model import Block, setting
-from mudline.keywords.values import Name
+from mudline.keywords.values import Name, Names
 
 _WORDS = "the words of the manual are taken as they are, and not checked"
 
@@ -18,12 +16,11 @@ _WORDS = "the words of the manual are taken as they are, and not checked"
 class Restart(Block):
     """The run that goes before."""
 
-    rule: ClassVar[str] = "restart"
-    names: ClassVar[tuple[str, ...]] = ("RESTART",)
-    sections: ClassVar[tuple[str, ...]] = ("LOAD CASE",)
-    summary: ClassVar[str] = "The deck that this one continues: its model holds here, too."
-    unpublished: ClassVar[tuple[Code, ...]] = (SYN004,)
-    example: ClassVar[str] = "*RESTART\n LAST=static\n"
+    rule = "restart"
+    sections = ("LOAD CASE",)
+    summary = "The deck that this one continues: its model holds here, too."
+    unpublished = (SYN004,)
+    example = "*RESTART\n LAST=static\n"
 
     keyword: Literal["RESTART"] = "RESTART"
     last: Annotated[

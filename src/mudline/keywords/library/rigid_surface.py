@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
-from mudline.keywords.facts import Facts
+from mudline.keywords.common import SURFACE_SUCCESSORS, FrictionCoefficients, FrictionLengths, Surface
 from mudline.keywords.model import about
-from mudline.keywords.surface import SUCCESSORS, FrictionCoefficients, FrictionLengths, Surface
+from mudline.keywords.values import Facts
 
 
 class RigidProperties(FrictionLengths, FrictionCoefficients):
@@ -16,11 +16,10 @@ class RigidProperties(FrictionLengths, FrictionCoefficients):
 class RigidSurface(Surface):
     """Rigid seabed."""
 
-    rule: ClassVar[str] = "rigid_surface"
-    names: ClassVar[tuple[str, ...]] = ("RIGID SURFACE",)
-    facts: ClassVar[Facts] = Facts(superseded_by=SUCCESSORS, seabed_type="RIGID")
-    summary: ClassVar[str] = "Rigid seabed: friction, slope or profile (superseded by *SEABED PROPERTIES)."
-    example: ClassVar[str] = "*RIGID SURFACE\n 0.3, 0.5\n"
+    rule = "rigid_surface"
+    facts = Facts(superseded_by=SURFACE_SUCCESSORS, seabed_type="RIGID")
+    summary = "Rigid seabed: friction, slope or profile (superseded by *SEABED PROPERTIES)."
+    example = "*RIGID SURFACE\n 0.3, 0.5\n"
 
     keyword: Literal["RIGID SURFACE"] = "RIGID SURFACE"
     properties: Annotated[RigidProperties, about("friction")]

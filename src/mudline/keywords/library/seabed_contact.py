@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mudline.keywords.facts import Facts, Names
 from mudline.keywords.model import Block, Record, setting
-from mudline.keywords.values import Name, Real
+from mudline.keywords.values import Facts, Name, Names, Real
 
 
 class ContactSet(Record):
     """What one SET= gets, taken whole."""
 
-    rule: ClassVar[str] = "contact_set"
+    rule = "contact_set"
     set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
     nodal_stiffness: Annotated[
         Real | None,
@@ -45,11 +44,10 @@ class ContactSet(Record):
 class SeabedContact(Block):
     """Nodal stiffness and smoothing by set."""
 
-    rule: ClassVar[str] = "seabed_contact"
-    names: ClassVar[tuple[str, ...]] = ("SEABED CONTACT",)
-    facts: ClassVar[Facts] = Facts(extension=True, later_wins=True, computed_in="smoothing")
-    summary: ClassVar[str] = "Nodal normal stiffness, and smoothing of linear contact laws, by element set (extension)."
-    example: ClassVar[str] = "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=50000.0\n SMOOTHING=0.005\n FORM=CENTRED\n"
+    rule = "seabed_contact"
+    facts = Facts(extension=True, later_wins=True, computed_in="smoothing")
+    summary = "Nodal normal stiffness, and smoothing of linear contact laws, by element set (extension)."
+    example = "*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=50000.0\n SMOOTHING=0.005\n FORM=CENTRED\n"
 
     keyword: Literal["SEABED CONTACT"] = "SEABED CONTACT"
     sets: list[ContactSet] = []

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mudline.keywords.facts import Facts, Names
 from mudline.keywords.model import Block, Record, Row, about, setting
-from mudline.keywords.values import Name, Real
+from mudline.keywords.values import Facts, Name, Names, Real
 
 
 class Coefficients(Row):
@@ -30,7 +29,7 @@ class TangentialStiffness(Row):
 class FrictionSet(Record):
     """What one SET= gets, taken whole."""
 
-    rule: ClassVar[str] = "friction_set"
+    rule = "friction_set"
     set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
     coefficients: Annotated[Coefficients, setting("COEFFICIENTS", "Coulomb coefficients")]
     stiffness: Annotated[TangentialStiffness, setting("STIFFNESS", "tangential springs below the limit")]
@@ -52,13 +51,10 @@ class FrictionSet(Record):
 class SeabedFriction(Block):
     """Friction by set."""
 
-    rule: ClassVar[str] = "seabed_friction"
-    names: ClassVar[tuple[str, ...]] = ("SEABED FRICTION",)
-    facts: ClassVar[Facts] = Facts(extension=True, later_wins=True, computed_in="friction")
-    summary: ClassVar[str] = "Friction in two directions with constant tangential springs, by element set (extension)."
-    example: ClassVar[str] = (
-        "*SEABED FRICTION\n SET=ALL\n COEFFICIENTS=0.3, 0.6\n STIFFNESS=20000.0, 40000.0\n DIRECTIONS=AXIAL\n"
-    )
+    rule = "seabed_friction"
+    facts = Facts(extension=True, later_wins=True, computed_in="friction")
+    summary = "Friction in two directions with constant tangential springs, by element set (extension)."
+    example = "*SEABED FRICTION\n SET=ALL\n COEFFICIENTS=0.3, 0.6\n STIFFNESS=20000.0, 40000.0\n DIRECTIONS=AXIAL\n"
 
     keyword: Literal["SEABED FRICTION"] = "SEABED FRICTION"
     sets: list[FrictionSet] = []

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
-from mudline.keywords.facts import Facts
 from mudline.keywords.model import Block, Record, Row, about, setting
-from mudline.keywords.values import Name, Real
+from mudline.keywords.values import Facts, Name, Real
 
 
 class PlanePoint(Row):
@@ -29,7 +28,7 @@ class PlaneBounds(Row):
 class Plane(Record):
     """A plane."""
 
-    rule: ClassVar[str] = "seabed_plane"
+    rule = "seabed_plane"
     name: Annotated[Name, setting("PLANE", "name of the plane")]
     point: Annotated[PlanePoint | None, setting("POINT", "a point of the plane; mandatory")] = None
     slope: Annotated[
@@ -55,11 +54,10 @@ class Plane(Record):
 class SeabedPlanes(Block):
     """Plane surfaces; the highest of those that hold a point is the seabed there."""
 
-    rule: ClassVar[str] = "seabed_planes"
-    names: ClassVar[tuple[str, ...]] = ("SEABED PLANES",)
-    facts: ClassVar[Facts] = Facts(extension=True, computed_in="shapes-of-the-seabed")
-    summary: ClassVar[str] = "A seabed of several plane surfaces: the highest one at a place holds (extension)."
-    example: ClassVar[str] = (
+    rule = "seabed_planes"
+    facts = Facts(extension=True, computed_in="shapes-of-the-seabed")
+    summary = "A seabed of several plane surfaces: the highest one at a place holds (extension)."
+    example = (
         "*SEABED PLANES\n PLANE=shelf\n POINT=0.0, 0.0, 0.0\n SLOPE=0.0\n"
         " PLANE=slope\n POINT=0.0, 200.0, 0.0\n SLOPE=5.0, DIRECTION=0.0\n BOUNDS=200.0, 900.0, -500.0, 500.0\n"
     )

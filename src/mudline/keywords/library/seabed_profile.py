@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from mudline.keywords.facts import Facts, Names
 from mudline.keywords.model import Block, setting
-from mudline.keywords.values import Name, Real
+from mudline.keywords.values import Facts, Name, Names, Real
 
 _SETTINGS = ("INTERPOLATION", "SLOPE", "FILE")
 _NEEDS = {"SLOPING": ("SLOPE",), "2D": ("FILE",), "3D": ("FILE",)}
@@ -19,11 +18,10 @@ _CUBIC = {"2D": ("CUBIC SPLINE", "CUBIC BESSEL"), "3D": ("CUBIC",)}
 class SeabedProfile(Block):
     """A slope, or a profile from a file."""
 
-    rule: ClassVar[str] = "seabed_profile"
-    names: ClassVar[tuple[str, ...]] = ("SEABED PROFILE",)
-    facts: ClassVar[Facts] = Facts(supersedes=True, computed_in="shapes-of-the-seabed")
-    summary: ClassVar[str] = "A seabed that is not flat: a uniform slope, or a profile from a file; without it X = 0."
-    example: ClassVar[str] = "*SEABED PROFILE\n TYPE=SLOPING\n DIRECTION=30.0\n SLOPE=2.5\n"
+    rule = "seabed_profile"
+    facts = Facts(supersedes=True, computed_in="shapes-of-the-seabed")
+    summary = "A seabed that is not flat: a uniform slope, or a profile from a file; without it X = 0."
+    example = "*SEABED PROFILE\n TYPE=SLOPING\n DIRECTION=30.0\n SLOPE=2.5\n"
 
     keyword: Literal["SEABED PROFILE"] = "SEABED PROFILE"
     type_: Annotated[

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
 from mudline.keywords.common import CONSTANT_FRICTION, NO_SET, SUCTION_STIFFNESS
-from mudline.keywords.facts import Facts, Names
 from mudline.keywords.model import Block, Record, Row, about, setting
-from mudline.keywords.values import Name, Real, RealOrName
+from mudline.keywords.values import Facts, Name, Names, Real, RealOrName
 
 _RANGE = "it is above 0, as friction divides by it; the manual gives no range"
 _MODAL = "the unit, which the manual does not give: that of the linear stiffness"
@@ -59,7 +58,7 @@ class SeabedSuction(Row):
 class SeabedSet(Record):
     """What one SET= gets, taken whole."""
 
-    rule: ClassVar[str] = "seabed_set"
+    rule = "seabed_set"
     set_name: Annotated[Name | None, setting("SET", "element set", default="ALL", inferred=NO_SET, names=Names.SET)] = (
         Field(default=None, alias="set")
     )
@@ -83,15 +82,10 @@ class SeabedSet(Record):
 class SeabedProperties(Block):
     """Seabed contact by set."""
 
-    rule: ClassVar[str] = "seabed_properties"
-    names: ClassVar[tuple[str, ...]] = ("SEABED PROPERTIES",)
-    facts: ClassVar[Facts] = Facts(supersedes=True, later_wins=True, carried=("type_",), computed_in="normal-laws")
-    summary: ClassVar[str] = (
-        "Rigid or elastic seabed; stiffness, friction, lateral resistance and suction by element set."
-    )
-    example: ClassVar[str] = (
-        "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=50000.0\n FRICTION=0.3, 0.5, 0.03, 0.05\n"
-    )
+    rule = "seabed_properties"
+    facts = Facts(supersedes=True, later_wins=True, carried=("type_",), computed_in="normal-laws")
+    summary = "Rigid or elastic seabed; stiffness, friction, lateral resistance and suction by element set."
+    example = "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=50000.0\n FRICTION=0.3, 0.5, 0.03, 0.05\n"
 
     keyword: Literal["SEABED PROPERTIES"] = "SEABED PROPERTIES"
     type_: Annotated[

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
 from mudline.keywords.common import POINTS, CurvePoint
-from mudline.keywords.facts import Facts
 from mudline.keywords.model import Block, Record, rows, setting
 from mudline.keywords.table import Table
-from mudline.keywords.values import Name
+from mudline.keywords.values import Facts, Name
 
 
 class StiffnessCurve(Record):
     """A curve."""
 
-    rule: ClassVar[str] = "stiffness_curve"
+    rule = "stiffness_curve"
     name: Annotated[Name, setting("CURVE", "curve name, used by STIFFNESS= of *SEABED PROPERTIES")]
     points: Annotated[Table, rows(CurvePoint, POINTS, unordered=True)]
 
@@ -22,12 +21,11 @@ class StiffnessCurve(Record):
 class SeabedStiffness(Block):
     """Force-embedment curves."""
 
-    rule: ClassVar[str] = "seabed_stiffness"
-    names: ClassVar[tuple[str, ...]] = ("SEABED STIFFNESS",)
-    facts: ClassVar[Facts] = Facts(supersedes=True, defines="curves", computed_in="normal-laws")
-    summary: ClassVar[str] = "Force-embedment curves of an elastic seabed, by name."
-    tabular: ClassVar[bool] = True
-    example: ClassVar[str] = "*SEABED STIFFNESS\n CURVE=clay\n 0.0, 0.0\n 0.1, 1200.0\n 0.5, 10000.0\n"
+    rule = "seabed_stiffness"
+    facts = Facts(supersedes=True, defines="curves", computed_in="normal-laws")
+    summary = "Force-embedment curves of an elastic seabed, by name."
+    tabular = True
+    example = "*SEABED STIFFNESS\n CURVE=clay\n 0.0, 0.0\n 0.1, 1200.0\n 0.5, 10000.0\n"
 
     keyword: Literal["SEABED STIFFNESS"] = "SEABED STIFFNESS"
     curves: list[StiffnessCurve] = []

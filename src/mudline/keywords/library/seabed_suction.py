@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mudline.keywords.facts import Facts, Names
 from mudline.keywords.model import Block, Record, Row, about, setting
-from mudline.keywords.values import Name, Real
+from mudline.keywords.values import Facts, Name, Names, Real
 
 
 class MaximumForce(Row):
@@ -47,7 +46,7 @@ class CyclicLoading(Row):
 class SuctionSet(Record):
     """What one SET= gets, taken whole."""
 
-    rule: ClassVar[str] = "suction_set"
+    rule = "suction_set"
     set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
     cohesion: Annotated[
         Real | None,
@@ -87,11 +86,10 @@ class SuctionSet(Record):
 class SeabedSuction(Block):
     """Suction by set."""
 
-    rule: ClassVar[str] = "seabed_suction"
-    names: ClassVar[tuple[str, ...]] = ("SEABED SUCTION",)
-    facts: ClassVar[Facts] = Facts(extension=True, later_wins=True, computed_in="suction")
-    summary: ClassVar[str] = "Resistance of the seabed to uplift, with mobilisation, plateau and breakout (extension)."
-    example: ClassVar[str] = "*SEABED SUCTION\n SET=ALL\n COHESION=5000.0\n CUTOFF=0.2, 0.8\n"
+    rule = "seabed_suction"
+    facts = Facts(extension=True, later_wins=True, computed_in="suction")
+    summary = "Resistance of the seabed to uplift, with mobilisation, plateau and breakout (extension)."
+    example = "*SEABED SUCTION\n SET=ALL\n COHESION=5000.0\n CUTOFF=0.2, 0.8\n"
 
     keyword: Literal["SEABED SUCTION"] = "SEABED SUCTION"
     sets: list[SuctionSet] = []

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field, ValidationInfo, field_validator
 
-from mudline.keywords.facts import Facts, Names
 from mudline.keywords.model import Block, Record, Row, about, rows, setting
 from mudline.keywords.table import Table
-from mudline.keywords.values import Name, Real
+from mudline.keywords.values import Facts, Name, Names, Real
 
 
 class TrenchGeometry(Row):
@@ -39,7 +38,7 @@ class Centreline(Row):
 class TrenchSet(Record):
     """What one SET= gets, taken whole."""
 
-    rule: ClassVar[str] = "trench_set"
+    rule = "trench_set"
     set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
     geometry: Annotated[TrenchGeometry, setting("GEOMETRY", "depth and widths of the trench")]
     model: Annotated[
@@ -88,12 +87,11 @@ class TrenchSet(Record):
 class SeabedTrench(Block):
     """Trenches by set."""
 
-    rule: ClassVar[str] = "seabed_trench"
-    names: ClassVar[tuple[str, ...]] = ("SEABED TRENCH",)
-    facts: ClassVar[Facts] = Facts(extension=True, later_wins=True, computed_in="trenches")
-    tabular: ClassVar[bool] = True
-    summary: ClassVar[str] = "Lateral resistance of the walls of a trench, by element set (extension)."
-    example: ClassVar[str] = "*SEABED TRENCH\n SET=ALL\n GEOMETRY=0.5, 1.0, 3.0\n PEAK=2000.0\n CENTRELINE=LAID\n"
+    rule = "seabed_trench"
+    facts = Facts(extension=True, later_wins=True, computed_in="trenches")
+    tabular = True
+    summary = "Lateral resistance of the walls of a trench, by element set (extension)."
+    example = "*SEABED TRENCH\n SET=ALL\n GEOMETRY=0.5, 1.0, 3.0\n PEAK=2000.0\n CENTRELINE=LAID\n"
 
     keyword: Literal["SEABED TRENCH"] = "SEABED TRENCH"
     sets: list[TrenchSet] = []

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mudline.keywords.facts import Facts, Names
 from mudline.keywords.model import Block, Record, setting
-from mudline.keywords.values import Name, Real
+from mudline.keywords.values import Facts, Name, Names, Real
 
 
 class UnloadingSet(Record):
     """What one SET= gets."""
 
-    rule: ClassVar[str] = "unloading_set"
+    rule = "unloading_set"
     set_name: Annotated[Name, setting("SET", "element set", names=Names.SET)] = Field(alias="set")
     stiffness: Annotated[
         Real,
@@ -25,13 +24,10 @@ class UnloadingSet(Record):
 class SeabedUnloading(Block):
     """Unloading stiffness by set."""
 
-    rule: ClassVar[str] = "seabed_unloading"
-    names: ClassVar[tuple[str, ...]] = ("SEABED UNLOADING",)
-    facts: ClassVar[Facts] = Facts(extension=True, later_wins=True, computed_in="unloading")
-    summary: ClassVar[str] = (
-        "The full cycle of penetration, unloading and re-penetration: stiffness on reversal (extension)."
-    )
-    example: ClassVar[str] = "*SEABED UNLOADING\n SET=ALL\n STIFFNESS=500000.0\n"
+    rule = "seabed_unloading"
+    facts = Facts(extension=True, later_wins=True, computed_in="unloading")
+    summary = "The full cycle of penetration, unloading and re-penetration: stiffness on reversal (extension)."
+    example = "*SEABED UNLOADING\n SET=ALL\n STIFFNESS=500000.0\n"
 
     keyword: Literal["SEABED UNLOADING"] = "SEABED UNLOADING"
     sets: list[UnloadingSet] = []

@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mudline.diagnostics import Code
-from mudline.keywords.facts import Facts, Names
+from mudline.keywords.common import OTHER_SOIL_FORMS, CurvesFile, SoilCurves
 from mudline.keywords.model import Block, Record, setting
-from mudline.keywords.soil import OTHER_FORMS, CurvesFile, SoilCurves
-from mudline.keywords.values import Name
+from mudline.keywords.values import Facts, Name, Names
 
 
 class AxialSprings(Record):
     """The curves of a set."""
 
-    rule: ClassVar[str] = "axial_springs"
+    rule = "axial_springs"
     set_name: Annotated[Name | None, setting("SET", "element set that the curves hold for", names=Names.SET)] = Field(
         default=None, alias="set"
     )
@@ -27,17 +25,12 @@ class AxialSprings(Record):
 class AxialSoil(Block):
     """Axial soil springs."""
 
-    rule: ClassVar[str] = "t_z"
-    names: ClassVar[tuple[str, ...]] = ("T-Z",)
-    facts: ClassVar[Facts] = Facts(soil_springs=True)
-    summary: ClassVar[str] = (
-        "Axial soil springs by set and depth: points of resistance T and displacement z, resistance first."
-    )
-    tabular: ClassVar[bool] = True
-    unpublished: ClassVar[tuple[Code, ...]] = OTHER_FORMS
-    example: ClassVar[str] = (
-        "*T-Z\n SET=Conductor\n DEPTH=0.0\n 0.0, 0.0\n 1500.0, 0.005\n DEPTH=10.0\n 0.0, 0.0\n 12000.0, 0.005\n"
-    )
+    rule = "t_z"
+    facts = Facts(soil_springs=True)
+    summary = "Axial soil springs by set and depth: points of resistance T and displacement z, resistance first."
+    tabular = True
+    unpublished = OTHER_SOIL_FORMS
+    example = "*T-Z\n SET=Conductor\n DEPTH=0.0\n 0.0, 0.0\n 1500.0, 0.005\n DEPTH=10.0\n 0.0, 0.0\n 12000.0, 0.005\n"
 
     keyword: Literal["T-Z"] = "T-Z"
     sets: list[AxialSprings] = []

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from typing import Annotated, ClassVar, Literal, cast
+from typing import Annotated, Literal, cast
 
 from mudline.codes.lines import SYN001, SYN004, SYN005
 from mudline.diagnostics import Code
@@ -16,13 +16,10 @@ _SEEN = "seen in decks of a related program; a block of another form is passed t
 class TimeSpan(Block):
     """A span of time with a fixed step."""
 
-    rule: ClassVar[str] = "time"
-    names: ClassVar[tuple[str, ...]] = ("TIME",)
-    sections: ClassVar[tuple[str, ...]] = ("LOAD CASE",)
-    summary: ClassVar[str] = (
-        "Start and end of a load case in time, and its step; only the form with a fixed step is read."
-    )
-    example: ClassVar[str] = "*TIME\n STEP=FIXED\n 0.0, 120.0, 0.05, 24.0\n"
+    rule = "time"
+    sections = ("LOAD CASE",)
+    summary = "Start and end of a load case in time, and its step; only the form with a fixed step is read."
+    example = "*TIME\n STEP=FIXED\n 0.0, 120.0, 0.05, 24.0\n"
 
     keyword: Literal["TIME"] = "TIME"
     step: Annotated[Literal["FIXED"], setting("STEP", "how time advances", inferred=_SEEN)]

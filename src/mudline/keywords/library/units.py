@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
 from mudline.keywords.model import Block, setting
 
@@ -10,11 +10,10 @@ from mudline.keywords.model import Block, setting
 class Units(Block):
     """The unit system."""
 
-    rule: ClassVar[str] = "units"
-    names: ClassVar[tuple[str, ...]] = ("UNITS",)
-    sections: ClassVar[tuple[str, ...]] = ("ANALYSIS",)
-    summary: ClassVar[str] = "The unit system of a deck (sister dialect)."
-    example: ClassVar[str] = "*UNITS\n UNITS=METRIC\n"
+    rule = "units"
+    sections = ("ANALYSIS",)
+    summary = "The unit system of a deck (sister dialect)."
+    example = "*UNITS\n UNITS=METRIC\n"
 
     keyword: Literal["UNITS"] = "UNITS"
     units: Annotated[

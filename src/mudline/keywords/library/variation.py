@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Literal
 
 from pydantic import model_validator
 
-from mudline.keywords.facts import Facts, Names
 from mudline.keywords.model import Block, ListRow, Record, about, setting
-from mudline.keywords.values import Name, Real
+from mudline.keywords.values import Facts, Name, Names, Real
 
 
 class ValueRange(ListRow):
@@ -22,7 +21,7 @@ class ValueRange(ListRow):
 class VariedParameter(Record):
     """A parameter with its values: a list, or a range of numbers."""
 
-    rule: ClassVar[str] = "varied_parameter"
+    rule = "varied_parameter"
     parameter: Annotated[
         Name,
         setting(
@@ -49,7 +48,7 @@ class VariedParameter(Record):
 class VariedBlock(Record):
     """A block that is put into the deck, or taken out of it."""
 
-    rule: ClassVar[str] = "varied_block"
+    rule = "varied_block"
     action: Annotated[
         Literal["ADD", "REMOVE"],
         setting("ACTION", "what is done with the block", inferred="in every case of the variation"),
@@ -78,7 +77,7 @@ class VariedBlock(Record):
 class NamedVariation(Record):
     """A variation."""
 
-    rule: ClassVar[str] = "named_variation"
+    rule = "named_variation"
     name: Annotated[Name, setting("NAME", "name, by which *COMBINATIONS calls the variation")]
     parameters: list[VariedParameter] = []
     blocks: list[VariedBlock] = []
@@ -87,12 +86,11 @@ class NamedVariation(Record):
 class Variation(Block):
     """Variations."""
 
-    rule: ClassVar[str] = "variation"
-    names: ClassVar[tuple[str, ...]] = ("VARIATION",)
-    sections: ClassVar[tuple[str, ...]] = ("PREPROCESSOR",)
-    facts: ClassVar[Facts] = Facts(plans_decks=True)
-    summary: ClassVar[str] = "What varies from deck to deck: values of parameters, blocks that come and go."
-    example: ClassVar[str] = (
+    rule = "variation"
+    sections = ("PREPROCESSOR",)
+    facts = Facts(plans_decks=True)
+    summary = "What varies from deck to deck: values of parameters, blocks that come and go."
+    example = (
         "*VARIATION\n NAME=Soil\n PARA=su, VALUE=2.0, 5.0, 8.0\n PARA=case, GEN=1, 3\n"
         " NAME=Smooth\n ACTION=REMOVE, KEYWORD=FRICTION, SECTION=LOAD CASE\n"
     )

@@ -11,8 +11,7 @@ from mudline.deck.parameters import folded
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.linting.rule import LintContext, rule
 from mudline.scene.deck_values import surfaces
-from mudline.scene.extensions import Extension
-from mudline.scene.laws import typed_blocks
+from mudline.scene.laws import Extension, typed_blocks
 from mudline.scene.sets import ALL
 
 SBD007 = Code("SBD007", "lateral-and-friction", Severity.WARNING)

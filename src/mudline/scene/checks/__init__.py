@@ -3,3 +3,63 @@
 What reading and resolving notice on their way needs no function and is declared in `mudline.codes`.
 All modules in here are imported.
 """
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
+from functools import cache
+from itertools import islice
+from typing import TYPE_CHECKING
+
+from mudline.diagnostics import MORE, MOST_REPORTED, Code, Problem
+from mudline.resources import modules_of
+
+if TYPE_CHECKING:
+    from mudline.scene.resolved import ResolvedDeck
+
+
+Find = Callable[["ResolvedDeck"], Iterable[Problem]]
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """A function that finds problems of a code in a scene; each says whether it keeps the deck from being evaluated.
+
+    The page is the docstring of the function, unless the code has one.
+    """
+
+    code: Code
+    find: Find
+
+
+CHECKS: list[Check] = []
+"""Those of the modules that were imported."""
+
+
+def check(code: Code) -> Callable[[Find], Find]:
+    """Declare a function as a check; for the form of its docstring see `mudline.linting.registry.rule`."""
+
+    def declare(find: Find) -> Find:
+        CHECKS.append(Check(code, find))
+        return find
+
+    return declare
+
+
+@cache
+def all_checks() -> tuple[Check, ...]:
+    """Every check of a scene: what the modules of this package declare."""
+    modules_of("mudline.scene.checks")
+    return tuple(CHECKS)
+
+
+def checked(scene: ResolvedDeck) -> list[Problem]:
+    """What all checks find."""
+    return [problem for check in all_checks() for problem in _first(check, scene)]
+
+
+def _first(check: Check, scene: ResolvedDeck) -> Iterator[Problem]:
+    """What a check finds, without the rest where it is very much."""
+    for count, problem in enumerate(islice(check.find(scene), MOST_REPORTED + 1)):
+        yield problem if count < MOST_REPORTED else replace(problem, message=MORE)

@@ -9,7 +9,7 @@ import numpy as np
 
 from mudline.contact.input import LawKind
 from mudline.diagnostics import Blocks, Code, Problem, Severity
-from mudline.scene.checks.declaring import check
+from mudline.scene.checks import check
 from mudline.scene.checks.laws import lacks_diameter
 from mudline.scene.deck_values import number
 from mudline.scene.numbering import Mask

@@ -1,23 +1,28 @@
-"""Values and files that fields give: ranges that their declarations give, files that are not there."""
+"""Values, files and sections that no deck should have: ranges of fields, missing files, pipes without a wall."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
+
+import numpy as np
 
 from mudline.codes.references import REF015
 from mudline.deck.model import Deck
 from mudline.deck.parameters import Parameters
-from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
-from mudline.keywords.facts import Names
+from mudline.diagnostics import MOST_REPORTED, Blocks, Code, Problem, Severity, Where
+from mudline.keywords.catalogue import ZERO_LENGTH
 from mudline.keywords.model import Block, ListRow, Part, Rows, Slot, layout, names_given
 from mudline.keywords.table import Table
 from mudline.keywords.text import shown
-from mudline.scene.checks.declaring import check
+from mudline.keywords.values import Names
+from mudline.scene.checks import check
 from mudline.scene.deck_values import file_name, find_file
+from mudline.scene.sections import format_of
 
 if TYPE_CHECKING:
+    from mudline.keywords.library.geometric_sets import GeometricSets
     from mudline.scene.resolved import ResolvedDeck
 
 
@@ -150,3 +155,77 @@ def _files(deck: Deck) -> Iterator[tuple[Where, str]]:
         for j, block in enumerate(section.blocks):
             if isinstance(block, Block):
                 yield from ((Where(i, j, path), name) for path, name in names_given(block, Names.FILE) if name)
+
+
+GEO001 = Code("GEO001", "inner-exceeds-outer", Severity.ERROR)
+GEO004 = Code("GEO004", "zero-length-element", Severity.ERROR)
+
+
+@check(GEO001)
+def inner_exceeds_outer(scene: ResolvedDeck) -> Iterator[Problem]:
+    """The internal diameter of a section is not smaller than its external diameter.
+
+    The pipe has no wall: its mass and stiffness would be zero or negative. The two fields are exchanged, or the wall
+    thickness was subtracted from the wrong one. Correct Do or Di.
+
+    Example:
+         $MODEL
+         *GEOMETRIC SETS
+          OPTION=RIGID
+          SET=ALL
+        - 207.0E9, 79.6E9, 0.2889, 0.3239, 7850.0
+        + 207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0
+
+    Finds: 5:27
+    """
+    for where, block in scene.deck.blocks("GEOMETRIC SETS"):
+        for index, entry in enumerate(cast("GeometricSets", block).sets):
+            outer, inner = (getattr(entry.section, name, None) for name in ("do", "di"))
+            if isinstance(outer, int | float) and isinstance(inner, int | float) and inner >= outer > 0:
+                message = (
+                    f"internal diameter {inner!r} is not smaller than the external diameter {outer!r}: correct one"
+                )
+                yield Problem(GEO001, message, where=where.inside("sets", index, format_of(entry), "Di"))
+
+
+@check(GEO004)
+def zero_length_element(scene: ResolvedDeck) -> Iterator[Problem]:
+    """The two nodes of an element lie at one place.
+
+    The element has no length and no direction, so it has neither a stiffness nor a share of the seabed. A node was
+    copied without changing its coordinates, or two parts that meet have a node each. Correct the node, or join the
+    parts at one node. In a model with flex joints, hinges, springs or dampers, which may have no length, this is a
+    warning.
+
+    Example:
+         $MODEL
+         *NODE
+          1, 12.0, 0.0
+          2, 12.0, 10.0
+        - 3, 12.0, 10.0
+        + 3, 12.0, 15.0
+          4, 12.0, 20.0
+         *ELEMENT
+          1, 1, 2
+          2, 2, 3
+          3, 3, 4
+
+    Finds: 9:2
+    """
+    known = np.flatnonzero((scene.element_nodes >= 0).all(axis=1) & ~(scene.length > 0.0))
+    first, second = scene.element_nodes[known].T
+    same = known[(scene.coordinates[first] == scene.coordinates[second]).all(axis=1)]
+    if not same.size:
+        return
+    joints = scene.deck.keywords().intersection(ZERO_LENGTH)
+    hint = f", or keep it if *{min(joints)} makes it one without length" if joints else ""
+    reported: set[Where] = set()
+    for index in same[: MOST_REPORTED + 1].tolist():
+        where = scene.table.numbered.where(index)
+        if where in reported:
+            continue  # others of the same GEN=
+        reported.add(where)
+        one, other = scene.node_ids[scene.element_nodes[index]].tolist()
+        nodes = f"both its ends are node {one}" if one == other else f"nodes {one} and {other} lie at one place"
+        message = f"element {scene.element_ids[index]} has no length, {nodes}: correct it{hint}"
+        yield Problem(GEO004, message, None, Severity.WARNING if joints else None, where)

@@ -11,9 +11,9 @@ import numpy as np
 from mudline.contact.input import LawKind
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
-from mudline.keywords.facts import Names
 from mudline.keywords.text import advice_on, shown
-from mudline.scene.checks.declaring import check
+from mudline.keywords.values import Names
+from mudline.scene.checks import check
 from mudline.scene.laws import NOTHING, typed_blocks
 from mudline.scene.references import given_names
 
@@ -294,8 +294,7 @@ def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
     for _, where, name in given_names(scene.deck, Names.CURVE):
         if folded(name) in names:
             continue
-        near = scene.context.near(name, names)
-        hint = f" (did you mean {names[near]}?)" if near else ""
+        hint = scene.context.hint(name, names)
         advice = advice_on(name) or "*SEABED STIFFNESS has no such curve"
         problem = scene.context.missing(
             REF002, f"curve {shown(name)} is not defined{hint}: {advice}", where, "SEABED STIFFNESS"

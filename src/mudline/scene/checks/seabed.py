@@ -11,7 +11,7 @@ import numpy as np
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Blocks, Code, Problem, Severity
 from mudline.keywords.text import shown
-from mudline.scene.checks.declaring import check
+from mudline.scene.checks import check
 from mudline.scene.checks.fields import missing_file
 from mudline.scene.deck_values import file_name, number, surfaces
 from mudline.scene.seabed import COMPILED, SeabedKind

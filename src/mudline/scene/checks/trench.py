@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 
 from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
-from mudline.scene.checks.declaring import check
+from mudline.scene.checks import check
 from mudline.scene.deck_values import number
 from mudline.scene.numbering import Floats, Mask, marked
 
