@@ -13,7 +13,7 @@ from mudline.keywords import catalogue
 from mudline.keywords.library.geometric_sets import GeometricSet
 from mudline.keywords.library.seabed_profile import SeabedProfile
 from mudline.keywords.library.variation import VariedParameter
-from mudline.keywords.model import Block, ListRow, Record, Row, Slot, layout
+from mudline.keywords.model import Block, FieldSpec, ListRow, Record, Row, record_schema
 from mudline.keywords.values import Kind
 from mudline.syntax.rows import spells_number
 from tests.builders.spellings import EQUATIONS, NAMES, labels, no_head, texts
@@ -93,7 +93,7 @@ BY_KIND: dict[Kind, st.SearchStrategy[object]] = {
 # ----------------------------------------------------------------------------------------------------------------- rows
 
 
-def cell(slot: Slot) -> st.SearchStrategy[Any]:
+def cell(slot: FieldSpec) -> st.SearchStrategy[Any]:
     """One value of a field: a choice, a value of its kind, or a row."""
     options: list[st.SearchStrategy[Any]] = [st.sampled_from(slot.choices)] if slot.choices else []
     options += [BY_KIND[slot.kind]] if slot.kind else []
@@ -103,7 +103,7 @@ def cell(slot: Slot) -> st.SearchStrategy[Any]:
 
 
 @st.composite
-def line(draw: st.DrawFn, columns: list[Slot]) -> Values:
+def line(draw: st.DrawFn, columns: list[FieldSpec]) -> Values:
     """Fields of a line, those at its end left out, those that may be empty sometimes None."""
     fewest = max((index + 1 for index, slot in enumerate(columns) if slot.required), default=0)
     count = draw(st.integers(fewest, len(columns)))
@@ -115,14 +115,14 @@ def line(draw: st.DrawFn, columns: list[Slot]) -> Values:
 
 def row(part: type[Row]) -> st.SearchStrategy[Any]:
     """A row: an object, or a list where the declaration says so."""
-    values = line(layout(part).columns)
+    values = line(record_schema(part).columns)
     return values.map(lambda given: list(given.values())) if issubclass(part, ListRow) else values
 
 
-def table(slot: Slot, fewest: int) -> st.SearchStrategy[list[list[Any]]]:
+def table(slot: FieldSpec, fewest: int) -> st.SearchStrategy[list[list[Any]]]:
     """Rows of a table; the same few of them many times over make a long one."""
     assert slot.row is not None
-    cells = line(layout(slot.row).columns).map(lambda given: list(given.values()))
+    cells = line(record_schema(slot.row).columns).map(lambda given: list(given.values()))
     rows = st.lists(cells, min_size=fewest, max_size=4)
     return st.tuples(rows, st.sampled_from([1, 1, 1, 12])).map(lambda pair: pair[0] * pair[1])
 
@@ -130,8 +130,8 @@ def table(slot: Slot, fewest: int) -> st.SearchStrategy[list[list[Any]]]:
 # -------------------------------------------------------------------------------------------------------------- records
 
 
-def _slots(part: type[GeometricSet | SeabedProfile | VariedParameter]) -> dict[str, Slot]:
-    return {slot.json: slot for slot in layout(part).slots}
+def _slots(part: type[GeometricSet | SeabedProfile | VariedParameter]) -> dict[str, FieldSpec]:
+    return {slot.json: slot for slot in record_schema(part).slots}
 
 
 @st.composite
@@ -179,7 +179,7 @@ ARRANGED: dict[str, Callable[[Values], st.SearchStrategy[Values]]] = {
 @st.composite
 def record(draw: st.DrawFn, part: type[Record], index: int = 0) -> Values:
     """The values of a record, or of a whole block; `index` is its place among its siblings."""
-    found = layout(part)
+    found = record_schema(part)
     first = found.slots[0]
     plain = [slot for slot in found.columns if not slot.row and not slot.many]
     own_line = plain if len(plain) == len(found.columns) else []
@@ -209,7 +209,7 @@ def records(draw: st.DrawFn, kinds: list[type[Record]]) -> list[Values]:
     last: type[Record] | None = None
     for _ in range(draw(st.integers(0, 3))):
         kind = draw(st.sampled_from(kinds))
-        if kind is not last or layout(kind).slots[0] is not layout(kind).table:
+        if kind is not last or record_schema(kind).slots[0] is not record_schema(kind).table:
             made.append(draw(record(kind, len(made))))
             last = kind
     return made

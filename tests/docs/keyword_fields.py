@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 
-from mudline.keywords.model import About, Block, ListRow, Part, Row, Rows, Slot, layout
+from mudline.keywords.model import Block, FieldInfo, FieldSpec, ListRow, Part, Row, Rows, record_schema
 from tests.docs.keyword_format import TAKES
 from tests.docs.marking import marked
 
@@ -27,9 +27,9 @@ def inferences(block: type[Block]) -> list[str]:
     return [f"{', '.join(labels)}: {marked(text)}" for text, labels in found.items()]
 
 
-def _all_slots(part: type[Part], holder: str) -> Iterator[tuple[str, Slot]]:
+def _all_slots(part: type[Part], holder: str) -> Iterator[tuple[str, FieldSpec]]:
     """Every field with its name; one of the values of a setting says of which."""
-    for slot in layout(part).slots:
+    for slot in record_schema(part).slots:
         yield f"`{slot.label}`{holder}", slot
         if row := _row_of(slot):
             yield from _all_slots(row, f" of `{slot.label}`" if slot.key else "")
@@ -37,12 +37,12 @@ def _all_slots(part: type[Part], holder: str) -> Iterator[tuple[str, Slot]]:
             yield from _all_slots(record, "")
 
 
-def _row_of(slot: Slot) -> type[Row] | None:
+def _row_of(slot: FieldSpec) -> type[Row] | None:
     return slot.about.row if isinstance(slot.about, Rows) else slot.row
 
 
 def _tables(parts: Sequence[type[Part]], path: str) -> Iterator[tuple[str, list[str]]]:
-    slots = [slot for part in parts for slot in layout(part).slots]
+    slots = [slot for part in parts for slot in record_schema(part).slots]
     caption = f"In each of `{path}`{', one of' if len(parts) > 1 else ''}:" if path else ""
     if own := [slot for slot in slots if not slot.record]:
         yield caption, list(_fields(own))
@@ -50,17 +50,17 @@ def _tables(parts: Sequence[type[Part]], path: str) -> Iterator[tuple[str, list[
         name = f"{slot.key}=" if slot.key else slot.json
         row = _row_of(slot)
         if row and isinstance(slot.about, Rows):
-            yield f"A row of `{name}`, a list in JSON:", list(_fields(layout(row).slots, named=False))
+            yield f"A row of `{name}`, a list in JSON:", list(_fields(record_schema(row).slots, named=False))
         elif row and issubclass(row, ListRow):
-            yield f"The values of `{name}`, a list in JSON:", list(_fields(layout(row).slots, named=False))
+            yield f"The values of `{name}`, a list in JSON:", list(_fields(record_schema(row).slots, named=False))
         elif row:
-            yield f"The values of `{name}`:", list(_fields(layout(row).slots))
+            yield f"The values of `{name}`:", list(_fields(record_schema(row).slots))
     for slot in slots:
         if slot.record:
             yield from _tables(list(slot.record.values()), slot.json)
 
 
-def _fields(slots: Iterable[Slot], *, named: bool = True) -> Iterator[str]:
+def _fields(slots: Iterable[FieldSpec], *, named: bool = True) -> Iterator[str]:
     columns = ("field", *(("in JSON",) if named else ()), "takes", "unit", "default", "range", "meaning")
     yield f"| {' | '.join(columns)} |"
     yield "|" + " --- |" * len(columns)
@@ -71,18 +71,18 @@ def _fields(slots: Iterable[Slot], *, named: bool = True) -> Iterator[str]:
         yield f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |"
 
 
-def _takes(slot: Slot) -> str:
+def _takes(slot: FieldSpec) -> str:
     if isinstance(slot.about, Rows):
         return "rows, below"
     taken = [*([TAKES[slot.kind]] if slot.kind else []), *slot.choices, *(["values, below"] if slot.row else [])]
     return ("one or more of " if slot.many else "") + ", ".join(taken)
 
 
-def _meaning(about: About) -> str:
+def _meaning(about: FieldInfo) -> str:
     return marked(about.meaning) + (" ([inferred](#certain-and-inferred))" if about.inferred else "")
 
 
-def _range(about: About) -> str:
+def _range(about: FieldInfo) -> str:
     if about.above is not None:
         return f"> {about.above:g}"
     if about.at_most is not None:

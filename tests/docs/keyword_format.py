@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mudline.keywords.model import Block, Layout, Part, Rows, Setting, Slot, layout, row_format
+from mudline.keywords.model import Block, FieldSpec, Part, RecordSchema, Rows, Setting, record_schema, row_format
 from mudline.keywords.values import Kind
 
 TAKES = {
@@ -23,7 +23,7 @@ def format_lines(block: type[Block]) -> list[str]:
 def _lines(part: type[Part], depth: int) -> list[str]:
     """The lines of a part in the order in which they are written."""
     lines: list[str] = []
-    found = layout(part)
+    found = record_schema(part)
     for slot in found.slots:
         if isinstance(slot.about, Setting) and slot.about.inline:
             lines[-1] += f", {_setting(slot)}" if slot.required else f" [, {_setting(slot)}]"
@@ -36,15 +36,15 @@ def _lines(part: type[Part], depth: int) -> list[str]:
     return lines
 
 
-def _line(slot: Slot, found: Layout) -> str:
+def _line(slot: FieldSpec, found: RecordSchema) -> str:
     """The line of one field; "" for a field that another one's line holds."""
     if isinstance(slot.about, Rows) and slot.about.row:
-        return _optional(slot, layout(slot.about.row).wanted) + " ..."
+        return _optional(slot, record_schema(slot.about.row).wanted) + " ..."
     if slot.key:
         return _optional(slot, _setting(slot))
     if slot.row:
         alternatives = [other for other in found.columns if other.row and not other.required]
-        return layout(slot.row).wanted + (" |" if slot in alternatives[:-1] else "")
+        return record_schema(slot.row).wanted + (" |" if slot in alternatives[:-1] else "")
     if slot.many:
         return f"{slot.label} [, ...]"
     plain = [other for other in found.columns if not other.row]
@@ -54,15 +54,15 @@ def _line(slot: Slot, found: Layout) -> str:
     return whole if slot is plain[0] else ""
 
 
-def _optional(slot: Slot, text: str) -> str:
+def _optional(slot: FieldSpec, text: str) -> str:
     return text if slot.required else f"[{text}]"
 
 
-def _setting(slot: Slot) -> str:
+def _setting(slot: FieldSpec) -> str:
     taken = [
         *([TAKES[slot.kind]] if slot.kind else []),
         *slot.choices,
-        *([layout(slot.row).wanted] if slot.row else []),
+        *([record_schema(slot.row).wanted] if slot.row else []),
     ]
     value = "|".join(taken)
     return f"{slot.key}={value}" + (" [, ...]" if slot.many else "")

@@ -54,7 +54,9 @@ reading of something that the language leaves open; each page ends with what tha
 
 def keyword_index() -> str:
     """The whole page."""
-    return _PAGE.format(made=MADE, models=_rows(models()), kept=_rows(catalogue.kept()), passing="\n".join(_passing()))
+    return _PAGE.format(
+        made=MADE, models=_rows(models()), kept=_rows(catalogue.opaque_keywords()), passing="\n".join(_passing())
+    )
 
 
 def _rows(declared: Sequence[Declared]) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from mudline.keywords import catalogue
 from mudline.keywords.model import Block
-from mudline.keywords.values import Kept
+from mudline.keywords.values import OpaqueKeyword
 from tests.docs.keyword_fields import inferences, tables
 from tests.docs.keyword_format import format_lines
 from tests.docs.keyword_rules import Declared, keyword_of, rules_of
@@ -61,7 +61,7 @@ def keyword_pages() -> dict[str, str]:
 
 def declarations() -> list[Declared]:
     """Every keyword that a module declares, in the order of the catalogue."""
-    return [*models(), *catalogue.kept()]
+    return [*models(), *catalogue.opaque_keywords()]
 
 
 def models() -> list[type[Block]]:
@@ -86,7 +86,7 @@ def sections_of(declared: Declared) -> str:
 
 def keyword_page(declared: Declared) -> str:
     """The page of one keyword."""
-    parts = _of_kept(declared) if isinstance(declared, Kept) else _of_model(declared)
+    parts = _of_kept(declared) if isinstance(declared, OpaqueKeyword) else _of_model(declared)
     return "\n".join([_head(declared), *parts])
 
 
@@ -108,7 +108,7 @@ def _of_model(block: type[Block]) -> Iterator[str]:
     yield _CERTAIN.format(text=_certain(block))
 
 
-def _of_kept(kept: Kept) -> Iterator[str]:
+def _of_kept(kept: OpaqueKeyword) -> Iterator[str]:
     yield _KEPT
     if kept.name_settings or kept.labels:
         yield "\n".join(["## Names", "", *_names(kept), ""])
@@ -119,7 +119,7 @@ def _of_kept(kept: Kept) -> Iterator[str]:
     yield _CERTAIN.format(text=f"Certain: {marked(kept.certain)}\n\nInferred: {marked(kept.inferred)}")
 
 
-def _names(kept: Kept) -> Iterator[str]:
+def _names(kept: OpaqueKeyword) -> Iterator[str]:
     if kept.name_settings:
         yield from ("| setting | names |", "| --- | --- |")
         yield from (f"| `{key}=` | {what.value} |" for key, what in kept.name_settings.items())

@@ -13,12 +13,12 @@ from functools import cache
 
 from mudline.keywords import catalogue
 from mudline.keywords.model import Block
-from mudline.keywords.values import Kept
+from mudline.keywords.values import OpaqueKeyword
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import rules
 from mudline.linting.rule import Rule
 
-Declared = type[Block] | Kept
+Declared = type[Block] | OpaqueKeyword
 
 _NUMBER = re.compile(r"(?<![\w.])\d+(?:\.\d*)?(?:E\d+)?(?![\w.])")
 _LAST = re.compile(rf"{_NUMBER.pattern}$", re.MULTILINE)
@@ -27,7 +27,7 @@ _ALL = re.compile(r"=ALL\b")
 
 def keyword_of(declared: Declared) -> str:
     """The name of a keyword."""
-    return declared.keyword if isinstance(declared, Kept) else str(declared.model_fields["keyword"].default)
+    return declared.keyword if isinstance(declared, OpaqueKeyword) else str(declared.model_fields["keyword"].default)
 
 
 def rules_of(declared: Declared) -> list[Rule]:

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from mudline.keywords import catalogue
-from mudline.keywords.values import Kept
+from mudline.keywords.values import OpaqueKeyword
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import rules
 from tests.docs import make
@@ -36,14 +36,14 @@ def test_every_keyword_that_a_module_declares_has_a_page() -> None:
 
 
 def known(section: str, keyword: str) -> bool:
-    return bool(catalogue.block_class(section, keyword) or catalogue.kept_of(section, keyword))
+    return bool(catalogue.block_class(section, keyword) or catalogue.opaque_keyword(section, keyword))
 
 
 @pytest.mark.parametrize("declared", DECLARED, ids=title)
 def test_page_has_all_its_parts(declared: Declared) -> None:
     page = Page(Path("page.md"), keyword_page(declared))
     headings = {"format", "example", "rules", "certain-and-inferred"} | (
-        set() if isinstance(declared, Kept) else {"fields"}
+        set() if isinstance(declared, OpaqueKeyword) else {"fields"}
     )
     assert headings <= page.anchors
     examples = [block.text for block in page.blocks]

@@ -13,7 +13,7 @@ from mudline.formatting.document import Reading, formatted
 from tests.docs.blocks import Page
 
 
-def layout(text: str, encoding: str = "utf-8") -> str:
+def record_schema(text: str, encoding: str = "utf-8") -> str:
     """The formatted text, which formatting again leaves as it is."""
     new = formatted(text.encode(encoding), "deck.keyxm")
     assert formatted(new, "deck.keyxm") == new
@@ -22,7 +22,7 @@ def layout(text: str, encoding: str = "utf-8") -> str:
 
 def model(text: str) -> str:
     """The formatted lines of `$MODEL`."""
-    head, _, body = layout("$MODEL\n" + text).partition("\n")
+    head, _, body = record_schema("$MODEL\n" + text).partition("\n")
     assert head == "$MODEL"
     return body
 
@@ -42,11 +42,11 @@ def same(text: str, expected: str) -> None:
     ],
 )
 def test_sections_and_keywords(text: str, expected: str) -> None:
-    assert layout(text) == expected
+    assert record_schema(text) == expected
 
 
 def test_other_letters_stay_where_their_bytes_could_be_taken_for_others() -> None:
-    assert layout("$model\n * gel\xe4nde \n", "cp1252") == "$MODEL\n* gel\xe4nde\n"
+    assert record_schema("$model\n * gel\xe4nde \n", "cp1252") == "$MODEL\n* gel\xe4nde\n"
 
 
 def test_settings() -> None:
@@ -147,7 +147,7 @@ def test_columns_with_labels() -> None:
 
 def test_columns_of_names_stand_on_the_left() -> None:
     text = "$preprocessor\n*parameters\nod , 0.3239\n vessel x,=[ a, b ]\nC\n list,/X:11, Y:22/\n 7 8\n"
-    assert layout(text) == "$PREPROCESSOR\n" + dedent("""\
+    assert record_schema(text) == "$PREPROCESSOR\n" + dedent("""\
         *PARAMETERS
          od,       0.3239
          vessel x, =[ a, b ]
@@ -217,7 +217,7 @@ def test_commas_behind_the_last_field_go(commas: str) -> None:
     alone = [line for line in TRAILING.splitlines() if line[0] == " " and "=" not in line]
     keyed = [line for line in TRAILING.splitlines() if "GEN=" in line or "SET=" in line or "FRICTION=" in line]
     more = "".join(f"{line}{commas if line in alone + keyed else ''}\n" for line in TRAILING.splitlines())
-    assert layout(more) == layout(TRAILING)
+    assert record_schema(more) == record_schema(TRAILING)
     one, other = (load_bytes(text.encode(), "deck.keyxm") for text in (TRAILING, more))
     assert dump(one, "json") == dump(other, "json")
 
@@ -242,7 +242,7 @@ def test_comments_and_blank_lines() -> None:
 
 
 def test_lines_before_the_first_section() -> None:
-    assert layout("\n\nC title \n\n\n raw  line \t\nCabc\t\n\n$MODEL\n \n\n stray\t1 \n\n\n*OCEAN\n5") == (
+    assert record_schema("\n\nC title \n\n\n raw  line \t\nCabc\t\n\n$MODEL\n \n\n stray\t1 \n\n\n*OCEAN\n5") == (
         "\nC title\n\n raw  line \t\nCabc\t\n\n$MODEL\n\n stray\t1 \n\n*OCEAN\n 5\n"
     )
 
@@ -258,13 +258,13 @@ def test_blocks_without_a_model_keep_their_lines() -> None:
 def test_the_line_end_that_prevails_holds_for_all_lines(end: str) -> None:
     other = "\r\n" if end == "\n" else "\n"
     text = f"$MODEL{end}*NEW{end} a{other} b {end}*ocean{other}5{end}C x{end}"
-    assert layout(text) == end.join(["$MODEL", "*NEW", " a", " b ", "*OCEAN", " 5", "C x", ""])
+    assert record_schema(text) == end.join(["$MODEL", "*NEW", " a", " b ", "*OCEAN", " 5", "C x", ""])
 
 
 def test_nothing_stays_nothing() -> None:
-    assert layout("") == ""
-    assert layout("\n \n\t") == ""
-    assert layout("C") == "C\n"
+    assert record_schema("") == ""
+    assert record_schema("\n \n\t") == ""
+    assert record_schema("C") == "C\n"
 
 
 def test_a_deck_in_canonical_layout_is_the_very_same_object() -> None:
@@ -287,13 +287,13 @@ def test_a_deck_with_an_error_is_refused(text: str) -> None:
 
 def test_a_row_that_no_model_holds_stays_as_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Reading, "kind_at", lambda _reading, _start: None)
-    assert layout("$model\n*ocean\n5  6\n") == "$MODEL\n*OCEAN\n5  6\n"
+    assert record_schema("$model\n*ocean\n5  6\n") == "$MODEL\n*OCEAN\n5  6\n"
 
 
 def test_the_page_shows_what_comes_out() -> None:
     page = Path(__file__).parents[2] / "docs" / "format.md"
     before, after = (block.text for block in Page.read(page).blocks if block.language == "text")
-    assert layout(before) == after
+    assert record_schema(before) == after
 
 
 def test_documents_are_written_as_conversion_writes_them() -> None:

@@ -9,13 +9,13 @@ from hypothesis import strategies as st
 from mudline.formatting.rows import Columns, PlainRows, RowKind, WordRows, word_rows
 from mudline.keywords.library.element import ElementRow
 from mudline.keywords.library.node import NodeRow
-from mudline.keywords.model import Row, layout
+from mudline.keywords.model import Row, record_schema
 from mudline.syntax.rows import read_number
 from tests.builders.spellings import numbers
 
 
 def kind(row: type[Row]) -> RowKind:
-    columns = layout(row).columns
+    columns = record_schema(row).columns
     return RowKind(columns[0], tuple(columns), table=True)
 
 

@@ -8,7 +8,7 @@ import pytest
 
 import mudline
 from mudline.diagnostics import Severity
-from mudline.keywords.catalogue import meant_in, meant_keyword, meant_section
+from mudline.keywords.catalogue import meant_in, meant_section, suggest_keyword
 from tests.builders.scenes import deck_of
 
 TABLE = "$MODEL\n*OCEAN\n 350.0, 1025.0, 9.81\n"
@@ -31,7 +31,7 @@ TABLE = "$MODEL\n*OCEAN\n 350.0, 1025.0, 9.81\n"
     ],
 )
 def test_the_keyword_that_was_meant(written: str, meant: str) -> None:
-    assert meant_keyword(written) == meant
+    assert suggest_keyword(written) == meant
 
 
 @pytest.mark.parametrize(

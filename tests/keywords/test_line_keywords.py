@@ -9,12 +9,12 @@ from hypothesis import strategies as st
 from mudline.deck.loading import dump
 from mudline.deck.model import Opaque
 from mudline.keywords import catalogue
-from mudline.keywords.values import Kept, Names
+from mudline.keywords.values import Names, OpaqueKeyword
 from tests.builders.scenes import deck_of, faults
 from tests.builders.spellings import no_head, texts
 from tests.deck.test_forms import held
 
-KEPT = [kept for kept in catalogue.kept() if kept.sections == ("MODEL",)]
+OPAQUE = [kept for kept in catalogue.opaque_keywords() if kept.sections == ("MODEL",)]
 MODELLED = ("line_section_groups", "line_path_sections")
 
 GROUPS = """\
@@ -137,11 +137,11 @@ def test_blocks_with_faults_keep_what_could_be_read() -> None:
 # --------------------------------------------------------------------------------------------------------------- kept
 
 
-@pytest.mark.parametrize("kept", KEPT, ids=lambda kept: kept.keyword)
-def test_what_a_kept_keyword_says_of_itself(kept: Kept) -> None:
+@pytest.mark.parametrize("kept", OPAQUE, ids=lambda kept: kept.keyword)
+def test_what_a_kept_keyword_says_of_itself(kept: OpaqueKeyword) -> None:
     name = kept.keyword
     assert kept.sections == ("MODEL",) == catalogue.sections_of(name)
-    assert catalogue.kept_of("MODEL", name) is kept
+    assert catalogue.opaque_keyword("MODEL", name) is kept
     assert catalogue.block_class("MODEL", name) is None
     assert name in catalogue.keywords()
     assert name in catalogue.kept_keywords("MODEL")
@@ -151,8 +151,8 @@ def test_what_a_kept_keyword_says_of_itself(kept: Kept) -> None:
     assert ("ELEMENT SETS" in kept.makes) <= (Names.SET in kept.name_settings.values())
 
 
-@pytest.mark.parametrize("kept", KEPT, ids=lambda kept: kept.keyword)
-def test_examples_of_kept_keywords(kept: Kept) -> None:
+@pytest.mark.parametrize("kept", OPAQUE, ids=lambda kept: kept.keyword)
+def test_examples_of_kept_keywords(kept: OpaqueKeyword) -> None:
     text = "$MODEL\n" + kept.example
     deck = deck_of(text)
     assert deck.problems == []
@@ -161,12 +161,12 @@ def test_examples_of_kept_keywords(kept: Kept) -> None:
 
 
 def test_other_keywords_are_not_kept_with_a_module() -> None:
-    assert catalogue.kept_of("MODEL", "P-X") is None
-    assert catalogue.kept_of("LOAD CASE", "LINES") is None
+    assert catalogue.opaque_keyword("MODEL", "P-X") is None
+    assert catalogue.opaque_keyword("LOAD CASE", "LINES") is None
     assert catalogue.kept_keywords("LOAD CASE") == ["NO FRICTION"]
 
 
-@given(st.sampled_from([kept.keyword for kept in KEPT]), st.lists(texts, max_size=5))
+@given(st.sampled_from([kept.keyword for kept in OPAQUE]), st.lists(texts, max_size=5))
 @example("LINES", ["\ufeff$"])
 @settings(max_examples=100)
 def test_nothing_of_a_kept_block_is_lost(keyword: str, lines: list[str]) -> None:

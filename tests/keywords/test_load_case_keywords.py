@@ -142,7 +142,7 @@ def test_faults_of_a_known_form_are_told(lines: str, expected: Lines) -> None:
     assert [message.startswith(words) for message, words in zip(found, expected, strict=True)] == [True] * len(expected)
 
 
-KEPT = [
+OPAQUE = [
     "LOAD CASE|*BOUNDARY\n TYPE=CONSTANT\n 1, 2\n TYPE=VESSEL\n VESSEL=Semi\n 201, 1\n",
     "LOAD CASE|*BOUNDARY\n TYPE=SINUSOIDAL, AMPLITUDE=2\n 1\n",
     "LOAD CASE|*TIME\n 0, 100\n",
@@ -157,7 +157,7 @@ KEPT = [
 ]
 
 
-@pytest.mark.parametrize("case", KEPT)
+@pytest.mark.parametrize("case", OPAQUE)
 def test_a_form_that_is_not_public_is_kept_without_a_finding(case: str) -> None:
     section, lines = case.split("|")
     text = f"${section}\n{lines}"

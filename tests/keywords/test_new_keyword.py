@@ -14,7 +14,7 @@ from mudline.deck.forms.json import read, to_json
 from mudline.deck.forms.keyword import to_keyword
 from mudline.deck.loading import load_bytes
 from mudline.keywords import catalogue, grammar, library
-from mudline.keywords.catalogue import meant_keyword
+from mudline.keywords.catalogue import suggest_keyword
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import rules
 from mudline.scene.model import resolve
@@ -124,7 +124,7 @@ def test_an_extension_needs_an_elastic_seabed() -> None:
 
 
 def test_spelling() -> None:
-    assert meant_keyword("SEABED ANCOR") == NAME
+    assert suggest_keyword("SEABED ANCOR") == NAME
     (misspelt,) = lint_bytes((DECK + " SET=ALL\n SPACIN=2.0\n").encode(), "deck.keyxm", rules())
     assert "did you mean SPACING?" in misspelt.message
 

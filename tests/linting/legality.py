@@ -235,7 +235,7 @@ _EXAMPLES = sorted(
         (section, declared.example)
         for section in catalogue.SECTIONS
         for keyword in catalogue.keywords()
-        if (declared := catalogue.block_class(section, keyword) or catalogue.kept_of(section, keyword))
+        if (declared := catalogue.block_class(section, keyword) or catalogue.opaque_keyword(section, keyword))
     }
 )
 """The example of every keyword that has one, after each of its sections."""

@@ -7,14 +7,14 @@ from hypothesis import strategies as st
 
 from mudline.deck.loading import load_bytes
 from mudline.deck.reading import TextOrigin
-from mudline.linting.engine import LONGEST_BLOCK, MOST_BLOCKS, BlockMemory
+from mudline.linting.engine import LONGEST_BLOCK, MOST_BLOCKS, BlockCache
 from tests.builders.keyword_texts import mutated
 from tests.deck.test_bytes import texts
 
 COMMENT = "C a line more\n"
 
 
-def same(data: bytes, memory: BlockMemory) -> None:
+def same(data: bytes, memory: BlockCache) -> None:
     """Both ways of reading give one deck."""
     plain, again = load_bytes(data, "a.keyxm"), load_bytes(data, "a.keyxm", read=memory.read)
     assert again == plain
@@ -31,14 +31,14 @@ def same(data: bytes, memory: BlockMemory) -> None:
 @given(mutated(texts.map(str.encode)), st.integers(0, 3))
 @settings(max_examples=60)
 def test_a_block_that_stands_elsewhere(data: bytes, lines: int) -> None:
-    memory = BlockMemory()
+    memory = BlockCache()
     same(data, memory)
     same(data, memory)
     same(COMMENT.encode() * lines + data, memory)
 
 
 def test_places_are_those_of_the_text_that_was_asked() -> None:
-    memory = BlockMemory()
+    memory = BlockCache()
     deck = "$MODEL\n*OCEAN\n 500.0, ten, 9.81\n"
     for start in ("", COMMENT, COMMENT * 5):
         data = (start + deck).encode()
@@ -48,7 +48,7 @@ def test_places_are_those_of_the_text_that_was_asked() -> None:
 
 
 def test_long_blocks_are_read_each_time() -> None:
-    memory = BlockMemory()
+    memory = BlockCache()
     rows = "".join(f" {number}, 0.0, 0.0\n" for number in range(1, LONGEST_BLOCK // 10))
     first, second = (load_bytes(f"$MODEL\n*NODE\n{rows}".encode(), "a", read=memory.read) for _ in range(2))
     assert first == second
@@ -56,7 +56,7 @@ def test_long_blocks_are_read_each_time() -> None:
 
 
 def test_what_was_not_read_for_long_is_forgotten() -> None:
-    memory = BlockMemory()
+    memory = BlockCache()
     ocean = [f"$MODEL\n*OCEAN\n {depth}.0, 1025.0, 9.81\n".encode() for depth in range(1, MOST_BLOCKS + 2)]
     first = load_bytes(ocean[0], "a", read=memory.read).sections[0].blocks[0]
     assert load_bytes(ocean[0], "a", read=memory.read).sections[0].blocks[0] is first

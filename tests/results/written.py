@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from mudline.results.columns import ElementTable, NodeTable, Table
 from mudline.results.evaluation import Evaluation
 from mudline.results.forms import Output, Sink, Write, npz, text_form
-from mudline.results.totals import Digest, StepTotal, Total, totals
+from mudline.results.totals import StepSummary, StepTotal, Total, totals
 
 Json: TypeAlias = Any
 
@@ -69,7 +69,7 @@ def arrays_of(evaluation: Evaluation) -> dict[str, NDArray[Any]]:
 
 def steps_of(evaluation: Evaluation, most: int | None = None) -> list[StepTotal]:
     """The figures of the first steps."""
-    digest = Digest(evaluation, most)
+    digest = StepSummary(evaluation, most)
     for part in evaluation.parts():
         digest.take(part)
     return digest.steps

@@ -26,7 +26,7 @@ from mudline.results.columns import ElementTable, NodeTable
 from mudline.results.evaluation import Evaluation, Part, Prepared, Tension, evaluate_scene, prepare
 from mudline.results.forms import Output, ResultConsumer, Sink, Together, form_module, form_names, plan_rows, text_form
 from mudline.results.quantities import csv_lines
-from mudline.results.totals import Digest, PlotData
+from mudline.results.totals import PlotData, StepSummary
 from mudline.scene.csv_file import read_external
 from mudline.scene.model import Scene, resolve
 from mudline.scene.positions import Positions, read_positions
@@ -107,7 +107,7 @@ def command(
         _notify_before(evaluation, comparison)
     drawing = PlotData(evaluation) if picture else None
     shown = "" if output else output_format
-    digest = Digest(evaluation, None if view.verbose else MOST_ROWS) if shown == "text" else None
+    digest = StepSummary(evaluation, None if view.verbose else MOST_ROWS) if shown == "text" else None
     slow = _SlowSuction()
     consumers: list[ResultConsumer] = [one for one in (comparison, drawing, digest, slow) if one is not None]
     with _sink(evaluation, comparison, output, shown, table, view) as sink:

@@ -14,7 +14,7 @@ from mudline.results.against import Comparison
 from mudline.results.columns import ElementTable
 from mudline.results.evaluation import Evaluation, Part
 from mudline.results.quantities import SLIDING, STATES, UnitNames, headed, shown, unit_names
-from mudline.results.totals import Digest, Total, counts, reaction, totals
+from mudline.results.totals import StepSummary, Total, counts, reaction, totals
 from mudline.scene.numbering import Floats, Indices
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ def print_plan(plan: Plan, view: View) -> None:
     view.printer().table(f"Plan, {plan.steps}", columns, rows, left=columns)
 
 
-def print_evaluation(digest: Digest, which: str, view: View) -> None:
+def print_evaluation(digest: StepSummary, which: str, view: View) -> None:
     """Print totals and rows of one state; of time steps a line each, as rows are for files."""
     printer = view.printer()
     if digest.evaluation.time is not None:
@@ -112,7 +112,7 @@ def _print_states(printer: Printer, evaluation: Evaluation, part: Part) -> None:
         printer.table("States", ("law", "state", "count"), rows, left=("law", "state"))
 
 
-def _print_steps(printer: Printer, digest: Digest) -> None:
+def _print_steps(printer: Printer, digest: StepSummary) -> None:
     evaluation, found = digest.evaluation, digest.steps
     names = unit_names(evaluation.scene.units)
     rows = [
@@ -128,7 +128,7 @@ def _print_steps(printer: Printer, digest: Digest) -> None:
     _print_peaks(printer, digest)
 
 
-def _print_peaks(printer: Printer, digest: Digest) -> None:
+def _print_peaks(printer: Printer, digest: StepSummary) -> None:
     """The largest of all steps, also of those that are not listed."""
     evaluation, times = digest.evaluation, digest.evaluation.time
     names = unit_names(evaluation.scene.units)

@@ -11,7 +11,7 @@ from mudline.comparison.model import Difference, Pair, Side, Value, plain
 from mudline.deck.model import Opaque
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Where
-from mudline.keywords.model import Block, ListRow, Part, Record, Rows, Slot, columns_of, layout
+from mudline.keywords.model import Block, FieldSpec, ListRow, Part, Record, Rows, columns_of, record_schema
 from mudline.keywords.table import Cell, Table
 from mudline.keywords.values import Kind, Names
 from mudline.keywords.writer import field_text, joined
@@ -44,16 +44,16 @@ def record_values(side: Side, record: Record, where: Where) -> Flat:
     return found
 
 
-def key_slot(record: type[Record]) -> Slot | None:
+def key_slot(record: type[Record]) -> FieldSpec | None:
     """The field that a record of a list is found by: its set, or its own name."""
     own = (None, Names.SET)
-    slots = (slot for slot in layout(record).slots if not slot.row and not slot.many and slot.about.names in own)
+    slots = (slot for slot in record_schema(record).slots if not slot.row and not slot.many and slot.about.names in own)
     return next((s for s in slots if s.kind is Kind.NAME and {s.json, s.key.casefold()} & set(_KEYS)), None)
 
 
 def _identity(record: Record) -> str | None:
     """What tells a record without a name from others: the values that it must have. None where there are none."""
-    slots = [slot for slot in layout(type(record)).slots if slot.required and not slot.record]
+    slots = [slot for slot in record_schema(type(record)).slots if slot.required and not slot.record]
     values = [getattr(record, slot.name, None) for slot in slots]
     words = [field_text(value) for value in values if isinstance(value, float | int | str)]
     words += [joined(_cells(value)) for value in values if isinstance(value, ListRow)]
@@ -61,7 +61,7 @@ def _identity(record: Record) -> str | None:
 
 
 def _cells(row: ListRow) -> list[Cell]:
-    given = [getattr(row, slot.name) for slot in layout(type(row)).columns if slot.name in row.model_fields_set]
+    given = [getattr(row, slot.name) for slot in record_schema(type(row)).columns if slot.name in row.model_fields_set]
     return cast("list[Cell]", given)
 
 
@@ -75,7 +75,7 @@ class _Flattening:
         found: Flat = {}
         carried: dict[str, Entry] = {}
         for where, block in blocks:
-            lists = [slot for slot in layout(type(block)).slots if self._keyed(slot)]
+            lists = [slot for slot in record_schema(type(block)).slots if self._keyed(slot)]
             own: Flat = {}
             self.part(block, where, "", own, leave_out=lists[0].name if lists else "")
             if not lists:
@@ -92,14 +92,14 @@ class _Flattening:
     def part(self, part: Part, where: Where, prefix: str, found: Flat, leave_out: str = "") -> None:
         """The declared fields of a part, below a prefix."""
         kind: type[Part] = type(part)
-        for slot in layout(kind).slots:
+        for slot in record_schema(kind).slots:
             value = getattr(part, slot.name, None)
             if slot.name == leave_out or value is None:
                 continue
             place = where.inside(slot.json)
             self._value(value, slot, place, prefix + slot.json, found)
 
-    def _value(self, value: object, slot: Slot, where: Where, path: str, found: Flat) -> None:
+    def _value(self, value: object, slot: FieldSpec, where: Where, path: str, found: Flat) -> None:
         if isinstance(value, Table):
             found.update(_table(value, slot, where, path))
         elif isinstance(value, Part):
@@ -124,7 +124,9 @@ class _Flattening:
             return Entry(plain(value), value, where)
         return Entry(str(value), folded(str(value)), where)
 
-    def _records(self, records: list[Record], where: Where, slot: Slot, prefix: str, found: Flat, shared: Flat) -> None:
+    def _records(
+        self, records: list[Record], where: Where, slot: FieldSpec, prefix: str, found: Flat, shared: Flat
+    ) -> None:
         """The records of a list: by name where they have one, else by position."""
         sticky: object = None
         start = f"{prefix}/" if prefix else ""
@@ -135,13 +137,13 @@ class _Flattening:
             values: Flat = {}
             if record.sticky:
                 sticky = getattr(record, record.sticky, None) or sticky
-                declared = next(s for s in layout(type(record)).slots if s.name == record.sticky)
+                declared = next(s for s in record_schema(type(record)).slots if s.name == record.sticky)
                 values[f"{path}/{declared.json}"] = self._scalar(sticky or declared.about.default, place)
             self.part(record, place, f"{path}/", values, leave_out=key.name if key else "")
             found[path] = Entry(None, None, place)
             found |= {f"{path}/{name}": entry for name, entry in shared.items()} | values
 
-    def _title(self, record: Record, key: Slot | None, index: int, found: Flat, start: str) -> str:
+    def _title(self, record: Record, key: FieldSpec | None, index: int, found: Flat, start: str) -> str:
         name = _identity(record) if key is None else getattr(record, key.name, None)
         title = folded(str(name)) if name is not None else "all" if key and key.json == "set" else str(index + 1)
         self.side.names.setdefault(title, "ALL" if name is None and title == "all" else str(name or title))
@@ -159,11 +161,11 @@ class _Flattening:
         return own if count == 1 else {f"#{count}/{path}": entry for path, entry in own.items()}
 
     @staticmethod
-    def _keyed(slot: Slot) -> bool:
+    def _keyed(slot: FieldSpec) -> bool:
         return slot.many and bool(slot.record) and all(key_slot(record) for record in slot.record.values())
 
 
-def _table(table: Table, slot: Slot, where: Where, path: str) -> Iterator[tuple[str, Entry]]:
+def _table(table: Table, slot: FieldSpec, where: Where, path: str) -> Iterator[tuple[str, Entry]]:
     """The rows of a table; points in ascending order."""
     rows = [(cells, index) for index, cells in enumerate(table.rows(columns_of(slot)))]
     if isinstance(slot.about, Rows) and slot.about.unordered:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, NamedTuple, Protocol, Self
 
 from mudline.diagnostics import Blocks, Code, DeckError, Diagnostic, Edit, Fix, Problem, Repair, Severity, Where
-from mudline.keywords.model import Block, Comment, Part, layout
+from mudline.keywords.model import Block, Comment, Part, record_schema
 from mudline.keywords.values import Text
 from mudline.short_repr import counted, cut, listed, outline, short_repr
 
@@ -250,7 +250,7 @@ def comment_texts(deck: Deck) -> Iterator[str]:
 
 def _comments_in(part: Part) -> Iterator[str]:
     yield from (comment.text for comment in getattr(part, "comments", ()))
-    for slot in layout(type(part)).slots:
+    for slot in record_schema(type(part)).slots:
         for record in (getattr(part, slot.name, None) or ()) if slot.record else ():
             yield from _comments_in(record)
 

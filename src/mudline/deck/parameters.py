@@ -14,7 +14,7 @@ from mudline.codes.references import REF013, REF014
 from mudline.deck.model import Deck
 from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
 from mudline.expression import Expression, ExpressionError, UndefinedName, UnknownFunction, evaluate, parse
-from mudline.keywords.model import ListRow, Part, Slot, columns_of, layout
+from mudline.keywords.model import FieldSpec, ListRow, Part, columns_of, record_schema
 from mudline.keywords.table import Table
 from mudline.keywords.text import shown, suggestion
 from mudline.keywords.values import Equation, Kind
@@ -292,7 +292,7 @@ def evaluated(deck: Deck) -> tuple[EvaluatedDeck, list[Problem]]:
 @cache
 def _evaluated_slots(part: type[Part]) -> tuple[str, ...]:
     """Names of the fields that can hold an equation, or parts that can."""
-    return tuple(slot.name for slot in layout(part).slots if slot.row or slot.record or slot.kind in _EVALUATED)
+    return tuple(slot.name for slot in record_schema(part).slots if slot.row or slot.record or slot.kind in _EVALUATED)
 
 
 def _has_equation(value: object) -> bool:
@@ -320,7 +320,7 @@ class _Evaluator:
         """A part without equations; the same object if it has none."""
         changed: dict[str, object] = {}
         kind: type[Part] = type(part)
-        for slot in layout(kind).slots:
+        for slot in record_schema(kind).slots:
             value = getattr(part, slot.name)
             inner = where._replace(path=(*where.path, slot.json))
             new = self._value(value, slot, inner)
@@ -328,7 +328,7 @@ class _Evaluator:
                 changed[slot.name] = new
         return part.model_copy(update=changed) if changed else part
 
-    def _value(self, value: object, slot: Slot, where: Where) -> object:
+    def _value(self, value: object, slot: FieldSpec, where: Where) -> object:
         if isinstance(value, Equation):
             return self._number(value, slot.kind or Kind.REAL, slot.label, where)
         if isinstance(value, Table):
@@ -345,7 +345,7 @@ class _Evaluator:
     def _list_row(self, row: ListRow, where: Where) -> ListRow:
         """Its fields have the index as path, as JSON holds them in a list."""
         changed: dict[str, object] = {}
-        for index, slot in enumerate(layout(type(row)).columns):
+        for index, slot in enumerate(record_schema(type(row)).columns):
             value = getattr(row, slot.name)
             if isinstance(value, Equation):
                 place = where._replace(path=(*where.path, index))
@@ -377,7 +377,7 @@ class _Evaluator:
         self.problems.append(replace(whole_fault(equation, value, label, where), blocks=self.blocks))
         return None
 
-    def _table(self, table: Table, slot: Slot, where: Where) -> Table:
+    def _table(self, table: Table, slot: FieldSpec, where: Where) -> Table:
         columns = columns_of(slot)
         values = table.values.copy()
         words = dict(table.words)

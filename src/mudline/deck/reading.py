@@ -13,7 +13,7 @@ from mudline.deck.model import START, Deck, Opaque, Range, Section
 from mudline.deck.parameters import Parameters
 from mudline.diagnostics import MORE, MOST_REPORTED, Code, Problem, Severity, Span, Where
 from mudline.keywords import catalogue
-from mudline.keywords.catalogue import meant_in, meant_keyword, meant_section, words_behind
+from mudline.keywords.catalogue import meant_in, meant_section, suggest_keyword, words_behind
 from mudline.keywords.model import Comment
 from mudline.keywords.reader import BlockReader, ReadBlock, read_block
 from mudline.keywords.text import hint, instead
@@ -50,7 +50,7 @@ class Findings:
         sections = catalogue.sections_of(keyword)
         if sections is None:
             if self._reports(SYN009, None, where):
-                near = meant_keyword(keyword)
+                near = suggest_keyword(keyword)
                 message = f"keyword *{keyword} is not known{_meant(keyword, near)}: it is passed through unchanged"
                 self._misspelt(SYN009, message, where, f"*{near}" if near else "", head)
         elif (

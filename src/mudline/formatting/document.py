@@ -12,7 +12,7 @@ from mudline.deck.model import Deck, Section
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import Span
 from mudline.formatting.rows import RowKind, Rows, Run, Single, cut
-from mudline.keywords.model import Comment, Part, Record, Row, Slot, layout
+from mudline.keywords.model import Comment, FieldSpec, Part, Record, Row, record_schema
 from mudline.keywords.places import Path, Places
 from mudline.keywords.reader import ReadBlock, all_keys
 from mudline.keywords.table import Table
@@ -231,7 +231,7 @@ class Reading:
 
 
 def _record(record: Record, path: Path, places: Places, found: Reading) -> None:
-    declared = layout(type(record))
+    declared = record_schema(type(record))
     plain = [slot for slot in declared.columns if not slot.row and not slot.many]
     if plain and len(plain) == len(declared.columns) and (span := places.spans.get((*path, plain[0].json))):
         found.put(span.start, RowKind(plain[0], tuple(plain)))
@@ -248,18 +248,18 @@ def _record(record: Record, path: Path, places: Places, found: Reading) -> None:
             found.put(span.start, RowKind(slot, (slot,)))
 
 
-def _value(slot: Slot, value: object, path: Path, places: Places, found: Reading) -> None:
+def _value(slot: FieldSpec, value: object, path: Path, places: Places, found: Reading) -> None:
     """The value of one field that is not a record."""
     span = places.spans.get(path)
     if isinstance(value, Table) and slot.row:
-        kind = RowKind(slot, tuple(layout(slot.row).columns), table=True)
+        kind = RowKind(slot, tuple(record_schema(slot.row).columns), table=True)
         for _, run in places.runs.get(path, ()):
             found.put(run.start, kind)
     elif isinstance(value, list):
         if first := places.spans.get((*path, 0)):
             found.put(first.start, RowKind(slot, (slot,), many=True))
     elif span and isinstance(value, Row):
-        columns = layout(type(value)).columns
+        columns = record_schema(type(value)).columns
         found.put(span.start, RowKind(slot, tuple(columns)))
         for column in columns:
             _value(column, getattr(value, column.name), (*path, column.json), places, found)

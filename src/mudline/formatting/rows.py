@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mudline.diagnostics import Span
-from mudline.keywords.model import Slot
+from mudline.keywords.model import FieldSpec
 from mudline.keywords.values import Kind
 from mudline.syntax.rows import line_spans, row_fields
 
@@ -29,8 +29,8 @@ class RowKind(NamedTuple):
     `many`: any number of values of the one field; `table`: rows that are read as arrays.
     """
 
-    slot: Slot
-    columns: tuple[Slot, ...]
+    slot: FieldSpec
+    columns: tuple[FieldSpec, ...]
     many: bool = False
     table: bool = False
 

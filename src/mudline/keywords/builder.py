@@ -10,7 +10,7 @@ from mudline.codes.fields import SYN003
 from mudline.codes.lines import SYN001, SYN004, SYN014
 from mudline.diagnostics import Problem, Span
 from mudline.keywords.grammar import ROW, Content, Node
-from mudline.keywords.model import Block, ListRow, Part, Record, Slot, layout, row_format
+from mudline.keywords.model import Block, FieldSpec, ListRow, Part, Record, record_schema, row_format
 from mudline.keywords.places import Path, Places
 from mudline.keywords.table import fewest_fields
 from mudline.keywords.text import (
@@ -39,12 +39,12 @@ class Item:
 
 
 @dataclass(slots=True)
-class Built:
+class ParsedRecord:
     """A record as plain values, and what is needed to place comments in it."""
 
     part: type[Record]
     values: dict[str, Any] = field(default_factory=dict)
-    children: dict[str, list[Built]] = field(default_factory=dict)
+    children: dict[str, list[ParsedRecord]] = field(default_factory=dict)
     items: list[Item] = field(default_factory=list)
     sticky: object = None
     first: int = 0
@@ -70,10 +70,10 @@ class Builder:
         self.unclosed: Span | None = None
         self.unchosen: set[Path] = set()
 
-    def build(self, part: type[Record], node: Node, path: Path = (), last: object = None) -> Built:
+    def build(self, part: type[Record], node: Node, path: Path = (), last: object = None) -> ParsedRecord:
         """The values of a record; `last` is what the sticky field of the records before it gave."""
-        built = Built(part)
-        found = layout(part)
+        built = ParsedRecord(part)
+        found = record_schema(part)
         tables: dict[str, TableBuilder] = {}
         row_number = 0
         for child in node.children:
@@ -121,7 +121,7 @@ class Builder:
         else:
             self.damage(path, problem)
 
-    def _child(self, built: Built, slot: Slot, node: Node, path: Path) -> None:
+    def _child(self, built: ParsedRecord, slot: FieldSpec, node: Node, path: Path) -> None:
         before = built.children.setdefault(slot.json, [])
         inner = (*path, slot.json, len(before))
         last = before[-1].sticky if before else None
@@ -136,8 +136,8 @@ class Builder:
         built.reach(child.first)
         built.reach(child.last)
 
-    def _settings(self, built: Built, content: Content, path: Path) -> None:
-        found = layout(built.part)
+    def _settings(self, built: ParsedRecord, content: Content, path: Path) -> None:
+        found = record_schema(built.part)
         line = read_line(self.text, content.span, slashes=self.slashes)
         self._brackets(line.problems, path)
         opening = built.last is None and not issubclass(built.part, Block)
@@ -147,9 +147,9 @@ class Builder:
             built.items.append(Item(order, content.position, 1))
         built.reach(content.position)
 
-    def _groups(self, built: Built, groups: list[Group], path: Path) -> None:
+    def _groups(self, built: ParsedRecord, groups: list[Group], path: Path) -> None:
         """Settings that stand on one line."""
-        found = layout(built.part)
+        found = record_schema(built.part)
         for group in groups:
             slot = found.keys.get(group.key)
             if slot is None:
@@ -163,7 +163,7 @@ class Builder:
             else:
                 self._setting(built, slot, group, (*path, slot.json))
 
-    def _setting(self, built: Built, slot: Slot, group: Group, path: Path) -> None:
+    def _setting(self, built: ParsedRecord, slot: FieldSpec, group: Group, path: Path) -> None:
         self.places.spans[path] = group.span
         fields = group.fields
         if slot.row and not _alone(slot, fields):
@@ -197,14 +197,14 @@ class Builder:
 
     def _row(
         self,
-        built: Built,
+        built: ParsedRecord,
         content: Content,
         path: Path,
         last: object,
         number: int,
         tables: dict[str, TableBuilder],
     ) -> None:
-        found = layout(built.part)
+        found = record_schema(built.part)
         behind: list[Group] = []
         if path in self.unchosen and sum(column.row is not None for column in found.columns) > 1:
             built.reach(content.position)  # which format it has is not known
@@ -245,7 +245,7 @@ class Builder:
         own = [given for group in line.groups if not group.key for given in group.fields]
         return own, [group for group in line.groups if group.key], line.problems
 
-    def _single(self, built: Built, slot: Slot, fields: list[Field], path: Path) -> None:
+    def _single(self, built: ParsedRecord, slot: FieldSpec, fields: list[Field], path: Path) -> None:
         """A row of one value."""
         if slot.json in built.values:
             self.damage(path, Problem(SYN001, f"{slot.label} is given twice", fields[0].span))
@@ -253,7 +253,7 @@ class Builder:
         built.values |= self._fields([slot], fields, path)
 
     def _row_values(self, row: type[Part], fields: list[Field], path: Path) -> dict[str, Value] | list[Value]:
-        columns = layout(row).columns
+        columns = record_schema(row).columns
         if not issubclass(row, ListRow):
             return self._fields(columns, fields, path)
         values = self._fields(columns, fields, path)
@@ -263,7 +263,7 @@ class Builder:
         self.lost += path in self.places.damaged
         return [values.get(slot.json) for slot in columns[: len(values)]]
 
-    def _fields(self, columns: Sequence[Slot], fields: list[Field], path: Path) -> dict[str, Value]:
+    def _fields(self, columns: Sequence[FieldSpec], fields: list[Field], path: Path) -> dict[str, Value]:
         before = len(self.problems)
         fields = self._counted(columns, fields, path)
         miscounted = len(self.problems) > before
@@ -282,7 +282,7 @@ class Builder:
                 values[slot.json] = None
         return values
 
-    def _counted(self, columns: Sequence[Slot], fields: list[Field], path: Path) -> list[Field]:
+    def _counted(self, columns: Sequence[FieldSpec], fields: list[Field], path: Path) -> list[Field]:
         """The fields without trailing empty ones; a wrong number of them is a problem."""
         required = [slot.required for slot in columns]
         fewest = fewest_fields(required)
@@ -317,7 +317,7 @@ class Builder:
             start += len(word)
         return fields
 
-    def _list(self, slot: Slot, fields: list[Field], path: Path) -> list[Value]:
+    def _list(self, slot: FieldSpec, fields: list[Field], path: Path) -> list[Value]:
         while len(fields) > 1 and not fields[-1].text:
             fields.pop()
         values: list[Value] = []
@@ -332,22 +332,22 @@ class Builder:
         return values
 
 
-def _alone(slot: Slot, fields: list[Field]) -> bool:
+def _alone(slot: FieldSpec, fields: list[Field]) -> bool:
     """Whether a setting that may hold a row holds a word or a number instead."""
     if not (slot.choices or slot.kind) or any(given.text for given in fields[1:]):
         return False
     return not blank_separated(fields[0].text)
 
 
-def construct(built: Built) -> Part:
+def construct(built: ParsedRecord) -> Part:
     """A model without validation, for a block in which something could not be read: what is missing is None."""
     ready: dict[str, Any] = {}
-    for slot in layout(built.part).slots:
+    for slot in record_schema(built.part).slots:
         given = built.values.get(slot.json)
         if slot.record:
             ready[slot.name] = [construct(child) for child in built.children.get(slot.json, [])]
         elif slot.row and isinstance(given, list):
-            columns = layout(slot.row).columns
+            columns = record_schema(slot.row).columns
             ready[slot.name] = _bare(slot.row, {c.json: v for c, v in zip(columns, given, strict=False)})
         elif slot.row and isinstance(given, dict):
             ready[slot.name] = _bare(slot.row, given)
@@ -361,5 +361,5 @@ def construct(built: Built) -> Part:
 
 def _bare(row: type[Part], values: dict[str, Value]) -> Part:
     """A row as it was read."""
-    ready: dict[str, Any] = {slot.name: values.get(slot.json) for slot in layout(row).columns}
+    ready: dict[str, Any] = {slot.name: values.get(slot.json) for slot in record_schema(row).columns}
     return row.model_construct(**ready)

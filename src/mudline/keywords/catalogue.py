@@ -9,7 +9,7 @@ from itertools import takewhile
 from typing import cast
 
 from mudline.keywords.model import Block
-from mudline.keywords.values import Facts, Kept
+from mudline.keywords.values import Facts, OpaqueKeyword
 from mudline.spelling import Effort, nearest
 
 _LIBRARY = "mudline.keywords.library"
@@ -189,26 +189,26 @@ def load(module: str) -> type[Block]:
     return cast("type[Block]", import_module(f"{_LIBRARY}.{module}").BLOCK)
 
 
-def kept_of(section: str, keyword: str) -> Kept | None:
+def opaque_keyword(section: str, keyword: str) -> OpaqueKeyword | None:
     """What is known of a keyword that is passed through, or None when that is its name at most."""
     module = _KEPT.get(keyword)
-    found = _load_kept(module) if module else None
+    found = _load_opaque(module) if module else None
     return found if found is not None and section in found.sections else None
 
 
 @cache
-def _load_kept(module: str) -> Kept:
-    return cast("Kept", import_module(f"{_LIBRARY}.{module}").KEPT)
+def _load_opaque(module: str) -> OpaqueKeyword:
+    return cast("OpaqueKeyword", import_module(f"{_LIBRARY}.{module}").OPAQUE)
 
 
 def kept_keywords(section: str) -> list[str]:
-    """The keywords of a section that `kept_of` knows, in the order of the catalogue."""
-    return [keyword for keyword in _KEPT if kept_of(section, keyword)]
+    """The keywords of a section that `opaque_keyword` knows, in the order of the catalogue."""
+    return [keyword for keyword in _KEPT if opaque_keyword(section, keyword)]
 
 
-def kept() -> list[Kept]:
-    """Every keyword that `kept_of` knows, in the order of the catalogue."""
-    return [_load_kept(module) for module in _KEPT.values()]
+def opaque_keywords() -> list[OpaqueKeyword]:
+    """Every keyword that `opaque_keyword` knows, in the order of the catalogue."""
+    return [_load_opaque(module) for module in _KEPT.values()]
 
 
 def modules() -> list[str]:
@@ -227,7 +227,7 @@ def sections_of(keyword: str) -> tuple[str, ...] | None:
     if (found := declared(keyword)) is not None:
         return found.sections + found.facts.passes_in
     if keyword in _KEPT:
-        held = _load_kept(_KEPT[keyword])
+        held = _load_opaque(_KEPT[keyword])
         return _ANY if held.sections_inferred else held.sections
     return _OPAQUE.get(keyword)
 
@@ -284,7 +284,7 @@ def meant_section(name: str) -> str:
     return nearest(name, SECTIONS) or _begun(name, SECTIONS) or _before(name, SECTIONS)
 
 
-def meant_keyword(keyword: str, effort: Effort | None = None) -> str:
+def suggest_keyword(keyword: str, effort: Effort | None = None) -> str:
     """The keyword that an unknown one was to be, or ""."""
     known = keywords()
     return nearest(keyword, known, effort) or _begun(keyword, known) or _before(keyword, read_keywords())

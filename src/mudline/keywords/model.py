@@ -18,7 +18,7 @@ from pydantic import (
     model_serializer,
     model_validator,
 )
-from pydantic.fields import FieldInfo
+from pydantic import fields as pydantic_fields
 from pydantic_core import CoreSchema, core_schema
 
 from mudline.diagnostics import Code
@@ -40,7 +40,7 @@ _MOST_KEYS = 100
 
 
 @dataclass(frozen=True, slots=True)
-class About:
+class FieldInfo:
     """What a field means. Units in F (force), L, M, T, deg; "-" is dimensionless. `inferred` names our deduction.
 
     `names` says what a text in the field is the name of: that it exists is then checked.
@@ -57,7 +57,7 @@ class About:
 
 
 @dataclass(frozen=True, slots=True)
-class Setting(About):
+class Setting(FieldInfo):
     """A field written `KEY=value`; `inline` ones follow on the line of the setting before them.
 
     `behind` names the only setting whose line an inline one may follow on; without that it has a line of its own.
@@ -69,7 +69,7 @@ class Setting(About):
 
 
 @dataclass(frozen=True, slots=True)
-class Rows(About):
+class Rows(FieldInfo):
     """A field that is a table; `row` declares its columns. The order of `unordered` rows has no meaning."""
 
     row: type[Row] | None = None
@@ -116,9 +116,9 @@ def _cell_schema(column: Column) -> dict[str, Any]:
     return {"description": column.label, "anyOf": options if column.required else [*options, {"type": "null"}]}
 
 
-def about(meaning: str, **details: Any) -> About:
+def about(meaning: str, **details: Any) -> FieldInfo:
     """A positional field."""
-    return About(meaning, **details)
+    return FieldInfo(meaning, **details)
 
 
 def setting(key: str, meaning: str, **details: Any) -> Setting:
@@ -178,20 +178,20 @@ class ListRow(Row):
     def _from_list(cls, given: object) -> object:
         if not isinstance(given, list):
             return given
-        columns = layout(cls).columns
-        if not layout(cls).fewest <= len(given) <= len(columns):
-            raise ValueError(f"{len(given)} values, expected {layout(cls).wanted}")
+        columns = record_schema(cls).columns
+        if not record_schema(cls).fewest <= len(given) <= len(columns):
+            raise ValueError(f"{len(given)} values, expected {record_schema(cls).wanted}")
         return {slot.json: value for slot, value in zip(columns, given, strict=False)}
 
     @model_serializer
     def _to_list(self) -> list[object]:
-        given = [slot.name for slot in layout(type(self)).columns if slot.name in self.model_fields_set]
+        given = [slot.name for slot in record_schema(type(self)).columns if slot.name in self.model_fields_set]
         values = (getattr(self, name) for name in given)
         return [str(value) if isinstance(value, str) else value for value in values]
 
     @classmethod
     def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        found = layout(cls)
+        found = record_schema(cls)
         items = [_cell_schema(Column(s.label, s.kind or Kind.REAL, s.required)) for s in found.columns]
         return {"type": "array", "prefixItems": items, "items": False, "minItems": found.fewest}
 
@@ -213,7 +213,7 @@ class Record(Part):
         `given` holds what was read of the record so far, `last` what the `sticky` field of the records before it gave.
         Only records with several kinds of row need to say.
         """
-        return layout(cls).row_names[0]
+        return record_schema(cls).row_names[0]
 
 
 class Block(Record):
@@ -240,12 +240,12 @@ class Block(Record):
 
 
 @dataclass(slots=True)
-class Slot:
+class FieldSpec:
     """One field of a part, as the reader and the writer see it."""
 
     name: str
     json: str
-    about: About
+    about: FieldInfo
     kind: Kind | None
     choices: tuple[str, ...]
     row: type[Row] | None
@@ -266,14 +266,14 @@ class Slot:
 
 
 @dataclass(slots=True)
-class Layout:
+class RecordSchema:
     """The fields of a part by how they are written."""
 
-    columns: list[Slot] = field(default_factory=list)
-    keys: dict[str, Slot] = field(default_factory=dict)
-    table: Slot | None = None
-    children: dict[str, Slot] = field(default_factory=dict)
-    slots: list[Slot] = field(default_factory=list)
+    columns: list[FieldSpec] = field(default_factory=list)
+    keys: dict[str, FieldSpec] = field(default_factory=dict)
+    table: FieldSpec | None = None
+    children: dict[str, FieldSpec] = field(default_factory=dict)
+    slots: list[FieldSpec] = field(default_factory=list)
 
     @property
     def row_names(self) -> list[str]:
@@ -305,18 +305,18 @@ def row_format(labels: list[str], required: list[bool]) -> str:
 
 
 @cache
-def layout(part: type[Part]) -> Layout:
+def record_schema(part: type[Part]) -> RecordSchema:
     """The declared fields of a class, found once."""
-    found = Layout()
+    found = RecordSchema()
     for order, (name, info) in enumerate(part.model_fields.items()):
-        meta = next((item for item in _metadata(info) if isinstance(item, About)), None)
+        meta = next((item for item in _metadata(info) if isinstance(item, FieldInfo)), None)
         records = _records(info.annotation)
         if meta is None and not records:
             continue
-        slot = Slot(
+        slot = FieldSpec(
             name=name,
             json=info.alias or name,
-            about=meta or About(""),
+            about=meta or FieldInfo(""),
             kind=_kind(info),
             choices=_choices(info.annotation),
             row=meta.row if isinstance(meta, Rows) else _row(info.annotation),
@@ -338,12 +338,12 @@ def layout(part: type[Part]) -> Layout:
 
 
 @cache
-def _naming(part: type[Part], what: Names) -> tuple[Slot, ...]:
+def _naming(part: type[Part], what: Names) -> tuple[FieldSpec, ...]:
     """The fields that name a thing of a kind, and those with parts that have one."""
-    return tuple(slot for slot in layout(part).slots if slot.about.names is what or _leads_to(slot, what))
+    return tuple(slot for slot in record_schema(part).slots if slot.about.names is what or _leads_to(slot, what))
 
 
-def _leads_to(slot: Slot, what: Names) -> bool:
+def _leads_to(slot: FieldSpec, what: Names) -> bool:
     return any(_naming(part, what) for part in (slot.row, *slot.record.values()) if part)
 
 
@@ -362,18 +362,18 @@ def names_given(part: Part, what: Names) -> Iterator[tuple[tuple[str | int, ...]
 
 
 @cache
-def set_slots(block: type[Block]) -> tuple[tuple[Slot, Slot], ...]:
+def set_slots(block: type[Block]) -> tuple[tuple[FieldSpec, FieldSpec], ...]:
     """The lists of a block whose records go by element set, each with the field of these that names it."""
     return tuple(
         (slot, named)
-        for slot in layout(block).slots
+        for slot in record_schema(block).slots
         for record in slot.record.values()
-        for named in layout(record).slots
+        for named in record_schema(record).slots
         if named.about.names is Names.SET
     )
 
 
-def columns_of(slot: Slot) -> list[Column]:
+def columns_of(slot: FieldSpec) -> list[Column]:
     """The columns of a field that is a table."""
     return slot.about.columns() if isinstance(slot.about, Rows) else []
 
@@ -381,7 +381,7 @@ def columns_of(slot: Slot) -> list[Column]:
 @cache
 def table_columns(row: type[Row]) -> list[Column]:
     """The columns of a table whose rows are `row`."""
-    return [Column(slot.label, slot.kind or Kind.REAL, slot.required) for slot in layout(row).columns]
+    return [Column(slot.label, slot.kind or Kind.REAL, slot.required) for slot in record_schema(row).columns]
 
 
 def _parts(annotation: Any) -> list[Any]:
@@ -394,11 +394,11 @@ def _parts(annotation: Any) -> list[Any]:
     return [] if annotation is NoneType else [annotation]
 
 
-def _metadata(info: FieldInfo) -> list[Any]:
+def _metadata(info: pydantic_fields.FieldInfo) -> list[Any]:
     return [*info.metadata, *_parts(info.annotation)]
 
 
-def _kind(info: FieldInfo) -> Kind | None:
+def _kind(info: pydantic_fields.FieldInfo) -> Kind | None:
     return next((item for item in _metadata(info) if isinstance(item, Kind)), None)
 
 

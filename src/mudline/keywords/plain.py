@@ -17,7 +17,7 @@ from pydantic import ValidationError
 
 from mudline.diagnostics import Problem, Span
 from mudline.keywords.grammar import ROW, SMALL, fitting, records_of, terminal_of
-from mudline.keywords.model import Block, ListRow, Record, Slot, layout
+from mudline.keywords.model import Block, FieldSpec, ListRow, Record, record_schema
 from mudline.keywords.text import UnreadableError, Value, read_value
 from mudline.keywords.values import Equation, Kind
 from mudline.syntax.fields import Field, canonical_key
@@ -67,7 +67,7 @@ def read_plain(text: str, raw: RawBlock, declared: type[Block], keys: Collection
     `keys` are those that the lines of the block may begin with.
     """
     records = records_of(declared.rule)
-    slots = layout(declared).slots
+    slots = record_schema(declared).slots
     if len(raw.leaves) < FEWEST or records is None or len(slots) != 1 or declared.tabular:
         return None
     slot = slots[0]
@@ -143,7 +143,7 @@ def _entries(record: type[Record], lines: Iterable[tuple[str, str]], opening: st
 
 def _form(record: type[Record], tree: Tree[Token]) -> _Form:
     """How a record is read that has this tree."""
-    found = layout(record)
+    found = record_schema(record)
     if record.sticky or any("row_slot" in vars(base) for base in record.__mro__ if base is not Record):
         raise _OddError
     form = _Form()
@@ -166,22 +166,22 @@ def _form(record: type[Record], tree: Tree[Token]) -> _Form:
     return form
 
 
-def _setting_reading(slots: list[Slot]) -> _Reading:
+def _setting_reading(slots: list[FieldSpec]) -> _Reading:
     """What a setting gives: one name, or a few whole numbers."""
     if len(slots) != 1 or slots[0].many or slots[0].choices:
         raise _OddError
     slot = slots[0]
     if slot.kind is Kind.NAME and slot.row is None:
         return partial(_name, slot.json)
-    columns = layout(slot.row).columns if slot.row and issubclass(slot.row, ListRow) else []
+    columns = record_schema(slot.row).columns if slot.row and issubclass(slot.row, ListRow) else []
     if not columns or slot.kind or any(column.kind is not Kind.WHOLE for column in columns):
         raise _OddError
-    return partial(_some_wholes, slot.json, layout(cast("type[ListRow]", slot.row)).fewest, len(columns))
+    return partial(_some_wholes, slot.json, record_schema(cast("type[ListRow]", slot.row)).fewest, len(columns))
 
 
 def _row_reading(record: type[Record]) -> _Reading:
     """What a row gives: whole numbers, or two values, of which no two can be one number with a decimal comma."""
-    found = layout(record)
+    found = record_schema(record)
     columns = found.columns
     if found.table or found.keys or any(column.row or column.choices for column in columns):
         raise _OddError
@@ -212,14 +212,14 @@ def _some_wholes(json: str, fewest: int, most: int, fields: str) -> Values:
     return values
 
 
-def _pair(first: Slot, second: Slot, fields: str) -> Values:
+def _pair(first: FieldSpec, second: FieldSpec, fields: str) -> Values:
     words = _COMMA.split(fields)
     if len(words) != 2:
         raise _OddError
     return {first.json: _value(words[0], first), second.json: _value(words[1], second)}
 
 
-def _value(word: str, slot: Slot) -> Value:
+def _value(word: str, slot: FieldSpec) -> Value:
     if word.startswith("=["):
         if slot.kind is Kind.NAME or slot.kind is Kind.IDENT:
             raise _OddError

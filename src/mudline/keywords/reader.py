@@ -14,12 +14,12 @@ from pydantic import ValidationError
 from mudline.codes.lines import SYN001, SYN004, SYN013, SYN014
 from mudline.diagnostics import Problem, Span
 from mudline.keywords import grammar
-from mudline.keywords.builder import Builder, Built, construct
+from mudline.keywords.builder import Builder, ParsedRecord, construct
 from mudline.keywords.grammar import END, ROW, Content, Mismatch
-from mudline.keywords.model import Block, Layout, Part, layout, row_format
+from mudline.keywords.model import Block, Part, RecordSchema, record_schema, row_format
 from mudline.keywords.places import Path, Places
 from mudline.keywords.plain import read_plain
-from mudline.keywords.text import hint, instead, one_a_line, shown, suggestion
+from mudline.keywords.text import hint, instead, merge_per_line, shown, suggestion
 from mudline.short_repr import short_repr
 from mudline.spelling import nearest
 from mudline.syntax.fields import first_key, trimmed
@@ -112,9 +112,9 @@ class _Reader:
         trailing = _attach(self.comments, built) if self.comments else []
         self.lost += builder.lost
         model = self._model(built, builder)
-        return ReadBlock(model, places, one_a_line(self.text, self.problems), trailing, self.lost)
+        return ReadBlock(model, places, merge_per_line(self.text, self.problems), trailing, self.lost)
 
-    def _model(self, built: Built, builder: Builder) -> Block:
+    def _model(self, built: ParsedRecord, builder: Builder) -> Block:
         """The validated model; of a block with faults, what could be read of it."""
         built.values["keyword"] = self.raw.name
         if not builder.damaged:
@@ -218,14 +218,14 @@ class _CommentLine(NamedTuple):
     span: Span
 
 
-def _attach(comments: list[_CommentLine], block: Built) -> list[str]:
+def _attach(comments: list[_CommentLine], block: ParsedRecord) -> list[str]:
     """Give each comment to the innermost record whose lines stand on both sides of it, before the item it precedes.
 
     Returns the texts of those behind the last line of the block: they belong to what follows it.
     """
     trailing: list[str] = []
     whole = _CommentPlaces(block)
-    owners: dict[int, Built] = {}
+    owners: dict[int, ParsedRecord] = {}
     for comment in comments:
         if block.last is not None and comment.position < block.last:
             places = whole.owner(comment.position)
@@ -242,7 +242,7 @@ def _attach(comments: list[_CommentLine], block: Built) -> list[str]:
 class _CommentPlaces:
     """The places for comments in a record, in tables that are made once for all of its comments."""
 
-    def __init__(self, record: Built) -> None:
+    def __init__(self, record: ParsedRecord) -> None:
         self.record = record
         self.within = sorted(
             (child for children in record.children.values() for child in children if child.last is not None),
@@ -287,7 +287,7 @@ def _label(part: type[Part], place: tuple[str | int, ...]) -> str:
     """The name, for a reader, of the field at a place of a block."""
     label = ""
     for step in place:
-        slot = next((slot for slot in layout(part).slots if slot.json == step), None)
+        slot = next((slot for slot in record_schema(part).slots if slot.json == step), None)
         if slot is not None:
             label = slot.label
             part = slot.row or next(iter(slot.record.values()), part)
@@ -306,15 +306,15 @@ def row_formats(part: type[Part]) -> list[str]:
     for found in _layouts(part):
         lines = [slot for slot in found.columns if slot.row]
         plain = [slot for slot in found.columns if not slot.row]
-        shapes += [layout(slot.row).wanted for slot in lines if slot.row]
+        shapes += [record_schema(slot.row).wanted for slot in lines if slot.row]
         if found.table and found.table.row:
-            shapes.append(layout(found.table.row).wanted)
+            shapes.append(record_schema(found.table.row).wanted)
         if plain and not lines:
             shapes.append(row_format([slot.label for slot in plain], [slot.required for slot in plain]))
     return shapes
 
 
-def _layouts(part: type[Part]) -> list[Layout]:
-    own = layout(part)
+def _layouts(part: type[Part]) -> list[RecordSchema]:
+    own = record_schema(part)
     below = [inner for slot in own.children.values() for record in slot.record.values() for inner in _layouts(record)]
     return [own, *below]

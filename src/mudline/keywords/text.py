@@ -13,7 +13,7 @@ import numpy as np
 from mudline.codes.fields import SYN002, SYN003, SYN015, SYN016
 from mudline.codes.lines import SYN005
 from mudline.diagnostics import Problem, Repair, Severity, Span
-from mudline.keywords.model import Slot, columns_of, layout, row_format
+from mudline.keywords.model import FieldSpec, columns_of, record_schema, row_format
 from mudline.keywords.places import Path, Places
 from mudline.keywords.table import LARGEST_WHOLE, Column, Table, from_rows, not_whole
 from mudline.keywords.values import Equation, Kind, Label
@@ -39,7 +39,7 @@ class UnreadableError(Exception):
         super().__init__(problem.message)
 
 
-def read_value(field: Field, slot: Slot, problems: list[Problem]) -> Value:
+def read_value(field: Field, slot: FieldSpec, problems: list[Problem]) -> Value:
     """The value of a field; raises UnreadableError. What is only doubtful is added to `problems`."""
     if slot.kind is Kind.NAME:
         return field.text
@@ -49,7 +49,7 @@ def read_value(field: Field, slot: Slot, problems: list[Problem]) -> Value:
     return equation or _number(field, slot, problems)
 
 
-def _number(field: Field, slot: Slot, problems: list[Problem]) -> Value:
+def _number(field: Field, slot: FieldSpec, problems: list[Problem]) -> Value:
     number = read_number(field.text)
     if number is None:
         if slot.kind is Kind.IDENT:
@@ -64,7 +64,7 @@ def _number(field: Field, slot: Slot, problems: list[Problem]) -> Value:
     return int(number)
 
 
-def _label(field: Field, slot: Slot, problems: list[Problem]) -> Label:
+def _label(field: Field, slot: FieldSpec, problems: list[Problem]) -> Label:
     if label := Label.match(field.text):
         return label
     braced = maybe_label(field.text)
@@ -190,12 +190,12 @@ def mixed_commas(values: list[Field], kinds: list[Kind | None], fewest: int) -> 
     return Problem(SYN015, message, one.span._replace(end=two.span.end))
 
 
-def _choice(field: Field, slot: Slot) -> str:
+def _choice(field: Field, slot: FieldSpec) -> str:
     word = " ".join(field.text.upper().split())
     if word in slot.choices:
         return word
     known = list(slot.choices)
-    known = [*(["a number"] if slot.kind else []), *known, *([layout(slot.row).wanted] if slot.row else [])]
+    known = [*(["a number"] if slot.kind else []), *known, *([record_schema(slot.row).wanted] if slot.row else [])]
     listed = ", ".join(known[:-1]) + f" or {known[-1]}" if len(known) > 1 else known[0]
     near = nearest(word, slot.choices)
     message = f"{shown(field.text)} is not allowed for {slot.label}: expected {listed}{hint(near)}"
@@ -224,7 +224,7 @@ def advice_on(name: str) -> str:
     return _ADVICE if remark_of(name) else ""
 
 
-def one_a_line(text: str, problems: list[Problem]) -> list[Problem]:
+def merge_per_line(text: str, problems: list[Problem]) -> list[Problem]:
     """The problems of a text, with one in the place of all those that the fields of a line have by a remark."""
     if not any(problem.code in _OF_FIELDS for problem in problems):
         return problems
@@ -290,7 +290,7 @@ class BlockReading(Protocol):
 class TableBuilder:
     """Collects the runs of one table."""
 
-    def __init__(self, builder: BlockReading, slot: Slot, path: Path) -> None:
+    def __init__(self, builder: BlockReading, slot: FieldSpec, path: Path) -> None:
         self.builder = builder
         self.columns: list[Column] = columns_of(slot)
         self.path = path

@@ -150,7 +150,7 @@ LINE_SETS: Mapping[str, Names] = {
 
 
 @dataclass(frozen=True, slots=True)
-class Kept:
+class OpaqueKeyword:
     """A keyword that is known, and whose lines are passed through unchanged.
 
     `example` shows what its lines may look like, not its format. `certain` and `inferred` say what we know of it and

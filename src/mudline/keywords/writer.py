@@ -8,7 +8,7 @@ from typing import Any
 
 from pydantic_core import to_json
 
-from mudline.keywords.model import Block, Comment, Part, Record, Rows, Setting, Slot, columns_of, layout
+from mudline.keywords.model import Block, Comment, FieldSpec, Part, Record, Rows, Setting, columns_of, record_schema
 from mudline.keywords.table import Cell, Listing, Table
 
 Item = tuple[list[str], int]
@@ -30,7 +30,7 @@ def _record_lines(record: Record) -> Iterator[str]:
 
 
 def _opens(record: Record) -> bool:
-    found = layout(type(record))
+    found = record_schema(type(record))
     first = next((slot for slot in found.slots if getattr(record, slot.name) is not None), None)
     return first is not None and isinstance(first.about, Setting)
 
@@ -54,7 +54,7 @@ def with_comments(comments: list[Comment], items: Iterable[Item]) -> Iterator[st
 
 def _items(record: Record) -> Iterator[Item]:
     """The items of a record in the order of its fields: a line each, a record below it, rows of a table."""
-    found = layout(type(record))
+    found = record_schema(type(record))
     plain = [slot for slot in found.columns if not slot.row]
     own_row = plain if len(plain) == len(found.columns) else []
     pending: str = ""
@@ -89,7 +89,7 @@ def _joins(setting: Setting, line: str) -> bool:
     return setting.inline and (not setting.behind or line.startswith(f" {setting.behind}="))
 
 
-def table_lines(table: Table, slot: Slot) -> Iterator[list[str]]:
+def table_lines(table: Table, slot: FieldSpec) -> Iterator[list[str]]:
     """The rows of a table, one a line, some thousand at a time."""
     for piece in Listing(table, columns_of(slot)).lines(joined):
         yield f" {piece}".replace("\n", "\n ").split("\n")
@@ -97,13 +97,13 @@ def table_lines(table: Table, slot: Slot) -> Iterator[list[str]]:
 
 def _value(value: Any) -> str:
     if isinstance(value, Part):
-        return _row(value, layout(type(value)).columns)
+        return _row(value, record_schema(type(value)).columns)
     if isinstance(value, list):
         return joined(value)
     return field_text(value)
 
 
-def _row(part: Part, columns: list[Slot]) -> str:
+def _row(part: Part, columns: list[FieldSpec]) -> str:
     given = [getattr(part, slot.name) is not None for slot in columns]
     length = max((index + 1 for index, here in enumerate(given) if here), default=1)
     values = [getattr(part, slot.name) for slot in columns[:length]]

@@ -85,7 +85,7 @@ MOST_BLOCKS = 512
 """Blocks that are remembered."""
 
 
-class BlockMemory:
+class BlockCache:
     """The last few hundred short blocks, as they were read.
 
     A block that comes again shares its model with the one before: for decks that are looked at and not changed.
@@ -126,7 +126,7 @@ def _reported_at(problem: Problem, by: int) -> Problem:
     return replace(problem, span=span, repair=repair)
 
 
-_MEMORY = BlockMemory()
+_MEMORY = BlockCache()
 """Rules look at decks and do not change them."""
 
 

@@ -19,7 +19,7 @@ from mudline.diagnostics import Problem, Span, Where
 from mudline.keywords.catalogue import in_order, is_superseded, supersedes
 from mudline.keywords.common import Surface
 from mudline.keywords.library.embedment import Embedment
-from mudline.keywords.model import Block, layout
+from mudline.keywords.model import Block, record_schema
 from mudline.keywords.text import reads_as_name
 from mudline.keywords.values import Equation
 from mudline.syntax.edits import TextEdit
@@ -242,7 +242,7 @@ class _Rewriter:
     def _fields(self, where: Where, block: Surface) -> dict[str, str]:
         """The fields of the first line as they are written."""
         spans = self.origin.read[where.section, where.block].places.spans
-        columns = [slot.json for slot in layout(type(block.properties)).columns]
+        columns = [slot.json for slot in record_schema(type(block.properties)).columns]
         found = {name: spans.get(("properties", name), Span(0, 0)) for name in columns}
         return {name: self.text[slice(*span)].strip(" \t\r\n,") for name, span in found.items()}
 

@@ -158,7 +158,7 @@ class Peak(NamedTuple):
 
 
 @dataclass
-class Digest:
+class StepSummary:
     """The first step, the figures of the first `most` steps (None: of all), and the largest of all steps.
 
     `peaks` have the names of `STEPS`. A single state without a time has neither steps nor peaks.

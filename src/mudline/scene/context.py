@@ -16,7 +16,7 @@ from mudline.deck.model import Deck, Opaque
 from mudline.deck.parameters import EvaluatedDeck, folded
 from mudline.diagnostics import MORE, MOST_REPORTED, Blocks, Code, Problem, Severity, Where
 from mudline.keywords import catalogue
-from mudline.keywords.catalogue import meant_in, meant_keyword
+from mudline.keywords.catalogue import meant_in, suggest_keyword
 from mudline.keywords.model import ListRow
 from mudline.keywords.text import hint
 from mudline.scene.deck_values import (
@@ -238,7 +238,7 @@ class Context:
     def _meant(self, section: str, keyword: str, effort: Effort) -> Iterator[tuple[str, str]]:
         sections = catalogue.sections_of(keyword)
         if sections is None and section == "MODEL":
-            yield meant_keyword(keyword, effort), f"*{keyword}, which is not known,"
+            yield suggest_keyword(keyword, effort), f"*{keyword}, which is not known,"
         elif sections and section not in sections:
             for name in (keyword, meant_in(keyword, section)):
                 yield name, f"the *{keyword} in ${section}, where it does not belong,"

@@ -12,7 +12,7 @@ from mudline.deck.model import Deck, Opaque
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Span, Where
 from mudline.keywords import catalogue
-from mudline.keywords.model import Block, Part, Row, layout
+from mudline.keywords.model import Block, Part, Row, record_schema
 from mudline.keywords.values import LINE_SETS, Names
 from mudline.syntax.fields import read_line
 from mudline.syntax.rows import read_number
@@ -104,12 +104,12 @@ def definition_by(definer: str, keyword: str) -> str:
 
 def makes_labels(definer: str) -> bool:
     """Whether a definer gives labels to nodes."""
-    kept = catalogue.kept_of("MODEL", definer)
+    kept = catalogue.opaque_keyword("MODEL", definer)
     return kept is not None and kept.labels
 
 
 def _makes(keyword: str) -> tuple[str, ...]:
-    kept = catalogue.kept_of("MODEL", keyword)
+    kept = catalogue.opaque_keyword("MODEL", keyword)
     return kept.makes if kept else catalogue.facts_of(keyword).makes
 
 
@@ -147,7 +147,7 @@ def _model(deck: Deck) -> Iterator[Block | Opaque]:
 def _sets(block: Block | Opaque) -> Iterator[str]:
     """The element sets that a block of lines names."""
     if isinstance(block, Opaque):
-        kept = catalogue.kept_of("MODEL", block.keyword)
+        kept = catalogue.opaque_keyword("MODEL", block.keyword)
         if kept and kept.name_settings:
             yield from _given_in_lines(block.lines, kept.name_settings)
     elif block.facts.makes:
@@ -165,20 +165,20 @@ def _given_in_lines(lines: Iterable[str], keys: Mapping[str, Names]) -> Iterator
 
 def _given_in_parts(part: Part) -> Iterator[str]:
     """The same settings of a keyword that is read; what could not be read of it is None."""
-    for slot in layout(type(part)).slots:
+    for slot in record_schema(type(part)).slots:
         value = getattr(part, slot.name)
         if slot.record:
             for child in value:
                 yield from _given_in_parts(child)
         elif slot.key in LINE_SETS:
             if isinstance(value, Row):
-                value = getattr(value, layout(type(value)).columns[0].name)
+                value = getattr(value, record_schema(type(value)).columns[0].name)
             yield from (name for name in (value if isinstance(value, list) else [value]) if name)
 
 
 def _texts(block: Block | Opaque) -> Iterator[str]:
     """Every value of a block that is neither a number nor an equation."""
-    kept = catalogue.kept_of("MODEL", block.keyword)
+    kept = catalogue.opaque_keyword("MODEL", block.keyword)
     if not isinstance(block, Opaque) or kept is None or not kept.labels:
         return
     for line in _data(block.lines):

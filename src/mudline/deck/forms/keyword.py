@@ -13,7 +13,7 @@ from mudline.deck.faults import DocumentPath, document_path, path_text, shown
 from mudline.deck.model import Deck, Opaque, Section
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import DeckError, Problem, Where
-from mudline.keywords.model import Block, Part, layout
+from mudline.keywords.model import Block, Part, record_schema
 from mudline.keywords.table import Table
 from mudline.keywords.writer import block_lines, with_comments
 from mudline.syntax.source import Source
@@ -117,7 +117,7 @@ def _section_difference(section: Section, again: Section, index: int) -> tuple[W
 
 def _sample(part: _P) -> _P:
     changes: dict[str, Any] = {}
-    for slot in layout(type(part)).slots:
+    for slot in record_schema(type(part)).slots:
         value = getattr(part, slot.name, None)
         if isinstance(value, Table) and len(value) > _FEW:
             changes[slot.name] = _some_rows(value)
@@ -138,7 +138,7 @@ def _some_rows(table: Table) -> Table:
 def _bare(part: _P) -> _P:
     """A part without its comments, which may find another place."""
     changes: dict[str, Any] = {"comments": []} if getattr(part, "comments", None) else {}
-    for slot in layout(type(part)).slots:
+    for slot in record_schema(type(part)).slots:
         value = getattr(part, slot.name, None)
         if slot.record and value:
             changes[slot.name] = [_bare(record) for record in value]

@@ -5,9 +5,9 @@ Its format is not public: the lines are kept, the names in them are used.
 
 from __future__ import annotations
 
-from mudline.keywords.values import LINE_SETS, Kept
+from mudline.keywords.values import LINE_SETS, OpaqueKeyword
 
-KEPT = Kept(
+OPAQUE = OpaqueKeyword(
     keyword="CABLE",
     summary="Cables along which *NODE,CURVILINEAR places nodes (superseded by *LINES).",
     example="*CABLE\n 1, 41, 565.6\n",

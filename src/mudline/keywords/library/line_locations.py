@@ -5,9 +5,9 @@ Its format is not public: the lines are kept, the names in them are used.
 
 from __future__ import annotations
 
-from mudline.keywords.values import Kept, Names
+from mudline.keywords.values import Names, OpaqueKeyword
 
-KEPT = Kept(
+OPAQUE = OpaqueKeyword(
     keyword="LINE LOCATIONS",
     summary="Labels for nodes at given distances along a line.",
     example="*LINE LOCATIONS\n LINE=Umbilical\n Touchdown, 200.0\n",

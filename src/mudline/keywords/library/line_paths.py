@@ -5,9 +5,9 @@ Its format is not public: the lines are kept, the names in them are used.
 
 from __future__ import annotations
 
-from mudline.keywords.values import LINE_SETS, Kept
+from mudline.keywords.values import LINE_SETS, OpaqueKeyword
 
-KEPT = Kept(
+OPAQUE = OpaqueKeyword(
     keyword="LINE PATHS",
     summary="Lines that follow a path; their sections are given in *LINE PATH SECTIONS.",
     example="*LINE PATHS\n LINE=Flowline\n 0.0, 0.0, 0.0\n 0.0, 850.0, 0.0\n",

@@ -5,9 +5,9 @@ Its format is not public: the lines are kept, the names in them are used.
 
 from __future__ import annotations
 
-from mudline.keywords.values import LINE_SETS, Kept
+from mudline.keywords.values import LINE_SETS, OpaqueKeyword
 
-KEPT = Kept(
+OPAQUE = OpaqueKeyword(
     keyword="LINES",
     summary="Lines made of sections: nodes, elements, labels and element sets in one.",
     example="*LINES\n LINE=Umbilical\n SECTION=Static Section, 200.0\n SECTION=Dynamic Section, 365.6\n",

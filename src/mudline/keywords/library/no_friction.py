@@ -5,9 +5,9 @@ Its format page is not public, and neither is its section: the lines are kept, i
 
 from __future__ import annotations
 
-from mudline.keywords.values import Kept
+from mudline.keywords.values import OpaqueKeyword
 
-KEPT = Kept(
+OPAQUE = OpaqueKeyword(
     keyword="NO FRICTION",
     summary="A run without seabed friction, whatever coefficients the seabed has.",
     example="*NO FRICTION\n",

@@ -5,9 +5,9 @@ Its format is not public: the lines are kept. Its nodes have no coordinates here
 
 from __future__ import annotations
 
-from mudline.keywords.values import Kept
+from mudline.keywords.values import OpaqueKeyword
 
-KEPT = Kept(
+OPAQUE = OpaqueKeyword(
     keyword="NODE,CURVILINEAR",
     summary="Nodes by their distance along a *CABLE (superseded by *LINES).",
     example="*NODE,CURVILINEAR\n 2, 14.1\n 3, 28.2\n",

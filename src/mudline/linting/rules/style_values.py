@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Code, Problem, Repair, Severity, Span
-from mudline.keywords.model import Part, layout
+from mudline.keywords.model import Part, record_schema
 from mudline.keywords.places import Path
 from mudline.keywords.reader import ReadBlock
 from mudline.linting.rules.style_lines import (
@@ -245,6 +245,6 @@ def _inner(at: object, step: str | int) -> object:
         return at[step] if step < len(at) else None
     if not isinstance(at, Part):
         return None
-    found = layout(type(at))
+    found = record_schema(type(at))
     slots = found.columns[step : step + 1] if isinstance(step, int) else [s for s in found.slots if s.json == step]
     return getattr(at, slots[0].name, None) if slots else None

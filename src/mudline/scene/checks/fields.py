@@ -13,7 +13,7 @@ from mudline.deck.model import Deck
 from mudline.deck.parameters import Parameters
 from mudline.diagnostics import MOST_REPORTED, Blocks, Code, Problem, Severity, Where
 from mudline.keywords.catalogue import ZERO_LENGTH
-from mudline.keywords.model import Block, ListRow, Part, Rows, Slot, layout, names_given
+from mudline.keywords.model import Block, FieldSpec, ListRow, Part, Rows, names_given, record_schema
 from mudline.keywords.table import Table
 from mudline.keywords.text import shown
 from mudline.keywords.values import Names
@@ -63,12 +63,12 @@ def negative_property(scene: ResolvedDeck) -> Iterator[Problem]:
 
 
 @cache
-def _checked_slots(part: type[Part]) -> tuple[Slot, ...]:
+def _checked_slots(part: type[Part]) -> tuple[FieldSpec, ...]:
     """The fields with a range, and those with parts that have one."""
-    return tuple(slot for slot in layout(part).slots if _ranged(slot))
+    return tuple(slot for slot in record_schema(part).slots if _ranged(slot))
 
 
-def _ranged(slot: Slot) -> bool:
+def _ranged(slot: FieldSpec) -> bool:
     about = slot.about
     if any(limit is not None for limit in (about.at_least, about.above, about.at_most)):
         return True
@@ -93,9 +93,9 @@ def _faults(part: Part) -> Iterator[tuple[tuple[str | int, ...], str]]:
                     yield from (((slot.json, index, *path), fault) for path, fault in _faults(item))
 
 
-def _table_faults(table: Table, slot: Slot) -> Iterator[tuple[tuple[int, int], str]]:
+def _table_faults(table: Table, slot: FieldSpec) -> Iterator[tuple[tuple[int, int], str]]:
     """Row, column and message of each value of a table that is out of range."""
-    columns = layout(slot.row).columns if isinstance(slot.about, Rows) and slot.row else []
+    columns = record_schema(slot.row).columns if isinstance(slot.about, Rows) and slot.row else []
     for index, column in enumerate(columns):
         if not _ranged(column):
             continue
@@ -104,7 +104,7 @@ def _table_faults(table: Table, slot: Slot) -> Iterator[tuple[tuple[int, int], s
                 yield (row, index), fault
 
 
-def _fault(value: float, slot: Slot) -> str:
+def _fault(value: float, slot: FieldSpec) -> str:
     """What is wrong with a number, or nothing; NaN stands for one that could not be read."""
     low, above, most = slot.about.at_least, slot.about.above, slot.about.at_most
     if low is not None and value < low:
@@ -116,7 +116,7 @@ def _fault(value: float, slot: Slot) -> str:
     return ""
 
 
-def _name(slot: Slot) -> str:
+def _name(slot: FieldSpec) -> str:
     """The field in words: `FRICTION=`, `water depth`, `external diameter Do`, `area of the section (A)`."""
     meaning = slot.about.meaning.partition(";")[0]
     if slot.key:
