@@ -23,6 +23,8 @@ from tests.benchmarks.runner import ROOT, Job, environment
 
 SUBJECTS: dict[str, Callable[[Bench], None]] = {
     "reading": reading.run,
+    "spellings": reading.spellings,
+    "growth": reading.growth,
     "start": start.run,
     "decks": decks.run,
     "commands": commands.run,
@@ -41,6 +43,9 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quick", action="store_true", help="small inputs and single rounds, to try it out")
     parser.add_argument("--only", nargs="+", choices=SUBJECTS, default=list(SUBJECTS), help="these subjects only")
+    parser.add_argument(
+        "--rounds", type=int, default=100, metavar="N", help="at most so many rounds of each comparison"
+    )
     parser.add_argument("--no-peers", action="store_true", help="install and run no other program")
     parser.add_argument("--page", action="store_true", help="measure nothing, write the page again")
     parser.add_argument("--output", type=Path, help="folder of the page (default docs; with --quick .bench/quick)")
@@ -53,15 +58,16 @@ def main() -> None:
         places = {peer.name: installed(peer) for peer in PEERS}
     results = Results() if given.quick else Results.load(kept)
     if not given.page:
+        few = f" of at most {given.rounds} rounds" if given.rounds < 100 else ""
         words = [sys.executable, "-c", _COMPILE]
         subprocess.run(words, check=False, cwd=ROOT, env=environment(Job(words)))
         with tempfile.TemporaryDirectory() as name:
-            bench = Bench(Path(name), given.quick, places, results)
+            bench = Bench(Path(name), given.quick, places, results, given.rounds)
             for subject in given.only:
                 begun, load = time.perf_counter(), os.getloadavg()[0]
                 SUBJECTS[subject](bench)
                 took = time.perf_counter() - begun
-                full = f"a full run, {took:.0f} s; load of the machine before it {load:.1f}"
+                full = f"a full run{few}, {took:.0f} s; load of the machine before it {load:.1f}"
                 results.runs[subject] = QUICK if given.quick else full
                 results.save(kept)
                 print(f"{subject}: {took:.0f} s", flush=True)

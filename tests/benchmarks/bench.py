@@ -100,14 +100,16 @@ class Bench:
     quick: bool
     environments: Mapping[str, Environment]
     results: Results = field(default_factory=Results)
+    most_rounds: int = 100
 
     def size(self, full: int) -> int:
         """A size, or a five hundredth of it in a quick run."""
         return max(10, full // 500) if self.quick else full
 
     def costs(self, jobs: Mapping[str, Job], rounds: int, *, warm: bool = True) -> dict[str, list[Cost]]:
-        """The costs of jobs in turn; a quick run has a single round, and none to warm up."""
-        taken = alternate(jobs, 1 if self.quick else rounds, warm=warm and not self.quick)
+        """The costs of jobs in turn; a run of a single round, such as a quick one, has none to warm up."""
+        rounds = 1 if self.quick else min(rounds, self.most_rounds)
+        taken = alternate(jobs, rounds, warm=warm and rounds > 1)
         lost = {jobs[name].peer for name in jobs.keys() - taken.keys()}
         self.results.failed += sorted(lost - set(self.results.failed))
         return taken
@@ -136,7 +138,7 @@ class Bench:
         return Job([sys.executable, "-m", "mudline", *words], codes=frozenset(codes), environment=place)
 
     def grow(self, panel: str, sizes: Sequence[int], makers: Mapping[str, Maker], *, clock: bool = False) -> None:
-        """Measure jobs of growing sizes for the picture: least processor time of three runs, or time by the clock.
+        """Measure jobs of growing sizes for the picture: least processor time of two runs, or time by the clock.
 
         What takes long is run once, and left out at the sizes where it would take minutes.
         """
@@ -144,7 +146,7 @@ class Bench:
         last = dict.fromkeys(makers, 0.0)
         for size in sizes:
             for rounds, names in (
-                (3, [name for name, took in last.items() if took < _BRIEF]),
+                (2, [name for name, took in last.items() if took < _BRIEF]),
                 (1, [name for name, took in last.items() if _BRIEF <= took < _LONG]),
             ):
                 taken = self.costs({name: makers[name](size) for name in names}, rounds, warm=False)

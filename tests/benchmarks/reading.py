@@ -21,15 +21,17 @@ _ARRAYS = f"{_NUMPY_ALONE}\nfrom mudline.diagnostics import Span\nfrom mudline.s
 
 
 def run(bench: Bench) -> None:
-    """Measure all of it."""
+    """Measure whole files, arrays, and bad fields."""
     _files(bench)
     _arrays(bench)
-    _spellings(bench)
     _faults(bench)
-    if bench.quick:
-        return
+
+
+def growth(bench: Bench) -> None:
+    """Measure files of growing sizes, for the picture."""
+    sizes = SIZES[:2] if bench.quick else SIZES
     for panel, kinds in (("rows of a curve", _CURVE), ("nodes", _NODES)):
-        bench.grow(panel, SIZES, _readers(bench, kinds))
+        bench.grow(panel, sizes, _readers(bench, kinds))
 
 
 _CURVE = {"mudline": "curve", "np.loadtxt": "curve", "opm": "opm-curve"}
@@ -127,11 +129,11 @@ def _pair(bench: Bench, kind: str, count: int, spelling: str = "") -> dict[str, 
     return {"mudline": bench.timed(ours, kind, count), "np.loadtxt": bench.timed(theirs, kind, count)}
 
 
-def _spellings(bench: Bench) -> None:
-    """Text in memory to an array in each spelling."""
+def spellings(bench: Bench) -> None:
+    """Measure text in memory to an array, in each spelling."""
     count = bench.size(SPELLED)
     for spelling in SPELLINGS:
-        found = bench.costs(_pair(bench, f"spelling:{spelling}", count, spelling), 7)
+        found = bench.costs(_pair(bench, f"spelling:{spelling}", count, spelling), 5)
         bench.results.figures[f"spelling {spelling}"] = ratio(cpu(found["np.loadtxt"]), cpu(found["mudline"]))
 
 
