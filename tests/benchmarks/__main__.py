@@ -58,7 +58,7 @@ def main() -> None:
         places = {peer.name: installed(peer) for peer in PEERS}
     results = Results() if given.quick else Results.load(kept)
     if not given.page:
-        few = f" of at most {given.rounds} rounds" if given.rounds < 100 else ""
+        few = f", rounds limited to {given.rounds}" if given.rounds < 100 else ""
         words = [sys.executable, "-c", _COMPILE]
         subprocess.run(words, check=False, cwd=ROOT, env=environment(Job(words)))
         with tempfile.TemporaryDirectory() as name:

@@ -106,9 +106,13 @@ class Bench:
         """A size, or a five hundredth of it in a quick run."""
         return max(10, full // 500) if self.quick else full
 
+    def rounds(self, full: int) -> int:
+        """How many rounds to run: one in a quick run, and no more than the user wants."""
+        return 1 if self.quick else min(full, self.most_rounds)
+
     def costs(self, jobs: Mapping[str, Job], rounds: int, *, warm: bool = True) -> dict[str, list[Cost]]:
         """The costs of jobs in turn; a run of a single round, such as a quick one, has none to warm up."""
-        rounds = 1 if self.quick else min(rounds, self.most_rounds)
+        rounds = self.rounds(rounds)
         taken = alternate(jobs, rounds, warm=warm and rounds > 1)
         lost = {jobs[name].peer for name in jobs.keys() - taken.keys()}
         self.results.failed += sorted(lost - set(self.results.failed))

@@ -29,7 +29,7 @@ def _printed(module: str, *arguments: object) -> Any:  # noqa: ANN401 JSON
 
 def _contact(bench: Bench) -> None:
     nodes = NODES[:2] if bench.quick else NODES
-    found = _printed("contact", "--rounds", 1 if bench.quick else 5, "--nodes", *nodes)
+    found = _printed("contact", "--rounds", bench.rounds(5), "--nodes", *nodes)
     kinds = {"numpy": "numpy", "fast": "compiled", "2 threads": "compiled, 2 threads"}
     rows = [
         [scene, f"{int(size):,}", *(f"{cells[kind]:.1f}" if kind in cells else "" for kind in kinds)]
@@ -48,7 +48,7 @@ def _contact(bench: Bench) -> None:
 
 
 def _curves(bench: Bench) -> None:
-    found = _printed("curves", "--ratios", bench.size(RATIOS), "--rounds", 1 if bench.quick else 3, "--points", *POINTS)
+    found = _printed("curves", "--ratios", bench.size(RATIOS), "--rounds", bench.rounds(3), "--points", *POINTS)
     rows = [[f"{count:,}", spacing, *(f"{cell:.2f}" for cell in cells)] for count, spacing, cells in found["rows"]]
     bench.results.tables["Force curves, ns a ratio and ratios of times"] = Table(
         ["points", "spacing", *found["heads"]], rows

@@ -11,8 +11,8 @@ SPELLINGS = {
     "%.3f": ("`%.3f`", 0.85),
     "whole": ("whole numbers up to 10^18", 0.87),
     "%.6E": ("`%.6E`, 1e-20 to 1e20", 0.88),
-    "%.17g": ("`%.17g`, -1000 to 1000", 1.3),
-    "bits": ("shortest form of any bit pattern", 1.8),
+    "%.17g": ("`%.17g`, -1000 to 1000", 1.2),
+    "bits": ("shortest form of any bit pattern", 1.7),
     "no fraction": ("`12.`", 0.32),
     "no whole": ("`.5`", 0.31),
     "plus": ("`+1.5`", 0.26),
@@ -67,7 +67,13 @@ GOALS = (
     Goal("memory 4", _READING, "peak memory of the process, 4 columns", "at most", 210.0, "MB"),
     Goal("equations", _READING, "2 columns, an equation in every tenth row", "at most", 2.0, "s"),
     *(
-        Goal(f"bad {count}", _READING, f"{count} bad fields: time / that of the clean table", "at most", 3.0)
+        Goal(
+            f"bad {count}",
+            _READING,
+            f"{count} bad field{'s' if count > 1 else ''}: time / that of the clean table",
+            "at most",
+            3.0,
+        )
         for count in BAD_FIELDS
     ),
     *(Goal(f"spelling {key}", _SPELLING, what, "at least", before) for key, (what, before) in SPELLINGS.items()),

@@ -131,10 +131,15 @@ def _pair(bench: Bench, kind: str, count: int, spelling: str = "") -> dict[str, 
 
 def spellings(bench: Bench) -> None:
     """Measure text in memory to an array, in each spelling."""
-    count = bench.size(SPELLED)
-    for spelling in SPELLINGS:
-        found = bench.costs(_pair(bench, f"spelling:{spelling}", count, spelling), 5)
+    count, rows = bench.size(SPELLED), []
+    for spelling, (what, _) in SPELLINGS.items():
+        kind = f"spelling:{spelling}"
+        found = bench.costs(_pair(bench, kind, count, spelling), 5)
         bench.results.figures[f"spelling {spelling}"] = ratio(cpu(found["np.loadtxt"]), cpu(found["mudline"]))
+        size = bench.table(kind, count).stat().st_size / 1e6
+        rows.append([what, *(f"{size / median(cpu(found[name])):.0f}" for name in ("mudline", "np.loadtxt"))])
+    head = ["spelling", "text to array, MB/s", "np.loadtxt, MB/s"]
+    bench.results.tables[f"Spellings, {count:,} rows of 2 columns"] = Table(head, rows)
 
 
 def _faults(bench: Bench) -> None:
