@@ -7,9 +7,8 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 # An installation is as old as the files that say what it consists of.
 INSTALLATION := pyproject.toml src/mudline/__init__.py
 OUT := demo-output
-BENCHMARKS := $(sort $(wildcard tests/benchmarks/*.py))
 CORE := $(addprefix tests/,syntax expression keywords curves contact scene comparison)
-# More arguments for pytest: make test ARGS="-k curves --no-cov"
+# More arguments for pytest or the benchmarks: make test ARGS="-k curves --no-cov", make bench ARGS=--quick
 ARGS ?=
 
 .DEFAULT_GOAL := help
@@ -80,12 +79,12 @@ pictures: $(VENV)/.developer ## redraw the pictures of docs/images
 studies: $(VENV)/.developer ## regenerate the pictures and numbers of docs/studies/ (minutes)
 	@for study in precision stability pruning; do $(BIN)/mudline study $$study -o docs/studies || exit; done
 
-bench: $(VENV)/.developer ## run the benchmarks
-	@for script in $(BENCHMARKS); do echo "== $$script"; $(BIN)/python "$$script" || exit; done
+bench: $(VENV)/.developer ## measure speed beside other programs, and write docs/benchmarks.md (25 minutes)
+	$(BIN)/python -m tests.benchmarks $(ARGS)
 
 build: $(VENV)/.developer ## the source archive and the wheel, in dist/
 	$(BIN)/python -m hatchling build
 
 clean: ## remove everything that can be made again
-	rm -rf $(VENV) $(OUT) dist build htmlcov .coverage .coverage.* .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
+	rm -rf $(VENV) .bench $(OUT) dist build htmlcov .coverage .coverage.* .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
 	find src tests -type d -name __pycache__ -prune -exec rm -rf {} +

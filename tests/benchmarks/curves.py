@@ -1,4 +1,4 @@
-"""Nanoseconds a ratio of `ForceCurve.evaluate` beside numpy's own ways: python tests/benchmarks/curve_speed.py
+"""Nanoseconds a ratio of `ForceCurve.evaluate` beside numpy's own ways: python -m tests.benchmarks.curves
 
 Each round times every method once, so that a busy machine slows all of them alike. Printed are, of the times of the
 rounds, the medians for both backends of `ForceCurve` (numpy alone, and the compiled loops of `mudline[fast]`), and how
@@ -12,6 +12,7 @@ they are spread like the points, and "knots", where they are the points themselv
 from __future__ import annotations
 
 import argparse
+import json
 import statistics
 import time
 from collections.abc import Callable, Iterator
@@ -123,19 +124,26 @@ def main() -> None:
     parser.add_argument("--ratios", type=int, default=10**7, help="random ratios to evaluate (default 10^7)")
     parser.add_argument("--rounds", type=int, default=3, help="rounds to take the median of (default 3)")
     parser.add_argument("--points", type=int, nargs="+", default=[4, 8, 16, 100, 10_000])
+    parser.add_argument("--json", action="store_true", help="print the figures as JSON")
     arguments = parser.parse_args()
     ours = [name for name in ("numpy", "fast") if name in METHODS]
     heads = [*(f"{name} [ns]" for name in METHODS)]
     heads += [f"{name}/{peer}" for name in ours for peer in _PEERS]
     heads += [f"least {name}" for name in ours]
-    print(f"{'points':>8}{'spacing':>11}" + "".join(f"{head:>19}" for head in heads))
+    rows: list[tuple[int, str, list[float]]] = []
+    if not arguments.json:
+        print(f"{'points':>8}{'spacing':>11}" + "".join(f"{head:>19}" for head in heads))
     for count in arguments.points:
         for case in cases(count, arguments.ratios):
             taken = timed(case, arguments.rounds)
             cells = [statistics.median(taken[name]) for name in METHODS]
             cells += [quotient(taken, name, peer) for name in ours for peer in _PEERS]
             cells += [min(taken[name]) for name in ours]
-            print(f"{count:>8}{case.spacing:>11}" + "".join(f"{cell:>19.2f}" for cell in cells), flush=True)
+            rows.append((count, case.spacing, cells))
+            if not arguments.json:
+                print(f"{count:>8}{case.spacing:>11}" + "".join(f"{cell:>19.2f}" for cell in cells), flush=True)
+    if arguments.json:
+        print(json.dumps({"heads": heads, "rows": rows}))
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
-"""Nanoseconds a node and step of the contact evaluator: python tests/benchmarks/contact_speed.py
+"""Nanoseconds a node and step of the contact evaluator: python -m tests.benchmarks.contact
 
-Every scene and peer is run several times; printed is the least processor time of a run, which the rest of the machine
-disturbs least. Runs on two threads count their wall time.
+Every scene and peer is run several times; printed is the least processor time of a run, on which other programs have
+the least influence. Runs on two threads count their time by the clock.
 
 The scenes: "all" has every law on (curves, linear and smoothed laws, nodal springs, unloading, both suctions, friction,
 lateral springs, trenches) over a flat seabed; "sloping" and "planes" are the same over those seabeds, "stretches" has
@@ -16,19 +16,18 @@ points of the curve.
 from __future__ import annotations
 
 import argparse
+import json
 import os
 import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
 import numpy as np
-
-sys.path.insert(0, str(Path(__file__).parents[2]))
 
 from mudline.contact import ContactInput, ContactModel, LawAssignment
 from mudline.contact.arrays import FloatArray, IndexArray
@@ -43,7 +42,7 @@ _NODE_STEPS = 400_000
 """Of a run, about."""
 _FIRST = """
 import time
-from tests.benchmarks.contact_speed import all_laws, series
+from tests.benchmarks.contact import all_laws, series
 from mudline.contact import ContactModel
 import numba
 inputs = all_laws(1000)
@@ -180,8 +179,8 @@ def least(work: Work, rounds: int, clock: Clock = time.thread_time) -> float:
     return min(taken)
 
 
-def table(nodes: int, rounds: int) -> None:
-    """Print all scenes and peers of one size."""
+def table(nodes: int, rounds: int) -> Iterator[tuple[str, dict[str, float]]]:
+    """Nanoseconds a node and step of all scenes and peers of one size."""
     steps = max(8, _NODE_STEPS // nodes)
     scale = 1e9 / (nodes * steps)
     every, curves = all_laws(nodes), one_curve(nodes)
@@ -207,11 +206,13 @@ def table(nodes: int, rounds: int) -> None:
     works["copy"] = {"numpy": partial(np.copyto, target, places)}
     works["searchsorted"] = {"numpy": partial(np.searchsorted, CLAY.ratios, ratios)}
     for name, found in works.items():
-        cells = [
-            least(work, rounds, time.perf_counter if kind == "2 threads" else time.thread_time) * scale
-            for kind, work in found.items()
-        ]
-        print(f"{nodes:>8}{name:>14}" + "".join(f"{cell:>12.1f}" for cell in cells), flush=True)
+        yield (
+            name,
+            {
+                kind: least(work, rounds, time.perf_counter if kind == "2 threads" else time.thread_time) * scale
+                for kind, work in found.items()
+            },
+        )
 
 
 def first_evaluation(cache: str) -> float:
@@ -229,19 +230,32 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--nodes", type=int, nargs="+", default=[1000, 10_000, 100_000, 1_000_000])
     parser.add_argument("--rounds", type=int, default=7, help="runs to take the least time of (default 7)")
+    parser.add_argument("--json", action="store_true", help="print the figures as JSON")
     arguments = parser.parse_args()
-    print(f"{'nodes':>8}{'ns/node/step':>14}{'numpy':>12}{'compiled':>12}{'2 threads':>12}")
+    sizes: dict[int, dict[str, dict[str, float]]] = {}
+    if not arguments.json:
+        print(f"{'nodes':>8}{'ns/node/step':>14}{'numpy':>12}{'compiled':>12}{'2 threads':>12}")
     for nodes in arguments.nodes:
-        table(nodes, arguments.rounds)
+        sizes[nodes] = {}
+        for name, cells in table(nodes, arguments.rounds):
+            sizes[nodes][name] = cells
+            if not arguments.json:
+                print(f"{nodes:>8}{name:>14}" + "".join(f"{cell:>12.1f}" for cell in cells.values()), flush=True)
     inputs = all_laws(1000)
     positions = series(inputs, 2)
     backends: tuple[Backend, ...] = ("numpy", "fast")
-    for backend in backends:
-        taken = least(stepping(inputs, positions, backend), 20 * arguments.rounds)
-        print(f"step(), 1000 nodes, all laws, {backend}: {taken * 1e6:.0f} us")
+    single = {
+        f"step() of 1000 nodes, all laws, {backend}": least(stepping(inputs, positions, backend), 20 * arguments.rounds)
+        for backend in backends
+    }
     with tempfile.TemporaryDirectory() as cache:
-        cold, cached = first_evaluation(cache), min(first_evaluation(cache) for _ in range(3))
-    print(f"first compiled evaluation: {cold:.2f} s, with cached loops {cached:.2f} s")
+        single["first compiled evaluation"] = first_evaluation(cache)
+        single["the same with cached loops"] = min(first_evaluation(cache) for _ in range(3))
+    if arguments.json:
+        print(json.dumps({"sizes": sizes, "single": single}))
+        return
+    for name, taken in single.items():
+        print(f"{name}: {taken * 1e6:.0f} us")
 
 
 if __name__ == "__main__":

@@ -1,0 +1,126 @@
+"""Commands and conversions of large tables, and chains of subsets and of parameters."""
+
+from __future__ import annotations
+
+import shutil
+from dataclasses import replace
+from pathlib import Path
+from statistics import median
+
+from tests.benchmarks.bench import Bench, Table, Work
+from tests.benchmarks.reading import ROWS
+from tests.benchmarks.runner import Job, cpu, figure
+
+LINKS = 10**5
+GENERATED = 10**7
+
+_MODEL = "$MODEL\n*NODE\n 1, 0.0, 0.0\n 2, 0.0, 1.0\n*ELEMENT\n 1, 1, 2\n"
+_OURS = {
+    "json write": ("", "return deck.to_json()"),
+    "json read": ("; text = deck.to_json()", "return mudline.from_json(text)"),
+    "yaml write": ("", "return deck.to_yaml()"),
+    "yaml read": ("; text = deck.to_yaml()", "return mudline.from_yaml(text)"),
+    "keyword write": ("", "return deck.to_keyword()"),
+}
+_YAML = "yaml.dump(array[::100].tolist(), Dumper=yaml.CSafeDumper, default_flow_style=None)"
+_THEIRS = {
+    "json write": ("json.dumps of lists", "rows = array.tolist()", "return json.dumps(rows)"),
+    "json read": (
+        "json.loads to an array",
+        "text = json.dumps(array.tolist())",
+        "return np.array(json.loads(text))",
+    ),
+    "yaml write": ("yaml.dump in C, of one row in 100, multiplied", "pass", f"return {_YAML}"),
+    "yaml read": (
+        "yaml.load in C, of one row in 100, multiplied",
+        f"text = {_YAML}",
+        "return np.array(yaml.load(text, Loader=yaml.CSafeLoader))",
+    ),
+    "keyword write": ("np.savetxt", "text = io.StringIO()", "np.savetxt(text, array, fmt='%.17g', delimiter=', ')"),
+}
+"""What each step of ours and of Python's own tools is made from, and what is timed."""
+
+
+def run(bench: Bench) -> None:
+    """Measure all of it."""
+    _format(bench)
+    _conversions(bench)
+    _chains(bench)
+
+
+def _format(bench: Bench) -> None:
+    """The whole command, on a copy that is not in canonical layout."""
+    source, copy = bench.table("curve", bench.size(ROWS)), bench.folder / "format.keyxm"
+
+    def again() -> None:
+        shutil.copyfile(source, copy)
+
+    job = replace(bench.mudline("format", copy), before=again)
+    bench.results.figures["format"] = figure(cpu(bench.costs({"format": job}, 5)["format"]))
+
+
+def _conversions(bench: Bench) -> None:
+    """Every form of a deck beside what Python's own tools take for the same numbers."""
+    count, rows = bench.size(ROWS), []
+    for table, what, head in (("curve", "2 columns", 3), ("elements", "3 columns", 2), ("nodes", "4 columns", 2)):
+        array = f"array = np.loadtxt(path, delimiter=',', skiprows={head})"
+        for step, (made, work) in _OURS.items():
+            peer, prepare, their_work = _THEIRS[step]
+            ours = Work("import mudline", work, f"deck = mudline.read(path){made}")
+            theirs = Work("import io, json, yaml, numpy as np", their_work, f"{array}; {prepare}")
+            jobs = {"mudline": bench.timed(ours, table, count), "peer": bench.timed(theirs, table, count)}
+            found = bench.costs(jobs, 3, warm=False)
+            times = figure(cpu(found["mudline"]))
+            bench.results.figures[f"{step} {table}"] = times
+            other = median(cpu(found["peer"])) * (100 if step.startswith("yaml") else 1)
+            rows.append([what, step, f"{times.median:.2f}", peer, f"{other:.2f}", f"{other / times.median:.1f}"])
+    heads = ["table", "step", "s", "peer", "s of the peer", "peer / mudline"]
+    bench.results.tables[f"Forms of a deck, {count:,} rows"] = Table(heads, rows)
+
+
+def sets(count: int) -> str:
+    """Sets of which each has the next as its subset."""
+    links = "".join(f" SET=S{i}\n SUBSET=S{i + 1}\n" for i in range(count))
+    return f"{_MODEL}*ELEMENT SETS\n{links} SET=S{count}\n 1\n"
+
+
+def parameters(count: int) -> str:
+    """Parameters of which each is defined by the next."""
+    links = "".join(f" p{i}, =[p{i + 1} + 1]\n" for i in range(count))
+    return f"$PREPROCESSOR\n*PARAMETERS\n{links} p{count}, 1.0\n{_MODEL}"
+
+
+def generated(step: int) -> str:
+    """A set of very many numbers."""
+    return f"{_MODEL}*ELEMENT SETS\n SET=A\n GEN=1, {GENERATED * step}, {step}\n"
+
+
+def _chains(bench: Bench) -> None:
+    """Decks that are easily read in time that grows with the square of their length."""
+    count = bench.size(LINKS)
+
+    def written(name: str, text: str) -> Path:
+        path = bench.folder / name
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    def lint(name: str, text: str) -> Job:
+        return bench.mudline("lint", "--no-cache", written(name, text))
+
+    def diff(step: int) -> Job:
+        sides = (written(f"generated-{step}-{side}.keyxm", generated(step)) for side in "ab")
+        return bench.mudline("diff", *sides)
+
+    jobs = {
+        f"`lint`, a chain of {count:,} subsets": lint("subsets.keyxm", sets(count)),
+        f"`lint`, a chain of {count:,} parameters": lint("parameters.keyxm", parameters(count)),
+        "`lint`, one set": lint("one-set.keyxm", sets(1)),
+        "`diff`, sets of 10^7 elements by GEN=": diff(1),
+        "`diff`, the same with an increment of 2": diff(2),
+    }
+    found = bench.costs(jobs, 3, warm=False)
+    rows = [
+        [name, f"{median(cpu(costs)):.2f}", f"{max(cost.memory for cost in costs):.0f}"]
+        for name, costs in found.items()
+    ]
+    bench.results.tables["Chains and generated sets"] = Table(["command", "s of processor time", "peak MB"], rows)

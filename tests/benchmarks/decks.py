@@ -1,0 +1,206 @@
+"""Many decks of 41 lines: beside yamllint and ruff on the same lines, from the cache, and memory."""
+
+from __future__ import annotations
+
+import random
+import re
+import shutil
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from statistics import median
+
+from tests.benchmarks.bench import Bench, Maker, Table
+from tests.benchmarks.runner import Figure, Job, cpu, elapsed, ratio
+
+DECKS = 1000
+MANY = 10_000
+MOST = 100_000
+SIZES = (1, 10, 100, 1000, 10_000)
+
+Writer = Callable[[int], str]
+"""What writes the deck of a number."""
+_LETTERS = "abcdefghijklmnopqrstuvwxyz"
+_ALIKE = """\
+*ELEMENT SETS
+ SET=TDZ
+ 1, 2, 3
+ SET=Riser
+ GEN=4, 7
+*GEOMETRIC SETS
+ OPTION=RIGID
+ SET=ALL
+ 207.0E9, 79.6E9, 0.5, 0.46, 7850.0
+*SEABED STIFFNESS
+ CURVE=Clay
+ 0.0, 0.0
+ 0.1, 1200.0
+ 0.5, 3000.0
+*SEABED PROPERTIES
+ TYPE=ELASTIC
+ SET=ALL
+ STIFFNESS=50000.0
+ SET=TDZ
+ STIFFNESS=Clay
+"""
+
+
+def alike(number: int) -> str:
+    """A deck that differs from the others in its comment and its depth."""
+    nodes = "".join(f" {i}, -0.05, {5 * (i - 1)}.0\n" for i in range(1, 9))
+    elements = "".join(f" {i}, {i}, {i + 1}\n" for i in range(1, 8))
+    head = f"C deck {number}\n$MODEL\n*OCEAN\n {500 + number}.0, 1025.0, 9.81\n*NODE\n"
+    return f"{head}{nodes}*ELEMENT\n{elements}{_ALIKE}"
+
+
+def apart(number: int) -> str:
+    """A deck whose names, numbers and layout are its own."""
+    rng = random.Random(number)  # noqa: S311 the same decks in every run
+    indent = " " * rng.randint(1, 4)
+    comma = rng.choice((",", ", ", ",  ", " , "))
+    spelled = rng.choice(("{:.1f}", "{:.3f}", "{:.6G}", "{:.4E}")).format
+
+    def row(*values: object) -> str:
+        return indent + comma.join(map(str, values)) + "\n"
+
+    def some(*limits: tuple[float, float]) -> str:
+        return row(*(spelled(rng.uniform(*limit)) for limit in limits))
+
+    zone, rest, curve, title = ("".join(rng.choices(_LETTERS, k=rng.randint(3, 8))) + str(number) for _ in range(4))
+    node, element = rng.randint(1, 10**6), rng.randint(1, 10**6)
+    length, stiffness = rng.uniform(1.0, 9.0), spelled(rng.uniform(4e4, 6e4))
+    return "".join(
+        [
+            f"C {title}\n$MODEL\n*OCEAN\n",
+            some((100.0, 3000.0), (1000.0, 1040.0), (9.78, 9.83)),
+            "*NODE\n",
+            *(row(node + i, spelled(-rng.uniform(0.01, 0.09)), spelled(length * i)) for i in range(8)),
+            "*ELEMENT\n",
+            *(row(element + i, node + i, node + i + 1) for i in range(7)),
+            f"*ELEMENT SETS\n{indent}SET={zone}\n",
+            row(element, element + 1, element + 2),
+            f"{indent}SET={rest}\n{indent}GEN={element + 3}{comma}{element + 6}\n",
+            f"*GEOMETRIC SETS\n{indent}OPTION=RIGID\n{indent}SET=ALL\n",
+            some((2.0e11, 2.1e11), (7.0e10, 8.0e10), (0.46, 0.6), (0.3, 0.34), (7000.0, 8000.0)),
+            f"*SEABED STIFFNESS\n{indent}CURVE={curve}\n",
+            row(spelled(0.0), spelled(0.0)),
+            some((0.06, 0.14), (500.0, 1500.0)),
+            some((0.4, 0.6), (2000.0, 4000.0)),
+            f"*SEABED PROPERTIES\n{indent}TYPE=ELASTIC\n{indent}SET=ALL\n{indent}STIFFNESS={stiffness}\n",
+            f"{indent}SET={zone}\n{indent}STIFFNESS={curve}\n",
+        ]
+    )
+
+
+def as_yaml(deck: str) -> str:
+    """The lines of a deck as as many of YAML: a keyword is a key, a row a list."""
+    return "".join(_converted(deck, "{}:", "  - [{}]", "  - {}"))
+
+
+def as_python(deck: str) -> str:
+    """The lines of a deck as as many of Python."""
+    return "".join(_converted(deck, "{} = 0", "row = ({})", 'text = "{}"'))
+
+
+def _converted(deck: str, head: str, row: str, other: str) -> list[str]:
+    lines = []
+    for line in deck.splitlines():
+        words = re.split(r"[ ]*,[ ]*", line.strip())
+        if line.startswith("C "):
+            form, text = "# {}", line
+        elif line[0] in "$*":
+            form, text = head, line[1:].replace(" ", "_")
+        else:
+            form, text = (row if len(words) > 1 and "=" not in line else other), ", ".join(words)
+        lines.append(form.format(text) + "\n")
+    return lines
+
+
+def _folder(bench: Bench, count: int, write: Writer = apart, suffix: str = "keyxm") -> Path:
+    """A folder with so many decks."""
+    folder = bench.folder / f"{write.__name__}-{suffix}-{count}"
+    convert: dict[str, Callable[[str], str]] = {"yaml": as_yaml, "py": as_python}
+    if not folder.exists():
+        folder.mkdir()
+        for number in range(count):
+            text = write(number)
+            path = folder / f"deck{number:06}.{suffix}"
+            path.write_text(convert[suffix](text) if suffix in convert else text, encoding="utf-8")
+    return folder
+
+
+def _linters(bench: Bench, write: Writer) -> dict[str, Maker]:
+    """Mudline with as many processes as it likes and without its cache, and the peers that are there."""
+    makers: dict[str, Maker] = {
+        "mudline": lambda count: bench.mudline("lint", "--no-cache", _folder(bench, count, write)),
+    }
+    peers: dict[str, tuple[str, str, tuple[str, ...]]] = {
+        "yamllint": ("yaml", "python", ("-I", "-m", "yamllint", "-d", "default")),
+        "ruff": ("py", "ruff", ("check", "--isolated", "--no-cache")),
+    }
+
+    def maker(peer: str) -> Maker:
+        suffix, program, words = peers[peer]
+        start: list[str | Path] = [bench.environments[peer].program(program), *words]
+        return lambda count: Job([*start, _folder(bench, count, write, suffix)], codes=frozenset({0, 1}), peer=peer)
+
+    return makers | {peer: maker(peer) for peer in peers if bench.has(peer)}
+
+
+def run(bench: Bench) -> None:
+    """Measure all of it."""
+    count, rows = bench.size(DECKS), []
+    for key, write, what in (("apart", apart, "share nothing"), ("alike", alike, "share blocks")):
+        found = bench.costs({name: maker(count) for name, maker in _linters(bench, write).items()}, 5)
+        if "yamllint" in found:
+            bench.results.figures[key] = ratio(elapsed(found["yamllint"]), elapsed(found["mudline"]))
+        rows += [
+            [name, what, f"{median(elapsed(costs)):.2f}", f"{1e3 * median(elapsed(costs)) / count:.2f}"]
+            for name, costs in found.items()
+        ]
+    head = ["linter", f"{count:,} decks", "s by the clock", "ms a deck"]
+    bench.results.tables["Linting many decks"] = Table(head, rows)
+    _alone(bench)
+    _cached(bench)
+    if not bench.quick:
+        again = {"mudline, from its cache": lambda size: _filled(bench, size)}
+        bench.grow("decks", SIZES, _linters(bench, apart) | again, clock=True)
+
+
+def _filled(bench: Bench, count: int) -> Job:
+    """A second run of the same decks: the first has filled the cache."""
+    job = bench.mudline("lint", _folder(bench, count), cache=f"filled-{count}")
+    bench.costs({"": job}, 1, warm=False)
+    return job
+
+
+def _alone(bench: Bench) -> None:
+    """What each further deck costs a single process."""
+    count = bench.size(DECKS)
+    few = count // 5
+    jobs = {size: bench.mudline("lint", "--no-cache", "--jobs", "1", _folder(bench, size)) for size in (few, count)}
+    found = bench.costs({str(size): job for size, job in jobs.items()}, 5)
+    more, less = cpu(found[str(count)]), cpu(found[str(few)])
+    each = [(a - b) / (count - few) for a, b in zip(more, less, strict=True)]
+    least = (min(more) - min(less)) / (count - few)
+    bench.results.figures["each"] = Figure([1e3 * value for value in each], 1e3 * least)
+
+
+def _cached(bench: Bench) -> None:
+    """Growth with the count, the cache, and memory, in a single process; these take long and are run few times."""
+
+    def first(count: int) -> Job:
+        job = bench.mudline("lint", "--jobs", "1", _folder(bench, count), cache=f"many-{count}")
+        cache = bench.folder / f"many-{count}"
+        return replace(job, before=lambda: shutil.rmtree(cache, ignore_errors=True))
+
+    few, many, most = (bench.size(count) for count in (DECKS, MANY, MOST))
+    jobs = {"few": first(few), "many": first(many), "again": replace(first(many), before=None)}
+    found = bench.costs(jobs, 3, warm=False)
+    figures = bench.results.figures
+    figures["linear"] = ratio([value * few / many for value in cpu(found["many"])], cpu(found["few"]))
+    figures["cached"] = ratio(cpu(found["many"]), cpu(found["again"]))
+    largest = bench.costs({"": first(most)}, 1, warm=False)[""][0].memory
+    memory = max(cost.memory for cost in found["many"])
+    figures["flat"] = ratio([largest], [memory])
+    shutil.rmtree(_folder(bench, most))

@@ -1,0 +1,97 @@
+"""The goals: what is measured, what it should come to. docs/benchmarks.md has a row for each."""
+
+from __future__ import annotations
+
+from typing import Literal, NamedTuple
+
+Direction = Literal["at least", "at most"]
+
+SPELLINGS = {
+    "%.9g": ("`%.9g`, comma and blank", 0.92),
+    "%.3f": ("`%.3f`", 0.85),
+    "whole": ("whole numbers up to 10^18", 0.87),
+    "%.6E": ("`%.6E`, 1e-20 to 1e20", 0.88),
+    "%.17g": ("`%.17g`, -1000 to 1000", 1.2),
+    "bits": ("shortest form of any bit pattern", 1.7),
+    "no fraction": ("`12.`", 0.32),
+    "no whole": ("`.5`", 0.31),
+    "plus": ("`+1.5`", 0.26),
+    "D": ("`1.25D+03`", 0.3),
+    "blanks": ("blanks instead of commas", 0.22),
+    "tabs": ("tabs and columns", 0.93),
+    "CRLF": ("CRLF line ends", 0.87),
+    "tight": ("no blank after the comma", 0.87),
+}
+"""Ways to spell a number or a row: what the page calls them, and how many times as fast as np.loadtxt the reader was
+before it was rewritten in numpy (medians of the same benchmark)."""
+
+SPELLINGS_BEFORE = (
+    "The goal of a row is what the reader reached before it was written anew, in the same comparison: no spelling may\n"
+    "have become slower. np.loadtxt reads the same text, but for the exponent D, which it reads as E."
+)
+
+BAD_FIELDS = (1, 10, 100, 500)
+
+
+class Goal(NamedTuple):
+    """A figure and its limit. `aim` is what we would like beyond it."""
+
+    key: str
+    subject: str
+    what: str
+    direction: Direction
+    limit: float
+    unit: str = ""
+    aim: float | None = None
+
+    def met(self, value: float) -> bool:
+        """Whether a value is on the right side of the limit."""
+        return value >= self.limit if self.direction == "at least" else value <= self.limit
+
+
+_READING = "Reading a table of 10^6 rows"
+_SPELLING = "Spellings of numbers, 10^5 rows of 2 columns: np.loadtxt / text to array"
+_START = "One deck"
+_DECKS = "Many decks"
+_COMMANDS = "Commands on a table of 10^6 rows"
+
+GOALS = (
+    Goal("rows 2", _READING, "text to array, 2 columns: np.loadtxt / mudline", "at least", 1.8),
+    Goal("rows 4", _READING, "text to array, 4 columns: np.loadtxt / mudline", "at least", 1.8),
+    Goal("meshio 4", _READING, "file, 4 columns: meshio / `mudline.read`", "at least", 5.0),
+    Goal("opm 2", _READING, "file, 2 columns: OPM / `mudline.read`", "at least", 0.9),
+    Goal("opm 4", _READING, "file, 4 columns: OPM / `mudline.read`", "at least", 0.9),
+    Goal("opm pyarrow 2", _READING, "file, 2 columns: OPM / `mudline.read` with pyarrow", "at least", 2.0),
+    Goal("opm pyarrow 4", _READING, "file, 4 columns: OPM / `mudline.read` with pyarrow", "at least", 2.0),
+    Goal("memory 2", _READING, "peak memory of the process, 2 columns", "at most", 140.0, "MB"),
+    Goal("memory 4", _READING, "peak memory of the process, 4 columns", "at most", 210.0, "MB"),
+    Goal("equations", _READING, "2 columns, an equation in every tenth row", "at most", 2.0, "s"),
+    *(
+        Goal(
+            f"bad {count}",
+            _READING,
+            f"{count} bad field{'s' if count > 1 else ''}: time / that of the clean table",
+            "at most",
+            3.0,
+        )
+        for count in BAD_FIELDS
+    ),
+    *(Goal(f"spelling {key}", _SPELLING, what, "at least", before) for key, (what, before) in SPELLINGS.items()),
+    Goal("cold", _START, "cold `mudline lint` / `import numpy, pydantic, lark`", "at most", 2.0),
+    Goal("again", _START, "second `mudline lint`, unchanged and clean / the same imports", "at most", 0.6),
+    Goal("version", _START, "`mudline --version` / `python -c pass`", "at most", 2.0),
+    Goal("evaluate", _START, "`mudline evaluate` / cold `mudline lint`, both of the SCR sample", "at most", 1.0),
+    Goal("apart", _DECKS, "1000 decks that share nothing, by the clock: yamllint / mudline", "at least", 4.0, aim=6.0),
+    Goal("alike", _DECKS, "1000 decks that share blocks, by the clock: yamllint / mudline", "at least", 8.0, aim=12.0),
+    Goal("each", _DECKS, "each further deck that shares nothing", "at most", 1.3, "ms"),
+    Goal("linear", _DECKS, "each of 10 000 decks / each of 1000", "at most", 1.1),
+    Goal("cached", _DECKS, "10 000 decks: first run / second run, from the cache", "at least", 15.0),
+    Goal("flat", _DECKS, "peak memory: 10^5 decks / 10^4 decks", "at most", 1.25),
+    Goal("format", _COMMANDS, "`mudline format`, 2 columns", "at most", 1.2, "s"),
+    *(
+        Goal(f"{form} {step} {table}", _COMMANDS, f"{form.upper()}, {step} {what}", "at most", 2.0, "s")
+        for form in ("json", "yaml")
+        for step in ("write", "read")
+        for table, what in (("curve", "2 columns"), ("nodes", "4 columns"))
+    ),
+)

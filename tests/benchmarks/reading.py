@@ -1,0 +1,153 @@
+"""Reading tables: rows to arrays, files, spellings, bad fields, equations, memory, beside other programs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from statistics import median
+
+from tests.benchmarks.bench import Bench, Maker, Table, Work
+from tests.benchmarks.goals import BAD_FIELDS, SPELLINGS
+from tests.benchmarks.runner import Cost, Job, cpu, figure, ratio
+
+ROWS = 10**6
+SPELLED = 10**5
+_HEADS = {"curve": 3, "nodes": 2}
+"""Lines in front of the rows."""
+SIZES = tuple(10**power for power in range(2, 8))
+
+_NUMPY_ALONE = "sys.modules['pyarrow'] = None\nimport mudline"
+_OURS = Work(_NUMPY_ALONE, "return mudline.read(path)")
+_ARRAYS = f"{_NUMPY_ALONE}\nfrom mudline.diagnostics import Span\nfrom mudline.syntax.rows import read_rows"
+
+
+def run(bench: Bench) -> None:
+    """Measure whole files, arrays, and bad fields."""
+    _files(bench)
+    _arrays(bench)
+    _faults(bench)
+
+
+def growth(bench: Bench) -> None:
+    """Measure files of growing sizes, for the picture."""
+    sizes = SIZES[:2] if bench.quick else SIZES
+    for panel, kinds in (("rows of a curve", _CURVE), ("nodes", _NODES)):
+        bench.grow(panel, sizes, _readers(bench, kinds))
+
+
+_CURVE = {"mudline": "curve", "np.loadtxt": "curve", "opm": "opm-curve"}
+_NODES = {
+    "mudline": "nodes",
+    "np.loadtxt": "nodes",
+    "opm": "opm-nodes",
+    "meshio": "abaqus",
+    "pyNastran": "nastran",
+    "ansys-dyna-core": "dyna",
+}
+"""The kind of table that each program reads."""
+
+_SLOW = ("pyNastran", "ansys-dyna-core")
+_PROGRAMS = {
+    "meshio": Work("import meshio", "return meshio.read(path, file_format='abaqus')"),
+    "opm": Work("from opm.io.parser import Parser", "return Parser().parse(path)"),
+    "pyNastran": Work(
+        "from pyNastran.bdf.bdf import BDF",
+        "model = BDF(debug=None); model.read_bdf(path, xref=False, punch=True); return model",
+    ),
+    "ansys-dyna-core": Work(
+        "from ansys.dyna.core import Deck",
+        "deck = Deck(); deck.loads(open(path).read()); return deck, list(deck.keywords)[0].nodes",
+    ),
+}
+
+
+def _readers(bench: Bench, kinds: dict[str, str]) -> dict[str, Maker]:
+    """What makes the job of a size, for each program that is there and for mudline with pyarrow."""
+
+    def maker(name: str, work: Work, peer: str = "") -> Maker:
+        return lambda count: bench.timed(work, kinds[name], count, peer)
+
+    head = _HEADS[kinds["np.loadtxt"]]
+    loadtxt = Work("import numpy as np", f"return np.loadtxt(path, delimiter=',', skiprows={head})")
+    makers = {
+        "mudline": maker("mudline", _OURS),
+        "mudline, pyarrow": maker("mudline", _OURS._replace(setup="import mudline")),
+        "np.loadtxt": maker("np.loadtxt", loadtxt),
+    }
+    there = {name: work for name, work in _PROGRAMS.items() if name in kinds and bench.has(name)}
+    return makers | {name: maker(name, work, name) for name, work in there.items()}
+
+
+def _files(bench: Bench) -> None:
+    """Whole files, and what memory they take."""
+    count, figures = bench.size(ROWS), bench.results.figures
+    cells: dict[str, list[str]] = {}
+    for columns, kinds in ((2, _CURVE), (4, _NODES)):
+        jobs = {name: maker(count) for name, maker in _readers(bench, kinds).items()}
+        slow = {name: jobs.pop(name) for name in _SLOW if name in jobs}
+        found = bench.costs(jobs, 5) | bench.costs(slow, 1, warm=False)
+        ours = cpu(found["mudline"])
+        figures[f"memory {columns}"] = figure([cost.memory for cost in found["mudline"]])
+        if "meshio" in found:
+            figures[f"meshio {columns}"] = ratio(cpu(found["meshio"]), ours)
+        if "opm" in found:
+            figures[f"opm {columns}"] = ratio(cpu(found["opm"]), ours)
+            figures[f"opm pyarrow {columns}"] = ratio(cpu(found["opm"]), cpu(found["mudline, pyarrow"]))
+        for name in _readers(bench, _NODES):
+            path = bench.table(kinds[name.partition(",")[0]], count) if name in found else None
+            cells.setdefault(name, []).extend(_cells(found[name], path) if path else ["", "", ""])
+    head = ["program", *(f"{what}, {n} columns" for n in (2, 4) for what in ("s", "MB/s", "peak MB"))]
+    rows = [[name, *row] for name, row in cells.items()]
+    bench.results.tables[f"Files of {count:,} rows"] = Table(head, rows)
+
+
+def _cells(costs: list[Cost], path: Path) -> list[str]:
+    """Seconds, speed and memory of a reader."""
+    seconds = median(cpu(costs))
+    speed = path.stat().st_size / 1e6 / seconds
+    return [f"{seconds:.3g}", f"{speed:.0f}", f"{max(cost.memory for cost in costs):.0f}"]
+
+
+def _arrays(bench: Bench) -> None:
+    """Text in memory to an array, and reading with equations."""
+    count, figures = bench.size(ROWS), bench.results.figures
+    for columns, kind in ((2, "curve"), (4, "nodes")):
+        found = bench.costs(_pair(bench, kind, count), 5)
+        figures[f"rows {columns}"] = ratio(cpu(found["np.loadtxt"]), cpu(found["mudline"]))
+    found = bench.costs({"mudline": bench.timed(_OURS, "equations", count)}, 5)
+    figures["equations"] = figure(cpu(found["mudline"]))
+
+
+def _pair(bench: Bench, kind: str, count: int, spelling: str = "") -> dict[str, Job]:
+    """Our reader and np.loadtxt on the same text; np.loadtxt knows no exponent D, and reads E."""
+    head = _HEADS.get(kind, 0)
+    prepare = f"text = open(path, newline='').read().split('\\n', {head})[-1]"
+    delimiter = "None" if spelling == "blanks" else "','"
+    changed = "; text = text.replace('D', 'E')" if spelling == "D" else ""
+    ours = Work(_ARRAYS, "return read_rows(text, Span(0, len(text)), 4)", prepare)
+    loadtxt = f"return np.loadtxt(io.StringIO(text), delimiter={delimiter})"
+    theirs = Work("import io, numpy as np", loadtxt, f"{prepare}{changed}")
+    return {"mudline": bench.timed(ours, kind, count), "np.loadtxt": bench.timed(theirs, kind, count)}
+
+
+def spellings(bench: Bench) -> None:
+    """Measure text in memory to an array, in each spelling."""
+    count, rows = bench.size(SPELLED), []
+    for spelling, (what, _) in SPELLINGS.items():
+        kind = f"spelling:{spelling}"
+        found = bench.costs(_pair(bench, kind, count, spelling), 5)
+        bench.results.figures[f"spelling {spelling}"] = ratio(cpu(found["np.loadtxt"]), cpu(found["mudline"]))
+        size = bench.table(kind, count).stat().st_size / 1e6
+        rows.append([what, *(f"{size / median(cpu(found[name])):.0f}" for name in ("mudline", "np.loadtxt"))])
+    head = ["spelling", "text to array, MB/s", "np.loadtxt, MB/s"]
+    bench.results.tables[f"Spellings, {count:,} rows of 2 columns"] = Table(head, rows)
+
+
+def _faults(bench: Bench) -> None:
+    """A table with bad fields, beside the clean one."""
+    count = bench.size(ROWS)
+    setup = f"{_NUMPY_ALONE}\nfrom contextlib import suppress"
+    work = Work(setup, "with suppress(mudline.DeckError): return mudline.read(path)")
+    kinds = {"clean": "curve"} | {f"bad {bad}": f"bad:{bad}" for bad in BAD_FIELDS}
+    found = bench.costs({name: bench.timed(work, kind, count) for name, kind in kinds.items()}, 3)
+    for bad in BAD_FIELDS:
+        bench.results.figures[f"bad {bad}"] = ratio(cpu(found[f"bad {bad}"]), cpu(found["clean"]))

@@ -1,0 +1,157 @@
+"""The benchmarks: their runner works, their page lists every goal, and what they feed the programs is what they say."""
+
+from __future__ import annotations
+
+import json
+import sys
+from itertools import islice
+from pathlib import Path
+from typing import Any, cast
+
+import numpy as np
+import pytest
+
+import mudline
+from tests.benchmarks import decks, start
+from tests.benchmarks.bench import Bench, Results, Table, Work
+from tests.benchmarks.goals import GOALS, SPELLINGS
+from tests.benchmarks.inputs import numbers, text
+from tests.benchmarks.page import exponent, page, write
+from tests.benchmarks.peers import PEERS, Environment
+from tests.benchmarks.runner import ROOT, Figure, Job, alternate, cost, cpu, figure, ratio
+
+PAGE = ROOT / "docs" / "benchmarks.md"
+MISSING = {peer.name: Environment(peer, "no distribution") for peer in PEERS}
+
+
+def rows_of(text_of_page: str) -> list[list[str]]:
+    lines = [line for line in text_of_page.splitlines() if line.startswith("|")]
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
+
+
+def block_of(path: Path) -> dict[str, Any]:
+    """The only block of a deck, as JSON."""
+    [block] = json.loads(mudline.read(path).to_json())["sections"][0]["blocks"]
+    return cast("dict[str, Any]", block)
+
+
+def test_the_page_lists_every_goal_with_its_limit() -> None:
+    rows = rows_of(PAGE.read_text(encoding="utf-8"))
+    for goal in GOALS:
+        wanted = f"{goal.direction} {goal.limit:g}"
+        assert [row for row in rows if row[0] == goal.what and row[1].startswith(wanted)], goal
+
+
+def test_the_page_names_every_peer() -> None:
+    rows = rows_of(PAGE.read_text(encoding="utf-8"))
+    assert {peer.name for peer in PEERS} <= {row[0] for row in rows}
+
+
+def test_goals_have_keys_and_words_of_their_own() -> None:
+    assert len({goal.key for goal in GOALS}) == len(GOALS)
+    assert len({(goal.subject, goal.what) for goal in GOALS}) == len(GOALS)
+
+
+def test_a_page_says_what_is_met_missed_and_not_measured(tmp_path: Path) -> None:
+    results = Results(
+        figures={"rows 2": Figure([2.0, 1.9, 2.5], 2.1), "memory 2": Figure([150.0], 150.0)},
+        series={"rows": {"mudline": [(10**n, 1e-6 * 10**n) for n in range(2, 8)]}},
+        tables={"Some figures": Table(["what", "s"], [["this", "1.5"]])},
+    )
+    results.save(tmp_path / "results.json")
+    write(Results.load(tmp_path / "results.json"), MISSING, tmp_path)
+    text_of_page = (tmp_path / "benchmarks.md").read_text(encoding="utf-8")
+    rows = {row[0]: row[1:] for row in rows_of(text_of_page)}
+    assert rows["text to array, 2 columns: np.loadtxt / mudline"] == ["at least 1.8", "2", "1.9 to 2.5", "2.1", "yes"]
+    assert rows["peak memory of the process, 2 columns"][1:] == ["150 MB", "one run", "150", "**missed**"]
+    assert rows["text to array, 4 columns: np.loadtxt / mudline"][1] == "not measured"
+    assert rows["rows"] == ["mudline", "100 to 10,000,000", "10", "1.00"]
+    assert rows["meshio"][0] == "not installed: no distribution"
+    assert f"Of {len(GOALS)} goals 1 are met, 1 missed, {len(GOALS) - 2} not measured." in text_of_page
+    assert "<svg" in (tmp_path / "images" / "benchmarks.svg").read_text(encoding="utf-8")
+
+
+def test_an_exponent_is_that_of_growth_alone() -> None:
+    assert exponent([(10**n, 0.5 + 1e-9 * 10 ** (2 * n)) for n in range(1, 7)]) == pytest.approx(2.0, abs=1e-3)
+    assert exponent([(10, 1.0), (100, 1.1)]) is None
+
+
+def test_ratios_are_those_within_a_round() -> None:
+    assert ratio([4.0, 6.0], [2.0, 1.5]) == Figure([2.0, 4.0], 4.0 / 1.5)
+    assert figure([4.0, 6.0, 5.0]).median == 5.0
+
+
+def test_a_process_is_measured_by_its_own_clock_or_as_a_whole() -> None:
+    own = cost(Job([sys.executable, "-c", "print('said'); print(0.25)"], own_clock=True))
+    whole = cost(Job([sys.executable, "-c", "x = bytearray(50_000_000)"]))
+    assert own.cpu == 0.25
+    assert 0.0 < whole.cpu < 20.0
+    assert 50.0 < whole.memory < 5000.0
+    assert whole.elapsed > 0.0
+
+
+def test_a_peer_that_fails_is_left_out(capsys: pytest.CaptureFixture[str]) -> None:
+    jobs = {
+        "good": Job([sys.executable, "-c", "pass"]),
+        "bad": Job([sys.executable, "-c", "raise SystemExit('no library')"], peer="meshio"),
+    }
+    assert list(alternate(jobs, 2, warm=False)) == ["good"]
+    assert "no library" in capsys.readouterr().err
+    with pytest.raises(SystemExit, match="ended with 3"):
+        cost(Job([sys.executable, "-c", "raise SystemExit(3)"]))
+
+
+@pytest.mark.slow
+def test_a_quick_run_measures_starts(tmp_path: Path) -> None:
+    bench = Bench(tmp_path, quick=True, environments=MISSING)
+    start.run(bench)
+    assert {"cold", "again", "version", "evaluate"} <= bench.results.figures.keys()
+    assert all(found.values[0] > 0.0 for found in bench.results.figures.values())
+    assert "cold `mudline lint`" in page(bench.results, MISSING.values())
+
+
+def test_a_quick_run_reads_tables(tmp_path: Path) -> None:
+    bench = Bench(tmp_path, quick=True, environments=MISSING)
+    work = Work("import mudline", "return mudline.read(path)")
+    found = bench.costs({"read": bench.timed(work, "curve", 1000)}, 3)
+    assert 0.0 < cpu(found["read"])[0] < 10.0
+
+
+@pytest.mark.parametrize("write_deck", [decks.apart, decks.alike])
+def test_decks_have_41_lines_and_no_findings(write_deck: decks.Writer, tmp_path: Path) -> None:
+    for number in range(20):
+        text_of_deck = write_deck(number)
+        path = tmp_path / f"{number}.keyxm"
+        path.write_text(text_of_deck, encoding="utf-8")
+        assert mudline.lint(path) == []
+        for converted in (text_of_deck, decks.as_yaml(text_of_deck), decks.as_python(text_of_deck)):
+            assert converted.count("\n") == 41
+
+
+def test_tables_hold_the_numbers_that_they_should(tmp_path: Path) -> None:
+    wanted = np.concatenate(list(numbers(50, 4)))
+    path = tmp_path / "nodes.keyxm"
+    path.write_text("".join(text("nodes", 50)), encoding="ascii")
+    assert np.allclose(block_of(path)["entries"][0]["nodes"], wanted, rtol=1e-8)
+
+
+@pytest.mark.parametrize("bad", [1, 10, 100])
+def test_tables_have_as_many_bad_fields_as_they_should(bad: int) -> None:
+    assert "".join(text(f"bad:{bad}", 1000)).count("9.8O") == bad
+
+
+@pytest.mark.parametrize("spelling", SPELLINGS)
+def test_every_spelling_is_read(spelling: str, tmp_path: Path) -> None:
+    path = tmp_path / "curve.keyxm"
+    rows = "".join(text(f"spelling:{spelling}", 200))
+    path.write_text("$MODEL\n*SEABED STIFFNESS\n CURVE=clay\n" + rows, encoding="ascii", newline="")
+    found = np.array(block_of(path)["curves"][0]["points"])
+    assert found.shape == (200, 2)
+    first = [float(word.replace("D", "E")) for word in rows.replace(",", " ").split()[:20]]
+    assert found.ravel()[:20].tolist() == first
+
+
+def test_decks_that_share_nothing_differ() -> None:
+    lines = [set(decks.apart(number).splitlines()) for number in range(2)]
+    kept = {line for line in islice(sorted(lines[0] & lines[1]), 20) if line.strip()[0] not in "*$"}
+    assert all(line.strip().startswith(("OPTION", "SET=ALL", "TYPE")) for line in kept)
