@@ -7,6 +7,9 @@ import os
 import pytest
 from hypothesis import HealthCheck, settings
 
+# Before numpy is imported: the workers share the processors, on which threads of small matrix products only wait.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 # A loaded machine draws examples slowly; that says nothing about the code under test.
 settings.register_profile("mudline", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.register_profile("mudline-ci", settings.get_profile("mudline"), derandomize=True, print_blob=True)

@@ -95,7 +95,7 @@ def test_minus_zero_is_not_zero_and_nan_is_nan() -> None:
 
 @pytest.mark.untraced
 @pytest.mark.parametrize("number", range(len(SUBSETS)))
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", range(20))
 def test_scenes_with_some_laws(number: int, seed: int) -> None:
     names, flat = SUBSETS[number]
     assert compare(random_scene(1000 * number + seed, names, flat=flat)) == []
