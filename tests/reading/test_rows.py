@@ -94,7 +94,7 @@ def whole(text: str) -> Span:
 
 
 def compared(text: str, columns: int) -> Rows:
-    """The rows of a text by the slow reader, having held the fast one against it, for the whole and for small pieces."""
+    """The rows of a text by the slow reader, with which the fast one is compared on the whole and on small pieces."""
     slow = read_rows_slow(text, whole(text), columns)
     assert read_rows(text, whole(text), columns).same(slow)
     for piece in (reader._PIECE, 12):
@@ -136,6 +136,8 @@ def tables(draw: st.DrawFn, fields: st.SearchStrategy[str], *, blanks: bool = Tr
 @example("12345678901234567890123,1\n", 2)
 @example("1 2\n3 4\n", 2)
 @example(" \n", 1)
+@example("0,0,0,\n0,0 0", 4)
+@example("2.2250738585072011e-308", 1)
 @settings(max_examples=350)
 def test_fast_is_slow_or_declines(text: str, columns: int) -> None:
     compared(text, columns)

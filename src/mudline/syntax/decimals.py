@@ -1,9 +1,9 @@
 """Decimal digits to doubles, many at once: the nearest double, as `float` gives it, or no answer.
 
-A number is its digits, a whole number w, times a power of ten. The upper 64 bits of every power of ten are a table; w is
-shifted to 64 bits, and the upper 64 bits of the product of the two are too small by less than `_ERROR`. Where the
+A number is its digits, a whole number w, times a power of ten. The upper 64 bits of every power of ten are a table; w
+is shifted to 64 bits, and the upper 64 bits of the product of the two are too small by less than `_ERROR`. Where the
 product and the product with that error added round to one double, it is the nearest double to the number. Elsewhere,
-about one time in a hundred, nothing is said. (D. Lemire, Number parsing at a gigabyte per second, 2021.)
+about once in two hundred times, there is no answer. (After D. Lemire, Number parsing at a gigabyte per second, 2021.)
 """
 
 from __future__ import annotations
@@ -81,7 +81,7 @@ def with_fraction(whole: Words, fraction: Words, places: Whole) -> Words:
 
 @cache
 def _powers() -> tuple[Words, Words, Whole]:
-    """Of each power of ten the upper 64 bits, in two halves, and the power of two that they are to be multiplied with."""
+    """Of each power of ten its upper 64 bits, in two halves, and the power of two to multiply them with."""
     upper: list[int] = []
     exponents: list[int] = []
     for power in range(_LOWEST, _HIGHEST + 1):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import cast
+
 import numpy as np
 
 from mudline.syntax.decimals import BEFORE, MOST_DIGITS, Flags, Floats, Whole, nearest, whole_numbers, with_fraction
@@ -55,12 +57,19 @@ class NumberRows:
         commas = int(np.count_nonzero(self.commas))
         if commas not in (0, self.count * (width - 1)):
             return None
-        if not commas and width > 1 and np.diff(lines, prepend=BEFORE).max() > LONGEST_BLANK_SEPARATED:
+        odd: Flags | None = None
+        if commas:
+            before = self.ends.reshape(-1, width)[:, :-1]
+            places = self._found(_COMMA, self.commas, before.ravel()).reshape(before.shape)
+            if (places[:, -1] > lines).any() or (places[1:, 0] < lines[:-1]).any():
+                return None
+            between = (before <= places) & (places < self.starts.reshape(-1, width)[:, 1:])
+            odd = None if between.all() else ~between.all(axis=1)
+        elif width > 1 and np.diff(lines, prepend=BEFORE).max() > LONGEST_BLANK_SEPARATED:
             return None
-        odd = self._misplaced(width) if commas else None
         values, faulty = self._numbers()
         if faulty is not None:
-            rows = faulty.reshape(-1, width).any(axis=1)
+            rows = cast("Flags", faulty.reshape(-1, width).any(axis=1))
             odd = rows if odd is None else odd | rows
         return values.reshape(-1, width), odd
 
@@ -82,17 +91,7 @@ class NumberRows:
 
     def _found(self, letter: int, marks: Flags, expected: Whole) -> Whole:
         """Where a character is; `expected` has as many places as there are of it, and mostly is right."""
-        return expected if (self.letters.take(expected) == letter).all() else np.flatnonzero(marks)
-
-    def _misplaced(self, width: int) -> Flags | None:
-        """Rows of which not every comma is between two fields; None if there is no such row."""
-        before = self.ends.reshape(-1, width)[:, :-1]
-        behind = self.starts.reshape(-1, width)[:, 1:]
-        if (self.letters.take(before) == _COMMA).all():
-            return None
-        commas = np.flatnonzero(self.commas).reshape(before.shape)
-        right = ((before <= commas) & (commas < behind)).all(axis=1)
-        return None if right.all() else ~right
+        return expected if bool((self.letters.take(expected) == letter).all()) else np.flatnonzero(marks)
 
     def _numbers(self) -> tuple[Floats, Flags | None]:
         """The value of each field, and which fields are not finite numbers; None instead if all are."""
@@ -156,7 +155,7 @@ class NumberRows:
             return None
         others = np.flatnonzero(self.field & ~digit)
         held = self.ends - self.starts - np.searchsorted(others, self.ends) + np.searchsorted(others, self.starts)
-        return np.logical_or.reduce([*faults, accounted != held])
+        return cast("Flags", np.logical_or.reduce([*faults, accounted != held]))
 
     def _one_by_one(self, values: Floats, fields: Whole, faulty: Flags | None) -> Flags | None:
         """Read some fields as `float` does, and note those that are not finite."""
