@@ -86,8 +86,8 @@ class NumberRows:
 
     def _strange(self) -> bool:
         """Whether anything but blanks, commas and line ends is between the fields."""
-        known = sum(map(np.count_nonzero, (self.field, self.commas, self.letters == _BLANK)))
-        return known + self.count + self.text.count(b"\t") < len(self.letters)
+        kinds = (self.field, self.commas, self.line_ends, self.letters == _BLANK, self.letters == _TAB)
+        return sum(int(np.count_nonzero(kind)) for kind in kinds) < len(self.letters)
 
     def _found(self, letter: int, marks: Flags, expected: Whole) -> Whole:
         """Where a character is; `expected` has as many places as there are of it, and mostly is right."""

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import re
+from array import array
 from bisect import bisect_right
 from dataclasses import dataclass, field
 from functools import cached_property
+
+import numpy as np
 
 from mudline.codes.lines import SYN012
 from mudline.diagnostics import Problem, Severity, Span
 from mudline.short_repr import short_repr
 
 _BOM = b"\xef\xbb\xbf"
-_LINE_END = re.compile(r"\r\n|\r|\n")
 CONTROLS = "".join(map(chr, (*range(9), 11, 12, *range(14, 32), 127, 0xFEFF)))
 """Characters that nobody sees and that are no blanks; in front of a `*` or `$` they are read over."""
 _CONTROL = re.compile(f"[{re.escape(CONTROLS)}]")
@@ -30,6 +32,8 @@ _LONE_CR = re.compile(r"\r(?!\n)")
 _NOT_UTF8 = "{} is not UTF-8; the file is read as {}: save it as UTF-8"
 _BINARY_SHARE = 0.1
 _SAMPLE = 65536
+_CHUNK = 1 << 18
+_LF = ord("\n")
 _FEW = 8
 
 
@@ -84,9 +88,14 @@ class Source:
         return text if self.clean else _ended(_heads_found(text))
 
     @cached_property
-    def line_starts(self) -> list[int]:
+    def line_starts(self) -> array[int]:
         """Offset of the first character of every line; CR, CRLF and LF each end one."""
-        return [0, *(match.end() for match in _LINE_END.finditer(self.text))]
+        text = self.unified
+        starts = array("q", [0])
+        for at in range(0, len(text), _CHUNK):
+            letters = np.frombuffer(text[at : at + _CHUNK].encode("latin-1", "replace"), np.uint8)
+            starts.frombytes((np.flatnonzero(letters == _LF) + (at + 1)).astype(np.int64).tobytes())
+        return starts
 
     def position(self, offset: int) -> tuple[int, int]:
         """Line and column of an offset, both from 1, in code points."""
