@@ -27,6 +27,8 @@ _HALF, _LOWER = np.uint64(32), np.uint64(0xFFFFFFFF)
 _BIAS, _FRACTION = 1023, 52
 _LARGEST = 2046 - 64  # with a product below 2^64 no double overflows
 _NORMAL = np.finfo(np.float64).tiny
+_EXACT, _MOST_EXACT = 2**53, 22
+_TENS = 10.0 ** np.arange(_MOST_EXACT + 1)
 _PLACES = 10 ** np.arange(MOST_DIGITS + 1, dtype=np.uint64)
 _UNUSED = [64 - 8 * np.clip(np.arange(MOST_DIGITS + 1) - first, 0, 8).astype(np.uint64) for first in (0, 8, 16)]
 _STEPS = tuple(
@@ -49,7 +51,7 @@ def whole_numbers(words: Words, end: Whole, count: Whole) -> Words:
     at = end >> 3
     right = ((end & 7) << 3).astype(np.uint64)
     left = 64 - right
-    least, most = int(count.min(initial=0)), int(count.max(initial=0))
+    least, most = int(count.min()), int(count.max())
     behind = words.take(at)
     total = np.zeros(0, np.uint64)
     for number in range(max(-(-most // 8), 1)):
@@ -94,14 +96,16 @@ def _powers() -> tuple[Words, Words, Whole]:
     return words >> _HALF, words & _LOWER, np.array(exponents, np.intp)
 
 
-def nearest(digits: Words, power: Whole, cut: Flags | None = None) -> tuple[Floats, Flags]:
-    """The doubles nearest to `digits` times 10 to `power`, and which of them are certain.
+def nearest(digits: Words, power: Whole, cut: Flags | None = None) -> tuple[Floats, Flags | None]:
+    """The doubles nearest to `digits` times 10 to `power`, and which of them are certain; None instead if all are.
 
     Where `cut` is set more digits follow that are not in `digits`.
     """
+    if cut is None and int(digits.max()) <= _EXACT and int(power.min()) >= -_MOST_EXACT and int(power.max()) <= 0:
+        return digits.astype(np.float64) / _TENS.take(-power), None  # a quotient of exact doubles is rounded once
     uppers, lowers, exponents = _powers()
     place = power - _LOWEST
-    outside = int(place.min(initial=0)) < 0 or int(place.max(initial=0)) >= len(uppers)
+    outside = int(place.min()) < 0 or int(place.max()) >= len(uppers)
     if outside:
         place = np.clip(place, 0, len(uppers) - 1)
     shift = (_BIAS + 63) - ((digits | np.uint64(1)).astype(np.float64).view(np.intp) >> _FRACTION)
@@ -128,7 +132,7 @@ def nearest(digits: Words, power: Whole, cut: Flags | None = None) -> tuple[Floa
     scale -= shift
     if outside:
         sure &= place == power - _LOWEST
-    if int(scale.min(initial=1)) < 1 or int(scale.max(initial=1)) > _LARGEST:
+    if int(scale.min()) < 1 or int(scale.max()) > _LARGEST:
         with np.errstate(over="ignore"):
             values = np.ldexp(values, scale - _BIAS)
         sure &= ((values > _NORMAL) | (digits == 0)) & np.isfinite(values)  # a smaller one is rounded again

@@ -128,12 +128,12 @@ class NumberRows:
         if point is not power:
             number = with_fraction(number, whole_numbers(self.words, after + fraction, fraction), fraction)
         values, sure = nearest(number, scale, cut)
-        values *= np.where(minus, -1.0, 1.0)
-        if short is not None:
-            sure &= short
-        if not sure.all():
-            sure = sure if faulty is None else sure | faulty
-            faulty = self._one_by_one(values, np.flatnonzero(~sure), faulty)
+        if minus.any():
+            np.negative(values, out=values, where=minus)
+        for certain in (sure, short):
+            if certain is not None and not certain.all():
+                unsure = ~certain if faulty is None else ~(certain | faulty)
+                faulty = self._one_by_one(values, np.flatnonzero(unsure), faulty)
         return values, faulty
 
     def _marks(self, mask: Flags, otherwise: Whole) -> Whole:
