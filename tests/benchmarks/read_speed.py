@@ -16,6 +16,7 @@ import multiprocessing
 import tempfile
 import time
 from collections.abc import Callable
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -54,6 +55,11 @@ def rows(values: NDArray[np.float64], form: Callable[[float], str], comma: str =
     return "".join(f" {comma.join(map(form, row))}\n" for row in values.tolist())
 
 
+def floats(text: str) -> list[float]:
+    """The numbers of a text as Python reads them."""
+    return list(map(float, text.replace(",", " ").split()))
+
+
 def least(rounds: int, runs: dict[str, Callable[[], Any]]) -> dict[str, float]:
     """The least processor seconds of each run, which are made in turns."""
     taken: dict[str, float] = {}
@@ -69,7 +75,7 @@ def peers(name: str, text: str, folder: Path) -> dict[str, Callable[[], Any]]:
     """What reads the rows of a table beside mudline."""
     found: dict[str, Callable[[], Any]] = {
         "np.loadtxt": lambda: np.loadtxt(io.StringIO(text), delimiter=","),
-        "float": lambda: [float(word) for word in text.replace(",", " ").split()],
+        "float": partial(floats, text),
     }
     try:
         parser = import_module("opm.io.parser").Parser()
@@ -111,8 +117,8 @@ def spelled(count: int, rounds: int) -> None:
     texts["any bits"] = rows(patterns[np.isfinite(patterns).all(axis=1)], repr)
     for name, text in texts.items():
         runs: dict[str, Callable[[], Any]] = {
-            "mudline": lambda text=text: read_rows(text, Span(0, len(text)), 2),
-            "float": lambda text=text: [float(word) for word in text.replace(",", " ").replace("D", "E").split()],
+            "mudline": partial(read_rows, text, Span(0, len(text)), 2),
+            "float": partial(floats, text.replace("D", "E")),
         }
         taken = least(rounds, runs)
         speeds = "".join(f"{run:>12} {len(text) / 1e6 / seconds:6.1f}" for run, seconds in taken.items())
@@ -140,8 +146,8 @@ def main() -> None:
                 process.start()
                 process.join()
             ours: dict[str, Callable[[], Any]] = {
-                "mudline.read": lambda file=file: mudline.read(file),
-                "rows alone": lambda text=text: read_rows(text, Span(0, len(text)), 4),
+                "mudline.read": partial(mudline.read, file),
+                "rows alone": partial(read_rows, text, Span(0, len(text)), 4),
             }
             taken = least(arguments.rounds, ours | peers(name, text, Path(folder)))
             for run, seconds in taken.items():

@@ -107,14 +107,18 @@ class NumberRows:
         accounted, scale, short = digits, -fraction, None
         faults = [fraction < 0, digits < 1, ends - self.starts > LONGEST_NUMBER]
         if power is not ends:
-            sign = self.letters.take(power + 1)
+            fields = np.flatnonzero(power < ends)
+            mark, end = power.take(fields), ends.take(fields)
+            sign = self.letters.take(mark + 1)
             negative = sign == _MINUS
-            places = ends - np.minimum(power + 1 + (negative | (sign == _PLUS)), ends)
-            short = places <= _MOST_PLACES
-            value = whole_numbers(self.words, ends, np.minimum(places, _MOST_PLACES)).view(np.intp)
-            scale += np.where(negative, -value, value)
-            accounted = digits + places
-            faults.append(places < (power < ends))
+            places = end - mark - 1 - (negative | (sign == _PLUS))
+            value = whole_numbers(self.words, end, np.minimum(places, _MOST_PLACES)).view(np.intp)
+            scale[fields] += np.where(negative, -value, value)
+            accounted = digits.copy()
+            accounted[fields] += places
+            short, empty = np.ones(len(ends), dtype=bool), np.zeros(len(ends), dtype=bool)
+            short[fields], empty[fields] = places <= _MOST_PLACES, places < 1
+            faults.append(empty)
         faulty = self._faulty(faults, accounted)
         if faulty is not None:
             whole[faulty] = fraction[faulty] = digits[faulty] = 0

@@ -19,7 +19,7 @@ from mudline.syntax.number_rows import LONGEST_BLANK_SEPARATED, LONGEST_NUMBER, 
 _NUMBER = re.compile(r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eEdD][-+]?[0-9]+)?")
 _WORD = re.compile(r"[^ \t\r\n]+")
 _SPECIAL = re.compile(r'[\["{]')
-_SHORT = 1500  # characters: shorter runs are read sooner without arrays
+_SHORT = 800  # characters: shorter runs are read sooner without arrays
 _PIECE = 256 * 1024  # characters: the arrays of a piece stay in the fast memory of a processor
 _MOST_ODD = 0.5
 _ROOM = 1.05
