@@ -9,7 +9,7 @@ from pathlib import Path
 import click
 import pytest
 
-from mudline.cli.lint_command import complete
+from mudline.cli.lint_report import complete
 from mudline.linting import output
 from mudline.linting.output import form_module, form_names
 from tests.builders.decks import BAD_NUMBER

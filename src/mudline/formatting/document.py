@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import cast
 
-from mudline.deck.loading import dump, form_of, load_bytes
+from mudline.deck.forms import form_of
+from mudline.deck.loading import dump, load_bytes
 from mudline.deck.model import Deck, Section
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import Span

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Span, Where
+from mudline.files import look
 from mudline.keywords import catalogue
 from mudline.keywords.model import Block, Part, Row, record_schema
 from mudline.keywords.values import LINE_SETS, Names
@@ -67,7 +68,7 @@ def find_file(folder: Path | None, written: str) -> Path | None:
     name = file_name(written)
     if folder is None or not name or len(name) > _LONGEST_NAME or "\0" in name:
         return None
-    path = folder / name
+    path = look(folder / name)
     try:
         return path if path.is_file() else None
     except OSError:

@@ -8,8 +8,6 @@ from bisect import bisect_right
 from dataclasses import dataclass, field
 from functools import cached_property
 
-import numpy as np
-
 from mudline.codes.lines import SYN012
 from mudline.diagnostics import Problem, Severity, Span
 from mudline.short_repr import short_repr
@@ -34,6 +32,9 @@ _BINARY_SHARE = 0.1
 _SAMPLE = 65536
 _CHUNK = 1 << 18
 _LF = ord("\n")
+_LINE_FEED = re.compile("\n")
+_SHORT = 20_000
+"""Characters of a text whose lines are found without arrays."""
 _FEW = 8
 
 
@@ -92,6 +93,11 @@ class Source:
         """Offset of the first character of every line; CR, CRLF and LF each end one."""
         text = self.unified
         starts = array("q", [0])
+        if len(text) < _SHORT:
+            starts.extend(found.end() for found in _LINE_FEED.finditer(text))
+            return starts
+        import numpy as np  # noqa: PLC0415 - what lints unchanged decks, or short ones, does without arrays here
+
         for at in range(0, len(text), _CHUNK):
             letters = np.frombuffer(text[at : at + _CHUNK].encode("latin-1", "replace"), np.uint8)
             starts.frombytes((np.flatnonzero(letters == _LF) + (at + 1)).astype(np.int64).tobytes())
