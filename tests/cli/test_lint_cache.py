@@ -100,9 +100,7 @@ def test_another_program_knows_nothing(
 RESTART = "$LOAD CASE\n*RESTART\n LAST=static\n*TIME\n STEP=FIXED\n 0.0, 120.0, 0.05\n"
 
 
-def test_a_deck_is_linted_again_when_a_file_that_it_lacked_is_there(
-    folder: Path, place: Place, linted: Linted
-) -> None:
+def test_a_deck_is_linted_again_when_a_file_that_it_lacked_is_there(folder: Path, place: Place, linted: Linted) -> None:
     (folder / "cache").mkdir()
     words = ("lint", place(RESTART, "wave.keyxm"), "--output-format", "concise")
     first = run(*words)

@@ -28,13 +28,16 @@ from mudline.linting.rule import Rule
 if TYPE_CHECKING:  # imported by runs that are large enough
     from concurrent.futures import Executor, Future
 
-PAYS = 1.5
-"""Seconds of remaining work from which on other processes are started: each takes a part of a second to start."""
+PAYS = {"fork": 0.1, "forkserver": 1.5, "spawn": 1.5}
+"""Seconds of remaining work from which on other processes are started, by the way in which they are.
 
-TRIED = 0.2
+A copy of this process is there at once; the others take a part of a second to import everything.
+"""
+
+TRIED = 0.05
 """Seconds of linting by which the remaining work is estimated."""
 
-_CHUNK_FILES = 16
+_CHUNK_FILES = 50
 _CHUNK_BYTES = 500_000
 _CHUNK_KNOWN = 256
 _MOST_ON_WINDOWS = 61
@@ -130,7 +133,7 @@ def _reports(tasks: Iterable[Task], count: int, effort: Effort) -> Generator[tup
 
 
 def _pays(estimate: float, effort: Effort) -> bool:
-    return estimate >= PAYS and effort.processes > 1
+    return effort.processes > 1 and estimate >= PAYS[_start_method()]
 
 
 def _ahead(tasks: Iterable[Task], executor: Executor, most: int) -> Iterator[tuple[Task, FileReport]]:
@@ -169,17 +172,25 @@ def _chunks(tasks: Iterable[Task]) -> Iterator[list[Task]]:
 # -------------------------------------------------------------------------------------------------- other processes
 
 
+def _start_method() -> str:
+    """How processes are started: as copies of this one on Linux, unless it has threads, which copies would lack."""
+    if sys.platform in ("win32", "darwin"):
+        return "spawn"
+    try:
+        threads = len(os.listdir("/proc/self/task"))  # noqa: PTH208 - those of libraries, too
+    except OSError:
+        return "forkserver"
+    return "fork" if threads == 1 else "forkserver"
+
+
 @contextmanager
 def pool(processes: int) -> Iterator[Executor]:
-    """Processes that lint, never copies of this one, which would lack its threads.
-
-    They end at once when not all is done. Ends the command where one has died.
-    """
+    """Processes that lint; they end at once when not all is done. Ends the command where one has died."""
     import multiprocessing  # noqa: PLC0415 - as above
     from concurrent.futures.process import BrokenProcessPool, ProcessPoolExecutor  # noqa: PLC0415 - as above
 
     before = set(multiprocessing.active_children())
-    method = "forkserver" if sys.platform not in ("win32", "darwin") else "spawn"
+    method = _start_method()
     context = multiprocessing.get_context(method)
     if method == "forkserver":
         context.set_forkserver_preload([__name__])
@@ -198,7 +209,19 @@ def pool(processes: int) -> Iterator[Executor]:
 
 
 def _order(task: Task) -> Order:
-    return task._replace(settings=replace(task.settings, rules=())), tuple(one.code.code for one in task.settings.rules)
+    return task._replace(settings=_sendable(task.settings)[0]), _sendable(task.settings)[1]
+
+
+_SENDABLE: dict[int, tuple[LintSettings, LintSettings, tuple[str, ...]]] = {}
+"""Settings, the same without rules, and the codes of the rules: many files share them, and so they are sent once."""
+
+
+def _sendable(settings: LintSettings) -> tuple[LintSettings, tuple[str, ...]]:
+    found = _SENDABLE.get(id(settings))
+    if found is None:
+        codes = tuple(rule.code.code for rule in settings.rules)
+        found = _SENDABLE[id(settings)] = (settings, replace(settings, rules=()), codes)
+    return found[1], found[2]
 
 
 def _sent(executor: Executor, orders: list[Order]) -> Future[list[FileReport]] | None:
