@@ -212,7 +212,10 @@ def zero_length_element(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 9:2
     """
-    known = np.flatnonzero((scene.element_nodes >= 0).all(axis=1) & ~(scene.length > 0.0))
+    suspects = ~(scene.length > 0.0)
+    if not suspects.any():
+        return
+    known = np.flatnonzero((scene.element_nodes >= 0).all(axis=1) & suspects)
     first, second = scene.element_nodes[known].T
     same = known[(scene.coordinates[first] == scene.coordinates[second]).all(axis=1)]
     if not same.size:

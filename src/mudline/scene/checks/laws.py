@@ -54,7 +54,8 @@ def rigid_with_curve(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 9:12
     """
-    for where, properties, type_ in typed_blocks(scene.context):
+    blocks = typed_blocks(scene.context) if "RIGID" in scene.laws.types else ()
+    for where, properties, type_ in blocks:
         for index, entry in enumerate(properties.sets if type_ == "RIGID" else ()):
             place = where.inside("sets", index)
             suction = entry.suction and entry.suction.stiffness
@@ -244,6 +245,8 @@ def missing_diameter(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 23:12
     """
+    if all(set_law.kind is not LawKind.CURVE for set_law in scene.laws.set_laws):
+        return
     sections = scene.section_table
     missing = np.flatnonzero((scene.law == LawKind.CURVE) & np.isnan(sections.diameter) & ~sections.faulty)
     if not missing.size:
@@ -290,6 +293,8 @@ def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
     Finds: 10:12
     """
     names = {folded(curve.name): curve.name for curve in scene.laws.curves if curve.named and not curve.embedment}
+    if names.keys() >= scene.laws.referenced:
+        return
     followed: set[Where] | None = None
     for _, where, name in given_names(scene.deck, Names.CURVE):
         if folded(name) in names:
