@@ -174,12 +174,14 @@ class Definitions:
             ids = np.concatenate([batch.ids for batch in self.batches] or [np.zeros(0, dtype=np.int64)])
             values = np.concatenate([batch.values for batch in self.batches] or [np.zeros((0, width))])
         starts = np.array(self._starts, dtype=np.intp)
-        if _all_different(ids):
+        ascending = _is_ascending(ids)
+        if ascending or _all_different(ids):
             rows = identity(len(ids))
             if len(self.batches) > 1:  # they keep no memory of their own
                 bounds = zip(self.batches, self._starts, self._starts[1:], strict=False)
                 self.batches = [replace(batch, ids=ids[a:b], values=values[a:b]) for batch, a, b in bounds]
-            return Numbered(ids, values, rows, rows, rows[:0], starts, self.batches)
+            runs = [(rows, ids)] if ascending and len(ids) else None
+            return Numbered(ids, values, rows, rows, rows[:0], starts, self.batches, runs)
         order = np.argsort(ids, kind="stable")
         new = np.append(True, np.diff(ids[order]) > 0)
         begins = np.flatnonzero(new)
@@ -272,8 +274,6 @@ def _is_ascending(numbers: Ids | Indices) -> bool:
 
 
 def _all_different(ids: Ids) -> bool:
-    if _is_ascending(ids):
-        return True
     ordered = np.sort(ids)
     return bool((ordered[1:] != ordered[:-1]).all())
 

@@ -92,14 +92,9 @@ def read_seabed(context: Context) -> SeabedShape:
         found = _surface(surface, where, found)
     for where, block in context.deck.blocks("SEABED PROFILE"):
         found = _profile(context, cast("SeabedProfile", block), where, unreadable)
-    planes = [
-        _plane(plane)
-        for _, block in context.deck.blocks("SEABED PLANES")
-        for plane in cast("SeabedPlanes", block).planes
-    ]
-    if planes:
-        where = next(where for where, _ in context.deck.blocks("SEABED PLANES"))
-        found = SeabedShape(SeabedKind.PLANES, planes=tuple(planes), where=where)
+    blocks = [(where, cast("SeabedPlanes", block)) for where, block in context.deck.blocks("SEABED PLANES")]
+    if planes := tuple(_plane(plane) for _, block in blocks for plane in block.planes):
+        found = SeabedShape(SeabedKind.PLANES, planes=planes, where=blocks[0][0])
     return replace(found, unreadable=tuple(unreadable)) if unreadable else found
 
 

@@ -80,6 +80,8 @@ def _faults(part: Part) -> Iterator[tuple[tuple[str | int, ...], str]]:
     """Path and message of each value that is out of range."""
     for slot in _checked_slots(type(part)):
         value: Any = getattr(part, slot.name)
+        if value is None:
+            continue
         if isinstance(value, float | int):
             if fault := _fault(value, slot):
                 yield (slot.json,), fault

@@ -89,6 +89,8 @@ def two_seabed_types(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 7:7
     """
+    if len(scene.laws.types) < 2:
+        return
     places = sorted((where, name) for name, found in scene.laws.types.items() for where in found)
     where, name = next(((where, name) for where, name in places if name != places[0][1]), (Where(), ""))
     if not name:
@@ -192,14 +194,16 @@ def embedment_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 5:2
     """
-    reading, types = scene.context, scene.laws.types
-    unread = "SEABED PROPERTIES" in scene.deck.keywords() or reading.misplaced("SEABED PROPERTIES")
-    if "RIGID" not in types and ("ELASTIC" in types or unread):
-        return  # a type that could not be read is reported elsewhere
     first: dict[tuple[int, int], SceneCurve] = {}
     for curve in scene.laws.curves:
         if curve.embedment:
             first.setdefault((curve.where.section, curve.where.block), curve)
+    if not first:
+        return
+    reading, types = scene.context, scene.laws.types
+    unread = "SEABED PROPERTIES" in scene.deck.keywords() or reading.misplaced("SEABED PROPERTIES")
+    if "RIGID" not in types and ("ELASTIC" in types or unread):
+        return  # a type that could not be read is reported elsewhere
     for curve in first.values():
         if "RIGID" in types:
             message = "*EMBEDMENT needs an elastic seabed: the seabed is rigid"
