@@ -84,9 +84,8 @@ _WORD = re.compile(r"[^-+.,0-9 \t]")
 
 def external_definers(deck: Deck) -> list[str]:
     """Keywords of the model that make nodes, elements or sets which the deck does not show; those not read first."""
-    present = catalogue.in_order(deck.keywords())
-    found = [keyword for keyword in present if _makes(keyword)]
-    return sorted(found, key=is_read_definer)
+    found = [keyword for keyword in deck.keywords() if _makes(keyword)]
+    return sorted(catalogue.in_order(found), key=is_read_definer) if found else []
 
 
 def is_read_definer(keyword: str) -> bool:
