@@ -57,7 +57,12 @@ def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
 
     Suppressed problems are among them; unused suppression comments are not.
     """
-    found = (_advice(problem) if rule.advises else problem for rule in chosen for problem in rule.check(context))
+    found: list[Problem] = []
+    for rule in chosen:
+        if rule.advises:
+            found.extend(map(_advice, rule.check(context)))
+        elif context.noticed:
+            found += rule.check(context)
     return [problem for problem in found if not _of_base(context.deck, problem)]
 
 
@@ -74,7 +79,7 @@ def _advice(problem: Problem) -> Problem:
 
 def unsuppressed(context: LintContext, problems: list[Problem], chosen: Sequence[Rule]) -> list[Problem]:
     """The problems that comments of the deck do not suppress, and the comments that suppress nothing."""
-    found = suppressions(context.deck)
+    found = context.once(suppressions)
     return problems if found is None else found.split(problems, chosen)[0]
 
 
