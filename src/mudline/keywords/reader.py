@@ -5,7 +5,7 @@ from __future__ import annotations
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, partial
 from operator import attrgetter, itemgetter
 from typing import NamedTuple, Protocol, cast
 
@@ -60,6 +60,11 @@ class ReadBlock:
             self.whole = None
         return self.own
 
+    def at(self, text: str, start: int, problems: list[Problem]) -> ReadBlock:
+        """The block, with its problems there, in a text in which the piece that was read begins at `start`."""
+        found = self.found if isinstance(self.found, Places) else lambda: self.own
+        return ReadBlock(self.model, found, problems, self.trailing, self.lost, (text, start))
+
     def damaged(self, path: Path) -> bool:
         """Whether something at this place could not be read."""
         return isinstance(self.found, Places) and path in self.found.damaged
@@ -83,9 +88,20 @@ def read_block(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -
 
 
 def _plain(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock | None:
-    """A long block of plain records; its places are found by reading it again, line by line."""
-    model = read_plain(text, raw, declared, all_keys(declared))
-    return None if model is None else ReadBlock(model, lambda: _Reader(text, raw, declared, last=last).read().own, [])
+    """A plain block, and the comments behind it; its places are found by reading it again, line by line."""
+    leaves = raw.leaves
+    end = len(leaves)
+    while end and leaves[end - 1].kind in (Kind.COMMENT, Kind.BLANK):
+        end -= 1
+    model = read_plain(text, leaves[:end], raw.name, declared, all_keys(declared))
+    if model is None:
+        return None
+    trailing = [text[slice(*leaf.span)].rstrip("\r\n")[1:] for leaf in leaves[end:] if leaf.kind is Kind.COMMENT]
+    return ReadBlock(model, partial(_places, text, raw, declared, last=last), [], trailing)
+
+
+def _places(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> Places:
+    return _Reader(text, raw, declared, last=last).read().own
 
 
 class _Reader:

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import BaseProblem, Deck
-from mudline.diagnostics import Blocks, DeckError, Diagnostic, Problem, Severity
+from mudline.diagnostics import Blocks, DeckError, Diagnostic, Problem, Severity, Span
 from mudline.keywords.model import Block
 from mudline.keywords.reader import ReadBlock, read_block
 from mudline.linting.rule import LintContext, Rule
@@ -110,11 +110,11 @@ class BlockCache:
         else:
             self._known.move_to_end(key)
         problems = [_reported_at(problem, start) for problem in known.problems]
-        return ReadBlock(known.model, known.own, problems, known.trailing, known.lost, (text, start))
+        return known.at(text, start, problems)
 
 
 def _moved(raw: RawBlock, by: int) -> RawBlock:
-    leaves = [Leaf(leaf.kind, leaf.span.moved(by)) for leaf in raw.leaves]
+    leaves = [Leaf(kind, Span(start + by, end + by)) for kind, (start, end) in raw.leaves]
     return RawBlock(Leaf(raw.head.kind, raw.head.span.moved(by)), raw.name, leaves)
 
 
