@@ -84,10 +84,18 @@ class BlockReader(Protocol):
 
 def read_block(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
     """Read a block. `text` is the unified text of the source; `last` says that nothing follows the block in it."""
-    return _plain(text, raw, declared, last=last) or _Reader(text, raw, declared, last=last).read()
+    found = partial(_places, text, raw, declared, last=last)
+    return _plain(text, raw, declared, found) or _Reader(text, raw, declared, last=last).read()
 
 
-def _plain(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock | None:
+def read_piece(text: str, start: int, end: int, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
+    """Read a block as if nothing but its own lines, from `start` to `end`, were the text: the rest is not kept."""
+    found = partial(_places_in_piece, text[start:end], start, raw, declared, last=last)
+    plain = _plain(text, raw, declared, found)
+    return plain or _Reader(text[start:end], _moved(raw, -start), declared, last=last).read()
+
+
+def _plain(text: str, raw: RawBlock, declared: type[Block], found: Callable[[], Places]) -> ReadBlock | None:
     """A plain block, and the comments behind it; its places are found by reading it again, line by line."""
     leaves = raw.leaves
     end = len(leaves)
@@ -97,11 +105,20 @@ def _plain(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> Re
     if model is None:
         return None
     trailing = [text[slice(*leaf.span)].rstrip("\r\n")[1:] for leaf in leaves[end:] if leaf.kind is Kind.COMMENT]
-    return ReadBlock(model, partial(_places, text, raw, declared, last=last), [], trailing)
+    return ReadBlock(model, found, [], trailing)
 
 
 def _places(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> Places:
     return _Reader(text, raw, declared, last=last).read().own
+
+
+def _places_in_piece(piece: str, start: int, raw: RawBlock, declared: type[Block], *, last: bool) -> Places:
+    return _places(piece, _moved(raw, -start), declared, last=last)
+
+
+def _moved(raw: RawBlock, by: int) -> RawBlock:
+    leaves = [Leaf(leaf.kind, leaf.span.moved(by)) for leaf in raw.leaves]
+    return RawBlock(Leaf(raw.head.kind, raw.head.span.moved(by)), raw.name, leaves)
 
 
 class _Reader:

@@ -10,12 +10,12 @@ from pathlib import Path
 
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import BaseProblem, Deck
-from mudline.diagnostics import Blocks, DeckError, Diagnostic, Problem, Severity, Span
+from mudline.diagnostics import Blocks, DeckError, Diagnostic, Problem, Severity
 from mudline.keywords.model import Block
-from mudline.keywords.reader import ReadBlock, read_block
+from mudline.keywords.reader import ReadBlock, read_block, read_piece
 from mudline.linting.rule import LintContext, Rule
 from mudline.linting.suppression import suppressions
-from mudline.syntax.tree import Leaf, RawBlock
+from mudline.syntax.tree import RawBlock
 
 
 class Fixing(StrEnum):
@@ -104,18 +104,13 @@ class BlockCache:
         key = (declared, last, piece)
         known = self._known.get(key)
         if known is None:
-            known = self._known[key] = read_block(piece, _moved(raw, -start), declared, last=last)
+            known = self._known[key] = read_piece(text, start, end, raw, declared, last=last)
             if len(self._known) > MOST_BLOCKS:
                 self._known.popitem(last=False)
         else:
             self._known.move_to_end(key)
         problems = [_reported_at(problem, start) for problem in known.problems]
         return known.at(text, start, problems)
-
-
-def _moved(raw: RawBlock, by: int) -> RawBlock:
-    leaves = [Leaf(kind, Span(start + by, end + by)) for kind, (start, end) in raw.leaves]
-    return RawBlock(Leaf(raw.head.kind, raw.head.span.moved(by)), raw.name, leaves)
 
 
 def _reported_at(problem: Problem, by: int) -> Problem:
