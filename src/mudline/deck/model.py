@@ -206,19 +206,25 @@ class Deck:
         What the deck continues comes first, so that what it says itself holds. The caller knows the class that the
         keyword has; it is not imported for a deck that lacks the keyword.
         """
-        return self._modelled(lambda block: block.keyword == keyword, section)
+        for index, found in self._named(section):
+            for number, block in enumerate(found.blocks):
+                if block.keyword == keyword and isinstance(block, Block):
+                    yield Where(index, number), block
 
     def blocks_that(self, fact: Callable[[type[Block]], object], section: str = "MODEL") -> Iterator[tuple[Where, Any]]:
         """The modelled blocks whose declaration has a fact, in the order of `blocks`."""
-        return self._modelled(lambda block: fact(type(block)), section)
+        for index, found in self._named(section):
+            for number, block in enumerate(found.blocks):
+                if isinstance(block, Block) and fact(type(block)):
+                    yield Where(index, number), block
 
-    def _modelled(self, wanted: Callable[[Block], object], section: str) -> Iterator[tuple[Where, Block]]:
+    def _named(self, name: str) -> list[tuple[int, Section]]:
+        """The sections of a name, with their numbers: those of the decks that it continues first."""
+        named = [(index, section) for index, section in enumerate(self.sections) if section.name == name]
+        if not self.bases:
+            return named
         own = len(self.own_sections)
-        for i in (*range(own, len(self.sections)), *range(own)):
-            if self.sections[i].name == section:
-                for j, block in enumerate(self.sections[i].blocks):
-                    if isinstance(block, Block) and wanted(block):
-                        yield Where(i, j), block
+        return sorted(named, key=lambda placed: placed[0] < own)
 
     def keywords(self, section: str = "MODEL") -> set[str]:
         """Names of the keywords in the sections of a name."""

@@ -30,7 +30,7 @@ from mudline.expression.nodes import (
     walk,
 )
 from mudline.resources import grammar_file
-from mudline.syntax.scanning import scanner
+from mudline.syntax.scanning import kept_parser, scanner
 
 LONGEST = 10_000
 """The longest equation that is read, in code points."""
@@ -83,9 +83,8 @@ def _span(parts: list[Match]) -> Span:
 
 @cache
 def _grammar() -> Lark:
-    return Lark(
-        grammar_file("expression.lark").read_text(encoding="utf-8"), parser="lalr", lexer="basic", transformer=Builder()
-    )
+    text = grammar_file("expression.lark").read_text(encoding="utf-8")
+    return kept_parser("expression", text, lexer="basic", transformer=Builder())
 
 
 @cache

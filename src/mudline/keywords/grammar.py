@@ -15,6 +15,7 @@ from lark.parsers.lalr_interactive_parser import InteractiveParser
 
 from mudline.diagnostics import Span
 from mudline.resources import grammar_file
+from mudline.syntax.scanning import kept_parser
 
 END = "$END"
 ROW = "ROW"
@@ -87,14 +88,14 @@ def _part(rule: str) -> str:
         name = wanted.pop()
         if name not in found:
             found[name] = _rules()[name]
-            wanted += set(_NAME.findall(found[name])) & _rules().keys()
+            wanted += sorted(set(_NAME.findall(found[name])) & _rules().keys())
     text = "".join(found.values())
     return f"{text}%declare {' '.join(sorted(set(_TERMINAL.findall(text))))}\n"
 
 
 @cache
 def _parser(rule: str) -> Lark:
-    return Lark(_part(rule), start=rule, parser="lalr", lexer=_Given, keep_all_tokens=True, maybe_placeholders=False)
+    return kept_parser(rule, _part(rule), start=rule, lexer=_Given, keep_all_tokens=True, maybe_placeholders=False)
 
 
 def terminal_of(key: str) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, cached_property
 from types import NoneType, UnionType
 from typing import Annotated, Any, ClassVar, Literal, Union, get_args, get_origin
 
@@ -265,9 +265,9 @@ class FieldSpec:
         return self.key + "=" if self.key else self.json.replace("_", " ")
 
 
-@dataclass(slots=True)
+@dataclass
 class RecordSchema:
-    """The fields of a part by how they are written."""
+    """The fields of a part by how they are written; what follows from them is found once."""
 
     columns: list[FieldSpec] = field(default_factory=list)
     keys: dict[str, FieldSpec] = field(default_factory=dict)
@@ -275,17 +275,17 @@ class RecordSchema:
     children: dict[str, FieldSpec] = field(default_factory=dict)
     slots: list[FieldSpec] = field(default_factory=list)
 
-    @property
+    @cached_property
     def row_names(self) -> list[str]:
         """Names of the fields that a row can fill."""
         return [slot.name for slot in (*self.columns, *([self.table] if self.table else []))]
 
-    @property
+    @cached_property
     def fewest(self) -> int:
         """How many fields a row must have."""
         return fewest_fields(slot.required for slot in self.columns)
 
-    @property
+    @cached_property
     def wanted(self) -> str:
         """The columns in words: `depth, density [, gravity]`."""
         return row_format([slot.label for slot in self.columns], [slot.required for slot in self.columns])

@@ -1,15 +1,16 @@
-"""Long blocks of plain records: the values that the reader finds, without a tree of every line.
+"""Plain blocks: the values that the reader of blocks finds, without the place of each of them.
 
 The reader of blocks defines their meaning. What is read here has the values that it has there, and nothing to report;
-a block with anything else in it, be it a comment or one odd character, is left to the reader.
+a block with anything else in it, be it a comment among its lines or one odd character, is left to the reader. Most
+blocks of most decks are plain, and nobody asks for places in a block without a finding.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from functools import partial
+from functools import lru_cache, partial
 from typing import Any, cast
 
 from lark import Token, Tree
@@ -17,16 +18,17 @@ from pydantic import ValidationError
 
 from mudline.diagnostics import Problem, Span
 from mudline.keywords.grammar import ROW, SMALL, fitting, records_of, terminal_of
-from mudline.keywords.model import Block, FieldSpec, ListRow, Record, record_schema
+from mudline.keywords.model import Block, FieldSpec, ListRow, Part, Record, columns_of, record_schema
+from mudline.keywords.table import Column, from_rows
 from mudline.keywords.text import UnreadableError, Value, read_value
 from mudline.keywords.values import Equation, Kind
 from mudline.syntax.fields import Field, canonical_key
-from mudline.syntax.rows import line_spans
+from mudline.syntax.rows import line_spans, read_number, read_rows
 from mudline.syntax.tree import Kind as LeafKind
-from mudline.syntax.tree import RawBlock
+from mudline.syntax.tree import Leaf
 
-FEWEST = 1000
-"""Lines of a block from which on it is worth the attempt."""
+LONGEST_TABLE = 4096
+"""Characters of a block with tables that is tried: a longer one would take twice the time where it is not plain."""
 
 _FIELD = r"[^\s,=\"{}\[\]/]+(?:[ \t]+[^\s,=\"{}\[\]/]+)*"
 _EQUATION = r"=\[[^\[\]\"\r\n]*\]"
@@ -35,9 +37,13 @@ _SETTING = re.compile(rf"([ \t]*[A-Za-z][\w \t-]*)={_BEHIND}")
 _LINE = re.compile(_BEHIND)
 _WHOLE = re.compile(r"[-+]?[0-9]{1,15}")
 _COMMA = re.compile(r"[ \t]*,[ \t]*(?![^\[]*\])")
+_TIGHT_COMMA = re.compile(r"[^ \t],[^ \t]")
+_FEWEST_MIXED = 4
+"""Fields of a row in which two commas can be decimal ones and another one is not."""
 
 Values = dict[str, Any]
-_Reading = Callable[[str], Values]
+_Reading = Callable[[Values, str, object], None]
+"""Adds to the values of a record what the fields of a line give; the last argument is that of `Record.row_slot`."""
 
 
 class _OddError(Exception):
@@ -48,189 +54,269 @@ class _OddError(Exception):
 class _Form:
     """How a record of one form is read: what each of its own lines gives, by their indices, and the records in it."""
 
+    sticky: str
     lines: list[tuple[int, _Reading]] = field(default_factory=list)
     children: list[tuple[str, _Form]] = field(default_factory=list)
 
-    def values(self, lines: Sequence[str]) -> Values:
-        """The values of a record from the fields of its lines."""
+    def values(self, lines: Sequence[str], last: object = None) -> Values:
+        """The values of a record from the fields of its lines; `last` is what its sticky field was before."""
         found: Values = {}
         for index, reading in self.lines:
-            found |= reading(lines[index])
+            reading(found, lines[index], last)
+        stuck: dict[str, object] = {}
         for name, form in self.children:
-            found.setdefault(name, []).append(form.values(lines))
+            values = form.values(lines, stuck.get(name))
+            if form.sticky:
+                stuck[name] = values.get(form.sticky) or stuck.get(name)
+            found.setdefault(name, []).append(values)
         return found
 
 
-def read_plain(text: str, raw: RawBlock, declared: type[Block], keys: Collection[str]) -> Block | None:
-    """Return the model of a block of plain records; None where it is anything else.
+def read_plain(
+    text: str, leaves: Sequence[Leaf], name: str, declared: type[Block], keys: frozenset[str]
+) -> Block | None:
+    """Return the model of a plain block; None where it is anything else.
 
-    `keys` are those that the lines of the block may begin with.
+    `leaves` are its lines and `name` is its keyword; `keys` are those that the lines may begin with.
     """
-    records = records_of(declared.rule)
-    slots = record_schema(declared).slots
-    if len(raw.leaves) < FEWEST or records is None or len(slots) != 1 or declared.tabular:
+    if declared.tabular and leaves and leaves[-1].span.end - leaves[0].span.start > LONGEST_TABLE:
         return None
-    slot = slots[0]
-    entries = _entries(slot.record[records.rule], _lines(text, raw, keys), records.opening)
     try:
-        return declared.model_validate({"keyword": raw.name, slot.json: entries})
+        return declared.model_validate({"keyword": name, **_contents(text, leaves, declared, keys)})
     except (_OddError, ValidationError):
         return None
 
 
-def _lines(text: str, raw: RawBlock, keys: Collection[str]) -> Iterator[tuple[str, str]]:
-    """The terminal of each line, and what stands behind its key."""
-    terminals: dict[str, str] = {}
-    for kind, span in raw.leaves:
+def _contents(text: str, leaves: Sequence[Leaf], declared: type[Block], keys: frozenset[str]) -> Values:
+    """The values of a block: a record at a time where it is a list of records, else all of its lines at once."""
+    lines = _lines(text, leaves, keys, tabular=declared.tabular)
+    records = records_of(declared.rule)
+    slots = record_schema(declared).slots
+    if records and len(slots) == 1:
+        entries = _entries(slots[0].record[records.rule], lines, records.opening, tabular=declared.tabular)
+        # those of a long block are read as they are checked: all at once would take several times the memory
+        return {slots[0].json: list(entries) if len(leaves) <= SMALL else entries}
+    if len(leaves) > SMALL:
+        raise _OddError
+    terminals: list[str] = []
+    written: list[str] = []
+    for terminal, fields in lines:
+        terminals.append(terminal)
+        written.append(fields)
+    return _known_form(declared, tuple(terminals), declared.tabular).values(written)
+
+
+def _lines(text: str, leaves: Sequence[Leaf], keys: frozenset[str], *, tabular: bool) -> Iterator[tuple[str, str]]:
+    """The terminal of each line, and what stands behind its key; the text of a run that is a table."""
+    for kind, span in leaves:
         if kind is LeafKind.SETTING:
-            match = _SETTING.fullmatch(text, *span)
-            if match is None:
+            written, fields = _matched(_SETTING, text, *span).groups()
+            yield _terminal(written, keys), fields
+        elif kind is LeafKind.RUN or kind is LeafKind.TEXT:
+            if not tabular:
+                for start, end in line_spans(text, span):
+                    yield ROW, _matched(_LINE, text, start, end + 1)[1]
+            elif text[span.end - 1] == "\n":
+                yield ROW, text[span.start : span.end]
+            else:
                 raise _OddError
-            written, fields = match.groups()
-            terminal = terminals.get(written)
-            if terminal is None:
-                key = canonical_key(written)
-                if key not in keys:
-                    raise _OddError
-                terminal = terminals[written] = terminal_of(key)
-            yield terminal, fields
-        elif kind is LeafKind.TEXT:
-            match = _LINE.fullmatch(text, *span)
-            if match is None:
-                raise _OddError
-            yield ROW, match[1]
-        elif kind is LeafKind.RUN:
-            yield from ((ROW, fields) for fields in _rows(text, span))
         elif kind is not LeafKind.BLANK:
             raise _OddError
 
 
-def _rows(text: str, run: Span) -> Iterator[str]:
-    for start, end in line_spans(text, run):
-        match = _LINE.fullmatch(text, start, end + 1)
-        if match is None:
-            raise _OddError
-        yield match[1]
+def _matched(pattern: re.Pattern[str], text: str, start: int, end: int) -> re.Match[str]:
+    match = pattern.fullmatch(text, start, end)
+    if match is None:
+        raise _OddError
+    return match
 
 
-def _entries(record: type[Record], lines: Iterable[tuple[str, str]], opening: str) -> Iterator[Values]:
-    """The values of each record, while its lines are read; those of one form are read alike."""
-    forms: dict[tuple[str, ...], _Form] = {}
+@lru_cache(maxsize=1024)
+def _terminal(written: str, keys: frozenset[str]) -> str:
+    """The terminal of a setting line by its key as it is written."""
+    key = canonical_key(written)
+    if key not in keys:
+        raise _OddError
+    return terminal_of(key)
 
-    def values() -> Values:
-        kinds = tuple(terminals)
-        form = forms.get(kinds)
-        if form is None:
-            tree = fitting(record.rule, kinds) if len(kinds) <= SMALL else None
-            if tree is None:
-                raise _OddError
-            form = forms[kinds] = _form(record, tree)
-        return form.values(written)
 
+def _entries(
+    record: type[Record], lines: Iterable[tuple[str, str]], opening: str, *, tabular: bool
+) -> Iterator[Values]:
+    """The values of each record, while its lines are read."""
+    if record.sticky:
+        raise _OddError
     terminals: list[str] = []
     written: list[str] = []
     for terminal, fields in lines:
         if terminal == opening:
             if terminals:
-                yield values()
+                yield _known_form(record, tuple(terminals), tabular).values(written)
             terminals, written = [], []
         elif not terminals:
             raise _OddError
         terminals.append(terminal)
         written.append(fields)
-    yield values()
+    if terminals:
+        yield _known_form(record, tuple(terminals), tabular).values(written)
 
 
-def _form(record: type[Record], tree: Tree[Token]) -> _Form:
-    """How a record is read that has this tree."""
-    found = record_schema(record)
-    if record.sticky or any("row_slot" in vars(base) for base in record.__mro__ if base is not Record):
-        raise _OddError
-    form = _Form()
-    own: list[str] = []
-    for child in tree.children:
-        if isinstance(child, Tree):
-            slot = found.children[str(child.data)]
-            form.children.append((slot.json, _form(slot.record[str(child.data)], child)))
-            continue
-        if child.type == ROW:
-            slots = found.columns
-            reading = _row_reading(record)
-        else:
-            slots = [slot for key, slot in found.keys.items() if terminal_of(key) == child.type]
-            reading = _setting_reading(slots)
-        own += [slot.json for slot in slots]
-        form.lines.append((cast("int", child.start_pos), reading))
-    if len(set(own)) < len(own):  # given twice
+def _known_form(record: type[Record], terminals: tuple[str, ...], tabular: bool) -> _Form:  # noqa: FBT001 - for the cache
+    """How a record with these lines is read."""
+    form = _form_of(record, terminals, tabular)
+    if form is None:
         raise _OddError
     return form
 
 
-def _setting_reading(slots: list[FieldSpec]) -> _Reading:
-    """What a setting gives: one name, or a few whole numbers."""
-    if len(slots) != 1 or slots[0].many or slots[0].choices:
-        raise _OddError
-    slot = slots[0]
-    if slot.kind is Kind.NAME and slot.row is None:
-        return partial(_name, slot.json)
-    columns = record_schema(slot.row).columns if slot.row and issubclass(slot.row, ListRow) else []
-    if not columns or slot.kind or any(column.kind is not Kind.WHOLE for column in columns):
-        raise _OddError
-    return partial(_some_wholes, slot.json, record_schema(cast("type[ListRow]", slot.row)).fewest, len(columns))
+@lru_cache(maxsize=1024)
+def _form_of(record: type[Record], terminals: tuple[str, ...], tabular: bool) -> _Form | None:  # noqa: FBT001
+    tree = fitting(record.rule, terminals) if len(terminals) <= SMALL else None
+    try:
+        return _form(record, tree, tabular=tabular) if tree else None
+    except _OddError:
+        return None
 
 
-def _row_reading(record: type[Record]) -> _Reading:
-    """What a row gives: whole numbers, or two values, of which no two can be one number with a decimal comma."""
+def _form(record: type[Record], tree: Tree[Token], *, tabular: bool) -> _Form:
+    """How a record is read that has this tree."""
     found = record_schema(record)
-    columns = found.columns
-    if found.table or found.keys or any(column.row or column.choices for column in columns):
+    form = _Form(record.sticky)
+    given: list[str] = []
+    for child in tree.children:
+        if isinstance(child, Tree):
+            slot = found.children[str(child.data)]
+            form.children.append((slot.json, _form(slot.record[str(child.data)], child, tabular=tabular)))
+            continue
+        if child.type == ROW:
+            reading = _row_reading(record, tabular=tabular)
+        else:
+            slots = [slot for key, slot in found.keys.items() if terminal_of(key) == child.type]
+            if len(slots) != 1:
+                raise _OddError
+            reading = _setting_reading(slots[0])
+        given.append(child.type)
+        form.lines.append((cast("int", child.start_pos), reading))
+    lacks_table = found.table and found.table.required and ROW not in given
+    if lacks_table or len(set(given)) < len(given) or (not tree.children and not issubclass(record, Block)):
         raise _OddError
-    if len(columns) == 1 and columns[0].many and columns[0].kind in (Kind.IDENT, Kind.WHOLE):
-        return partial(_wholes, columns[0].json)
-    if len(columns) == 2 and all(column.required and column.kind and not column.many for column in columns):
-        return partial(_pair, columns[0], columns[1])
-    raise _OddError
+    return form
 
 
-def _name(json: str, fields: str) -> Values:
-    if "," in fields or fields[0] == "=":
+def _setting_reading(slot: FieldSpec) -> _Reading:
+    """How the values behind a KEY= are read."""
+    one = partial(_one, slot)
+    if slot.row is None:
+        return partial(_many, slot) if slot.many else one
+    row = _values_reading(slot.row, slot)
+    if not (slot.choices or slot.kind):
+        return row
+    return lambda found, fields, last: (row if "," in fields else one)(found, fields, last)
+
+
+def _row_reading(record: type[Record], *, tabular: bool) -> _Reading:
+    """How a row of a record is read, or a run of rows that is its table."""
+    schema = record_schema(record)
+    if tabular:
+        if schema.table is None or schema.columns:
+            raise _OddError
+        return partial(_table, schema.table.json, columns_of(schema.table))
+    if schema.table:
         raise _OddError
-    return {json: fields}
+    readings = {slot.name: _column_reading(record, slot) for slot in schema.columns}
+    if record.row_slot.__func__ is Record.row_slot.__func__:  # type: ignore[attr-defined]  # of a class method
+        return readings[schema.columns[0].name]
+    return partial(_chosen, record, readings)
 
 
-def _wholes(json: str, fields: str) -> Values:
+def _chosen(record: type[Record], readings: dict[str, _Reading], found: Values, fields: str, last: object) -> None:
+    """A row whose field depends on what was read before it."""
+    readings[record.row_slot(0, len(_words(fields)), found, last)](found, fields, last)
+
+
+def _column_reading(record: type[Record], slot: FieldSpec) -> _Reading:
+    """How a row is read that fills a field of a record, or that one and those behind it."""
+    columns = record_schema(record).columns
+    if slot.row:
+        return _values_reading(slot.row, slot)
+    if slot.many:
+        return partial(_many, slot)
+    if len(columns) > 1 and any(column.row for column in columns):
+        return partial(_one, slot)
+    return _values_reading(record, None)
+
+
+def _values_reading(row: type[Part], slot: FieldSpec | None) -> _Reading:
+    """How the fields of a row are read: those of a field `slot`, or of the record itself."""
+    json = slot.json if slot else ""
+    return partial(_listed if issubclass(row, ListRow) else _fields, row, json)
+
+
+def _fields(row: type[Part], json: str, found: Values, fields: str, _: object) -> None:
+    inner = found.setdefault(json, {}) if json else found
+    for word, slot in _counted(row, fields):
+        inner[slot.json] = _value(word, slot)
+
+
+def _listed(row: type[Part], json: str, found: Values, fields: str, _: object) -> None:
+    found[json] = [_value(word, slot) for word, slot in _counted(row, fields)]
+
+
+def _counted(row: type[Part], fields: str) -> Iterator[tuple[str, FieldSpec]]:
+    """The fields of a row, each with what it is; there are neither too few nor too many."""
+    schema = record_schema(row)
+    words = _words(fields)
+    if not schema.fewest <= len(words) <= len(schema.columns):
+        raise _OddError
+    if len(words) >= _FEWEST_MIXED and (" " in fields or "\t" in fields) and _TIGHT_COMMA.search(fields):
+        raise _OddError  # some of the commas may be decimal ones
+    return zip(words, schema.columns, strict=False)
+
+
+def _many(slot: FieldSpec, found: Values, fields: str, _: object) -> None:
+    found[slot.json] = [_value(word, slot) for word in _words(fields)]
+
+
+def _one(slot: FieldSpec, found: Values, fields: str, _: object) -> None:
+    if "," in fields:
+        raise _OddError
+    found[slot.json] = _value(fields, slot)
+
+
+def _table(json: str, columns: list[Column], found: Values, run: str, _: object) -> None:
+    table, faults = from_rows(read_rows(run, Span(0, len(run)), len(columns)), columns)
+    if faults:
+        raise _OddError
+    found[json] = table
+
+
+def _words(fields: str) -> list[str]:
+    """The fields of a line; one field with blanks may be several that are separated by blanks."""
+    if "[" in fields:
+        return _COMMA.split(fields)
     words = [word.strip(" \t") for word in fields.split(",")]
-    if not all(map(_WHOLE.fullmatch, words)):
+    if len(words) == 1 and (" " in fields or "\t" in fields):
         raise _OddError
-    return {json: list(map(int, words))}
-
-
-def _some_wholes(json: str, fewest: int, most: int, fields: str) -> Values:
-    values = _wholes(json, fields)
-    if not fewest <= len(values[json]) <= most:
-        raise _OddError
-    return values
-
-
-def _pair(first: FieldSpec, second: FieldSpec, fields: str) -> Values:
-    words = _COMMA.split(fields)
-    if len(words) != 2:
-        raise _OddError
-    return {first.json: _value(words[0], first), second.json: _value(words[1], second)}
+    return words
 
 
 def _value(word: str, slot: FieldSpec) -> Value:
-    if word.startswith("=["):
-        if slot.kind is Kind.NAME or slot.kind is Kind.IDENT:
+    """The value of a field: at once for what most fields hold."""
+    kind = slot.kind
+    if kind is Kind.NAME:
+        if word[0] == "=":
             raise _OddError
-        return Equation(word)
-    if slot.kind is Kind.NAME:
         return word
+    if not slot.choices:
+        if kind is Kind.REAL and (number := read_number(word)) is not None:
+            return number
+        if (kind is Kind.WHOLE or kind is Kind.IDENT) and _WHOLE.fullmatch(word):
+            return int(word)
     problems: list[Problem] = []
     try:
         value = read_value(Field(word, Span(0, len(word))), slot, problems)
     except UnreadableError as fault:
         raise _OddError from fault
-    if problems:
+    if problems or (kind is Kind.IDENT and isinstance(value, Equation)):
         raise _OddError
     return value

@@ -5,7 +5,7 @@ from __future__ import annotations
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, partial
 from operator import attrgetter, itemgetter
 from typing import NamedTuple, Protocol, cast
 
@@ -60,6 +60,11 @@ class ReadBlock:
             self.whole = None
         return self.own
 
+    def at(self, text: str, start: int, problems: list[Problem]) -> ReadBlock:
+        """The block, with its problems there, in a text in which the piece that was read begins at `start`."""
+        found = self.found if isinstance(self.found, Places) else lambda: self.own
+        return ReadBlock(self.model, found, problems, self.trailing, self.lost, (text, start))
+
     def damaged(self, path: Path) -> bool:
         """Whether something at this place could not be read."""
         return isinstance(self.found, Places) and path in self.found.damaged
@@ -79,13 +84,41 @@ class BlockReader(Protocol):
 
 def read_block(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
     """Read a block. `text` is the unified text of the source; `last` says that nothing follows the block in it."""
-    return _plain(text, raw, declared, last=last) or _Reader(text, raw, declared, last=last).read()
+    found = partial(_places, text, raw, declared, last=last)
+    return _plain(text, raw, declared, found) or _Reader(text, raw, declared, last=last).read()
 
 
-def _plain(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock | None:
-    """A long block of plain records; its places are found by reading it again, line by line."""
-    model = read_plain(text, raw, declared, all_keys(declared))
-    return None if model is None else ReadBlock(model, lambda: _Reader(text, raw, declared, last=last).read().own, [])
+def read_piece(text: str, start: int, end: int, raw: RawBlock, declared: type[Block], *, last: bool) -> ReadBlock:
+    """Read a block as if nothing but its own lines, from `start` to `end`, were the text: the rest is not kept."""
+    found = partial(_places_in_piece, text[start:end], start, raw, declared, last=last)
+    plain = _plain(text, raw, declared, found)
+    return plain or _Reader(text[start:end], _moved(raw, -start), declared, last=last).read()
+
+
+def _plain(text: str, raw: RawBlock, declared: type[Block], found: Callable[[], Places]) -> ReadBlock | None:
+    """A plain block, and the comments behind it; its places are found by reading it again, line by line."""
+    leaves = raw.leaves
+    end = len(leaves)
+    while end and leaves[end - 1].kind in (Kind.COMMENT, Kind.BLANK):
+        end -= 1
+    model = read_plain(text, leaves[:end], raw.name, declared, all_keys(declared))
+    if model is None:
+        return None
+    trailing = [text[slice(*leaf.span)].rstrip("\r\n")[1:] for leaf in leaves[end:] if leaf.kind is Kind.COMMENT]
+    return ReadBlock(model, found, [], trailing)
+
+
+def _places(text: str, raw: RawBlock, declared: type[Block], *, last: bool) -> Places:
+    return _Reader(text, raw, declared, last=last).read().own
+
+
+def _places_in_piece(piece: str, start: int, raw: RawBlock, declared: type[Block], *, last: bool) -> Places:
+    return _places(piece, _moved(raw, -start), declared, last=last)
+
+
+def _moved(raw: RawBlock, by: int) -> RawBlock:
+    leaves = [Leaf(leaf.kind, leaf.span.moved(by)) for leaf in raw.leaves]
+    return RawBlock(Leaf(raw.head.kind, raw.head.span.moved(by)), raw.name, leaves)
 
 
 class _Reader:

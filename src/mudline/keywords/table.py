@@ -230,6 +230,10 @@ def from_rows(raw: RawRows, columns: Sequence[Column]) -> tuple[Table, dict[tupl
 
     Empty fields behind the last one that holds something, as trailing commas leave them, are dropped.
     """
+    fewest, width = _fewest(columns), raw.values.shape[1]
+    if not raw.words and fewest <= width <= len(columns) and (raw.lengths == width).all():
+        table = Table(raw.values, raw.lengths)
+        return table, _not_whole(table, columns)
     faults: dict[tuple[int, int], str] = {}
     words: dict[tuple[int, int], Equation | Label | None] = {}
     lengths = np.minimum(raw.lengths, len(columns))
@@ -238,7 +242,6 @@ def from_rows(raw: RawRows, columns: Sequence[Column]) -> tuple[Table, dict[tupl
             faults[row, column] = fault
         else:
             words[row, column] = _word(word)
-    fewest = _fewest(columns)
     wrong = (raw.lengths < fewest) | (raw.lengths > len(columns))
     for row in np.flatnonzero(wrong).tolist() if wrong.any() else ():
         faults[row, -1] = f"{counted(int(raw.lengths[row]), 'field')}, expected {_count(columns)}"

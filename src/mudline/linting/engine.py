@@ -12,10 +12,10 @@ from mudline.deck.loading import load_bytes
 from mudline.deck.model import BaseProblem, Deck
 from mudline.diagnostics import Blocks, DeckError, Diagnostic, Problem, Severity
 from mudline.keywords.model import Block
-from mudline.keywords.reader import ReadBlock, read_block
+from mudline.keywords.reader import ReadBlock, read_block, read_piece
 from mudline.linting.rule import LintContext, Rule
 from mudline.linting.suppression import suppressions
-from mudline.syntax.tree import Leaf, RawBlock
+from mudline.syntax.tree import RawBlock
 
 
 class Fixing(StrEnum):
@@ -116,14 +116,9 @@ class BlockCache:
         self._known.move_to_end(key)
         known = self._known[key]
         if known is None:
-            known = self._known[key] = read_block(piece, _moved(raw, -start), declared, last=last)
+            known = self._known[key] = read_piece(text, start, end, raw, declared, last=last)
         problems = [_reported_at(problem, start) for problem in known.problems]
-        return ReadBlock(known.model, known.own, problems, known.trailing, known.lost, (text, start))
-
-
-def _moved(raw: RawBlock, by: int) -> RawBlock:
-    leaves = [Leaf(leaf.kind, leaf.span.moved(by)) for leaf in raw.leaves]
-    return RawBlock(Leaf(raw.head.kind, raw.head.span.moved(by)), raw.name, leaves)
+        return known.at(text, start, problems)
 
 
 def _reported_at(problem: Problem, by: int) -> Problem:
