@@ -43,7 +43,8 @@ def check(data: bytes, name: str = "deck.keyxm") -> bytes:
     assert opaque == [block for section in after.sections for block in section.blocks if isinstance(block, Opaque)]
     ends = (new.count(b"\r\n"), new.count(b"\n") - new.count(b"\r\n"), new.count(b"\r") - new.count(b"\r\n"))
     assert sum(count > 0 for count in ends) <= 1
-    assert not new.removeprefix(BOM) or new.endswith((b"\n", b"\r"))
+    lines = new.removeprefix(BOM).rstrip(b"\x1a")  # an end-of-file mark stays where it is
+    assert not lines or lines.endswith((b"\n", b"\r"))
     assert new.startswith(BOM) == data.startswith(BOM)
     assert ink(new) == ink(data)
     return new
@@ -115,6 +116,22 @@ _sample_bytes = st.sampled_from([path.read_bytes()[:6000] for path in FILES if p
 @settings(max_examples=100)
 def test_mutated_decks(data: bytes) -> None:
     check(data.replace(b"\x00", b"\x01"))  # with a NUL, few bytes and a line end more may look like UTF-16
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        b"\x1a",
+        b"\x1a+EMBEDMENT\n",
+        b"x\n\x1a",
+        b"$MODEL\n*X\n \x1a a",
+        b"\nCabc\x1a",
+        b"\vCabc\x1a",
+        b"$MODEL\x1a\x1a \n \x1a",
+    ],
+)
+def test_an_end_of_file_mark(data: bytes) -> None:
+    assert b"\x1a" in check(data)
 
 
 @given(st.text(st.sampled_from('$*C c=1-,.\t\r\nx[]{}"/\x85\u2028\u0660\x0b\x0c\xdf'), max_size=60))

@@ -127,6 +127,9 @@ class _Layout:
         ends = line_ends(self.source.text)
         self.end = next(iter(ends), "\n")
         self.mixed = len(ends) > 1
+        self.ended = len(self.text)  # where the text ends but for blanks and marks
+        while self.ended and self.source.text[self.ended - 1] in f"{END_MARK} \t\r\n":
+            self.ended -= 1
         self.found: list[TextEdit] = []
         self.blanks: list[Span] = []
 
@@ -154,7 +157,9 @@ class _Layout:
         return "".join(char for char in self.source.text[slice(*span)] if char == END_MARK)
 
     def _put(self, span: Span, lines: str) -> None:
-        """Put lines, each with a LF, in the place of those of a span."""
+        """Put lines, each with a LF, in the place of those of a span; end-of-file marks stay behind the last one."""
+        if span.end > self.ended and not lines.endswith(END_MARK):
+            lines += self._marks(Span(max(span.start, self.ended), span.end))
         new = lines if self.end == "\n" else lines.replace("\n", self.end)
         if span.end - span.start != len(new) or not self.source.text.startswith(new, span.start):
             self.found.append(TextEdit(span, new))
@@ -179,10 +184,10 @@ class _Layout:
         for leaf in leaves:
             self._end_blanks()
             if self.mixed or leaf.span.end == len(self.text):
-                if marks := self._marks(leaf.span):
+                lines = self.text[slice(*leaf.span)].replace("\r\n", "\n")
+                if not lines.strip(" \t\n") and (marks := self._marks(leaf.span)):
                     self._put(leaf.span, marks)
                     continue
-                lines = self.text[slice(*leaf.span)].replace("\r\n", "\n")
                 self._put(leaf.span, lines if lines.endswith("\n") else lines + "\n")
 
     def _stray(self, leaves: list[Leaf]) -> None:
