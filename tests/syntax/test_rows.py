@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from unittest.mock import patch
 
 import numpy as np
@@ -328,3 +329,15 @@ def test_a_number_is_finite_and_what_python_reads(text: str) -> None:
     if value is not None:
         assert math.isfinite(value)
         assert bits(value) == bits(float(text.lower().replace("d", "e")))
+
+
+@given(st.text('=[]"{},/ 1a*\t', max_size=24), st.integers(1, 5))
+@example(" 1, =[a*2], 3 ", 4)
+@example("=[a[1]], 2", 3)
+@example("1, =[a,b], =[", 4)
+@example("1]=[2],3", 2)
+def test_a_row_of_simple_equations_is_cut_as_any_row(body: str, columns: int) -> None:
+    with pytest.MonkeyPatch.context() as patch:
+        found = reader._row_words(body, columns)
+        patch.setattr(reader, "_ONLY_EQUATIONS", re.compile("(?!)"))
+        assert found == reader._row_words(body, columns)

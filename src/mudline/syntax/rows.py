@@ -19,6 +19,8 @@ from mudline.syntax.number_rows import LONGEST_BLANK_SEPARATED, LONGEST_NUMBER, 
 _NUMBER = re.compile(r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eEdD][-+]?[0-9]+)?")
 _WORD = re.compile(r"[^ \t\r\n]+")
 _SPECIAL = re.compile(r'[\["{]')
+_ONLY_EQUATIONS = re.compile(r'(?:[^"{\[]++|(?<==)\[[^\[\]"{,]*+\])*+')
+"""A row whose only brackets are those of equations without commas, brackets, strings or labels inside."""
 _SHORT = 800  # characters: shorter runs are read sooner without arrays
 _PIECE = 256 * 1024  # characters: the arrays of a piece stay in the fast memory of a processor
 _MOST_ODD = 0.5
@@ -248,7 +250,7 @@ def _row_words(body: str, columns: int) -> tuple[list[str], int]:
 
     Empty fields behind the last column, as trailing commas leave them, do not count.
     """
-    if _SPECIAL.search(body):
+    if _SPECIAL.search(body) and not (body.count(",") < columns and _ONLY_EQUATIONS.fullmatch(body)):
         texts = [field.text for field in split(body, Span(0, len(body)))[0]]
         while len(texts) > columns and not texts[-1]:
             texts.pop()
