@@ -10,6 +10,8 @@ from functools import cache
 from types import NoneType
 from typing import TYPE_CHECKING, Any, NamedTuple, NewType, cast
 
+from pydantic import BaseModel
+
 from mudline.codes.fields import SYN002, SYN006, SYN017
 from mudline.codes.references import REF013, REF014
 from mudline.deck.model import Deck
@@ -291,7 +293,7 @@ def evaluated(deck: Deck) -> tuple[EvaluatedDeck, list[Problem]]:
 
 
 @cache
-def _evaluated_slots(kind: type[Part | float | str]) -> tuple[str, ...]:
+def _evaluated_slots(kind: type[BaseModel]) -> tuple[str, ...]:
     """Names of the fields of a part that can hold an equation, or parts that can; none of anything else.
 
     The question whether a class is one of parts takes longer than this cache.
@@ -308,7 +310,7 @@ def _has_equation(value: Any) -> bool:
         return value.equations
     held = value
     if not isinstance(value, list):
-        kind: type[Part | float | str] = type(value)
+        kind: type[BaseModel] = type(value)
         held = [getattr(value, name) for name in _evaluated_slots(kind)]
     for item in held:  # noqa: SIM110 - `any` takes twice the time
         if type(item) not in _PLAIN and _has_equation(item):
