@@ -9,8 +9,7 @@ result = scene.contact().evaluate(positions)
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING
+TYPE_CHECKING = False  # as in typing, whose import would take longer than `mudline --version` does otherwise
 
 if TYPE_CHECKING:
     from mudline.api import Deck, from_json, from_keyword, from_yaml, lint, read
@@ -67,6 +66,8 @@ def __getattr__(name: str) -> object:
     """Public names are imported when they are first used: the command line asks for the version alone."""
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from importlib import import_module  # noqa: PLC0415 - as above
+
     return getattr(import_module(f"mudline.{_HOMES[name]}"), name)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import os
 import sys
 from collections.abc import Sequence
 
@@ -16,6 +17,9 @@ What a deck is read into has no cycles and is freed with it: a run of many decks
 collector. By default a third of the time of a deck of many entries goes into looking for cycles.
 """
 
+_THREADS = "OPENBLAS_NUM_THREADS"
+"""No command multiplies large matrices: threads for that would take as long to start as numpy, and forbid to fork."""
+
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command line and return its exit code. The version is printed before anything else is imported."""
@@ -24,6 +28,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         sys.stdout.write(f"mudline {__version__}\n")
         return 0
     gc.set_threshold(*_COLLECTION)
+    os.environ.setdefault(_THREADS, "1")
     try:
         from mudline.cli.main import run
 

@@ -8,7 +8,8 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from mudline.deck import model
-from mudline.deck.loading import KEYWORD, dump, load_bytes, load_path
+from mudline.deck.forms import KEYWORD
+from mudline.deck.loading import dump, load_bytes, load_path
 from mudline.diagnostics import Diagnostic
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import select as _chosen

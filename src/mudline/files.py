@@ -1,4 +1,4 @@
-"""Writing files: whole contents, atomic replacement."""
+"""Files: whole contents written by atomic replacement, and which files were looked at."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import os
 import secrets
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
+from contextvars import ContextVar
 from pathlib import Path
 from typing import BinaryIO
 
@@ -14,6 +15,27 @@ _CREATE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0) | ge
 _NEW = 0o666
 _PRIVATE = 0o600
 """Of a file that replaces another: until it has the permissions of the other one, nobody else reads it."""
+
+_LOOKED_AT: ContextVar[dict[str, None] | None] = ContextVar("looked_at", default=None)
+
+
+@contextmanager
+def recording_looks() -> Iterator[dict[str, None]]:
+    """Collect the paths that `look` is called with, each once, in order, until the block ends."""
+    paths: dict[str, None] = {}
+    token = _LOOKED_AT.set(paths)
+    try:
+        yield paths
+    finally:
+        _LOOKED_AT.reset(token)
+
+
+def look(path: Path) -> Path:
+    """Return the path, of which is now known that a result depends on what is there, or on nothing being there."""
+    paths = _LOOKED_AT.get()
+    if paths is not None:
+        paths[os.path.abspath(path)] = None  # noqa: PTH100 - links stay what they are called
+    return path
 
 
 def write_atomically(path: Path, data: bytes | Iterable[bytes]) -> None:

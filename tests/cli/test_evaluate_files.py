@@ -252,7 +252,8 @@ def test_velocities_are_accepted(place: Place, folder: Path) -> None:
 def test_other_forms_are_wrong_usage(place: Place, name: str) -> None:
     outcome = run("evaluate", place(), "-o", name)
     assert (outcome.code, outcome.out) == (2, "")
-    assert f"{name}: results are written as .csv, .json, .npz or .parquet" in outcome.err
+    *names, last = (f".{form}" for form in forms.form_names())
+    assert f"{name}: results are written as {', '.join(names)} or {last}" in outcome.err
 
 
 @pytest.mark.parametrize("name", ["nowhere/out.json", "nowhere/out.csv", "nowhere/out.npz"])
@@ -288,12 +289,14 @@ def test_a_module_is_a_form_of_files(place: Place, folder: Path, monkeypatch: py
     toy = folder / "forms"
     toy.mkdir()
     (toy / "toy.py").write_text(TOY, encoding="utf-8")
+    *names, last = sorted([*(f".{form}" for form in forms.form_names()), ".toy"])
     monkeypatch.setattr(forms, "__path__", [*forms.__path__, str(toy)])
     for name in [name for name in sys.modules if name.startswith(f"{forms.__name__}.")]:
         monkeypatch.delitem(sys.modules, name)
     assert run("evaluate", place(), "-o", "out.toy", "-q").code == 0
     assert Path("out.toy").read_text(encoding="utf-8") == "1 step\n"
-    assert "are written as .csv, .json, .npz, .parquet or .toy" in run("evaluate", place(), "-o", "out.xls").err
+    written = f"are written as {', '.join(names)} or {last}"
+    assert written in run("evaluate", place(), "-o", "out.xls").err
     imported = {name for name in sys.modules if name.startswith(f"{forms.__name__}.")}
     monkeypatch.delitem(sys.modules, f"{forms.__name__}.toy")
     assert imported == {f"{forms.__name__}.toy"}

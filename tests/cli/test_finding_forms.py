@@ -6,7 +6,7 @@ import json
 
 import pytest
 
-from mudline.cli.lint_command import statistics_lines
+from mudline.cli.lint_report import statistics_lines
 from mudline.diagnostics import Diagnostic, Edit, Fix, Severity
 from mudline.linting.output import LONGEST, form, visible, visible_lines
 from mudline.linting.output.text import Screen, excerpt, findings, summary

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
 from collections.abc import Callable
 from hashlib import blake2b
 from pathlib import Path
@@ -25,7 +28,7 @@ Linted = list[str]
 
 @pytest.fixture
 def linted(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Linted:
-    """The files that were really linted; the smallest run asks the cache, which stands in the folder."""
+    """The files that were really linted; the cache stands in the folder."""
     names: Linted = []
 
     def lint(name: str, data: bytes, settings: LintSettings, place: Path | None = None) -> FileReport:
@@ -33,7 +36,7 @@ def linted(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Linted:
         return lint_one(name, data, settings, place)
 
     monkeypatch.setenv(cache_folder.PLACE, str(folder / "cache"))
-    monkeypatch.setattr(lint_jobs, "CACHED_FILES", 1)
+    monkeypatch.setattr(cache, "_COARSE", 0.0)  # files of a test are as young as its runs
     monkeypatch.setattr(lint_jobs, "lint_one", lint)
     return names
 
@@ -74,42 +77,136 @@ def test_changed_content_is_linted_again_though_size_and_time_stay(place: Place,
     assert len(linted) == 2
 
 
-@pytest.mark.parametrize(
-    ("path", "change"),
-    [("version", lambda name: f"{name} 9.9"), ("_PACKAGES", ("click", "none-such"))],
-    ids=["version", "libraries"],
-)
 def test_another_program_knows_nothing(
-    place: Place, linted: Linted, monkeypatch: pytest.MonkeyPatch, path: str, change: object
+    place: Place, linted: Linted, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     run("lint", place())
-    monkeypatch.setattr(cache, path, change)
+    monkeypatch.setattr("sys.version", "4.0")
     run("lint", "deck.keyxm")
     assert len(linted) == 2
+    library = tmp_path / "numpy-9.9.dist-info"
+    library.mkdir()
+    monkeypatch.syspath_prepend(tmp_path)
+    run("lint", "deck.keyxm")
+    assert len(linted) == 3
+    (library / "entry_points.txt").write_text("[mudline.rules]\n", encoding="utf-8")
+    run("lint", "deck.keyxm")
+    run("lint", "deck.keyxm")
+    assert len(linted) == 4
 
 
-def test_deck_that_names_a_file_is_linted_each_time(place: Place, linted: Linted) -> None:
-    restart = "$LOAD CASE\n*RESTART\n LAST=static\n*TIME\n STEP=FIXED\n 0.0, 120.0, 0.05\n"
-    assert "REF015" in run("lint", place(restart, "wave.keyxm"), "--output-format", "concise").out
-    place(name="static.keyxm")
-    assert "REF015" not in run("lint", "wave.keyxm", "--output-format", "concise").out
+# ------------------------------------------------------------------------------------------------ what a deck names
+
+RESTART = "$LOAD CASE\n*RESTART\n LAST=static\n*TIME\n STEP=FIXED\n 0.0, 120.0, 0.05\n"
+
+
+def test_a_deck_is_linted_again_when_a_file_that_it_lacked_is_there(folder: Path, place: Place, linted: Linted) -> None:
+    (folder / "cache").mkdir()
+    words = ("lint", place(RESTART, "wave.keyxm"), "--output-format", "concise")
+    first = run(*words)
+    assert "REF015" in first.out
+    assert run(*words) == first
+    assert len(linted) == 1
+    place(name="STATIC.keyxm")
+    assert "REF015" not in run(*words).out
     assert len(linted) == 2
 
 
-@pytest.mark.parametrize(
-    ("name", "data", "alone"),
-    [
-        ("a.keyxm", b" TYPE=ELASTIC\nC the last file\n", True),
-        ("a.keyxm", b" file = x\n", False),
-        ("a.keyxm", b"*restart\n", False),
-        ("a.keyxm", " f\u0131le=x\n".encode(), False),
-        ("a.keyxm", " FILE=x\n".encode("utf-16"), False),
-        ("a.json", b'{"f\\u0069le": 1}', False),
-        ("a.yaml", b"depth: 1", True),
-    ],
-)
-def test_decks_that_stand_alone(name: str, data: bytes, alone: bool) -> None:
-    assert cache.stands_alone(name, data) is alone
+def test_a_deck_is_linted_again_when_a_file_that_it_names_has_changed_or_gone(
+    folder: Path, place: Place, linted: Linted
+) -> None:
+    place(name="static.keyxm")
+    words = ("lint", place(RESTART, "wave.keyxm"))
+    assert run(*words) == run(*words)
+    assert len(linted) == 1
+    place("C nothing\n", "static.keyxm")
+    assert run(*words).code == 1
+    assert run(*words).code == 1
+    assert len(linted) == 2
+    (folder / "static.keyxm").unlink()
+    assert "REF015" in run(*words, "--output-format", "concise").out
+    assert len(linted) == 3
+
+
+def test_a_deck_is_linted_again_when_its_profile_has_changed(folder: Path, place: Place, linted: Linted) -> None:
+    (folder / "bed.txt").write_text("-1000.0, 0.0\n1000.0, 0.0\n", encoding="utf-8")
+    deck = CLEAN + "*SEABED PROFILE\n TYPE=PROFILE\n FILE=bed.txt\n"
+    first = run("lint", place(deck), "--output-format", "concise")
+    assert run("lint", "deck.keyxm", "--output-format", "concise") == first
+    assert len(linted) == 1
+    (folder / "bed.txt").write_text("-1000.0, O.0\n1000.0, 0.0\n", encoding="utf-8")
+    assert run("lint", "deck.keyxm", "--output-format", "concise") != first
+    assert len(linted) == 2
+
+
+def test_what_changes_while_it_is_linted_is_not_kept(
+    place: Place, linted: Linted, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(cache, "_COARSE", 1000.0)
+    place(name="static.keyxm")
+    run("lint", place(RESTART, "wave.keyxm"))
+    run("lint", "wave.keyxm")
+    assert len(linted) == 2
+
+
+def test_what_is_at_a_path(tmp_path: Path) -> None:
+    file, inner = tmp_path / "a.txt", tmp_path / "b"
+    assert cache.state(str(file)) == cache.state("a\0b") == ""
+    file.write_text("one", encoding="utf-8")
+    first, listed = cache.state(str(file)), cache.state(str(tmp_path))
+    file.write_text("two", encoding="utf-8")
+    assert cache.state(str(file)) not in ("", first)
+    assert cache.state(str(tmp_path)) == listed
+    inner.mkdir()
+    assert cache.state(str(tmp_path)) != listed
+
+
+# -------------------------------------------------------------------------------------------- decks without findings
+
+
+LIBRARIES = """
+import sys
+from mudline.__main__ import main
+from mudline.linting import cache
+
+cache._COARSE = 0.0
+print(main(["lint", *sys.argv[1:]]), sorted({"lark", "numpy", "pydantic"} & sys.modules.keys()))
+"""
+
+
+def test_decks_without_findings_are_answered_without_what_reads_decks(folder: Path, place: Place) -> None:
+    place("[tool.mudline]\nignore = ['STB']\n", "pyproject.toml")
+    place(name="static.keyxm")
+    words = [sys.executable, "-c", LIBRARIES, place(), place(RESTART, "wave.keyxm")]
+    environment = {**os.environ, cache_folder.PLACE: str(folder / "cache")}
+    done = [subprocess.run(words, env=environment, capture_output=True, text=True, check=True) for _ in range(2)]
+    assert done[0].stdout == "No findings in 2 files.\n0 ['lark', 'numpy', 'pydantic']\n"
+    assert done[1].stdout == "No findings in 2 files.\n0 []\n"
+
+
+@pytest.mark.parametrize("form", ["json", "concise", "sarif", "junit", "gitlab", "github", "jsonl"])
+def test_every_form_is_the_same_from_the_cache(place: Place, linted: Linted, form: str) -> None:
+    words = ("lint", place(), place(name="b.keyxm"), "-v", "--output-format", form)
+    assert run(*words) == run(*words)
+    assert len(linted) == 2
+
+
+def test_known_decks_are_not_read_again_beside_one_that_changed(place: Place, linted: Linted) -> None:
+    words = ("lint", place(), place(name="b.keyxm"), place(UNSORTED, "c.keyxm"))
+    first = run(*words)
+    place(BAD_NUMBER, "b.keyxm")
+    assert run(*words, "--output-format", "concise").out.count("SYN002") == 1
+    assert linted == ["deck.keyxm", "b.keyxm", "c.keyxm", "b.keyxm"]
+    place(name="b.keyxm")
+    assert run(*words) == first
+
+
+def test_a_wrong_code_is_reported_though_the_decks_are_known(place: Place, linted: Linted) -> None:
+    run("lint", place())
+    assert run("lint", "deck.keyxm", "--ignore", "REF999").code == 2
+    place("ignore = ['REF999']\n", "mudline.toml")
+    assert run("lint", "deck.keyxm").code == 2
+    assert len(linted) == 1
 
 
 def damaged(change: Callable[[bytes], bytes]) -> Callable[[Path], None]:
@@ -120,7 +217,7 @@ def resigned(path: Path) -> None:
     """Findings of another shape under a digest that is right."""
     body = path.read_bytes().partition(b"\n")[2].replace(b'"error"', b'"awful"')
     digest = blake2b(body, digest_size=20).hexdigest().encode()
-    path.write_bytes(b"mudline-lint-cache/1 " + digest + b"\n" + body)
+    path.write_bytes(b"mudline-lint-cache/2 " + digest + b"\n" + body)
 
 
 @pytest.mark.parametrize(
@@ -153,11 +250,12 @@ def test_standard_input_asks_nothing(folder: Path, linted: Linted) -> None:
     assert not (folder / "cache").exists()
 
 
-def test_small_runs_ask_nothing(folder: Path, place: Place, linted: Linted, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(lint_jobs, "CACHED_FILES", 50)
-    run("lint", place(), "missing.keyxm")
-    assert linted
-    assert not (folder / "cache").exists()
+def test_a_file_that_is_missing_is_reported_beside_known_ones(place: Place, linted: Linted) -> None:
+    words = ("lint", place(), "missing.keyxm")
+    first = run(*words)
+    assert first.code == 2
+    assert run(*words) == first
+    assert len(linted) == 1
 
 
 def test_no_place_at_all(place: Place, linted: Linted, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -169,7 +267,9 @@ def test_no_place_at_all(place: Place, linted: Linted, monkeypatch: pytest.Monke
 def test_entries_come_back_whole() -> None:
     found = lint_one("a.keyxm", UNSORTED.encode() + BAD_NUMBER.encode(), LintSettings(rules())).found
     assert any(one.fix for one in found)
-    assert unpacked(packed(found), "a.keyxm") == found
+    states = {"/a/b c": "", "d": "0f"}
+    assert unpacked(packed(found, states), "a.keyxm") == (found, states)
+    assert unpacked(packed((), {}), "a.keyxm") == ((), {})
 
 
 @pytest.mark.parametrize(
@@ -180,8 +280,10 @@ def test_entries_come_back_whole() -> None:
         "[[]]",
         "nonsense",
         "[" * 100_000,
-        '[["a","b","error","m",0,1,1,1,null,true]]',
-        '[["a","b","error","m",1,1,1,1,null,1]]',
+        "[[],[]]",
+        '[[],{"a":1}]',
+        '[[["a","b","error","m",0,1,1,1,null,true]],{}]',
+        '[[["a","b","error","m",1,1,1,1,null,1]],{}]',
     ],
 )
 def test_entries_of_another_shape(text: str) -> None:
@@ -190,11 +292,11 @@ def test_entries_of_another_shape(text: str) -> None:
 
 
 def test_fix_of_another_kind() -> None:
-    text = '[["a","b","error","m",1,1,1,1,["sure","x",[]],true]]'
+    text = '[[["a","b","error","m",1,1,1,1,["sure","x",[]],true]],{}]'
     with pytest.raises(ValueError, match="no fix"):
         unpacked(text, "a")
-    assert unpacked(text.replace("sure", "safe"), "a")[0].fix is not None
-    assert isinstance(unpacked(text.replace("sure", "safe"), "a")[0], Diagnostic)
+    assert unpacked(text.replace("sure", "safe"), "a").found[0].fix is not None
+    assert isinstance(unpacked(text.replace("sure", "safe"), "a").found[0], Diagnostic)
 
 
 def test_number_and_size_are_bounded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

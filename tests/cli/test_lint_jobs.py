@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import subprocess
+import sys
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -17,12 +19,13 @@ from mudline.linting.registry import rules
 from tests.builders.decks import BAD_NUMBER, CLEAN, UNSORTED
 from tests.cli.conftest import Place
 from tests.cli.runner import run
+from tests.processes import TIMEOUT
 
 
 @pytest.fixture
 def eager(monkeypatch: pytest.MonkeyPatch) -> None:
     """Processes are used behind the first file, whatever there is to do."""
-    monkeypatch.setattr(lint_jobs, "PAYS", 0.0)
+    monkeypatch.setattr(lint_jobs, "PAYS", dict.fromkeys(lint_jobs.PAYS, 0.0))
     monkeypatch.setattr(lint_jobs, "TRIED", 0.0)
 
 
@@ -46,6 +49,45 @@ def test_output_is_the_same_whatever_the_number_of_processes(decks: str, folder:
     assert len(list((folder / "cache").iterdir())) == 1
 
 
+COPIES = """
+import sys
+from mudline.__main__ import main
+
+sys.argv[0] = "mudline"
+from mudline.cli import lint_jobs
+
+lint_jobs.PAYS, lint_jobs.TRIED = dict.fromkeys(lint_jobs.PAYS, 0.0), 0.0
+code = main(sys.argv[1:])
+print(lint_jobs._start_method(), code, file=sys.stderr)
+"""
+
+
+def test_copies_of_a_process_without_threads_say_the_same(decks: str) -> None:
+    alone = run("lint", decks, "--jobs", "1", "--no-cache")
+    words = [sys.executable, "-c", COPIES, "lint", decks, "--jobs", "2", "--no-cache"]
+    environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}
+    done = subprocess.run(words, env=environment, capture_output=True, text=True, timeout=TIMEOUT, check=True)
+    assert done.stdout == alone.out
+    assert done.stderr in ("fork 1\n", "forkserver 1\n", "spawn 1\n")
+    assert done.stderr.startswith("fork ") or not sys.platform.startswith("linux")
+
+
+@pytest.mark.parametrize(("platform", "method"), [("win32", "spawn"), ("darwin", "spawn"), ("freebsd", "forkserver")])
+def test_systems_start_processes_in_their_own_way(monkeypatch: pytest.MonkeyPatch, platform: str, method: str) -> None:
+    def listdir(_: str) -> list[str]:
+        raise FileNotFoundError
+
+    monkeypatch.setattr("sys.platform", platform)
+    monkeypatch.setattr(os, "listdir", listdir)
+    assert lint_jobs._start_method() == method
+
+
+def test_a_process_with_threads_is_not_copied(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sys.platform", "linux")
+    monkeypatch.setattr(os, "listdir", lambda _: ["1", "2"])
+    assert lint_jobs._start_method() == "forkserver"
+
+
 def end(orders: Sequence[object]) -> list[FileReport]:
     """A worker that dies."""
     os._exit(len(orders))
@@ -67,7 +109,7 @@ def test_run_that_ends_early_ends_its_processes(decks: str, monkeypatch: pytest.
         if multiprocessing.active_children():
             raise KeyboardInterrupt
 
-    monkeypatch.setattr("mudline.cli.lint_command.Run._take", interrupt)
+    monkeypatch.setattr("mudline.cli.lint_run.Run._take", interrupt)
     assert run("lint", decks, "--jobs", "2", "--no-cache").code == 130
     assert multiprocessing.active_children() == []
 
@@ -80,7 +122,7 @@ def test_fixing_stays_in_one_process(decks: str, monkeypatch: pytest.MonkeyPatch
 
 def test_small_runs_stay_in_one_process(decks: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(lint_jobs, "pool", None)
-    monkeypatch.setattr(lint_jobs, "PAYS", float("inf"))
+    monkeypatch.setattr(lint_jobs, "PAYS", dict.fromkeys(lint_jobs.PAYS, float("inf")))
     assert run("lint", decks, "--jobs", "2", "--no-cache").code == 1
 
 

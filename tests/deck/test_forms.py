@@ -12,7 +12,8 @@ import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
-from mudline.deck.loading import dump, form_of, load_bytes
+from mudline.deck.forms import form_of
+from mudline.deck.loading import dump, load_bytes
 from mudline.deck.model import Deck
 from mudline.diagnostics import Severity
 from tests.builders.documents import VALIDATOR

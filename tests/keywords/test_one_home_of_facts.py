@@ -26,10 +26,9 @@ ASKING = frozenset(
 CONSTANTS = frozenset({"KEYWORD", "_KEYWORD"})
 
 EXCEPTIONS = {
-    "comparison/named.py": "asks for the labels in the blocks of nodes and of elements",
+    "comparison/comparing.py": "asks for the labels in the blocks of nodes and of elements",
     "migration/migrating.py": "the blocks whose laws a migrated surface would meet",
-    "migration/refusals.py": "the blocks that a bed, or a deck that continues another, has instead",
-    "migration/rewriting.py": "writes these blocks",
+    "migration/rewriting.py": "writes these blocks, and names what a seabed or a deck before has instead",
     "results/summary.py": "says which of two blocks a curve came from",
     "scene/checks/fields.py": "leaves the geometry of a trench to EXT003, which has words of its own for it",
     "scene/context.py": "a lost line of lines defines a set, as it names one",

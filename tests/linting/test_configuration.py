@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from mudline.linting.configuration import ConfigurationError, Search, read_configuration
+from mudline.linting.registry import code_fault
 
 
 @pytest.mark.parametrize(
@@ -27,7 +28,7 @@ def test_a_wrong_configuration_is_told_with_its_line(tmp_path: Path, text: str, 
     path = tmp_path / "mudline.toml"
     path.write_text(text, encoding="utf-8")
     with pytest.raises(ConfigurationError, match=re.escape(f"{path.as_posix()}{message}")):
-        read_configuration(path)
+        read_configuration(path, code_fault=code_fault)
 
 
 def test_the_nearest_file_counts_and_one_without_a_table_does_not(tmp_path: Path) -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from lark import Lark
 
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Severity
@@ -15,13 +16,15 @@ from mudline.formatting.document import formatted
 from mudline.linting.engine import Fixing, LintSettings
 from mudline.linting.fixing import fix_bytes
 from mudline.linting.registry import select
+from mudline.resources import grammar_file
 from mudline.syntax.source import Source
-from mudline.syntax.tree import line_grammar, mark_of, parse
+from mudline.syntax.tree import mark_of, parse
 from tests.builders.keyword_texts import deck_texts, mutated
 from tests.samples import SAMPLES
 
 FILES = sorted(path for path in SAMPLES.iterdir() if path.is_file())
 BOM = b"\xef\xbb\xbf"
+LEXER = Lark(grammar_file("deck.lark").read_text(encoding="utf-8"), parser=None, lexer="basic")
 
 
 def read_back(data: bytes) -> Source:
@@ -29,7 +32,7 @@ def read_back(data: bytes) -> Source:
     source = Source.from_bytes(data, "deck.keyxm")
     leaves = list(parse(source).leaves())
     if source.readable:
-        tokens = line_grammar().lex(source.unified)
+        tokens = LEXER.lex(source.unified)
         assert [(leaf.kind.value, leaf.span.start) for leaf in leaves] == [(one.type, one.start_pos) for one in tokens]
     at = 0
     for leaf in leaves:

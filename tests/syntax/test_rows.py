@@ -11,7 +11,8 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from mudline.diagnostics import Span
-from mudline.syntax.rows import Rows, read_number, read_rows, read_rows_apart, read_rows_fast, read_rows_slow
+from mudline.syntax import rows as reader
+from mudline.syntax.rows import Rows, read_number, read_rows, read_rows_fast, read_rows_slow
 from tests.builders.spellings import ODD_NUMBERS, numbers
 
 STRANGE = [
@@ -93,11 +94,14 @@ def whole(text: str) -> Span:
 
 
 def compared(text: str, columns: int) -> Rows:
-    """The rows of a text by the slow reader, having held the fast one and the choice between them against it."""
+    """The rows of a text by the slow reader, with which the fast one is compared on the whole and on small pieces."""
     slow = read_rows_slow(text, whole(text), columns)
-    fast = read_rows_fast(text, whole(text), columns)
-    assert fast is None or fast.same(slow)
     assert read_rows(text, whole(text), columns).same(slow)
+    for piece in (reader._PIECE, 12):
+        with patch.multiple(reader, _SHORT=0, _PIECE=piece):
+            assert read_rows(text, whole(text), columns).same(slow)
+            fast = read_rows_fast(text, whole(text), columns)
+            assert fast is None or fast.same(slow)
     return slow
 
 
@@ -132,6 +136,8 @@ def tables(draw: st.DrawFn, fields: st.SearchStrategy[str], *, blanks: bool = Tr
 @example("12345678901234567890123,1\n", 2)
 @example("1 2\n3 4\n", 2)
 @example(" \n", 1)
+@example("0,0,0,\n0,0 0", 4)
+@example("2.2250738585072011e-308", 1)
 @settings(max_examples=350)
 def test_fast_is_slow_or_declines(text: str, columns: int) -> None:
     compared(text, columns)
@@ -202,23 +208,19 @@ def test_the_fast_reader_takes_the_spellings_of_old_tools(row: str) -> None:
 @example(["1,2", "=[a, b],2", "3,4"], "\n", 2)
 @example(["=[a],2", "3,4"], "\r\n", 2)
 @example(["3,4", "{A b},2,5"], "\n", 3)
-def test_odd_lines_apart_are_the_slow_rows_or_none(lines: list[str], end: str, columns: int) -> None:
+def test_odd_lines_between_plain_ones(lines: list[str], end: str, columns: int) -> None:
     text = end.join(lines)
-    with patch("mudline.syntax.rows._WORTH_PARTING", 0):
-        for given_text in (text, text + end):
-            found = read_rows_apart(given_text, whole(given_text), columns)
-            assert found is None or found.same(read_rows_slow(given_text, whole(given_text), columns))
+    for given_text in (text, text + end):
+        compared(given_text, columns)
 
 
-def test_a_long_table_with_some_equations_is_read_apart() -> None:
-    rows = [f" {n}, {'=[a*2]' if n % 10 == 3 else repr(n * 0.5)}, {n / 7!r}\n" for n in range(2000)]
-    text = "".join(rows)
-    found = read_rows_apart(text, whole(text), 3)
-    assert found is not None
-    assert found.same(read_rows_slow(text, whole(text), 3))
+def test_a_long_table_with_some_equations() -> None:
+    lines = [f" {n}, {'=[a*2]' if n % 10 == 3 else repr(n * 0.5)}, {n / 7!r}\n" for n in range(2000)]
+    text = "".join(lines)
+    found = compared(text, 3)
     assert found.words[13, 1] == "=[a*2]"
-    for other in (text + "\n 1, 2, 3\n", text.replace(" 5, ", " 5, 6, "), "".join(rows[:3])):
-        assert read_rows_apart(other, whole(other), 3) is None
+    assert len(found.words) == 200
+    for other in (text + "\n 1, 2, 3\n", text.replace(" 5, ", " 5, 6, "), "".join(lines[:3])):
         compared(other, 3)
 
 

@@ -9,7 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mudline.deck.loading import FORMS, dump, load_bytes
+from mudline.deck.forms import FORMS
+from mudline.deck.loading import dump, load_bytes
 from mudline.deck.parameters import Parameters, folded
 from mudline.diagnostics import DeckError
 from mudline.keywords.values import Equation

@@ -11,7 +11,8 @@ from mudline.cli import DONE
 from mudline.cli.inputs import STDIN, SUFFIXES, GivenDeck, takes_deck
 from mudline.cli.streams import emit, notify, write_text
 from mudline.cli.view import View
-from mudline.deck.loading import FORMS, dump, form_of
+from mudline.deck.forms import FORMS, form_of
+from mudline.deck.loading import dump
 from mudline.deck.model import Deck
 from mudline.keywords.model import Comment
 from mudline.keywords.table import Table

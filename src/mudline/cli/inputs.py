@@ -5,21 +5,23 @@ from __future__ import annotations
 import errno
 import os
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Container, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import wraps
 from pathlib import Path, PurePath
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
 from mudline.cli import FOUND, WRONG_USAGE, options
 from mudline.cli.streams import notify, notify_diagnostics, reason
-from mudline.deck.loading import form_of, load_bytes
-from mudline.deck.model import Deck
+from mudline.deck.forms import form_of
 from mudline.diagnostics import DeckError
 from mudline.files import write_atomically
 from mudline.patterns import Pattern, read_pattern
+
+if TYPE_CHECKING:
+    from mudline.deck.model import Deck
 
 GITIGNORE = ".gitignore"
 SUFFIXES = frozenset({".keyx", ".keyxm", ".keyxi", ".das"})
@@ -58,9 +60,12 @@ class Inputs:
     files: list[Input] = field(default_factory=list)
     code: int = 0
 
-    def contents(self) -> Iterator[tuple[Input, bytes]]:
-        """Each file that can be read; the others are reported and set the exit code."""
+    def contents(self, unread: Container[Input] = ()) -> Iterator[tuple[Input, bytes]]:
+        """Each file that can be read; the others are reported and set the exit code. Those in `unread` are not read."""
         for file in self.files:
+            if file in unread:
+                yield file, b""
+                continue
             try:
                 data = file.read()
             except OSError as error:
@@ -178,6 +183,8 @@ class GivenDeck:
             data = file.read()
         except OSError as error:
             raise click.ClickException(f"{self.path}: {reason(error)}") from error
+        from mudline.deck.loading import load_bytes  # noqa: PLC0415 - what only looks for files reads no deck
+
         return load_bytes(data, file.name, form=form, units=self.units, folder=file.folder)
 
 

@@ -14,33 +14,30 @@ from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from contextlib import closing, contextmanager
 from dataclasses import dataclass, replace
 from functools import cache
-from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
 from mudline.cli.inputs import Input, Inputs
+from mudline.cli.lint_known import KnownDecks
 from mudline.linting.engine import Fixing, LintSettings
 from mudline.linting.fixing import FileReport, lint_one
-from mudline.linting.registry import rules
+from mudline.linting.registry import plugin_files, rules
 from mudline.linting.rule import Rule
 
 if TYPE_CHECKING:  # imported by runs that are large enough
     from concurrent.futures import Executor, Future
 
-    from mudline.linting.cache import Cache
+PAYS = {"fork": 0.1, "forkserver": 1.5, "spawn": 1.5}
+"""Seconds of remaining work from which on other processes are started, by the way in which they are.
 
-PAYS = 1.5
-"""Seconds of remaining work from which on other processes are started: each takes a part of a second to start."""
+A copy of this process is there at once; the others take a part of a second to import everything.
+"""
 
-TRIED = 0.2
+TRIED = 0.05
 """Seconds of linting by which the remaining work is estimated."""
 
-CACHED_FILES = 50
-CACHED_BYTES = 1_000_000
-"""Files, or bytes of fewer files, from which on a run asks the cache."""
-
-_CHUNK_FILES = 16
+_CHUNK_FILES = 50
 _CHUNK_BYTES = 500_000
 _CHUNK_KNOWN = 256
 _MOST_ON_WINDOWS = 61
@@ -53,10 +50,9 @@ Linted = tuple[Input, bytes, FileReport]
 
 @dataclass(frozen=True, slots=True)
 class Effort:
-    """The number of processes at most (0: as many as there are processors), and whether the cache is used."""
+    """The number of processes at most (0: as many as there are processors)."""
 
     jobs: int = 0
-    cached: bool = True
 
     @property
     def processes(self) -> int:
@@ -88,34 +84,35 @@ Order = tuple[Task, tuple[str, ...]]
 """A file as it is sent to a process: without its rules, whose functions may not be picklable, and their codes."""
 
 
-def lint_all(inputs: Inputs, settings_of: SettingsOf, effort: Effort) -> Generator[Linted, None, None]:
-    """Each file that can be read with its content and its report, in the order of the files."""
-    cache = _cache_for(inputs, effort)
-    tasks = (_task(file, data, settings_of(file), cache) for file, data in inputs.contents())
-    with closing(_reports(tasks, len(inputs.files), effort)) as reports:
+def lint_all(
+    inputs: Inputs, settings_of: SettingsOf, effort: Effort, known: KnownDecks | None = None
+) -> Generator[Linted, None, None]:
+    """Each file that can be read with its content and its report, in the order of the files.
+
+    Files without a finding that are known as such are not read again: their content is given as empty.
+    """
+    tasks = _tasks(inputs, settings_of, known)
+    with closing(_reports(tasks, len(inputs.files) - len(known.clean if known else ()), effort)) as reports:
         for one, report in reports:
-            if cache is not None and one.key and one.known is None:
-                cache.put(one.key, report)
+            if known is not None and one.key and one.known is None:
+                known.cache.put(one.key, report.found, (*report.looked_at, *plugin_files()))
             yield one.file, one.data, report
-    if cache is not None:
-        cache.save()
+    if known is not None:
+        known.cache.save()
 
 
-def _cache_for(inputs: Inputs, effort: Effort) -> Cache | None:
-    """The cache, if a run is large enough for it to pay."""
-    if not effort.cached or (len(inputs.files) < CACHED_FILES and _size(inputs) < CACHED_BYTES):
-        return None
-    from mudline.linting.cache import opened  # noqa: PLC0415 - small runs do without it
-
-    return opened()
-
-
-def _task(file: Input, data: bytes, settings: LintSettings, cache: Cache | None) -> Task:
-    """A file with its report if the cache has it; not for fixing, nor for standard input."""
-    if cache is None or file.path is None or settings.fixing is not Fixing.NONE:
-        return Task(file, data, settings)
-    key = cache.key(file.name, data, settings)
-    return Task(file, data, settings, key, cache.get(key, file.name) if key else None)
+def _tasks(inputs: Inputs, settings_of: SettingsOf, known: KnownDecks | None) -> Iterator[Task]:
+    """The files with their reports as far as the cache has them; it is not asked for standard input."""
+    for file, data in inputs.contents(known.clean if known else frozenset()):
+        settings = settings_of(file)
+        if known is None or file.path is None:
+            yield Task(file, data, settings)
+        elif file in known.clean:
+            yield Task(file, data, settings, known=FileReport(file.name, ()))
+        else:
+            key = known.key(file, data)
+            found = known.cache.get(key, file.name)
+            yield Task(file, data, settings, key, None if found is None else FileReport(file.name, found))
 
 
 def _reports(tasks: Iterable[Task], count: int, effort: Effort) -> Generator[tuple[Task, FileReport], None, None]:
@@ -136,7 +133,7 @@ def _reports(tasks: Iterable[Task], count: int, effort: Effort) -> Generator[tup
 
 
 def _pays(estimate: float, effort: Effort) -> bool:
-    return estimate >= PAYS and effort.processes > 1
+    return effort.processes > 1 and estimate >= PAYS[_start_method()]
 
 
 def _ahead(tasks: Iterable[Task], executor: Executor, most: int) -> Iterator[tuple[Task, FileReport]]:
@@ -172,30 +169,28 @@ def _chunks(tasks: Iterable[Task]) -> Iterator[list[Task]]:
         yield chunk
 
 
-def _size(inputs: Inputs) -> int:
-    total = 0
-    for file in inputs.files:
-        try:
-            total += 0 if file.path is None else Path(file.path).stat().st_size
-        except OSError:  # reported when it is read
-            continue
-    return total
-
-
 # -------------------------------------------------------------------------------------------------- other processes
+
+
+def _start_method() -> str:
+    """How processes are started: as copies of this one on Linux, unless it has threads, which copies would lack."""
+    if sys.platform in ("win32", "darwin"):
+        return "spawn"
+    try:
+        threads = len(os.listdir("/proc/self/task"))  # noqa: PTH208 - those of libraries, too
+    except OSError:
+        return "forkserver"
+    return "fork" if threads == 1 else "forkserver"
 
 
 @contextmanager
 def pool(processes: int) -> Iterator[Executor]:
-    """Processes that lint, never copies of this one, which would lack its threads.
-
-    They end at once when not all is done. Ends the command where one has died.
-    """
+    """Processes that lint; they end at once when not all is done. Ends the command where one has died."""
     import multiprocessing  # noqa: PLC0415 - as above
     from concurrent.futures.process import BrokenProcessPool, ProcessPoolExecutor  # noqa: PLC0415 - as above
 
     before = set(multiprocessing.active_children())
-    method = "forkserver" if sys.platform not in ("win32", "darwin") else "spawn"
+    method = _start_method()
     context = multiprocessing.get_context(method)
     if method == "forkserver":
         context.set_forkserver_preload([__name__])
@@ -214,7 +209,19 @@ def pool(processes: int) -> Iterator[Executor]:
 
 
 def _order(task: Task) -> Order:
-    return task._replace(settings=replace(task.settings, rules=())), tuple(one.code.code for one in task.settings.rules)
+    return task._replace(settings=_sendable(task.settings)[0]), _sendable(task.settings)[1]
+
+
+_SENDABLE: dict[int, tuple[LintSettings, LintSettings, tuple[str, ...]]] = {}
+"""Settings, the same without rules, and the codes of the rules: many files share them, and so they are sent once."""
+
+
+def _sendable(settings: LintSettings) -> tuple[LintSettings, tuple[str, ...]]:
+    found = _SENDABLE.get(id(settings))
+    if found is None:
+        codes = tuple(rule.code.code for rule in settings.rules)
+        found = _SENDABLE[id(settings)] = (settings, replace(settings, rules=()), codes)
+    return found[1], found[2]
 
 
 def _sent(executor: Executor, orders: list[Order]) -> Future[list[FileReport]] | None:

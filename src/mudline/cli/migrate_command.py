@@ -10,7 +10,8 @@ from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import Input, collect
 from mudline.cli.streams import counted, emit_deck, notify, notify_diagnostics, write_bytes
 from mudline.cli.view import View, print_changes
-from mudline.deck.loading import dump, form_of, load_bytes
+from mudline.deck.forms import form_of
+from mudline.deck.loading import dump, load_bytes
 from mudline.diagnostics import DeckError
 from mudline.linting.output import visible
 from mudline.migration.migrating import Continuations, Migration, legacy_blocks, migrate

@@ -88,11 +88,13 @@ def checked_points(points: ArrayLike) -> CurvePoints:
         ValueError: they are not pairs of real numbers.
     """
     given = _pairs(points)
-    order = np.argsort(given[:, 0], kind="stable")
-    order = order[_first_of_each_ratio(given, order)]
+    order = np.arange(len(given))
+    if not (given[1:, 0] > given[:-1, 0]).all():
+        order = given[:, 0].argsort(kind="stable")
+        order = order[_first_of_each_ratio(given, order)]
     if len(order) < 2:
         raise CurveError("CRV001", -1, f"a curve needs two distinct points or more, not {len(order)}")
-    ratios, forces = given[order, 0], given[order, 1]
+    ratios, forces = given[:, 0].take(order), given[:, 1].take(order)
     return CurvePoints(ratios, forces, _slopes(ratios, forces, order))
 
 
@@ -105,9 +107,9 @@ def _pairs(points: ArrayLike) -> FloatArray:
         raise ValueError(f"points must be pairs (ratio, force), not an array of shape {given.shape}")
     with np.errstate(over="ignore"):
         pairs = given.astype(np.float64) + 0.0
-    bad = np.flatnonzero(~np.isfinite(pairs).all(axis=1))
-    if bad.size:
-        index = int(bad[0])
+    finite = np.isfinite(pairs)
+    if not finite.all():
+        index = int(finite.all(axis=1).argmin())
         ratio, force = pairs[index].tolist()
         raise CurveError("SYN002", index, f"point {index + 1} is not finite: ({ratio!r}, {force!r})")
     return pairs
@@ -136,12 +138,12 @@ def _slopes(ratios: FloatArray, forces: FloatArray, order: IndexArray) -> FloatA
         CurveError: CRV011, a width or a slope overflows, or a slope is not zero but too small to be a normal number.
     """
     with np.errstate(over="ignore"):
-        widths = np.diff(ratios)
+        widths = ratios[1:] - ratios[:-1]
     slopes = difference_quotient(forces[1:], forces[:-1], widths)
     subnormal = (forces[1:] != forces[:-1]) & (np.abs(slopes) < _SMALLEST_NORMAL)
-    bad = np.flatnonzero(~np.isfinite(widths) | ~np.isfinite(slopes) | subnormal)
-    if bad.size:
-        segment = int(bad[0])
+    sound = np.isfinite(widths) & np.isfinite(slopes) & ~subnormal
+    if not sound.all():
+        segment = int(sound.argmin())
         ends = order[segment : segment + 2]
         what = "width" if not np.isfinite(widths[segment]) else "slope"
         fault = "is too small" if what == "slope" and subnormal[segment] else "is too large"
@@ -155,6 +157,8 @@ def difference_quotient(
 ) -> FloatArray:
     """(upper - lower) / divisor, also where only the difference overflows."""
     with np.errstate(all="ignore"):
-        plain = (upper - lower) / divisor
-        halved = (0.5 * upper - 0.5 * lower) / divisor * 2.0
-    return np.where(np.isinf(plain), halved, plain)
+        plain = np.asarray((upper - lower) / divisor)
+        overflowed = np.isinf(plain)
+        if not overflowed.any():
+            return plain
+        return np.where(overflowed, (0.5 * upper - 0.5 * lower) / divisor * 2.0, plain)

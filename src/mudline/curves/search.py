@@ -167,7 +167,7 @@ class Knots:
     def __init__(self, ratios: FloatArray, forces: FloatArray, slopes: FloatArray) -> None:
         self.ratios = ratios
         self.forces = forces
-        self.tails = read_only(np.append(slopes, slopes[-1]))
+        self.tails = read_only(np.concatenate((slopes, slopes[-1:])))
         self.inner = ratios[1:]
         self.table = None
 

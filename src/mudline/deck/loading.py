@@ -1,28 +1,18 @@
-"""A file in any form to a deck, and the forms that there are."""
+"""A file in any form to a deck, and back."""
 
 from __future__ import annotations
 
 from importlib import import_module
-from pathlib import Path, PurePath
-from pkgutil import iter_modules
+from pathlib import Path
 from types import ModuleType
 from typing import cast
 
 from mudline.deck import forms
+from mudline.deck.forms import KEYWORD, form_of
 from mudline.deck.model import Deck
 from mudline.deck.reading import read_source
 from mudline.keywords.reader import BlockReader, read_block
 from mudline.syntax.source import Source
-
-KEYWORD = "keyword"
-FORMS = tuple(sorted((found.name for found in iter_modules(forms.__path__)), key=lambda name: (name != KEYWORD, name)))
-"""The modules of `mudline.deck.forms`, found without importing one; "keyword" is the first."""
-_SUFFIXES = {f".{form}": form for form in FORMS if form != KEYWORD} | {".yml": "yaml"}
-
-
-def form_of(name: str) -> str:
-    """Return the form that the suffix of a file name means, which is its name, else "keyword"."""
-    return _SUFFIXES.get(PurePath(name).suffix.lower(), KEYWORD)
 
 
 def load_path(path: Path, name: str | None = None, *, form: str | None = None, units: str | None = None) -> Deck:

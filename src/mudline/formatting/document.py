@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import cast
 
-from mudline.deck.loading import dump, form_of, load_bytes
+from mudline.deck.forms import form_of
+from mudline.deck.loading import dump, load_bytes
 from mudline.deck.model import Deck, Section
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import Span
@@ -46,6 +47,7 @@ def formatted(data: bytes, name: str) -> bytes:
     if not edits:
         return data
     after = source.to_bytes(apply_edits(source.text, edits))
+    del edits  # as much memory as the text
     return _checked(deck, after, read_source(Source.from_bytes(after, name)))
 
 
@@ -106,8 +108,9 @@ _LINE_ENDS = ("\n", "\r\n", "\r")
 
 def line_ends(text: str) -> dict[str, int]:
     """Count each kind of line end in a text, the most frequent first."""
-    crlf = text.count("\r\n")
-    counts = dict(zip(_LINE_ENDS, (text.count("\n") - crlf, crlf, text.count("\r") - crlf), strict=True))
+    cr = text.count("\r")
+    crlf = text.count("\r\n") if cr else 0
+    counts = dict(zip(_LINE_ENDS, (text.count("\n") - crlf, crlf, cr - crlf), strict=True))
     return {end: count for end, count in sorted(counts.items(), key=lambda item: -item[1]) if count}
 
 
@@ -153,7 +156,7 @@ class _Layout:
     def _put(self, span: Span, lines: str) -> None:
         """Put lines, each with a LF, in the place of those of a span."""
         new = lines if self.end == "\n" else lines.replace("\n", self.end)
-        if self.source.text[slice(*span)] != new:
+        if span.end - span.start != len(new) or not self.source.text.startswith(new, span.start):
             self.found.append(TextEdit(span, new))
 
     def _end_blanks(self) -> None:

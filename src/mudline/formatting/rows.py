@@ -154,66 +154,73 @@ def line(row: Sequence[str], shapes: Iterable[Shape]) -> str:
     return ("".join(first) + last[: last.rindex(",")]).rstrip(" ") or " ,"
 
 
-_PLAIN = b"0123456789+-.eEdD, \t\r\n"
 _GAP = re.compile(rb"(?<=[^ \t\r\n])[ \t]+(?=[^ \t\r\n])")
-_BLANK, _LF, _COMMA, _POINT, _LETTERS = 32, 10, 44, 46, 65
+_TAB, _LF, _CR, _BLANK, _PLUS, _COMMA, _POINT, _SLASH, _DIGIT, _LETTERS = 9, 10, 13, 32, 43, 44, 46, 47, 57, 65
+_WITHOUT_CASE, _D_OR_E = 0xDE, 0x44
+"""D and E, d and e, are the characters that differ from D in the other bits only."""
 
-_Array = NDArray[np.intp]
+_Array = NDArray[np.integer]
 
 
 @dataclass(slots=True)
 class PlainRows:
-    """Rows of numbers: the characters of all fields laid end to end, and where each field ends in them.
+    """Rows of numbers: the characters of all fields laid end to end, each with the comma or the LF behind it.
 
     `sizes` and `lefts` (fields,) are the characters of a field, and those before its decimal point or exponent;
-    `column` (fields,) counts from 0 in each row, `last` (fields,) says that a field ends its row.
+    `column` (fields,) counts from 0 in each row.
     """
 
     characters: NDArray[np.uint8]
     sizes: _Array
     lefts: _Array
     column: _Array
-    last: NDArray[np.bool_]
 
     @classmethod
     def read(cls, text: str, most: int) -> Self | None:
         """The rows of some whole lines, cut to `most` fields; None for anything but plain numbers."""
         data = text.encode("utf-8")
-        if data.translate(None, _PLAIN):
-            return None
+        if b"\r" in data:
+            data = data.replace(b"\r\n", b"\n")
         if b"," not in data:
             data = _GAP.sub(b",", data)
-        codes = np.frombuffer(data if data.endswith(b"\n") else data + b"\n", dtype=np.uint8)
-        inked = (codes > _BLANK) & (codes != _COMMA)
-        marks = np.flatnonzero((codes == _COMMA) | (codes == _LF))
-        ends = np.cumsum(inked)[marks]
-        sizes = np.diff(ends, prepend=0)
-        starts = ends - sizes
-        places = np.flatnonzero(inked)
-        full = sizes > 0
-        gaps = places[ends[full] - 1] - places[starts[full]] + 1 != sizes[full]
-        characters = codes[places]
-        if gaps.any() or (characters[starts[full]] >= _LETTERS).any():
+        characters = _without_blanks(np.frombuffer(data if data.endswith(b"\n") else data + b"\n", dtype=np.uint8))
+        if characters is None:
             return None
-        last = codes[marks] == _LF
+        marks = (characters == _COMMA) | (characters == _LF)
+        letters = (characters & _WITHOUT_CASE) == _D_OR_E
+        numerals = (characters >= _PLUS) & (characters <= _DIGIT) & (characters != _SLASH)
+        if not (marks | letters | numerals).all():
+            return None
+        stops = np.flatnonzero(marks | letters | (characters == _POINT))
+        closing = np.flatnonzero(marks[stops])  # the stops that end fields: behind each the next field begins
+        ends = stops[closing]
+        starts = np.concatenate(([0], ends[:-1] + 1))
+        sizes = ends - starts
+        if (characters[starts] >= _LETTERS).any():
+            return None
+        lefts = stops[np.concatenate(([0], closing[:-1] + 1))] - starts
+        last = characters[ends] == _LF
         opens = np.flatnonzero(np.concatenate(([True], last[:-1])))
-        column = np.arange(len(marks)) - np.repeat(opens, np.diff(opens, append=len(marks)))
-        if not np.add.reduceat(sizes, opens).all():
-            return None
-        points = np.flatnonzero((characters == _POINT) | (characters >= _LETTERS))
-        point = np.append(points, len(characters))[np.searchsorted(points, starts)]
-        rows = cls(characters, sizes, np.minimum(point, ends) - starts, column, last)
-        return rows._cut(opens, most)
+        column = np.arange(len(ends)) - np.repeat(opens, np.diff(opens, append=len(ends)))
+        if not sizes.all():
+            rows = cls(characters, sizes, lefts, column)
+            return rows._cut(ends, opens, most)
+        return None if column.max() >= most else cls(characters, _small(sizes), _small(lefts), _small(column))
 
-    def _cut(self, opens: _Array, most: int) -> Self | None:
-        """The rows, each of which begins at one of the fields `opens`, without the empty fields at their ends."""
+    def _cut(self, ends: _Array, opens: _Array, most: int) -> Self | None:
+        """The rows, each of which begins at one of the fields `opens`, without the empty fields at their ends.
+
+        `ends` are the places of the commas and LFs among the characters.
+        """
         filled = np.maximum.reduceat(np.where(self.sizes > 0, self.column, -1), opens)
-        if filled.max() >= most:
+        if filled.min() < 0 or filled.max() >= most:
             return None
-        end = np.repeat(filled, np.diff(opens, append=len(self.column)))
-        kept = self.column <= end
-        last = (self.column == end)[kept]
-        return type(self)(self.characters, self.sizes[kept], self.lefts[kept], self.column[kept], last)
+        last = np.repeat(filled, np.diff(opens, append=len(self.column)))
+        kept = self.column <= last
+        characters = self.characters.copy()
+        characters[ends[self.column == last]] = _LF
+        fields = (_small(values[kept]) for values in (self.sizes, self.lefts, self.column))
+        return type(self)(np.delete(characters, ends[~kept]), *fields)
 
     def measure(self, columns: Columns) -> None:
         """Widen the columns for the rows."""
@@ -228,16 +235,32 @@ class PlainRows:
         width = np.array([shape.width for shape in shapes])[self.column]
         point = np.array([shape.point for shape in shapes])[self.column]
         before = np.maximum(point - self.lefts, 0)
-        after = np.maximum(width - before - self.sizes, 0) + 1
-        after[self.last] = 0
-        before[self.column == 0] += 1
-        widths = before + self.sizes + 1 + after
-        begins = np.cumsum(widths) - widths + before
-        out = np.full(int(widths.sum()), _BLANK, dtype=np.uint8)
-        starts = np.cumsum(self.sizes) - self.sizes
-        out[np.arange(len(self.characters)) + np.repeat(begins - starts, self.sizes)] = self.characters
-        out[begins + self.sizes] = np.where(self.last, _LF, _COMMA)
+        after = np.maximum(width - before - self.sizes, 0)
+        blanks = before + 1
+        blanks[1:] += np.where(self.column[1:] > 0, after[:-1], 0)
+        counts = np.column_stack([blanks, self.sizes.astype(np.intp) + 1]).ravel()
+        inked = np.repeat(np.tile([False, True], len(blanks)), counts)
+        out = np.full(len(inked), _BLANK, dtype=np.uint8)
+        out[inked] = self.characters
         return out.tobytes().decode("ascii")
+
+
+def _without_blanks(codes: NDArray[np.uint8]) -> NDArray[np.uint8] | None:
+    """The characters that are not blank; None where blanks stand inside of a field."""
+    blank = (codes == _BLANK) | (codes == _TAB) | (codes == _CR)
+    inked = ~blank & (codes != _COMMA) & (codes != _LF)
+    if (inked[:-1] & blank[1:]).any():  # blanks behind a field: often there are none
+        places = np.flatnonzero(~blank)
+        within = inked[places]
+        if (within[:-1] & within[1:] & (np.diff(places) > 1)).any():
+            return None
+    kept: NDArray[np.uint8] = codes[~blank]
+    return kept
+
+
+def _small(values: _Array) -> _Array:
+    """Numbers in as little memory as they need: those of all rows of a table are kept until it is measured."""
+    return values.astype(np.min_scalar_type(int(values.max())))
 
 
 _PIECE = 256 * 1024
@@ -252,14 +275,22 @@ class Run(NamedTuple):
     text: str
     span: Span
 
-    def parts(self, kind: RowKind) -> Iterator[WordRows | PlainRows]:
-        """The rows in pieces of some thousand."""
+    def parts(self, kind: RowKind, plain: dict[int, PlainRows | None]) -> Iterator[WordRows | PlainRows]:
+        """The rows in pieces of some thousand.
+
+        Plain ones are kept in `plain`, by where they begin, when they are read, and taken from there the second time;
+        others take so much memory that they are read twice.
+        """
         start, end = self.span
+        most = len(kind.columns)
         while start < end:
             stop = self.text.find("\n", min(start + _PIECE, end), end) + 1 or end
-            piece = self.text[start:stop]
-            plain = PlainRows.read(piece, len(kind.columns)) if len(piece) > _SHORT else None
-            yield plain or word_rows(piece, len(kind.columns))
+            if start in plain:
+                found = plain.pop(start)
+            else:
+                found = PlainRows.read(self.text[start:stop], most) if stop - start > _SHORT else None
+                plain[start] = found
+            yield found or word_rows(self.text[start:stop], most)
             start = stop
 
 
@@ -281,7 +312,7 @@ class Single(NamedTuple):
     fields: list[str]
     span: Span
 
-    def parts(self, _kind: RowKind) -> Iterator[WordRows | PlainRows]:
+    def parts(self, _kind: RowKind, _plain: dict[int, PlainRows | None]) -> Iterator[WordRows | PlainRows]:
         """The row."""
         yield WordRows([self.fields])
 
@@ -296,9 +327,10 @@ class Rows:
     def laid_out(self) -> Iterator[tuple[Span, str]]:
         """The lines of each member in aligned columns, each with a LF."""
         columns = Columns(self.kind)
+        plain: dict[int, PlainRows | None] = {}
         for member in self.members:
-            for part in member.parts(self.kind):
+            for part in member.parts(self.kind, plain):
                 part.measure(columns)
         shapes = columns.shapes()
         for member in self.members:
-            yield member.span, "".join(part.lines(shapes) for part in member.parts(self.kind))
+            yield member.span, "".join(part.lines(shapes) for part in member.parts(self.kind, plain))

@@ -9,7 +9,7 @@ from operator import itemgetter
 
 from mudline.diagnostics import Span
 from mudline.short_repr import short_repr
-from mudline.syntax.rows import line_spans, row_fields
+from mudline.syntax.rows import row_fields, row_starts
 
 Path = tuple[str | int, ...]
 """Keys and indices as JSON has them, from the block inwards; a table is followed by row and column."""
@@ -66,5 +66,5 @@ class Places:
     def _starts(self, run: Span) -> array[int]:
         """Where the rows of a run begin, found once."""
         if run not in self._lines:
-            self._lines[run] = array("q", (line.start for line in line_spans(self.text, run)))
+            self._lines[run] = row_starts(self.text, run)
         return self._lines[run]

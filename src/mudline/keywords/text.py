@@ -20,7 +20,7 @@ from mudline.keywords.values import Equation, Kind, Label
 from mudline.spelling import Effort, nearest
 from mudline.syntax.fields import Field, split
 from mudline.syntax.rows import Rows as RawRows
-from mudline.syntax.rows import line_spans, read_number, read_rows, row_fields, spells_number
+from mudline.syntax.rows import read_number, read_rows, row_fields, row_starts, spells_number
 
 Value = float | int | str | None
 _REAL = (Kind.REAL, Kind.REAL_OR_NAME)
@@ -325,25 +325,31 @@ class TableBuilder:
         return Table(values, np.concatenate(lengths), words)
 
     def _report(self, span: Span, raw: RawRows, table: Table, faults: dict[tuple[int, int], str]) -> None:
-        lines = list(line_spans(self.builder.text, span))
+        text = self.builder.text
+        starts = row_starts(text, span)
+
+        def line(row: int) -> Span:
+            end = text.find("\n", starts[row], span.end)
+            return Span(starts[row], span.end if end < 0 else end)
+
         short = {row for row, column in faults if column < 0}
         reported = 0
         broken: set[int] = set()
         for (row, column), fault in sorted(faults.items()):
             if row in short and column >= 0:
                 continue
-            if self._label(table, raw, lines[row], row, column):
+            if self._label(table, raw, line(row), row, column):
                 continue
             reported += 1
             if reported > MOST_FAULTS:
                 continue
-            if row not in broken and self._brackets(lines[row]):
+            if row not in broken and self._brackets(line(row)):
                 broken.add(row)
             if row not in broken:
-                self._fault(lines[row], row, column, fault, raw)
+                self._fault(line(row), row, column, fault, raw)
         if reported > MOST_FAULTS:
             message = f"{reported - MOST_FAULTS} more faulty rows or fields in this table"
-            self.builder.damage(self.path[:-1], Problem(SYN002, message, lines[-1]))
+            self.builder.damage(self.path[:-1], Problem(SYN002, message, line(-1)))
 
     def _label(self, table: Table, raw: RawRows, line: Span, row: int, column: int) -> bool:
         """A word where a node number belongs is taken for a label whose braces were forgotten."""

@@ -1,31 +1,27 @@
 """Findings kept from run to run, for decks whose content, settings and program are what they were.
 
 The cache is a file for each working folder, whole or not at all, bounded in number and size: a head line with a digest
-of the rest, then a line for each deck, its key and its findings if it has any.
+of the rest, then a line for each deck: its key, and its findings and the files that they depend on, if it has any.
+Nothing here imports what reads decks: a run over decks that have not changed ends without it.
 """
 
 from __future__ import annotations
 
 import json
 import os
-import re
 import sys
+import time
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from hashlib import blake2b
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from mudline.cache_folder import cache_folder
-from mudline.deck.loading import form_of
 from mudline.diagnostics import Diagnostic, Edit, Fix, Severity
 from mudline.files import write_atomically
-from mudline.linting.engine import LintSettings
-from mudline.linting.fixing import FileReport
-from mudline.linting.registry import Guarded, origin
-from mudline.linting.rule import Rule
+from mudline.linting.configuration import Configuration
 from mudline.resources import grammar_file
 
 LONGEST = 100_000
@@ -34,46 +30,66 @@ LONGEST = 100_000
 KEY = 40
 """Letters of a key."""
 
-_PACKAGES = ("mudline", "lark", "numpy", "pydantic", "pyyaml")
-_NAMES_A_FILE = re.compile(r"FILE[^\r\nA-Z0-9]*=|RESTART")
-_NAMES_A_FILE_IN_A_FORM = re.compile(r"FILE|RESTART|\\")
-
 MOST_FILES = 40
 MOST_ENTRIES = 50_000
 MOST_BYTES = 64_000_000
-_MAGIC = b"mudline-lint-cache/1 "
+_MAGIC = b"mudline-lint-cache/2 "
+_COARSE = 0.02
+"""Seconds by which the date of a file may lag behind the clock."""
+_METADATA = (".dist-info", ".egg-info")
 
 
-def stands_alone(name: str, data: bytes) -> bool:
-    """Whether a deck certainly names no other file, so that its findings depend on nothing but its content.
+class Remembered(NamedTuple):
+    """What is known of a deck: its findings, and the files that they depend on with what was in them."""
 
-    Decks that continue others or read files are linted again in each run, and so is what is not certain: text of
-    two bytes a character, and escapes by which JSON and YAML may write any name.
-    """
-    if b"\0" in data:
-        return False
-    text = data.decode("utf-8", "replace").upper()
-    pattern = _NAMES_A_FILE if form_of(name) == "keyword" else _NAMES_A_FILE_IN_A_FORM
-    return pattern.search(text) is None
+    found: tuple[Diagnostic, ...]
+    states: dict[str, str]
 
 
 def program() -> str:
-    """What the program is: its version, its files as they are installed, and the libraries it reads decks with."""
-    words = [f"{name} {_version(name)}" for name in _PACKAGES]
+    """What the program is: its version and files, and the packages beside it, which bring libraries and rules."""
+    words = [sys.version]
     for root in {Path(__file__).parents[1], grammar_file("deck.lark").parent}:
         for folder, _, names in os.walk(root):
-            words += (_state(os.path.join(folder, name)) for name in names if not name.endswith(".pyc"))  # noqa: PTH118 - quicker than Path
+            words += (_version(f"{folder}/{name}") for name in names if not name.endswith(".pyc"))
+    for place in dict.fromkeys(sys.path):
+        with suppress(OSError), os.scandir(place or ".") as entries:
+            found = [entry.name for entry in entries if entry.name.endswith(_METADATA)]
+            words += (f"{name} {_version(f'{place}/{name}/entry_points.txt')}" for name in found)
     words.sort()
     return "\n".join(words)
 
 
-def of_settings(settings: LintSettings, running: str) -> bytes:
-    """What the settings and the program add to each key."""
-    rules = [
-        [rule.code.code, rule.code.severity.value, origin(rule.code.code), _source(rule)] for rule in settings.rules
-    ]
-    severities = sorted((code, severity.value) for code, severity in settings.severities.items())
-    return repr((running, rules, settings.units, settings.dialect, severities)).encode("utf-8", "backslashreplace")
+def _version(path: str) -> str:
+    """A file as far as its name, size and date tell what is in it."""
+    try:
+        found = os.stat(path)  # noqa: PTH116 - hundreds of files
+    except OSError:  # not there, or inside an archive
+        return path
+    return f"{path} {found.st_size} {found.st_mtime_ns}"
+
+
+def state(path: str) -> str:
+    """What is at a path: a digest of a file's content or of the names in a folder; "" for nothing that can be read."""
+    digest = blake2b(digest_size=16)
+    try:
+        if os.path.isdir(path):  # noqa: PTH112 - as above
+            digest.update("\0".join(["", *sorted(os.listdir(path))]).encode("utf-8", "surrogateescape"))  # noqa: PTH208
+        else:
+            with open(path, "rb") as stream:  # noqa: PTH123
+                while piece := stream.read(1 << 20):
+                    digest.update(piece)
+    except (OSError, ValueError):  # a name that no file has
+        return ""
+    return digest.hexdigest()
+
+
+def _changed_since(moment: float, path: str) -> bool:
+    try:
+        found = os.stat(path)  # noqa: PTH116 - as above
+    except (OSError, ValueError):  # still not there
+        return False
+    return max(found.st_mtime, found.st_ctime) > moment - _COARSE
 
 
 def key(start: bytes, name: str, data: bytes) -> str:
@@ -85,48 +101,27 @@ def key(start: bytes, name: str, data: bytes) -> str:
     return digest.hexdigest()
 
 
-def _version(package: str) -> str:
-    try:
-        return version(package)
-    except PackageNotFoundError:  # bundled into a program without its metadata
+def packed(found: Sequence[Diagnostic], states: Mapping[str, str]) -> str:
+    """Findings and states in ASCII without a line end; "" for neither. The deck's own name is left out."""
+    if not (found or states):
         return ""
+    return json.dumps([[_row(one) for one in found], dict(states)], separators=(",", ":"))
 
 
-def _source(rule: Rule) -> str:
-    """The file of a plugin's rule, which may change while its package is written; mudline's own are in `program`."""
-    if not isinstance(rule.check, Guarded):
-        return ""
-    module = sys.modules.get(getattr(rule.check.check, "__module__", ""))
-    path = getattr(module, "__file__", None)
-    return _state(path) if path else ""
-
-
-def _state(path: str) -> str:
-    try:
-        found = os.stat(path)  # noqa: PTH116 - hundreds of files
-    except OSError:  # inside an archive
-        return path
-    return f"{path} {found.st_size} {found.st_mtime_ns}"
-
-
-def packed(found: Sequence[Diagnostic]) -> str:
-    """The findings of one file in ASCII without a line end; "" for none. The file's name is left out."""
-    if not found:
-        return ""
-    return json.dumps([_row(one) for one in found], separators=(",", ":"))
-
-
-def unpacked(text: str, file: str) -> tuple[Diagnostic, ...]:
-    """The findings that `packed` wrote, for a file of that name; raises ValueError for anything else."""
+def unpacked(text: str, file: str) -> Remembered:
+    """What `packed` wrote, for a file of that name; raises ValueError for anything else."""
     if not text:
-        return ()
+        return Remembered((), {})
     try:
-        rows = json.loads(text)
+        content = json.loads(text)
     except RecursionError as error:
         raise ValueError("lists in lists without end") from error
-    if not isinstance(rows, list):
-        raise ValueError("no list of findings")  # noqa: TRY004 - one kind of error for whatever a file holds
-    return tuple(_finding(row, file) for row in rows)
+    rows, states = _shaped(content, "**")
+    if not isinstance(rows, list) or not isinstance(states, dict):
+        raise ValueError("neither findings nor files")  # noqa: TRY004 - one kind of error for whatever a file holds
+    if not all(isinstance(one, str) for one in states.values()):
+        raise ValueError("a file in an unknown state")
+    return Remembered(tuple(_finding(row, file) for row in rows), states)
 
 
 def _row(one: Diagnostic) -> list[object]:
@@ -216,32 +211,48 @@ def _drop_old(folder: Path) -> None:
 
 @dataclass
 class Cache:
-    """What is known from runs before in a working folder, and what this run adds."""
+    """What is known from runs before in a working folder, and what this run adds.
+
+    `given` is what the command line says about findings.
+    """
 
     path: Path
     known: dict[str, str]
+    given: str
     new: dict[str, str] = field(default_factory=dict)
     _program: str = field(default_factory=program)
-    _starts: dict[int, tuple[LintSettings, bytes]] = field(default_factory=dict)
+    _starts: dict[Path | None, bytes] = field(default_factory=dict)
+    _states: dict[str, str] = field(default_factory=dict)
+    _began: float = field(default_factory=time.time)
 
-    def key(self, name: str, data: bytes, settings: LintSettings) -> str:
-        """What the findings of a file are kept under; "" if they cannot be kept."""
-        return key(self._start(settings), name, data) if stands_alone(name, data) else ""
+    def key(self, name: str, data: bytes, configuration: Configuration) -> str:
+        """What the findings of a file are kept under."""
+        place = configuration.path
+        if place not in self._starts:
+            words = (self._program, self.given, str(place), configuration.content)
+            self._starts[place] = repr(words).encode("utf-8", "backslashreplace")
+        return key(self._starts[place], name, data)
 
-    def get(self, key: str, name: str) -> FileReport | None:
-        """What is known of a file, or None."""
+    def get(self, key: str, name: str) -> tuple[Diagnostic, ...] | None:
+        """The findings of a file, or None where they are not known or the files that they depend on have changed."""
         held = self.known.get(key)
         if held is None:
             return None
         try:
-            return FileReport(name, unpacked(held, name))
+            found, states = unpacked(held, name)
         except ValueError:
             del self.known[key]
             return None
+        return found if all(self._state(path) == before for path, before in states.items()) else None
 
-    def put(self, key: str, report: FileReport) -> None:
-        """Keep what was found in a file."""
-        held = packed(report.found)
+    def put(self, key: str, found: Sequence[Diagnostic], looked_at: Sequence[str]) -> None:
+        """Keep what was found in a file, which depends on what is at some paths.
+
+        Nothing is kept where one of them has changed since the run began: what was read of it is not certain.
+        """
+        if any(_changed_since(self._began, path) for path in looked_at):
+            return
+        held = packed(found, {path: self._state(path) for path in looked_at})
         if len(held) <= LONGEST:
             self.new[key] = held
 
@@ -250,15 +261,14 @@ class Cache:
         if self.new:
             write_entries(self.path, {**self.known, **self.new})
 
-    def _start(self, settings: LintSettings) -> bytes:
-        """Settings are few, hold for many files, and are alive as long as they are in here."""
-        found = self._starts.get(id(settings))
-        if found is None:
-            found = self._starts[id(settings)] = (settings, of_settings(settings, self._program))
-        return found[1]
+    def _state(self, path: str) -> str:
+        """A state, looked at once in a run: many decks continue the same one."""
+        if path not in self._states:
+            self._states[path] = state(path)
+        return self._states[path]
 
 
-def opened() -> Cache | None:
+def opened(given: str) -> Cache | None:
     """The cache of the working folder; None where there is no place for one."""
     folder = cache_folder()
     if folder is None:
@@ -267,4 +277,4 @@ def opened() -> Cache | None:
         path = file_of(folder, Path.cwd())
     except OSError:  # the working folder is gone
         return None
-    return Cache(path, read_entries(path))
+    return Cache(path, read_entries(path), given)

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from mudline.linting.registry import UnknownRule, select
 from mudline.spelling import nearest
 
 Values = dict[str, Any]
@@ -22,17 +21,22 @@ _OF_CODES = ("select", "ignore", "extend-select", "fixable", "unfixable")
 _SEVERITIES = ("error", "warning", "info", "off")
 
 
+CodeFault = Callable[[str], str]
+"""What is wrong with a word that is to name rules, or ""."""
+
+
 class ConfigurationError(ValueError):
     """A configuration that cannot be used; the message has file, line or key, and what to do."""
 
 
 @dataclass(frozen=True)
 class Configuration:
-    """The values that a file sets, checked; none without a file."""
+    """The values that a file sets, checked, and its content; none without a file."""
 
     path: Path | None = None
     values: Values = field(default_factory=dict)
     lines: dict[str, int] = field(default_factory=dict)
+    content: bytes = b""
 
     def words(self, key: str) -> list[str]:
         """A list, empty if it is not set."""
@@ -43,13 +47,17 @@ class Configuration:
         return dict(self.values.get(key, {}))
 
 
-def read_configuration(path: Path, *, demanded: bool = True) -> Configuration | None:
+def read_configuration(
+    path: Path, *, demanded: bool = True, code_fault: CodeFault | None = None
+) -> Configuration | None:
     """The configuration in a file; None for a pyproject.toml without `[tool.mudline]` that is not `demanded`.
 
+    Words for rules are checked by `code_fault` (`mudline.linting.registry.code_fault`), and taken as they are without.
     Raises OSError and ConfigurationError.
     """
+    content = path.read_bytes()
     try:
-        text = path.read_bytes().decode("utf-8-sig").replace("\r\n", "\n")
+        text = content.decode("utf-8-sig").replace("\r\n", "\n")
         document = tomllib.loads(text)
     except (ValueError, RecursionError) as error:
         raise ConfigurationError(f"{path.as_posix()}: this is not TOML: {error}") from error
@@ -60,14 +68,16 @@ def read_configuration(path: Path, *, demanded: bool = True) -> Configuration | 
         if values is None and not demanded:
             return None
         values = {} if values is None else values
-    return _Reading(path, text).checked(values)
+    return _Reading(path, content, text, code_fault).checked(values)
 
 
 class _Reading:
     """One file being checked."""
 
-    def __init__(self, path: Path, text: str) -> None:
+    def __init__(self, path: Path, content: bytes, text: str, code_fault: CodeFault | None) -> None:
         self.path = path
+        self.content = content
+        self.code_fault = code_fault
         self.rows = text.split("\n")
         self.first = 0
         if path.name == "pyproject.toml":
@@ -79,7 +89,7 @@ class _Reading:
             raise self.error("tool", "tool.mudline must be a table")
         for key, value in values.items():
             self.check(key, value)
-        return Configuration(self.path, values, {key: self.line(key) or 1 for key in values})
+        return Configuration(self.path, values, {key: self.line(key) or 1 for key in values}, self.content)
 
     def check(self, key: str, value: object) -> None:
         if key not in KEYS:
@@ -115,10 +125,8 @@ class _Reading:
 
     def codes(self, key: str, words: list[str]) -> None:
         for word in words:
-            try:
-                select([word])
-            except UnknownRule as error:
-                raise self.error(word, f"{key}: {error}", key) from error
+            if fault := self.code_fault(word) if self.code_fault else "":
+                raise self.error(word, f"{key}: {fault}", key)
 
     def line(self, *words: str) -> int | None:
         """The line of a key or a text, as far as a search of the text finds it."""
@@ -141,10 +149,11 @@ def _hint(word: str, choices: Iterable[str]) -> str:
 
 
 class Search:
-    """The nearest configuration upwards of a folder, each folder looked at once."""
+    """The nearest configuration upwards of a folder, each folder looked at once; `code_fault` as when one is read."""
 
-    def __init__(self) -> None:
+    def __init__(self, code_fault: CodeFault | None = None) -> None:
         self._known: dict[Path, Configuration] = {}
+        self._code_fault = code_fault
 
     def nearest(self, folder: Path) -> Configuration:
         """mudline.toml before pyproject.toml in one folder. Raises OSError and ConfigurationError."""
@@ -155,16 +164,16 @@ class Search:
                 found = self._known[place]
                 break
             passed.append(place)
-            if here := _in(place):
+            if here := _in(place, self._code_fault):
                 found = here
                 break
         self._known.update(dict.fromkeys(passed, found))
         return found
 
 
-def _in(folder: Path) -> Configuration | None:
+def _in(folder: Path, code_fault: CodeFault | None) -> Configuration | None:
     for name in ("mudline.toml", "pyproject.toml"):
         path = folder / name
-        if path.is_file() and (found := read_configuration(path, demanded=False)):
+        if path.is_file() and (found := read_configuration(path, demanded=False, code_fault=code_fault)):
             return found
     return None

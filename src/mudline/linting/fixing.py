@@ -13,10 +13,11 @@ from functools import cached_property
 from itertools import islice
 from pathlib import Path
 
-from mudline.deck.loading import form_of
+from mudline.deck.forms import form_of
 from mudline.deck.model import Deck
 from mudline.deck.reading import read_source
 from mudline.diagnostics import Diagnostic, Problem, Repair, Severity, Span
+from mudline.files import recording_looks
 from mudline.linting.engine import Fixing, LintSettings, lint_bytes, problems_in, unsuppressed
 from mudline.linting.rule import LintContext
 from mudline.linting.suppression import MARK
@@ -37,7 +38,7 @@ class FileReport:
 
     `found` are the findings in the content as it is after fixing, in their order; `fixed` those that are gone.
     `changed` is the new content, or None where it is the old one. `note` says why fixes were not made, or "";
-    a deck in JSON or YAML has none.
+    a deck in JSON or YAML has none. `looked_at` are the paths on which the findings depend besides the content.
     """
 
     file: str
@@ -45,6 +46,7 @@ class FileReport:
     fixed: tuple[Diagnostic, ...] = ()
     changed: bytes | None = None
     note: str = ""
+    looked_at: tuple[str, ...] = ()
 
 
 def lint_one(name: str, data: bytes, settings: LintSettings, folder: Path | None = None) -> FileReport:
@@ -56,9 +58,10 @@ def lint_one(name: str, data: bytes, settings: LintSettings, folder: Path | None
     if settings.fixing is not Fixing.NONE and form_of(name) == "keyword":
         result = fix_bytes(data, name, settings, folder)
     content = data if result.changed is None else result.changed
-    found = lint_bytes(content, name, settings.rules, units=settings.units, folder=folder, dialect=settings.dialect)
+    with recording_looks() as paths:
+        found = lint_bytes(content, name, settings.rules, units=settings.units, folder=folder, dialect=settings.dialect)
     fixed = _with_severities(result.fixed, settings)
-    return FileReport(name, _with_severities(found, settings), fixed, result.changed, result.note)
+    return FileReport(name, _with_severities(found, settings), fixed, result.changed, result.note, tuple(paths))
 
 
 def _with_severities(found: Iterable[Diagnostic], settings: LintSettings) -> tuple[Diagnostic, ...]:

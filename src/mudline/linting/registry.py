@@ -6,6 +6,7 @@ Rules of other packages are found through the entry point group `mudline.rules`,
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
@@ -233,3 +234,19 @@ def _documentation(package: str) -> str | None:
     addresses = {label.strip().lower(): url.strip() for label, _, url in (text.partition(",") for text in given)}
     found = next((addresses[label] for label in ("documentation", "homepage") if label in addresses), "")
     return found if found.startswith(("https://", "http://")) else None
+
+
+def code_fault(word: str) -> str:
+    """What is wrong with a word that is to name rules, with a suggestion, or ""."""
+    try:
+        _named([word])
+    except UnknownRule as error:
+        return str(error)
+    return ""
+
+
+def plugin_files() -> tuple[str, ...]:
+    """The files of every module that a plugin's package has imported: with them, its rules may change."""
+    packages = {rule.check.check.__module__.partition(".")[0] for rule in rules() if isinstance(rule.check, Guarded)}
+    modules = [module for name, module in sys.modules.items() if name.partition(".")[0] in packages]
+    return tuple(sorted(path for module in modules if (path := getattr(module, "__file__", None))))

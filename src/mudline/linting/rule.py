@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, wraps
 from itertools import chain, islice, pairwise
 from textwrap import dedent
-from typing import TypeVar, cast
+from typing import Any, TypeVar, cast
 
-from mudline.deck.model import Deck
+from mudline.deck.model import Deck, Opaque
 from mudline.deck.reading import TextOrigin
-from mudline.diagnostics import MORE, MOST_REPORTED, Blocks, Code, Problem
+from mudline.diagnostics import MORE, MOST_REPORTED, Blocks, Code, Problem, Where
+from mudline.keywords.catalogue import holds_in_soil, is_superseded
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene, resolve
 from mudline.variations.names import misspelt_keywords, misspelt_sections, undefined_parameters, undefined_variations
@@ -49,6 +50,37 @@ class LintContext:
         """The scene of the deck."""
         return resolve(self.deck)
 
+    def blocks(self, keyword: str, section: str = "MODEL") -> Sequence[tuple[Where, Any]]:
+        """What `Deck.blocks` gives for the deck of the scene, whose equations are evaluated."""
+        return self._evaluated.get((section, keyword), ())
+
+    def written(self, keyword: str, section: str = "MODEL") -> Sequence[tuple[Where, Any]]:
+        """What `Deck.blocks` gives for the deck itself, with its equations."""
+        return self._written.get((section, keyword), ())
+
+    @cached_property
+    def _evaluated(self) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
+        return _by_keyword(self.scene.deck)
+
+    @cached_property
+    def _written(self) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
+        return _by_keyword(self.deck)
+
+    @cached_property
+    def keywords(self) -> set[str]:
+        """Names of the keywords in the models of the deck of the scene, those that are not read among them."""
+        return self.scene.deck.keywords()
+
+    @cached_property
+    def in_soil(self) -> bool:
+        """Whether the model has soil springs."""
+        return any(map(holds_in_soil, self.keywords))
+
+    @cached_property
+    def superseded(self) -> list[str]:
+        """Those of the keywords that newer ones supersede."""
+        return [keyword for keyword in self.keywords if is_superseded(keyword)]
+
     @cached_property
     def odd_curves(self) -> list[tuple[int, SceneCurve]]:
         """The curves that rules about the shape of a curve have to look at, with their index in the table of laws.
@@ -59,7 +91,8 @@ class LintContext:
         return [(number, entry) for number, entry in enumerate(self.scene.laws.curves) if not _ordinary(entry)]
 
     @cached_property
-    def _by_code(self) -> dict[str, list[Problem]]:
+    def noticed(self) -> dict[str, list[Problem]]:
+        """What reading and resolving the deck, and the checks of its scene, report, by code."""
         found: dict[str, list[Problem]] = {}
         for problem in chain(self.scene.findings, _of_variations(self.deck)):
             found.setdefault(problem.code.code, []).append(problem)
@@ -67,13 +100,27 @@ class LintContext:
 
     def once(self, make: Callable[[LintContext], T]) -> T:
         """What a function makes of this deck, made once for all rules that ask."""
-        if make not in self._made:
-            self._made[make] = make(self)
-        return cast("T", self._made[make])
+        try:
+            return cast("T", self._made[make])
+        except KeyError:
+            made = self._made[make] = make(self)
+            return made
 
-    def problems_of(self, code: Code) -> Iterator[Problem]:
+    def problems_of(self, code: Code) -> Sequence[Problem]:
         """What reading and resolving the deck, and the checks of its scene, report under a code."""
-        yield from self._by_code.get(code.code, ())
+        return self.noticed.get(code.code, ())
+
+
+def _by_keyword(deck: Deck) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
+    """What `Deck.blocks` gives for every section and keyword."""
+    found: dict[tuple[str, str], list[tuple[Where, Any]]] = {}
+    own = len(deck.own_sections)
+    for i in (*range(own, len(deck.sections)), *range(own)):
+        section = deck.sections[i]
+        for j, block in enumerate(section.blocks):
+            if type(block) is not Opaque:  # isinstance of a model takes several times as long
+                found.setdefault((section.name, block.keyword), []).append((Where(i, j), block))
+    return found
 
 
 def _of_variations(deck: Deck) -> Iterator[Problem]:
@@ -190,7 +237,7 @@ def limited(check: Check) -> Check:
 
     @wraps(check)
     def first(context: LintContext) -> Iterator[Problem]:
-        yield from islice(check(context), MOST_REPORTED)
+        return islice(check(context), MOST_REPORTED)
 
     return first
 

@@ -13,11 +13,11 @@ from dataclasses import dataclass, field
 from itertools import chain
 
 from mudline.deck.forms.keyword import to_keyword
-from mudline.deck.model import Deck, Opaque, comment_texts
+from mudline.deck.model import Opaque, comment_texts
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import Code, DeckError, Problem, Repair, Severity, Span, Where
 from mudline.linting.registry import find, rules
-from mudline.linting.rule import Rule, first_reported
+from mudline.linting.rule import LintContext, Rule, first_reported
 from mudline.spelling import nearest
 from mudline.syntax.source import Source
 from mudline.syntax.tree import Kind, Leaf
@@ -170,11 +170,12 @@ def _covers(named: set[str], code: str) -> bool:
     return code in named or ("" in named and code != STY010.code)
 
 
-def suppressions(deck: Deck) -> Suppressions | None:
-    """What the comments of a deck hide; None for a deck without such comments.
+def suppressions(context: LintContext) -> Suppressions | None:
+    """What the comments of a deck hide; None for a deck without such comments. Rules ask `context.once` for it.
 
     A deck in JSON or YAML is seen as the keyword text that it would be; one that has no such text hides nothing.
     """
+    deck = context.deck
     if isinstance(deck.origin, TextOrigin):
         return _read(deck.origin, own_text=True) if deck.origin.source.readable else None
     lines = (block.lines for section in deck.sections for block in section.blocks if isinstance(block, Opaque))
@@ -190,7 +191,7 @@ def suppressions(deck: Deck) -> Suppressions | None:
 
 def _read(origin: TextOrigin, *, own_text: bool) -> Suppressions | None:
     text = origin.source.unified
-    if _NAMED.search(text) is None:
+    if not ("mudline" in text.lower() if text.isascii() else _NAMED.search(text)):  # the first is many times as fast
         return None
     if not any(leaf.kind is Kind.COMMENT and MARK.match(text, *leaf.span) for leaf in origin.tree.leaves()):
         return None

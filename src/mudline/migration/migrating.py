@@ -10,8 +10,9 @@ from pathlib import Path
 import numpy as np
 
 from mudline.codes import MIG001
+from mudline.deck.forms import form_of
 from mudline.deck.forms.keyword import as_text
-from mudline.deck.loading import dump, form_of, load_path
+from mudline.deck.loading import dump, load_path
 from mudline.deck.model import Deck, comment_texts
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import DeckError, Problem

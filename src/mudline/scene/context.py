@@ -48,11 +48,14 @@ class Context:
     _reported: dict[str, int] = field(default_factory=dict)
     _placeless: set[tuple[int, int]] = field(default_factory=set)
     _effort: Effort = field(default_factory=Effort)
+    _sound: range = range(0)
+    """Sections of which every line could be used: all of its own, in a deck without problems."""
 
     __repr__ = short_repr
 
     def __post_init__(self) -> None:
-        for i, section in enumerate(self.deck.sections):
+        self._sound = range(0 if self.deck.problems else len(self.deck.own_sections))
+        for i, section in enumerate(self.deck.sections[len(self._sound) :], len(self._sound)):
             for j, block in enumerate(section.blocks):
                 if self.deck.lost(Where(i, j)):
                     self.unread.add(block.keyword)
@@ -116,6 +119,8 @@ class Context:
 
     def has_read_errors(self, where: Where) -> bool:
         """Whether something at this place, or a line below it, could not be used."""
+        if where.section in self._sound:
+            return False
         if self.deck.damaged(where):
             return True
         if where.section >= len(self.deck.own_sections):  # of a deck that is continued: what it lost is in no line here
@@ -155,7 +160,7 @@ class Context:
 
     def lacks_value(self, where: Where, key: str) -> bool:
         """Whether the setting `key` of a record was written without a value that could be read."""
-        return self.deck.damaged(where) and self.deck.written(where.inside(key))
+        return where.section not in self._sound and self.deck.damaged(where) and self.deck.written(where.inside(key))
 
     def generator(self, given: ListRow, where: Where) -> tuple[int, int, int] | None:
         """The three values of a GEN=, the last one 1 unless given; None when one of them is not known."""
@@ -168,6 +173,8 @@ class Context:
     def without_value(self, row: ListRow, where: Where) -> bool:
         """Whether an equation of a row has no value."""
         written = self.as_written(where)
+        if written is row:  # it has no equation
+            return False
         fields = ((getattr(row, name), getattr(written, name)) for name in type(row).model_fields)
         return any(
             before is not None and (now is None or (isinstance(now, float) and isnan(now))) for now, before in fields

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Span, Where
+from mudline.files import look
 from mudline.keywords import catalogue
 from mudline.keywords.model import Block, Part, Row, record_schema
 from mudline.keywords.values import LINE_SETS, Names
@@ -67,7 +68,7 @@ def find_file(folder: Path | None, written: str) -> Path | None:
     name = file_name(written)
     if folder is None or not name or len(name) > _LONGEST_NAME or "\0" in name:
         return None
-    path = folder / name
+    path = look(folder / name)
     try:
         return path if path.is_file() else None
     except OSError:
@@ -83,9 +84,8 @@ _WORD = re.compile(r"[^-+.,0-9 \t]")
 
 def external_definers(deck: Deck) -> list[str]:
     """Keywords of the model that make nodes, elements or sets which the deck does not show; those not read first."""
-    present = catalogue.in_order(deck.keywords())
-    found = [keyword for keyword in present if _makes(keyword)]
-    return sorted(found, key=is_read_definer)
+    found = [keyword for keyword in deck.keywords() if _makes(keyword)]
+    return sorted(catalogue.in_order(found), key=is_read_definer) if found else []
 
 
 def is_read_definer(keyword: str) -> bool:

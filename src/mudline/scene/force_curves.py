@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
@@ -12,11 +12,11 @@ from mudline.diagnostics import MOST_REPORTED, Where
 from mudline.keywords.table import Table
 from mudline.keywords.text import shown
 from mudline.scene.context import Context
-from mudline.scene.numbering import Floats, Indices, Mask
+from mudline.scene.numbering import Floats, Indices, Mask, side_by_side
 from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:
-    from mudline.curves import ForceCurve
+    from mudline.curves import CurveError, ForceCurve
     from mudline.keywords.library.embedment import Embedment
     from mudline.keywords.library.seabed_stiffness import SeabedStiffness
 
@@ -85,34 +85,38 @@ def set_name(context: Context, name: str | None, where: Where) -> str | None:
 def _curve(context: Context, name: str | None, table: Table, where: Where, *, embedment: bool) -> SceneCurve:
     if name is None and not embedment:
         context.unread.add("SEABED STIFFNESS")
-    points = np.column_stack([table.column(0), table.column(1)])
-    rows = np.flatnonzero(~np.isnan(points).any(axis=1) & (table.lengths == 2))
+    points = side_by_side(table.column(0), table.column(1))
+    rows = np.flatnonzero((table.lengths == 2) & ~(np.isnan(points[:, 0]) | np.isnan(points[:, 1])))
     points = points[rows]
     clashing, _ = clashes_and_repeats(points)
     unread = len(rows) < len(table) or context.has_read_errors(where)
     whole = not unread and not clashing.size
-    found = SceneCurve(name or "", points, rows, where, None, whole, embedment, name is not None)
+    keep = np.arange(len(points))
+    if clashing.size:
+        keep = np.setdiff1d(keep, clashing, assume_unique=True)
+    curve, error = _made(points[keep], name or "")
+    found = SceneCurve(name or "", points, rows, where, curve, whole, embedment, name is not None)
     for index in clashing[: MOST_REPORTED + 1].tolist():
         ratio, force = points[index].tolist()
         message = f"a second force at ratio {ratio!r} ({force!r}): the slope there would be infinite; remove one"
         context.report(CRV003, message, found.point(index))
-    keep = np.arange(len(points))
-    if clashing.size:
-        keep = np.setdiff1d(keep, clashing, assume_unique=True)
+    if error is not None and error.index >= 0:  # the message counts points, which holds only when none is left out
+        fault = str(error) if len(keep) == len(table) else "the slope to this point cannot be held by a float64"
+        context.report(_CODES[error.code], f"{fault}: correct the point", found.point(int(keep[error.index])))
+    elif error is not None and whole:
+        has = "one distinct point" if len(points) else "no point"
+        context.report(CRV001, f"curve {shown(found.name)} has {has}: it needs at least two", where)
+    return found
+
+
+def _made(points: Floats, name: str) -> tuple[ForceCurve | None, CurveError | None]:
+    """The curve of some points, or why they make none."""
     from mudline.curves import CurveError, ForceCurve  # noqa: PLC0415 - a deck without curves does without it
 
     try:
-        curve = ForceCurve(points[keep], found.name)
+        return ForceCurve(points, name), None
     except CurveError as error:
-        if error.index >= 0:  # the message counts points, which holds only when none is left out
-            fault = str(error) if len(keep) == len(table) else "the slope to this point cannot be held by a float64"
-            context.report(_CODES[error.code], f"{fault}: correct the point", found.point(int(keep[error.index])))
-        elif whole:
-            has = "one distinct point" if len(points) else "no point"
-            message = f"curve {shown(found.name)} has {has}: it needs at least two"
-            context.report(CRV001, message, where)
-        return found
-    return replace(found, curve=curve)
+        return None, error
 
 
 def clashes_and_repeats(points: Floats) -> tuple[Indices, Indices]:

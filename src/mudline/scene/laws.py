@@ -218,7 +218,7 @@ def read_resistance(context: Context, laws: LawTable) -> SeabedResistance:
         position = cast("int", where.path[1])
         position_of[index] = len(values)
         values.append(_of_set(block.sets[position]))
-        places.append(where._replace(path=("sets", position)))
+        places.append(Where(where.section, where.block, ("sets", position)))
     return SeabedResistance(values, places, looked_up(position_of, laws.covered))
 
 

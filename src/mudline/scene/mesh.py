@@ -23,6 +23,7 @@ from mudline.scene.numbering import (
     Mask,
     Numbered,
     blocks_of,
+    side_by_side,
     whole_numbers,
 )
 from mudline.short_repr import short_repr
@@ -79,7 +80,7 @@ def read_nodes(context: Context, external: ExternalElements | None = None) -> Nu
 
 def _add_nodes(context: Context, gathered: Definitions, entry: NodeRows, where: Where) -> None:
     table = entry.nodes
-    values = np.column_stack([table.column(1), table.column(2), table.column(3, default=0.0)])
+    values = side_by_side(table.column(1), table.column(2), table.column(3, default=0.0))
     if not _add_rows(gathered, table.column(0), values, where, "nodes"):
         context.unread.add("NODE")
 
@@ -167,7 +168,8 @@ def read_elements(context: Context, nodes: Numbered, external: ExternalElements 
     if external is not None:
         gathered.add(Batch(external.ids, external.nodes.astype(np.float64), Where()))
     elements = gathered.resolve(2)
-    report_repeats(context, elements, elements.repeats[elements.repeats < own], "element")
+    if elements.repeats.size:
+        report_repeats(context, elements, elements.repeats[elements.repeats < own], "element")
     indices = _join(context, elements, nodes)
     length = _lengths(indices, nodes.values)
     if external is not None:
@@ -179,7 +181,7 @@ def read_elements(context: Context, nodes: Numbered, external: ExternalElements 
 def _add_elements(context: Context, gathered: Definitions, entry: ElementRows, where: Where) -> None:
     table = entry.elements
     _check_labels(context, table, where)
-    ends = np.column_stack([table.column(1), table.column(2)])
+    ends = side_by_side(table.column(1), table.column(2))
     if not _add_rows(gathered, table.column(0), ends, where, "elements"):
         context.unread.add("ELEMENT")
 
@@ -187,7 +189,7 @@ def _add_elements(context: Context, gathered: Definitions, entry: ElementRows, w
 def _check_labels(context: Context, table: Table, where: Where) -> None:
     """Labelled nodes come from blocks that are not read; without such a block a label names nothing."""
     labels = [(row, column, word) for (row, column), word in table.words.items() if word and 0 < column < 3]
-    if context.external_definers:
+    if not labels or context.external_definers:
         return
     for row, column, word in labels[: MOST_REPORTED + 1]:
         place = where.inside("elements", row, column)
@@ -239,12 +241,13 @@ def _join(context: Context, elements: Numbered, nodes: Numbered) -> Indices:
     for block in blocks_of(len(elements)):
         given, numbers = _node_numbers(elements.values[block])
         indices[block] = np.where(given, nodes.indices(numbers), -1)
-        missing = np.argwhere(given & (indices[block] < 0))
-        missing[:, 0] += block.start
-        found.append(missing)
-    missing = np.concatenate(found) if found else np.zeros((0, 2), dtype=np.intp)
-    if not len(missing):
+        lacks = given & (indices[block] < 0)
+        if lacks.any():
+            found.append(np.argwhere(lacks))
+            found[-1][:, 0] += block.start
+    if not found:
         return indices
+    missing = np.concatenate(found)
     batches = elements.batches_of(elements.rows[missing[:, 0]])
     generators = np.array([not batch.table for batch in elements.batches], dtype=bool)[batches]
     _, firsts = np.unique(np.where(generators, batches, -1 - np.arange(len(missing))), return_index=True)
@@ -269,8 +272,9 @@ def _lengths(ends: Indices, coordinates: Floats) -> Floats:
     """Distances between the nodes, NaN where one is not known."""
     length = np.full(len(ends), np.nan)
     for block in blocks_of(len(ends)):
-        known = np.flatnonzero((ends[block] >= 0).all(axis=1)) + block.start
-        length[known] = distances(coordinates[ends[known, 0]], coordinates[ends[known, 1]])
+        first, last = ends[block].T
+        known = np.flatnonzero((first >= 0) & (last >= 0))
+        length[block][known] = distances(coordinates[first[known]], coordinates[last[known]])
     return length
 
 
@@ -283,10 +287,10 @@ def distances(points: Floats, others: Floats) -> Floats:
         span = np.subtract(others, points)
         square = (span**2).sum(axis=1)
         found: Floats = np.sqrt(square)
-        odd = np.flatnonzero((square < _SMALLEST_SQUARE) | (square > _LARGEST_SQUARE))
-        largest = np.abs(span[odd]).max(axis=1, initial=0.0)
-        scale = np.where((largest > 0.0) & (largest < np.inf), largest, 1.0)
-        found[odd] = scale * np.sqrt(((span[odd] / scale[:, None]) ** 2).sum(axis=1))
+        if (odd := (square < _SMALLEST_SQUARE) | (square > _LARGEST_SQUARE)).any():
+            largest = np.abs(span[odd]).max(axis=1, initial=0.0)
+            scale = np.where((largest > 0.0) & (largest < np.inf), largest, 1.0)
+            found[odd] = scale * np.sqrt(((span[odd] / scale[:, None]) ** 2).sum(axis=1))
     return found
 
 

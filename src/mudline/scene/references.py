@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
 from itertools import chain
 from typing import TYPE_CHECKING, cast
 
@@ -57,17 +57,19 @@ def given_names(deck: Deck, what: Names) -> Iterator[tuple[type[Block], Where, s
 
 def check_soil(context: Context, nodes: Numbered) -> None:
     """Every NODE= of soil springs against the nodes of the deck."""
-    named = (
+    named = [
         (getattr(curve, "node", None), where.inside("sets", i, "curves", j, "node"))
         for where, block in context.deck.blocks_that(lambda declared: declared.facts.soil_springs)
         for i, springs in enumerate(cast("LateralSoil", block).sets)
         for j, curve in enumerate(springs.curves)
-    )
+    ]
     _check_nodes(context, nodes, named)
 
 
-def _check_nodes(context: Context, nodes: Numbered, named: Iterable[tuple[object, Where]]) -> None:
+def _check_nodes(context: Context, nodes: Numbered, named: Sequence[tuple[object, Where]]) -> None:
     """Report the nodes, numbers or labels, that the deck lacks; anything else could not be read and is skipped."""
+    if not named:
+        return
     numbers: list[int] = []
     places: list[Where] = []
     shown_nodes = _shows_nodes(context, nodes)

@@ -222,6 +222,8 @@ class ResolvedDeck:
     @cached_property
     def law(self) -> NDArray[np.int8]:
         """`LawKind` of each element (m,)."""
+        if "SEABED CONTACT" not in self.extensions:
+            return self._given_kind
         return np.where(self.nodal, np.int8(LawKind.NODAL), self._given_kind)
 
     @cached_property

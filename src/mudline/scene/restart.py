@@ -15,6 +15,7 @@ from mudline.deck.loading import load_path
 from mudline.deck.model import Base, BaseProblem, Deck
 from mudline.deck.parameters import Parameters, evaluated
 from mudline.diagnostics import DeckError, Problem, Where
+from mudline.files import look
 from mudline.keywords.text import shown
 from mudline.scene.deck_values import LARGEST_FILE, file_name, find_file
 
@@ -209,7 +210,7 @@ def _in_other_case(folder: Path | None, names: list[str]) -> Path | None:
         return None
     inner = PurePath(names[0]).parent
     try:
-        listed = _listed(str(folder / inner), (folder / inner).stat().st_mtime_ns)
+        listed = _listed(str(look(folder / inner)), (folder / inner).stat().st_mtime_ns)
     except (OSError, ValueError):
         return None
     known = (listed.get(PurePath(name).name.casefold()) for name in names)

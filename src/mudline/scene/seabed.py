@@ -15,7 +15,7 @@ from mudline.diagnostics import Where
 from mudline.keywords.text import shown
 from mudline.scene.context import Context
 from mudline.scene.deck_values import LARGEST_FILE, file_name, find_file, number, surfaces
-from mudline.scene.numbering import Floats
+from mudline.scene.numbering import Floats, side_by_side
 from mudline.short_repr import counted, short_repr
 from mudline.syntax.rows import read_number
 from mudline.syntax.source import Source
@@ -92,20 +92,15 @@ def read_seabed(context: Context) -> SeabedShape:
         found = _surface(surface, where, found)
     for where, block in context.deck.blocks("SEABED PROFILE"):
         found = _profile(context, cast("SeabedProfile", block), where, unreadable)
-    planes = [
-        _plane(plane)
-        for _, block in context.deck.blocks("SEABED PLANES")
-        for plane in cast("SeabedPlanes", block).planes
-    ]
-    if planes:
-        where = next(where for where, _ in context.deck.blocks("SEABED PLANES"))
-        found = SeabedShape(SeabedKind.PLANES, planes=tuple(planes), where=where)
+    blocks = [(where, cast("SeabedPlanes", block)) for where, block in context.deck.blocks("SEABED PLANES")]
+    if planes := tuple(_plane(plane) for _, block in blocks for plane in block.planes):
+        found = SeabedShape(SeabedKind.PLANES, planes=planes, where=blocks[0][0])
     return replace(found, unreadable=tuple(unreadable)) if unreadable else found
 
 
 def _surface(surface: Surface, where: Where, before: SeabedShape) -> SeabedShape:
     if surface.profile is not None:
-        points = np.column_stack([surface.profile.column(0), surface.profile.column(1)])
+        points = side_by_side(surface.profile.column(0), surface.profile.column(1))
         return SeabedShape(SeabedKind.PROFILE, points=points, where=where.inside("profile"))
     if surface.slope is not None:
         return SeabedShape(SeabedKind.SLOPING, number(surface, "slope"), where=where.inside("slope"))

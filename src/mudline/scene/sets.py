@@ -102,9 +102,6 @@ class _Reader:
         self.keys: dict[str, str] = {}
         self.links: dict[str, str] = {}
         """Sets that are given once, as one subset, by their keys with that of the subset."""
-        deck = context.deck
-        self.sound = range(0 if deck.problems else len(deck.own_sections))
-        """Sections of which every line could be used."""
 
     def read(self) -> Sets:
         named = self.sets.named
@@ -153,7 +150,7 @@ class _Reader:
 
     def _expand(self, key: str) -> None:
         """Expand a set and, before it, its subsets; an explicit stack, as chains may be long."""
-        named, definitions, links = self.sets.named, self.definitions, self.links
+        named, definitions, links, context = self.sets.named, self.definitions, self.links, self.context
         waiting = [key]
         unfinished: set[str] = set()
         while waiting:
@@ -167,7 +164,7 @@ class _Reader:
                 if link is not None and (found := named.get(link)):
                     entry, where = definitions[current][0]
                     named[current] = NamedSet(
-                        entry.name, found.elements, where, found.open or self._has_read_errors(where)
+                        entry.name, found.elements, where, found.open or context.has_read_errors(where)
                     )
                 else:
                     self._settle(current)
@@ -213,7 +210,7 @@ class _Reader:
         unsure = False
         members = 0
         for entry, where in definitions:
-            unsure |= self._has_read_errors(where)
+            unsure |= self.context.has_read_errors(where)
             members += len(entry.members)
             for index, member in enumerate(entry.members):
                 if member.rule == "set_subset":
@@ -229,27 +226,24 @@ class _Reader:
         if not members and not unsure:  # of what is listed and does not exist, it is reported where it stands
             self.context.report(REF010, f"set {shown(first.name)} has no element: give it some, or remove it", place)
 
-    def _has_read_errors(self, where: Where) -> bool:
-        return where.section not in self.sound and self.context.has_read_errors(where)
-
     def _subset(self, name: str | None) -> tuple[Indices, bool]:
         found = None if name is None else self.sets.named.get(self._key(name))
         return (_NOTHING, False) if found is None else (found.elements, not found.open)
 
     def _listed(self, member: SetList, where: Where) -> tuple[Indices, bool]:
         """Indices of the elements of a list in ascending order, and whether these are all."""
-        positions = [position for position, element in enumerate(member.elements) if isinstance(element, int)]
-        numbers = np.array([member.elements[position] for position in positions], dtype=np.int64)
+        numbers = np.array([element for element in member.elements if isinstance(element, int)], dtype=np.int64)
         indices = self.elements.indices(numbers)
-        missing = np.flatnonzero(indices < 0).tolist()
-        places = [where.inside("elements", positions[at]) for at in missing]
-        self._missing(numbers[missing], places)
+        known = indices >= 0
+        if len(numbers) == len(member.elements) and known.all():
+            return _ascending(indices), not self.context.has_read_errors(where.inside("elements"))
+        positions = [position for position, element in enumerate(member.elements) if isinstance(element, int)]
+        missing = np.flatnonzero(~known).tolist()
+        self._missing(numbers[missing], [where.inside("elements", positions[at]) for at in missing])
         for position, element in enumerate(member.elements):
             if isinstance(element, str):
                 self._label(element, where.inside("elements", position))
-        found = indices[indices >= 0]
-        whole = len(found) == len(member.elements)
-        return _ascending(found), whole and not self.context.has_read_errors(where.inside("elements"))
+        return _ascending(indices[known]), False
 
     def _missing(self, numbers: Ids, places: list[Where]) -> None:
         """Elements of a list that are not defined; where they may be defined out of sight, a word for a list."""
@@ -275,16 +269,16 @@ class _Reader:
         if numbers is None:
             return _NOTHING, False
         start, end, step = numbers
-        written = f"GEN={start}, {end}, {step}"
         if end < start or step < 1:
             why = "the increment must be at least 1" if step < 1 else "the end must not come before the start"
-            self.context.report(REF010, f"{written} holds nothing: {why}", place, Severity.ERROR)
+            self.context.report(REF010, f"GEN={start}, {end}, {step} holds nothing: {why}", place, Severity.ERROR)
             return _NOTHING, False
         found = self.elements.between(start, end, step)
         wanted = (end - start) // step + 1
         lacking = wanted - len(found)
         if lacking and not self.context.possible_definition("ELEMENT"):
-            message = f"{written}: {lacking} of its {wanted} elements are not defined: correct it, or define them"
+            lacks = f"{lacking} of its {wanted} elements are not defined"
+            message = f"GEN={start}, {end}, {step}: {lacks}: correct it, or define them"
             self.context.report(REF005, message, place, Severity.WARNING if len(found) else None)
         return found, not lacking
 

@@ -48,12 +48,14 @@ class Line(NamedTuple):
 
 def trimmed(text: str, start: int, end: int) -> Span:
     """The span without blanks, tabs and line ends on both sides; an empty one stands at `start`."""
-    piece = text[start:end]
-    right = piece.lstrip(_OUTER)
-    if not right:
+    left = start
+    while left < end and text[left] in _OUTER:
+        left += 1
+    if left >= end:
         return Span(start, start)
-    left = start + len(piece) - len(right)
-    return Span(left, left + len(right.rstrip(_OUTER)))
+    while text[end - 1] in _OUTER:
+        end -= 1
+    return Span(left, end)
 
 
 def canonical_key(key: str) -> str:

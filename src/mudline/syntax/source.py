@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from array import array
 from bisect import bisect_right
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -12,10 +13,10 @@ from mudline.diagnostics import Problem, Severity, Span
 from mudline.short_repr import short_repr
 
 _BOM = b"\xef\xbb\xbf"
-_LINE_END = re.compile(r"\r\n|\r|\n")
 CONTROLS = "".join(map(chr, (*range(9), 11, 12, *range(14, 32), 127, 0xFEFF)))
 """Characters that nobody sees and that are no blanks; in front of a `*` or `$` they are read over."""
 _CONTROL = re.compile(f"[{re.escape(CONTROLS)}]")
+_NO_CONTROLS = bytes(byte for byte in range(256) if chr(byte) not in CONTROLS)
 _BEFORE_HEAD = re.compile(rf"[ \t{re.escape(CONTROLS)}]++(?=[*$])")
 END_MARK = "\x1a"
 """What old systems put behind the last character of a file (Ctrl-Z)."""
@@ -29,6 +30,11 @@ _LONE_CR = re.compile(r"\r(?!\n)")
 _NOT_UTF8 = "{} is not UTF-8; the file is read as {}: save it as UTF-8"
 _BINARY_SHARE = 0.1
 _SAMPLE = 65536
+_CHUNK = 1 << 18
+_LF = ord("\n")
+_LINE_FEED = re.compile("\n")
+_SHORT = 20_000
+"""Characters of a text whose lines are found without arrays."""
 _FEW = 8
 
 
@@ -37,6 +43,7 @@ class Source:
     """A file's text without byte-order mark; `to_bytes` gives back the bytes that were read.
 
     `readable` is False for content that is no text of a deck (UTF-16, binary data): it is kept, but not parsed.
+    `clean` says that the text holds none of the control characters that are read over; where it does not, it may.
     """
 
     name: str
@@ -45,6 +52,7 @@ class Source:
     bom: bool = False
     readable: bool = True
     problems: tuple[Problem, ...] = field(default=(), compare=False)
+    clean: bool = field(default=False, compare=False)
 
     __repr__ = short_repr
 
@@ -58,7 +66,9 @@ class Source:
             problem = Problem(SYN012, refusal, Span(0, 0), Severity.ERROR)
             return cls(name, body.decode("latin-1"), "latin-1", bom, readable=False, problems=(problem,))
         text, encoding, problems = _decode(body)
-        return cls(name, text, encoding, bom, problems=(*problems, *_control_characters(text)))
+        clean = not body.translate(None, _NO_CONTROLS) and (body.isascii() or _BOM not in body)
+        found = [] if clean else _control_characters(text)
+        return cls(name, text, encoding, bom, problems=(*problems, *found), clean=clean)
 
     def to_bytes(self, text: str | None = None) -> bytes:
         """The bytes of `text` (default: the text as read) in the file's own encoding, with its mark if it had one.
@@ -75,12 +85,23 @@ class Source:
         Control characters in front of a `*` or `$` at the beginning of a line are blanks in it, and so is what old
         systems put at the end of a file.
         """
-        return _ended(_heads_found(_LONE_CR.sub("\n", self.text) if "\r" in self.text else self.text))
+        text = _LONE_CR.sub("\n", self.text) if "\r" in self.text else self.text
+        return text if self.clean else _ended(_heads_found(text))
 
     @cached_property
-    def line_starts(self) -> list[int]:
+    def line_starts(self) -> array[int]:
         """Offset of the first character of every line; CR, CRLF and LF each end one."""
-        return [0, *(match.end() for match in _LINE_END.finditer(self.text))]
+        text = self.unified
+        starts = array("q", [0])
+        if len(text) < _SHORT:
+            starts.extend(found.end() for found in _LINE_FEED.finditer(text))
+            return starts
+        import numpy as np  # noqa: PLC0415 - what lints unchanged decks, or short ones, does without arrays here
+
+        for at in range(0, len(text), _CHUNK):
+            letters = np.frombuffer(text[at : at + _CHUNK].encode("latin-1", "replace"), np.uint8)
+            starts.frombytes((np.flatnonzero(letters == _LF) + (at + 1)).astype(np.int64).tobytes())
+        return starts
 
     def position(self, offset: int) -> tuple[int, int]:
         """Line and column of an offset, both from 1, in code points."""

@@ -12,7 +12,8 @@ from itertools import chain
 from pathlib import Path, PurePath
 from typing import NamedTuple, cast
 
-from mudline.deck.loading import dump, form_of
+from mudline.deck.forms import form_of
+from mudline.deck.loading import dump
 from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import Span

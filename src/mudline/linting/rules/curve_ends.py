@@ -10,6 +10,7 @@ from mudline.curves import ForceCurve, QueryError
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.text import shown
 from mudline.linting.rule import STEEPEST, LintContext, rule
+from mudline.linting.rules.seabed_position import bounds_of
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.seabed import SeabedKind
 
@@ -224,7 +225,9 @@ def beyond_curve(context: LintContext) -> Iterator[Problem]:
     scene = context.scene
     if scene.seabed.kind is not SeabedKind.FLAT:
         return
-    if not any(curve.usable for curve in scene.laws.curves):
+    ends = [float(entry.curve.ratios[-1]) for entry in scene.laws.curves if entry.curve is not None and entry.whole]
+    bounds = context.once(bounds_of)
+    if not ends or (bounds.thinnest > 0.0 and max(-bounds.lowest, 0.0) / bounds.thinnest <= min(ends)):
         return
     heights = np.append(scene.coordinates[:, 0], np.nan)[scene.element_nodes]  # -1, an unknown node, is the last one
     with np.errstate(over="ignore"):

@@ -20,7 +20,6 @@ from mudline.syntax.rows import read_number
 from mudline.syntax.tree import Kind, Leaf
 
 if TYPE_CHECKING:
-    from mudline.deck.model import Deck
     from mudline.keywords.library.seabed_properties import SeabedProperties
     from mudline.keywords.library.variation import Variation
     from mudline.scene.force_curves import SceneCurve
@@ -81,7 +80,9 @@ def _chosen_elsewhere(context: LintContext) -> bool:
     """Whether something that is not read, or not fixed, may use curves."""
     scene = context.scene
     own = zip(
-        _stiffnesses(context.deck), _stiffnesses(scene.deck), strict=False
+        _stiffnesses(context.written("SEABED PROPERTIES")),
+        _stiffnesses(context.blocks("SEABED PROPERTIES")),
+        strict=False,
     )  # a continued deck adds more after them
     if any(written is not value for written, value in own):
         return True  # an equation, whose parameters may be varied
@@ -91,17 +92,15 @@ def _chosen_elsewhere(context: LintContext) -> bool:
         return True
     return any(
         folded(" ".join(varied.keyword or [])) == "seabed properties"  # None in a line that could not be read
-        for _, block in scene.deck.blocks("VARIATION", "PREPROCESSOR")
+        for _, block in context.blocks("VARIATION", "PREPROCESSOR")
         for variation in cast("Variation", block).variations
         for varied in variation.blocks
         if varied.action == "ADD"
     )
 
 
-def _stiffnesses(deck: Deck) -> Iterator[object]:
-    for _, block in deck.blocks("SEABED PROPERTIES"):
-        for entry in cast("SeabedProperties", block).sets:
-            yield entry.stiffness
+def _stiffnesses(blocks: Iterable[tuple[Where, SeabedProperties]]) -> Iterator[object]:
+    return (entry.stiffness for _, block in blocks for entry in block.sets)
 
 
 @rule(REF004)

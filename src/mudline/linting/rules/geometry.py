@@ -4,19 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from mudline.contact.input import LawKind
-from mudline.deck.model import Deck
 from mudline.diagnostics import Code, Problem, Severity, Where
-from mudline.keywords.catalogue import holds_in_soil
 from mudline.keywords.text import shown
 from mudline.linting.rule import LintContext, limited, rule
-from mudline.linting.rules.seabed_position import depths
+from mudline.linting.rules.seabed_position import bounds_of, depths
 from mudline.scene.deck_values import number
-from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Mask, blocks_of
 from mudline.scene.sections import Section, format_of
 from mudline.scene.sets import set_key
@@ -94,10 +91,10 @@ def not_on_the_seabed(context: LintContext) -> Iterator[Problem]:
     Finds: 5:2
     """
     scene = context.scene
-    if scene.context.external_definers or scene.context.restart or any(map(holds_in_soil, scene.deck.keywords())):
+    if scene.context.external_definers or scene.context.restart or context.in_soil or _is_low(context):
         return
-    if (line := _line(scene)) is not None and (message := _above(line) or _along_z(line)):
-        lowest = int(np.where(line.used, depths(scene), -np.inf).argmax())
+    if (line := _line(context)) is not None and (message := _above(line) or _along_z(line)):
+        lowest = int(np.where(line.used, context.once(depths), -np.inf).argmax())
         message = message.format(node=f"node {scene.node_ids[lowest]}")
         yield Problem(GEO005, message, where=scene.nodes.where(lowest))
 
@@ -118,8 +115,23 @@ class _Line(NamedTuple):
     depth: float
 
 
-def _line(scene: Scene) -> _Line | None:
+def _is_low(context: LintContext) -> bool:
+    """Whether no line can be reported, as every node lies near the seabed and Z does not span the depth."""
+    bounds, depth = context.once(bounds_of), _water_depth(context)
+    if not bounds.highest <= HIGHEST * bounds.thinnest:
+        return False
+    return not depth > 0.0 or (bounds.highest <= depth and bounds.last - bounds.first < (1.0 - 2.0 * NEAR) * depth)
+
+
+def _water_depth(context: LintContext) -> float:
+    """The depth that the last *OCEAN gives, NaN without any."""
+    oceans = context.blocks("OCEAN")
+    return number(oceans[-1][1], "depth") if oceans else math.nan
+
+
+def _line(context: LintContext) -> _Line | None:
     """The line, None where nothing is known of it."""
+    scene = context.scene
     used = np.zeros(len(scene.node_ids), dtype=np.bool_)
     for block in blocks_of(len(scene.element_ids)):
         ends = scene.element_nodes[block][scene.law[block] != LawKind.NONE]
@@ -128,11 +140,10 @@ def _line(scene: Scene) -> _Line | None:
         used[ends] = True
     if not used.any():
         return None
-    deepest, highest = _extent(depths(scene), used)[::-1]
+    deepest, highest = _extent(context.once(depths), used)[::-1]
     x, y, z = (_extent(axis, used) for axis in scene.coordinates.T)
-    oceans = [number(block, "depth") for _, block in scene.deck.blocks("OCEAN")]
     diameter = float(np.fmax.reduce(scene.diameter, initial=np.nan, where=scene.law != LawKind.NONE))
-    return _Line(used, x, y, z, (-deepest, -highest), diameter, oceans[-1] if oceans else np.nan)
+    return _Line(used, x, y, z, (-deepest, -highest), diameter, _water_depth(context))
 
 
 def _extent(values: Floats, used: Mask) -> tuple[float, float]:
@@ -170,10 +181,10 @@ def _along_z(line: _Line) -> str:
     return ""
 
 
-def section_entries(deck: Deck) -> Iterator[tuple[Where, GeometricSet]]:
-    """Every entry of *GEOMETRIC SETS with its place."""
-    for where, block in deck.blocks("GEOMETRIC SETS"):
-        for index, entry in enumerate(cast("GeometricSets", block).sets):
+def section_entries(blocks: Iterable[tuple[Where, GeometricSets]]) -> Iterator[tuple[Where, GeometricSet]]:
+    """Every entry of some blocks of *GEOMETRIC SETS with its place."""
+    for where, block in blocks:
+        for index, entry in enumerate(block.sets):
             yield where.inside("sets", index), entry
 
 
@@ -195,7 +206,7 @@ def number_and_curve(context: LintContext) -> Iterator[Problem]:
 
     Finds: 5:2
     """
-    for where, entry in section_entries(context.deck):
+    for where, entry in section_entries(context.written("GEOMETRIC SETS")):
         if entry.mooring is not None:
             continue  # its format has no field for a curve, and EA must be given
         for curve, (key, numbers) in _CURVES.items():

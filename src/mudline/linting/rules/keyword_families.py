@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterable, Iterator
 
 from mudline.diagnostics import Code, Problem, Repair, Severity, Where
 from mudline.keywords.catalogue import is_extension, is_superseded, supersedes
@@ -38,6 +38,8 @@ def superseded_keyword(context: LintContext) -> Iterator[Problem]:
 
     Finds: 7:1
     """
+    if not context.superseded:
+        return
     found = context.deck.blocks_that(lambda declared: declared.facts.superseded_by)
     for number, (where, block) in enumerate(found):
         newer = " and ".join(map(str, block.facts.superseded_by))
@@ -80,7 +82,8 @@ def mixed_families(context: LintContext) -> Iterator[Problem]:
 
     Finds: 4:1
     """
-    legacy, new = _first(context, is_superseded), _first(context, supersedes)
+    legacy = _first(context, context.superseded)
+    new = _first(context, filter(supersedes, context.keywords)) if legacy else None
     if not legacy or not new:
         return
     own = len(context.scene.deck.own_sections)
@@ -90,10 +93,8 @@ def mixed_families(context: LintContext) -> Iterator[Problem]:
     yield Problem(SBD016, message, where=where)
 
 
-def _first(context: LintContext, fact: Callable[[str], bool]) -> tuple[Where, str] | None:
-    deck = context.scene.deck
-    names = filter(fact, deck.keywords())
-    return min(((where, name) for name in names for where, _ in deck.blocks(name)), default=None)
+def _first(context: LintContext, names: Iterable[str]) -> tuple[Where, str] | None:
+    return min(((where, name) for name in names for where, _ in context.blocks(name)), default=None)
 
 
 @rule(SBD018)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, cast
 
 from mudline.deck.parameters import folded, list_items
@@ -15,7 +15,6 @@ from mudline.scene.sets import ALL
 from mudline.syntax.edits import TextEdit, with_line_ends
 
 if TYPE_CHECKING:
-    from mudline.deck.model import Deck
     from mudline.keywords.library.element_sets import ElementSet, ElementSets, SetList
     from mudline.keywords.library.parameters import Parameter
 
@@ -51,17 +50,17 @@ def long_name(context: LintContext) -> Iterator[Problem]:
 
     Finds: 8:6
     """
-    for where, entry in _sets(context.scene.deck):
+    for where, entry in _sets(context.blocks("ELEMENT SETS")):
         length = len(cast("str | None", entry.name) or "")
         if length > LONGEST_NAME:
             message = f"a set name of {length} characters: it must not be longer than {LONGEST_NAME}"
             yield Problem(REF011, message, where=where.inside("name"))
 
 
-def _sets(deck: Deck) -> Iterator[tuple[Where, ElementSet]]:
-    """Every entry of *ELEMENT SETS with its place."""
-    for where, block in deck.blocks("ELEMENT SETS"):
-        for index, entry in enumerate(cast("ElementSets", block).sets):
+def _sets(blocks: Iterable[tuple[Where, ElementSets]]) -> Iterator[tuple[Where, ElementSet]]:
+    """Every entry of some blocks of *ELEMENT SETS with its place."""
+    for where, block in blocks:
+        for index, entry in enumerate(block.sets):
             yield where.inside("sets", index), entry
 
 
@@ -90,7 +89,7 @@ def long_list(context: LintContext) -> Iterator[Problem]:
 
     Finds: 11:73
     """
-    for where, entry in _sets(context.deck):
+    for where, entry in _sets(context.written("ELEMENT SETS")):
         for number, member in enumerate(entry.members):
             count = len(cast("SetList", member).elements) if member.rule == "set_list" else 0
             if count > LONGEST_LIST:
@@ -150,7 +149,7 @@ def repeated_set(context: LintContext) -> Iterator[Problem]:
     Finds: 14:6
     """
     known: set[str] = set()
-    for where, entry in _sets(context.deck):
+    for where, entry in _sets(context.written("ELEMENT SETS")):
         name = cast("str | None", entry.name)
         if name is None or (key := folded(name)) == ALL:
             continue
@@ -182,7 +181,7 @@ def repeated_parameter(context: LintContext) -> Iterator[Problem]:
     Finds: 5:2
     """
     known: set[str] = set()
-    for where, block in context.deck.blocks("PARAMETERS", "PREPROCESSOR"):
+    for where, block in context.written("PARAMETERS", "PREPROCESSOR"):
         for index, parameter in enumerate(cast("list[Parameter]", block.parameters)):
             repeated: list[str] = []
             for name in _names(parameter):

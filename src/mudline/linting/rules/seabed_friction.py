@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any, NamedTuple, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import numpy as np
 
@@ -13,6 +13,9 @@ from mudline.linting.rule import LintContext, rule
 from mudline.scene.deck_values import surfaces
 from mudline.scene.laws import Extension, typed_blocks
 from mudline.scene.sets import ALL
+
+if TYPE_CHECKING:
+    from mudline.keywords.common import Surface
 
 SBD007 = Code("SBD007", "lateral-and-friction", Severity.WARNING)
 SBD013 = Code("SBD013", "legacy-friction-order", Severity.WARNING)
@@ -55,7 +58,7 @@ def lateral_and_friction(context: LintContext) -> Iterator[Problem]:
 
     Finds: 7:10
     """
-    for entry in given(context):
+    for entry in context.once(_resisting):
         friction = entry.value("transverse")
         both = entry.type_ != "RIGID" and positive(entry.value("lateral")) and positive(friction)
         if both and not friction_replaced(context, entry):
@@ -82,7 +85,7 @@ def legacy_friction_order(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:21
     """
-    for entry in given(context):
+    for entry in context.once(_resisting):
         length = entry.value("longitudinal_mobilisation")
         if not entry.legacy and length in _CHARACTERISTIC:
             message = (
@@ -111,7 +114,7 @@ def unused_friction_stiffness(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:27
     """
-    for entry in given(context):
+    for entry in context.once(_resisting):
         for direction in _DIRECTIONS:
             name = f"{direction}_stiffness"
             idle = positive(entry.value(name)) and absent(context, entry, direction)
@@ -124,8 +127,8 @@ def unused_friction_stiffness(context: LintContext) -> Iterator[Problem]:
 def _of_load_cases(context: LintContext) -> Iterator[Problem]:
     """Stiffnesses of *FRICTION in directions in which no place of the model has a coefficient."""
     scene = context.scene
-    blocks = [found for section in ("LOAD CASE", "MODES") for found in scene.deck.blocks("FRICTION", section)]
-    if not blocks or scene.context.restart or "SEABED FRICTION" in scene.deck.keywords():
+    blocks = [found for section in ("LOAD CASE", "MODES") for found in context.blocks("FRICTION", section)]
+    if not blocks or scene.context.restart or "SEABED FRICTION" in context.keywords:
         return
     entries = list(given(context))
     for direction in _DIRECTIONS if entries else ():
@@ -159,7 +162,7 @@ def extent_without_stiffness(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:15
     """
-    for entry in given(context):
+    for entry in context.once(_resisting):
         if positive(entry.value("suction_extent")) and absent(context, entry, "suction_stiffness"):
             message = "a suction zone without suction stiffness has no effect: give the stiffness, or remove the extent"
             yield Problem(SBD015, message, where=entry.place("suction_extent"))
@@ -184,7 +187,7 @@ def unused_characteristic_length(context: LintContext) -> Iterator[Problem]:
 
     Finds: 3:27
     """
-    for entry in given(context):
+    for entry in context.once(_resisting):
         for direction in _DIRECTIONS if entry.legacy else ():
             name = f"{direction}_length"
             both = positive(entry.value(name)) and positive(entry.value(f"{direction}_mobilisation"))
@@ -213,7 +216,7 @@ def one_friction_coefficient(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:11
     """
-    for entry in given(context):
+    for entry in context.once(_resisting):
         longitudinal = entry.value("longitudinal")
         single = positive(longitudinal) and entry.value("transverse") is None and absent(context, entry, "transverse")
         sprung = entry.type_ != "RIGID" and positive(entry.value("lateral"))
@@ -312,12 +315,29 @@ def _found(context: LintContext) -> list[Given]:
             surface.facts.seabed_type,
             legacy=True,
         )
-        for where, surface in surfaces(context.scene.deck)
+        for where, surface in context.once(surfaces_of)
     ]
     for where, properties, type_ in typed_blocks(context.scene.context):
         for index, entry in enumerate(properties.sets):
             found.append(Given(entry, where.inside("sets", index), type_, legacy=False))
     return found
+
+
+def _resisting(context: LintContext) -> list[Given]:
+    """Those that may give more than a stiffness: the others have nothing that rules of this module look at."""
+    return [
+        entry
+        for entry in given(context)
+        if entry.legacy
+        or entry.part.friction is not None
+        or entry.part.lateral is not None
+        or entry.part.suction is not None
+    ]
+
+
+def surfaces_of(context: LintContext) -> list[tuple[Where, Surface]]:
+    """The legacy surfaces of the deck of the scene; several rules ask `context.once` for them."""
+    return surfaces(context.scene.deck) if context.superseded else []  # newer keywords supersede all of them
 
 
 def positive(value: float | None) -> bool:

@@ -14,8 +14,8 @@ from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity
 from mudline.keywords.model import Record
 from mudline.keywords.text import shown
 from mudline.linting.rule import LintContext, rule
+from mudline.linting.rules.seabed_friction import surfaces_of
 from mudline.linting.rules.seabed_position import first_of
-from mudline.scene.deck_values import surfaces
 from mudline.scene.laws import SetLaw
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Indices, one_index
@@ -68,9 +68,9 @@ def overlapping_sets(context: LintContext) -> Iterator[Problem]:
 
 def _own_grants(context: LintContext, family: str) -> list[SetLaw]:
     """What the deck itself gives, without the deck that it continues."""
-    own = len(context.scene.deck.own_sections)
-    grants = context.scene.laws.set_laws
-    return [grant for grant in grants if grant.family == family and grant.where.section < own]
+    grants = [grant for grant in context.scene.laws.set_laws if grant.family == family]
+    own = len(context.scene.deck.own_sections) if grants else 0
+    return [grant for grant in grants if grant.where.section < own]
 
 
 @rule(SBD025)
@@ -117,17 +117,18 @@ def law_without_effect(context: LintContext) -> Iterator[Problem]:
 def _unused_properties(context: LintContext) -> Iterator[Problem]:
     """Sets of *SEABED PROPERTIES without an element that follows them, unless SBD008 or REF010 gives the reason."""
     scene = context.scene
+    idle = np.ones(len(scene.laws.set_laws) + 1, dtype=np.bool_)
     only = one_index(scene.laws.covered)
-    followed = {only} if only is not None else set(np.unique(scene.laws.covered).tolist())
-    idle = {id(grant) for index, grant in enumerate(scene.laws.set_laws) if index not in followed}
+    idle[scene.laws.covered if only is None else only] = False  # the last one is that of no set_law, -1
     new = _own_grants(context, "new")
-    if not any(id(grant) in idle for grant in new):
+    idle_grants = {id(grant) for grant, alone in zip(scene.laws.set_laws, idle.tolist(), strict=False) if alone}
+    if not any(id(grant) in idle_grants for grant in new):
         return
     reported = {earlier for earlier, _ in _properties(scene, new)} if len(new) > 1 else set()
     empty = {problem.where for problem in context.problems_of(REF010)}
     for index, grant in enumerate(new):
         set_ = grant.set_
-        if id(grant) not in idle or grant.unknown or set_.open or index in reported:
+        if id(grant) not in idle_grants or grant.unknown or set_.open or index in reported:
             continue
         place = grant.where._replace(path=(*grant.where.path[:2], "set"))
         if set_.elements.size:
@@ -146,7 +147,7 @@ def _unused_properties(context: LintContext) -> Iterator[Problem]:
 
 def _unused_surfaces(context: LintContext) -> Iterator[Problem]:
     """Legacy surfaces that a later one replaces, unless SBD002 reports two types."""
-    found = surfaces(context.scene.deck) if len(context.scene.laws.types) == 1 else []
+    found = context.once(surfaces_of) if len(context.scene.laws.types) == 1 else []
     for where, surface in found[:-1]:
         message = (
             f"these values apply to no element, as a later *{surface.keyword} overrides them: remove one of the two"
@@ -168,11 +169,16 @@ def _overlaps(sets: Sequence[NamedSet], count: int) -> Iterator[_Overlap]:
     names: dict[str, int] = {}
     for index, later in enumerate(sets):
         before = holder[later.elements]
-        order = np.argsort(before, kind="stable")
-        parts, starts = np.unique(before[order], return_index=True)
-        for earlier, elements in zip(parts.tolist(), np.split(later.elements[order], starts[1:]), strict=False):
-            if earlier >= 0:
-                yield _Overlap(earlier, index, elements)
+        first = int(before[0]) if index and before.size else -1
+        if (before == first).all():  # as mostly: of one set, or of none
+            if first >= 0:
+                yield _Overlap(first, index, later.elements)
+        else:
+            order = np.argsort(before, kind="stable")
+            parts, starts = np.unique(before[order], return_index=True)
+            for earlier, elements in zip(parts.tolist(), np.split(later.elements[order], starts[1:]), strict=False):
+                if earlier >= 0:
+                    yield _Overlap(earlier, index, elements)
         name = folded(later.name)
         if not later.elements.size and name in names:
             yield _Overlap(names[name], index, later.elements)

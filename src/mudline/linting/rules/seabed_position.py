@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
 from mudline.contact.input import LawKind
 from mudline.diagnostics import Code, Problem, Severity, Where
-from mudline.keywords.catalogue import holds_in_soil, is_superseded
+from mudline.keywords.catalogue import is_superseded
 from mudline.linting.rule import LintContext, limited, rule
 from mudline.scene.checks.laws import SBD004
 from mudline.scene.model import Scene
@@ -30,13 +30,14 @@ _DEEPEST = 5.0
 _IN_PLANE = (1, 2)
 
 
-def depths(scene: Scene) -> Floats:
+def depths(context: LintContext) -> Floats:
     """Depths (n,) of the deck's coordinates normal to the seabed, negative above it; NaN where they are not known.
 
     Of a polyline and of a surface it is a lower bound: no point of the seabed is nearer. A surface is triangulated
     between its points, so it lies nowhere below the lowest of them. A cubic profile may lie anywhere between its
-    points.
+    points. Several rules need them, and ask `context.once`.
     """
+    scene = context.scene
     floor = scene.seabed
     x, y, z = scene.coordinates.T
     if not _is_bed(scene):
@@ -46,9 +47,14 @@ def depths(scene: Scene) -> Floats:
             return _below_planes(floor, x, y, z)
         if floor.kind in (SeabedKind.FLAT, SeabedKind.SLOPING):
             slope = np.radians(floor.slope)
+            level = floor.slope == 0.0 and floor.direction == 0.0
             found = np.empty(len(x))
             for block in blocks_of(len(x)):
-                found[block] = _along(floor.direction, y[block], z[block]) * np.sin(slope) - x[block] * np.cos(slope)
+                if level:
+                    found[block] = 0.0 * y[block] + 0.0 * z[block] - x[block]
+                else:
+                    along = _along(floor.direction, y[block], z[block])
+                    found[block] = along * np.sin(slope) - x[block] * np.cos(slope)
             return found
         if floor.missing or floor.points.size == 0 or floor.interpolation != "LINEAR":
             return np.full(len(x), np.nan)
@@ -63,6 +69,37 @@ def _is_bed(scene: Scene) -> bool:
     if floor.kind is SeabedKind.PLANES and "SEABED PROFILE" in scene.deck.keywords():
         return False
     return all(abs(slope) < _VERTICAL for slope in (floor.slope, *(plane.slope for plane in floor.planes)))
+
+
+class Bounds(NamedTuple):
+    """The highest and the deepest node, normal to the seabed, the lowest X, the first and the last Z: NaN with a NaN.
+
+    Of the known diameters the smallest and the largest, inf and 0 without any. With no nodes all is infinite.
+    """
+
+    highest: float
+    deepest: float
+    lowest: float
+    first: float
+    last: float
+    thinnest: float
+    thickest: float
+
+
+def bounds_of(context: LintContext) -> Bounds:
+    """What is computed once for the rules that most decks pass by such bounds alone; they ask `context.once`."""
+    scene, depth = context.scene, context.once(depths)
+    x, _, z = scene.coordinates.T
+    least, most = np.minimum.reduce, np.maximum.reduce
+    return Bounds(
+        -float(least(depth, initial=np.inf)),
+        float(most(depth, initial=-np.inf)),
+        float(least(x, initial=np.inf)),
+        float(least(z, initial=np.inf)),
+        float(most(z, initial=-np.inf)),
+        float(np.fmin.reduce(scene.diameter, initial=np.inf)),
+        float(np.fmax.reduce(scene.diameter, initial=0.0)),
+    )
 
 
 def steepness(scene: Scene) -> Floats:
@@ -155,13 +192,14 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
     reading = scene.context
     if reading.restart or any(map(is_superseded, reading.misplaced_keywords)) or reading.misplaced("SEABED PROPERTIES"):
         return
-    if any(map(is_superseded, reading.unread)) or "SEABED CONTACT" in scene.deck.keywords():
+    if any(map(is_superseded, reading.unread)) or "SEABED CONTACT" in context.keywords:
         return  # a law that was not read may hold
-    if any(context.problems_of(SBD004)):
+    if context.problems_of(SBD004):
         return  # that there is no stiffness is reported there
     free = scene.law == LawKind.NONE
-    yield from _blocks(scene, np.flatnonzero(free & (scene.laws.covered >= 0)))
-    yield from _lying(scene, np.flatnonzero(free & (scene.laws.covered < 0)))
+    if free.any():
+        yield from _blocks(scene, np.flatnonzero(free & (scene.laws.covered >= 0)))
+        yield from _lying(context, np.flatnonzero(free & (scene.laws.covered < 0)))
 
 
 def _blocks(scene: Scene, elements: Indices) -> Iterator[Problem]:
@@ -184,12 +222,13 @@ def _blocks(scene: Scene, elements: Indices) -> Iterator[Problem]:
         yield Problem(SBD006, message, where=where)
 
 
-def _lying(scene: Scene, elements: Indices) -> Iterator[Problem]:
+def _lying(context: LintContext, elements: Indices) -> Iterator[Problem]:
     """Elements at or below a flat seabed without any law; without any seabed in the deck only those below count."""
     if not elements.size:
         return
+    scene = context.scene
     uncertain = scene.laws.uncertain or "SEABED PROPERTIES" in scene.context.unread
-    if uncertain or scene.seabed.kind is not SeabedKind.FLAT or any(map(holds_in_soil, scene.deck.keywords())):
+    if uncertain or scene.seabed.kind is not SeabedKind.FLAT or context.in_soil:
         return
     seabed = bool(scene.laws.types or scene.laws.set_laws)
     lies = np.greater_equal if seabed else np.greater
@@ -247,11 +286,10 @@ def deep_node(context: LintContext) -> Iterator[Problem]:
     Finds: 3:2
     """
     scene = context.scene
-    if not (scene.laws.types or scene.laws.set_laws) or any(map(holds_in_soil, scene.deck.keywords())):
+    if not (scene.laws.types or scene.laws.set_laws) or context.in_soil:
         return
-    depth = depths(scene)
-    thinnest = float(np.fmin.reduce(scene.diameter, initial=np.inf))  # of Python: a product may overflow
-    if thinnest > 0.0 and np.fmax.reduce(depth, initial=-np.inf) <= _DEEPEST * thinnest:
+    depth, bounds = context.once(depths), context.once(bounds_of)
+    if bounds.thinnest > 0.0 and bounds.deepest <= _DEEPEST * bounds.thinnest:
         return
     with np.errstate(over="ignore", invalid="ignore"):
         limit = _DEEPEST * _widest(scene)
@@ -303,7 +341,7 @@ def one_constrained_dof(context: LintContext) -> Iterator[Problem]:
     given = np.zeros((2, len(scene.node_ids)), dtype=np.bool_)
     for _, dof, nodes in held:
         given[dof - 1, nodes] = True
-    alone = (given[0] != given[1]) & _on_slope(scene)
+    alone = (given[0] != given[1]) & _on_slope(context)
     for where, dof, nodes in held:
         found = nodes[alone[nodes]]
         if found.size:
@@ -325,10 +363,11 @@ def _widest(scene: Scene) -> Floats:
     return widest
 
 
-def _on_slope(scene: Scene) -> Mask:
+def _on_slope(context: LintContext) -> Mask:
     """Nodes within a diameter of a seabed that is not level."""
+    scene = context.scene
     near = 1e-6 * np.abs(scene.coordinates).max(axis=1, initial=0.0)  # coordinates are rounded when they are written
-    sloping: Mask = (steepness(scene) > 0.0) & (depths(scene) >= -np.maximum(_widest(scene), near))
+    sloping: Mask = (steepness(scene) > 0.0) & (context.once(depths) >= -np.maximum(_widest(scene), near))
     return sloping
 
 

@@ -22,6 +22,7 @@ from mudline.contact.stiffest import (
 from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity
 from mudline.keywords.text import shown
 from mudline.linting.rule import LintContext, rule
+from mudline.linting.rules.seabed_position import bounds_of
 from mudline.scene.assignments import given_stiffness, nodal_stiffness, suction_law
 from mudline.scene.deck_values import number
 from mudline.scene.force_curves import SceneCurve
@@ -153,7 +154,7 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
     Finds: 20:14
     """
     scene = context.scene
-    blocks = list(scene.deck.blocks("TIME", "LOAD CASE"))
+    blocks = context.blocks("TIME", "LOAD CASE")
     if not blocks or not len(scene.element_ids):
         return
     frequencies = omega(_stiffness(scene), scene.mass_per_length)
@@ -231,7 +232,7 @@ def stiff_jump(context: LintContext) -> Iterator[Problem]:
     for _, entry in context.odd_curves:
         if entry.curve is not None and entry.whole:
             yield from _inside(entry, entry.curve.ratios, entry.curve.slopes)
-    yield from _beside(context.scene)
+    yield from _beside(context)
 
 
 def _inside(entry: SceneCurve, ratios: Floats, slopes: Floats) -> Iterator[Problem]:
@@ -248,12 +249,15 @@ def _inside(entry: SceneCurve, ratios: Floats, slopes: Floats) -> Iterator[Probl
         yield Problem(STB003, message, where=entry.point(point))
 
 
-def _beside(scene: Scene) -> Iterator[Problem]:
+def _beside(context: LintContext) -> Iterator[Problem]:
     """Jumps between an element on a curve and its neighbour on a linear seabed, one for each pair of laws."""
+    scene = context.scene
     grants = scene.laws.set_laws
     reported: set[tuple[int, int]] = set()
+    if not scene.laws.curves:
+        return
     slopes = [*map(_extremes, scene.laws.curves), (math.nan, math.nan)]
-    if _near(scene, slopes):
+    if _near(context, slopes):
         return
     linear, curved = _neighbours(scene)
     extremes = np.array(slopes)
@@ -276,14 +280,15 @@ def _beside(scene: Scene) -> Iterator[Problem]:
         yield Problem(STB003, message, where=grants[pair[0]].where)
 
 
-def _near(scene: Scene, extremes: Sequence[tuple[float, float]]) -> bool:
+def _near(context: LintContext, extremes: Sequence[tuple[float, float]]) -> bool:
     """Whether no linear stiffness is far from the slopes of any curve, for any diameter."""
-    linear = [grant.stiffness for grant in scene.laws.set_laws if grant.stiffness > 0.0]
+    linear = [grant.stiffness for grant in context.scene.laws.set_laws if grant.stiffness > 0.0]
     slopes = [(softest, steepest) for softest, steepest in extremes if softest > 0.0]
-    thickest = float(np.fmax.reduce(scene.diameter, initial=0.0))
-    if not linear or not slopes or thickest == 0.0:
+    if not linear or not slopes:
         return True
-    thinnest = float(np.fmin.reduce(scene.diameter, initial=math.inf))
+    thinnest, thickest = context.once(bounds_of)[-2:]
+    if thickest == 0.0:
+        return True
     too_stiff = max(linear) / FARTHEST > min(steepest for _, steepest in slopes) / thickest
     too_soft = max(softest for softest, _ in slopes) / thinnest / FARTHEST > min(linear)
     return not too_stiff and not too_soft
@@ -291,7 +296,9 @@ def _near(scene: Scene, extremes: Sequence[tuple[float, float]]) -> bool:
 
 def _extremes(entry: SceneCurve) -> tuple[float, float]:
     """The smallest and the largest slope of a curve, flat segments left out; NaN without any."""
-    slopes = np.abs(entry.curve.slopes) if entry.curve is not None and entry.whole else np.zeros(0)
+    if entry.curve is None or not entry.whole:
+        return (math.nan, math.nan)
+    slopes = np.abs(entry.curve.slopes)
     slopes = slopes[slopes > 0.0]
     return (float(slopes.min()), float(slopes.max())) if slopes.size else (math.nan, math.nan)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import wraps
 from typing import NamedTuple
 
@@ -33,27 +33,38 @@ _INDENTED_HEAD = re.compile(r"[ \t]++[*$]")
 _HEAD_BELOW = re.compile(rf"\n{_INDENTED_HEAD.pattern}")
 _SMALL_HEAD = re.compile(r"[ \t]*+[*$][^\na-z]*+[a-z]")
 _SMALL_BELOW = re.compile(rf"\n{_SMALL_HEAD.pattern}")
+_ODD = re.compile(r"[Cc][A-Za-z]|[ \t]++(?:[Cc](?:[ \t]|[-*=#_.~+]{2})|[*$])|[*$][^\na-z]*+[a-z]")
+_ODD_BELOW = re.compile(rf"\n(?:{_ODD.pattern})")
 _UPPER = {code: code - 32 for code in range(ord("a"), ord("z") + 1)}
 
 
 def rule_of_text(
-    code: Code, gate: Callable[[str], object], *, off: bool = False
+    code: Code, gate: Callable[[str], object], *, off: bool = False, odd: bool = False
 ) -> Callable[[Callable[[TextOrigin, str], Iterator[Problem]]], object]:
     """Make a function of a text and its unified source a rule: decks in JSON and YAML have nothing of its kind.
 
-    `gate` looks at the whole source, quickly: without a match the function is not called.
+    `gate` looks at the whole source, quickly: without a match the function is not called. `odd` says that what it
+    looks for is on an odd line: it is not asked where there is none.
     """
 
     def register(find: Callable[[TextOrigin, str], Iterator[Problem]]) -> object:
         @rule(code, off=off)
         @wraps(find)
-        def check(context: LintContext) -> Iterator[Problem]:
-            if context.text and gate(source := context.text.source.unified):
-                yield from first_reported(find(context.text, source))
+        def check(context: LintContext) -> Iterable[Problem]:
+            text = context.text
+            if text is None or (odd and not context.once(_has_odd_line)) or not gate(text.source.unified):
+                return ()
+            return first_reported(find(text, text.source.unified))
 
         return check
 
     return register
+
+
+def _has_odd_line(context: LintContext) -> bool:
+    """Whether a line may be of interest to one of the rules of odd lines: one search for all of them."""
+    source = context.text.source.unified if context.text else ""
+    return bool(_ODD_BELOW.search(source) or _ODD.match(source))
 
 
 class Placed(NamedTuple):
@@ -129,7 +140,7 @@ def lower_case_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
             yield Problem(STY002, "the comment begins with a lower-case c: write a capital C", mark, repair=repair)
 
 
-@rule_of_text(STY008, _KEY_LIKE.search)
+@rule_of_text(STY008, _KEY_LIKE.search, odd=True)
 def key_like_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
     """A setting such as CURVE= begins in column 1, where a C makes a comment.
 
@@ -159,7 +170,7 @@ def key_like_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
             yield Problem(STY008, message, Span(start, source.index("=", start) + 1), repair=repair)
 
 
-@rule_of_text(STY009, lambda source: _COMMENT_BELOW.search(source) or _INDENTED_COMMENT.match(source))
+@rule_of_text(STY009, lambda source: _COMMENT_BELOW.search(source) or _INDENTED_COMMENT.match(source), odd=True)
 def indented_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
     """A line that looks like a comment is indented, and so it is data.
 
@@ -184,7 +195,7 @@ def indented_comment(text: TextOrigin, source: str) -> Iterator[Problem]:
             yield Problem(STY009, message, trimmed(source, *leaf.span))
 
 
-@rule_of_text(STY005, lambda source: _HEAD_BELOW.search(source) or _INDENTED_HEAD.match(source))
+@rule_of_text(STY005, lambda source: _HEAD_BELOW.search(source) or _INDENTED_HEAD.match(source), odd=True)
 def indented_keyword(text: TextOrigin, source: str) -> Iterator[Problem]:
     """A keyword or a section does not begin in column 1.
 
@@ -209,7 +220,7 @@ def indented_keyword(text: TextOrigin, source: str) -> Iterator[Problem]:
             yield Problem(STY005, message, head, repair=repair)
 
 
-@rule_of_text(STY006, lambda source: _SMALL_BELOW.search(source) or _SMALL_HEAD.match(source))
+@rule_of_text(STY006, lambda source: _SMALL_BELOW.search(source) or _SMALL_HEAD.match(source), odd=True)
 def keyword_case(text: TextOrigin, source: str) -> Iterator[Problem]:
     """The name of a keyword or a section is not in upper case.
 
@@ -270,6 +281,6 @@ def unused_suppression(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:19
     """
-    found = suppressions(context.deck)
+    found = context.once(suppressions)
     if found is not None:
         yield from found.unknown()

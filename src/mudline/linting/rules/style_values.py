@@ -176,7 +176,7 @@ def _own_lines(text: TextOrigin) -> Iterator[Span]:
             yield leaf.span
 
 
-@rule_of_text(STY003, lambda source: any(gate.search(source) for gate in _GATES))
+@rule_of_text(STY003, lambda source: _GATES[0].search(source) or _GATES[1].search(source))
 def fortran_exponent(text: TextOrigin, source: str) -> Iterator[Problem]:
     """A number has the exponent D of Fortran's double precision.
 

@@ -130,20 +130,24 @@ def is_placeholder(value: float) -> bool:
     return abs(exponent - round(exponent)) < 1e-9
 
 
-def water_density(scene: Scene) -> float:
+def water_density(context: LintContext) -> float:
     """Density of the last `*OCEAN` that gives one, in the deck's units; NaN where none does."""
-    given = [number(block, "density") for _, block in scene.deck.blocks("OCEAN")]
+    given = [number(block, "density") for _, block in context.blocks("OCEAN")]
     return next((density for density in reversed(given) if density > 0.0), math.nan)
 
 
-def readable_sections(context: LintContext) -> Iterator[tuple[Where, GeometricSet]]:
-    """The entries of *GEOMETRIC SETS with their places, but for those in whose lines SYN015 found decimal commas."""
+def readable_sections(context: LintContext) -> list[tuple[Where, GeometricSet]]:
+    """The entries of *GEOMETRIC SETS with their places, but for those in whose lines SYN015 found decimal commas.
+
+    Several rules need them, and ask `context.once`.
+    """
     text = context.text
+    found = list(section_entries(context.blocks("GEOMETRIC SETS")))
     commas = {text.place(problem).line for problem in context.problems_of(SYN015)} if text else set()
-    for where, entry in section_entries(context.scene.deck):
-        line = where.inside(format_of(entry))
-        if not commas or not text or text.place(Problem(SYN015, "", where=line)).line not in commas:
-            yield where, entry
+    if not commas or not text:
+        return found
+    lines = (text.place(Problem(SYN015, "", where=where.inside(format_of(entry)))).line for where, entry in found)
+    return [placed for placed, line in zip(found, lines, strict=True) if line not in commas]
 
 
 @rule(UNT004)
@@ -171,13 +175,13 @@ def suspicious_density(context: LintContext) -> Iterator[Problem]:
     if unit is None:
         yield from islice(_ratios(context), MOST_REPORTED)
     else:
-        yield from islice(_water(context.scene, unit), MOST_REPORTED)
+        yield from islice(_water(context, unit), MOST_REPORTED)
         yield from islice(_walls(context, unit), MOST_REPORTED)
 
 
-def _water(scene: Scene, unit: str) -> Iterator[Problem]:
+def _water(context: LintContext, unit: str) -> Iterator[Problem]:
     factor = DENSITIES[unit]
-    for where, block in scene.deck.blocks("OCEAN"):
+    for where, block in context.blocks("OCEAN"):
         density, depth = number(block, "density"), number(block, "depth")
         if not density > 0.0 or WATER.holds(density * factor) or AIR.holds(density * factor):
             continue
@@ -197,9 +201,9 @@ def _water(scene: Scene, unit: str) -> Iterator[Problem]:
 
 def _walls(context: LintContext, unit: str) -> Iterator[Problem]:
     factor = DENSITIES[unit]
-    for where, entry in readable_sections(context):
+    for where, entry in context.once(readable_sections):
         density = number(entry.rigid, "density")
-        if is_placeholder(density):
+        if LIGHTEST_STEEL <= density * factor <= WALL.high or is_placeholder(density):
             continue
         likely = likely_units(density, DENSITIES, unit, STEEL_DENSITY)
         if density * factor < WALL.low:
@@ -223,8 +227,8 @@ def _is_light_steel(section: Part | None, density: float, scene: Scene) -> bool:
 
 
 def _ratios(context: LintContext) -> Iterator[Problem]:
-    water = water_density(context.scene)
-    for where, entry in readable_sections(context):
+    water = water_density(context)
+    for where, entry in context.once(readable_sections):
         ratio = number(entry.rigid, "density") / water
         for scale, which in ((1e3, "smaller"), (1e-3, "larger")):
             if STEEL_TO_WATER.holds(ratio * scale):
@@ -235,15 +239,15 @@ def _ratios(context: LintContext) -> Iterator[Problem]:
                 yield Problem(UNT004, message, where=where.inside("rigid", "density"))
 
 
-def is_metal(section: Part | None, scene: Scene, lightest: float) -> bool:
+def is_metal(section: Part | None, context: LintContext, lightest: float) -> bool:
     """Whether the wall of a section is denser than `lightest` (kg/m3), judged against water of 1025 in user units.
 
     A density that is one of steel in another unit counts as such; without a density nothing is known.
     """
     density = number(section, "density")
-    unit = DENSITY_UNIT.get(scene.units)
+    unit = DENSITY_UNIT.get(context.scene.units)
     if unit is None:
-        return density / water_density(scene) * 1025.0 >= lightest
+        return density / water_density(context) * 1025.0 >= lightest
     in_si = density * DENSITIES[unit]
     return lightest <= in_si <= WALL.high or bool(likely_units(density, DENSITIES, unit, STEEL_DENSITY))
 
@@ -270,17 +274,17 @@ def suspicious_modulus(context: LintContext) -> Iterator[Problem]:
 
     Finds: 5:2
     """
-    for where, entry in readable_sections(context):
+    for where, entry in context.once(readable_sections):
         if entry.rigid is not None:
             place = where.inside("rigid")
-            yield from islice(_of_section(context.scene, entry.rigid, place), 1)
+            yield from islice(_of_section(context, entry.rigid, place), 1)
 
 
-def _of_section(scene: Scene, section: Part, where: Where) -> Iterator[Problem]:
+def _of_section(context: LintContext, section: Part, where: Where) -> Iterator[Problem]:
     """What is wrong with the moduli of a section, the first cause first."""
     young, shear = number(section, "e"), number(section, "g")
-    if unit := MODULUS_UNIT.get(scene.units):
-        steel = is_metal(section, scene, LIGHTEST_STEEL)
+    if unit := MODULUS_UNIT.get(context.scene.units):
+        steel = is_metal(section, context, LIGHTEST_STEEL)
         for key, name, value, expected in (
             ("E", "Young's modulus", young, STEEL_E),
             ("G", "the shear modulus", shear, STEEL_G),
@@ -293,7 +297,7 @@ def _of_section(scene: Scene, section: Part, where: Where) -> Iterator[Problem]:
                 message = f"{name} {key} is {value!r} {unit}, expected {range_}: {what}"
                 yield Problem(UNT005, message, where=where.inside(key))
     if not is_placeholder(young) and not is_placeholder(shear):
-        yield from _poisson(scene, section, young, shear, where)
+        yield from _poisson(context, section, young, shear, where)
 
 
 def _other_unit(value: float, unit: str, steel_range: Range, *, steel: bool) -> str | None:
@@ -301,16 +305,16 @@ def _other_unit(value: float, unit: str, steel_range: Range, *, steel: bool) -> 
     if is_placeholder(value):
         return None
     in_si = value * MODULI[unit]
-    likely = likely_units(value, MODULI, unit, steel_range)
-    if in_si < SOFTEST:
-        usual = {name: MODULI[name] for name in ("GPa", "MPa")}
-        return likely or likely_units(value, usual, unit, SOLID_E)
-    return likely if likely and steel and not steel_range.holds(in_si) else None
+    if in_si >= SOFTEST:
+        suspect = steel and not steel_range.holds(in_si)
+        return (likely_units(value, MODULI, unit, steel_range) or None) if suspect else None
+    usual = {name: MODULI[name] for name in ("GPa", "MPa")}
+    return likely_units(value, MODULI, unit, steel_range) or likely_units(value, usual, unit, SOLID_E)
 
 
-def _poisson(scene: Scene, section: Part, young: float, shear: float, where: Where) -> Iterator[Problem]:
+def _poisson(context: LintContext, section: Part, young: float, shear: float, where: Where) -> Iterator[Problem]:
     ratio = 0.5 * young / shear - 1.0
-    if POISSON.holds(ratio) or not math.isfinite(ratio) or (ratio > 0.0 and not _is_isotropic(scene, section, young)):
+    if POISSON.holds(ratio) or not math.isfinite(ratio) or (ratio > 0.0 and not _is_isotropic(context, section, young)):
         return
     seen = f"E {young!r} and G {shear!r} give Poisson's ratio {ratio:.3g}, expected 0 to 0.5"
     if EXCHANGED.holds(shear / young):
@@ -321,9 +325,9 @@ def _poisson(scene: Scene, section: Part, young: float, shear: float, where: Whe
         yield Problem(UNT005, message, where=where.inside("G"))
 
 
-def _is_isotropic(scene: Scene, section: Part, young: float) -> bool:
+def _is_isotropic(context: LintContext, section: Part, young: float) -> bool:
     """Whether a wall is of metal; in user units one whose density against water is not known counts as such."""
-    unit = MODULUS_UNIT.get(scene.units)
+    unit = MODULUS_UNIT.get(context.scene.units)
     if unit is None:
-        return math.isnan(water_density(scene)) or is_metal(section, scene, LIGHTEST_METAL)
-    return young * MODULI[unit] >= STIFF and is_metal(section, scene, LIGHTEST_METAL)
+        return math.isnan(water_density(context)) or is_metal(section, context, LIGHTEST_METAL)
+    return young * MODULI[unit] >= STIFF and is_metal(section, context, LIGHTEST_METAL)

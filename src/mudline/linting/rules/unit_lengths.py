@@ -12,7 +12,7 @@ from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity
 from mudline.keywords.model import Part
 from mudline.linting.rule import LARGEST_RATIO, LintContext, rule
 from mudline.linting.rules.seabed_friction import given
-from mudline.linting.rules.seabed_position import depths
+from mudline.linting.rules.seabed_position import bounds_of, depths
 from mudline.linting.rules.unit_densities import (
     DENSITIES,
     DENSITY_UNIT,
@@ -67,35 +67,35 @@ TALLEST = 500.0
 
 def _diameters(context: LintContext) -> Iterator[Problem]:
     """Diameters that do not fit their sections."""
-    scene = context.scene
-    for where, entry in readable_sections(context):
+    for where, entry in context.once(readable_sections):
         source, _ = entry.diameter
         section = entry.section
         width = number(section, source.lower())
         if section is None or not 0.0 < width < math.inf:
             continue
         place = where.inside(format_of(entry))
-        message = _width(scene, section, width, source)
+        message = _width(context, section, width, source)
         if entry.rigid is None:
-            message = message or _mass(scene, section, width, source)
-        elif not message and (message := _bore(scene, section, width)):
+            message = message or _mass(context, section, width, source)
+        elif not message and (message := _bore(context, section, width)):
             source = "Di"
         if message:
             yield Problem(UNT006, message, where=place.inside(source))
 
 
-def _width(scene: Scene, section: Part, width: float, source: str) -> str:
+def _width(context: LintContext, section: Part, width: float, source: str) -> str:
     """What is wrong with a diameter in metres or feet."""
-    unit = LENGTH_UNIT.get(scene.units)
+    unit = LENGTH_UNIT.get(context.scene.units)
     if unit is None:
         return ""
-    metres = METRES[scene.units]
+    metres = METRES[context.scene.units]
     seen = f"an external diameter {source} of {width!r} {unit}"
     if width * metres > WIDEST:
         return f"{seen}, expected below {WIDEST / metres:.3g} {unit}: write it in {unit} (mm?)"
     wall = 0.5 * (width - number(section, "di"))
-    is_pipe = PIPE_WALL[0] * wall <= width <= PIPE_WALL[1] * wall and is_metal(section, scene, LIGHTEST_STEEL)
-    if is_pipe and width * metres > WIDEST_LINE and wall * metres > THICKEST:
+    if not (width * metres > WIDEST_LINE and wall * metres > THICKEST):
+        return ""
+    if PIPE_WALL[0] * wall <= width <= PIPE_WALL[1] * wall and is_metal(section, context, LIGHTEST_STEEL):
         likely = "mm" if wall > 2.5 else "inches"
         return (
             f"{seen} with a wall of {wall:.3g} {unit}, expected a wall below {THICKEST / metres:.2g} {unit}: write "
@@ -104,12 +104,12 @@ def _width(scene: Scene, section: Part, width: float, source: str) -> str:
     return ""
 
 
-def _bore(scene: Scene, section: Part, width: float) -> str:
+def _bore(context: LintContext, section: Part, width: float) -> str:
     """What is wrong with an internal diameter."""
     bore = number(section, "di")
-    if not 0.0 < bore < NARROWEST_BORE * width or not is_metal(section, scene, LIGHTEST_STEEL):
+    if not 0.0 < bore < NARROWEST_BORE * width or not is_metal(section, context, LIGHTEST_STEEL):
         return ""
-    if width * METRES.get(scene.units, 0.0) > WIDEST_PIPE:
+    if width * METRES.get(context.scene.units, 0.0) > WIDEST_PIPE:
         return ""
     return (
         f"an internal diameter of {bore!r} leaves a wall of nine tenths of the radius {width / 2:.4g} or more: "
@@ -117,13 +117,13 @@ def _bore(scene: Scene, section: Part, width: float) -> str:
     )
 
 
-def _mass(scene: Scene, section: Part, width: float, source: str) -> str:
+def _mass(context: LintContext, section: Part, width: float, source: str) -> str:
     """What is wrong with a diameter beside the mass of its section."""
     mass, buoyancy = number(section, "mass"), number(section, "db", width)
-    displaced = 0.25 * math.pi * buoyancy * buoyancy * _water(scene)
+    displaced = 0.25 * math.pi * buoyancy * buoyancy * _water(context)
     if is_placeholder(mass) or not mass < LIGHTEST * displaced < math.inf:
         return ""
-    metres = METRES.get(scene.units)
+    metres = METRES.get(context.scene.units)
     units = {name: factor / metres for name, factor in _METRIC_UNITS.items()} if metres else {}
     fits = [name for name, factor in units.items() if LINES[0] <= mass / (displaced * factor * factor) <= LINES[1]]
     likely = f" ({' or '.join(fits)}?)" if fits else ""
@@ -133,13 +133,13 @@ def _mass(scene: Scene, section: Part, width: float, source: str) -> str:
     )
 
 
-def _water(scene: Scene) -> float:
+def _water(context: LintContext) -> float:
     """Density of water that diameters are judged by: that of the deck, if it may be one."""
-    given_ = water_density(scene)
-    unit = DENSITY_UNIT.get(scene.units)
+    given_, units = water_density(context), context.scene.units
+    unit = DENSITY_UNIT.get(units)
     if unit is None or WATER.holds(given_ * DENSITIES[unit]):
         return given_
-    return DEFAULT_DENSITY[scene.units]
+    return DEFAULT_DENSITY[units]
 
 
 @rule(UNT006)
@@ -232,8 +232,10 @@ def _in_lengths(scene: Scene) -> Iterator[tuple[SceneCurve, float]]:
 
 def _may_be_in_lengths(curve: SceneCurve) -> bool:
     """Whether most ratios of a curve are not round numbers, and CRV010 reports none of them."""
+    if not curve.usable or len(curve.points) < FEWEST_POINTS:
+        return False
     ratios = _ratios(curve)
-    if not curve.usable or len(ratios) < FEWEST_POINTS or ratios.max() > LARGEST_RATIO:
+    if len(ratios) < FEWEST_POINTS or ratios.max() > LARGEST_RATIO:
         return False
     return bool(_is_round(ratios).mean() < MOST_ROUND)
 
@@ -266,7 +268,9 @@ def _longest_of_neighbours(scene: Scene) -> Iterator[tuple[int, float]]:
     All must be of one section, so that a tether or a rigid link beside a finely meshed pipe is not reported.
     """
     ends, length = scene.element_nodes, scene.length
-    shortest = length.min(where=length > 0.0, initial=np.inf)
+    shortest = np.minimum.reduce(length, initial=np.inf)
+    if not shortest > 0.0:  # or not known
+        shortest = length.min(where=length > 0.0, initial=np.inf)
     if not np.fmax.reduce(length, initial=0.0) > LONGEST_ELEMENT * shortest:
         return
     usable = np.flatnonzero((ends >= 0).all(axis=1) & np.isfinite(length) & (length > 0.0))
@@ -290,20 +294,19 @@ def _longest_of_neighbours(scene: Scene) -> Iterator[tuple[int, float]]:
 
 def _ocean(context: LintContext) -> Iterator[Problem]:
     """The water depth against the heights of nodes, unless all of them lie above the sea, which GEO005 reports."""
-    scene = context.scene
-    oceans = [(where, number(block, "depth")) for where, block in scene.deck.blocks("OCEAN")]
+    scene, oceans = context.scene, context.blocks("OCEAN")
     if not oceans or not len(scene.node_ids):
         return
-    where, depth = oceans[-1]
-    below = depths(scene)
-    metres = METRES.get(scene.units)
-    height = -float(below.min())
+    where, depth = oceans[-1][0], number(oceans[-1][1], "depth")
+    bounds, metres = context.once(bounds_of), METRES.get(scene.units)
+    height = bounds.highest
     above_sea = (height - depth) * (metres or math.inf)
-    if not 0.0 < depth < math.inf or -float(below.max()) > depth or not height < math.inf:
+    if not 0.0 < depth < math.inf or -bounds.deepest > depth or not height < math.inf:
         return
     if height > (HIGHEST if metres else HIGHEST_IN_USER_UNITS) * depth and above_sea > TALLEST:
+        highest = scene.node_ids[context.once(depths).argmin()]
         message = (
-            f"node {scene.node_ids[below.argmin()]} lies {height:.5g} high in water {depth!r} deep, expected "
+            f"node {highest} lies {height:.5g} high in water {depth!r} deep, expected "
             "little more than the depth: write both in one unit (km, feet or mm?), and heights as X"
         )
         yield Problem(UNT006, message, where=where.inside("depth"))

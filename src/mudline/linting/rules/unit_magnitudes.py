@@ -10,13 +10,12 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 import numpy as np
 
 from mudline.contact.input import LawKind
-from mudline.deck.model import Deck
 from mudline.deck.reading import GRAVITIES
 from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity, Where
 from mudline.keywords.text import shown
 from mudline.linting.rule import LintContext, limited, rule
 from mudline.linting.rules.curve_shape import swapped
-from mudline.scene.deck_values import surfaces
+from mudline.linting.rules.seabed_friction import surfaces_of
 from mudline.scene.model import Scene
 
 if TYPE_CHECKING:
@@ -73,7 +72,7 @@ def gravity_mismatch(context: LintContext) -> Iterator[Problem]:
     """
     scene = context.scene
     expected = GRAVITIES.get(scene.units)
-    for where, block in scene.deck.blocks("OCEAN") if expected else ():
+    for where, block in context.blocks("OCEAN") if expected else ():
         gravity = cast("Ocean", block).gravity
         if not isinstance(gravity, int | float) or isnan(gravity) or expected is None or _near(gravity, expected):
             continue
@@ -126,6 +125,8 @@ def _soft(scene: Scene, least: _Least) -> Iterator[Problem]:
 
 def _weak(scene: Scene, least: _Least) -> Iterator[Problem]:
     for index, curve in enumerate(scene.laws.curves):
+        if curve.points.size and abs(curve.points[-1, 1]) >= least.force:
+            continue
         largest = float(np.abs(curve.points[:, 1]).max(initial=0.0))
         if not curve.whole or not 0.0 < largest < least.force or swapped(curve):
             continue
@@ -170,7 +171,7 @@ def large_friction(context: LintContext) -> Iterator[Problem]:
 
     Finds: 6:11
     """
-    for where, values, names in _coefficients(context.scene.deck):
+    for where, values, names in _coefficients(context):
         for name in names:
             value = getattr(values, name, None)
             if isinstance(value, int | float) and value > ROUGHEST:
@@ -178,15 +179,16 @@ def large_friction(context: LintContext) -> Iterator[Problem]:
                 yield Problem(UNT003, message, where=where.inside(name))
 
 
-def _coefficients(deck: Deck) -> Iterator[tuple[Where, object, tuple[str, str]]]:
+def _coefficients(context: LintContext) -> Iterator[tuple[Where, object, tuple[str, str]]]:
     """What holds friction coefficients, and the names of the two."""
     both = ("longitudinal", "transverse")
-    for where, surface in surfaces(deck):
+    for where, surface in context.once(surfaces_of):
         yield where.inside("properties"), surface.properties, both
-    for where, block in deck.blocks("SEABED PROPERTIES"):
+    for where, block in context.blocks("SEABED PROPERTIES"):
         for index, entry in enumerate(cast("SeabedProperties", block).sets):
-            yield where.inside("sets", index, "friction"), entry.friction, both
-    for where, block in deck.blocks("SEABED FRICTION"):
+            if entry.friction is not None:
+                yield where.inside("sets", index, "friction"), entry.friction, both
+    for where, block in context.blocks("SEABED FRICTION"):
         for index, given in enumerate(cast("SeabedFriction", block).sets):
             place = where.inside("sets", index, "coefficients")
             yield place, getattr(given, "coefficients", None), ("first", "second")

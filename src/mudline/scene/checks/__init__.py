@@ -6,7 +6,7 @@ All modules in here are imported.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import islice
@@ -59,7 +59,9 @@ def checked(scene: ResolvedDeck) -> list[Problem]:
     return [problem for check in all_checks() for problem in _first(check, scene)]
 
 
-def _first(check: Check, scene: ResolvedDeck) -> Iterator[Problem]:
+def _first(check: Check, scene: ResolvedDeck) -> list[Problem]:
     """What a check finds, without the rest where it is very much."""
-    for count, problem in enumerate(islice(check.find(scene), MOST_REPORTED + 1)):
-        yield problem if count < MOST_REPORTED else replace(problem, message=MORE)
+    found = list(islice(check.find(scene), MOST_REPORTED + 1))
+    if len(found) > MOST_REPORTED:
+        found[-1] = replace(found[-1], message=MORE)
+    return found

@@ -49,8 +49,10 @@ def extension_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
     Finds: 6:1
     """
     reading, types = scene.context, scene.laws.types
+    if "ELASTIC" in types:
+        return
     unclear = "SEABED PROPERTIES" in scene.deck.keywords() or reading.misplaced("SEABED PROPERTIES")
-    if "ELASTIC" in types or (unclear and "RIGID" not in types):
+    if unclear and "RIGID" not in types:
         return
     supplier = "" if "RIGID" in types else reading.possible_definition("ELASTIC SURFACE")
     what = "the seabed is rigid" if "RIGID" in types else "the model has none"

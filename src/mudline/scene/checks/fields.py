@@ -80,6 +80,8 @@ def _faults(part: Part) -> Iterator[tuple[tuple[str | int, ...], str]]:
     """Path and message of each value that is out of range."""
     for slot in _checked_slots(type(part)):
         value: Any = getattr(part, slot.name)
+        if value is None:
+            continue
         if isinstance(value, float | int):
             if fault := _fault(value, slot):
                 yield (slot.json,), fault
@@ -212,7 +214,10 @@ def zero_length_element(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 9:2
     """
-    known = np.flatnonzero((scene.element_nodes >= 0).all(axis=1) & ~(scene.length > 0.0))
+    suspects = ~(scene.length > 0.0)
+    if not suspects.any():
+        return
+    known = np.flatnonzero((scene.element_nodes >= 0).all(axis=1) & suspects)
     first, second = scene.element_nodes[known].T
     same = known[(scene.coordinates[first] == scene.coordinates[second]).all(axis=1)]
     if not same.size:

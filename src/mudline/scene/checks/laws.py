@@ -54,7 +54,8 @@ def rigid_with_curve(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 9:12
     """
-    for where, properties, type_ in typed_blocks(scene.context):
+    blocks = typed_blocks(scene.context) if "RIGID" in scene.laws.types else ()
+    for where, properties, type_ in blocks:
         for index, entry in enumerate(properties.sets if type_ == "RIGID" else ()):
             place = where.inside("sets", index)
             suction = entry.suction and entry.suction.stiffness
@@ -88,6 +89,8 @@ def two_seabed_types(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 7:7
     """
+    if len(scene.laws.types) < 2:
+        return
     places = sorted((where, name) for name, found in scene.laws.types.items() for where in found)
     where, name = next(((where, name) for where, name in places if name != places[0][1]), (Where(), ""))
     if not name:
@@ -191,14 +194,16 @@ def embedment_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 5:2
     """
-    reading, types = scene.context, scene.laws.types
-    unread = "SEABED PROPERTIES" in scene.deck.keywords() or reading.misplaced("SEABED PROPERTIES")
-    if "RIGID" not in types and ("ELASTIC" in types or unread):
-        return  # a type that could not be read is reported elsewhere
     first: dict[tuple[int, int], SceneCurve] = {}
     for curve in scene.laws.curves:
         if curve.embedment:
             first.setdefault((curve.where.section, curve.where.block), curve)
+    if not first:
+        return
+    reading, types = scene.context, scene.laws.types
+    unread = "SEABED PROPERTIES" in scene.deck.keywords() or reading.misplaced("SEABED PROPERTIES")
+    if "RIGID" not in types and ("ELASTIC" in types or unread):
+        return  # a type that could not be read is reported elsewhere
     for curve in first.values():
         if "RIGID" in types:
             message = "*EMBEDMENT needs an elastic seabed: the seabed is rigid"
@@ -244,6 +249,8 @@ def missing_diameter(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Finds: 23:12
     """
+    if all(set_law.kind is not LawKind.CURVE for set_law in scene.laws.set_laws):
+        return
     sections = scene.section_table
     missing = np.flatnonzero((scene.law == LawKind.CURVE) & np.isnan(sections.diameter) & ~sections.faulty)
     if not missing.size:
@@ -290,6 +297,8 @@ def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
     Finds: 10:12
     """
     names = {folded(curve.name): curve.name for curve in scene.laws.curves if curve.named and not curve.embedment}
+    if names.keys() >= scene.laws.referenced:
+        return
     followed: set[Where] | None = None
     for _, where, name in given_names(scene.deck, Names.CURVE):
         if folded(name) in names:

@@ -164,11 +164,13 @@ def floor_conflict(scene: ResolvedDeck) -> Iterator[Problem]:
     """
     deck = scene.deck
     planes = [where for where, _ in deck.blocks("SEABED PLANES")]
+    if not planes:
+        return
     others = [where for where, _ in deck.blocks("SEABED PROFILE")]
     for where, surface in surfaces(deck):
         if surface.slope is not None or surface.profile is not None:
             others.append(where)
-    if planes and others:
+    if others:
         places = [place for place in (planes[0], min(others)) if place.section < len(deck.own_sections)]
         message = "the seabed is given by *SEABED PLANES and by a profile or slope too: remove one of them"
         yield Problem(EXT002, message, where=max(places, default=planes[0]))

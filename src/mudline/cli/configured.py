@@ -1,0 +1,89 @@
+"""The configuration of each deck: the file that `--config` names, or the nearest one; and what the command line says.
+
+The command line overrides the configuration file, which overrides the defaults.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path, PurePath
+from typing import NamedTuple, TypeVar
+
+import click
+
+from mudline.cli.inputs import is_deck
+from mudline.cli.streams import reason
+from mudline.linting.configuration import CodeFault, Configuration, ConfigurationError, Search, read_configuration
+from mudline.patterns import matches
+
+T = TypeVar("T")
+
+
+class Given(NamedTuple):
+    """The settings of the command line that findings depend on; None or empty where it has none."""
+
+    chosen: tuple[str, ...] = ()
+    ignored: tuple[str, ...] = ()
+    also: tuple[str, ...] = ()
+    dialect: str | None = None
+    units: str | None = None
+
+
+@dataclass
+class Configured:
+    """The configuration of each deck: that of `--config`, none (`isolated`), or the nearest one upwards.
+
+    `code_fault` checks the words that are to name rules, as `read_configuration` says.
+    """
+
+    config: str | None = None
+    isolated: bool = False
+    code_fault: CodeFault | None = None
+    _fixed: Configuration | None = field(init=False, default=None)
+    _search: Search = field(init=False)
+
+    def __post_init__(self) -> None:
+        if self.config is not None and self.isolated:
+            raise click.UsageError("--config and --isolated exclude each other: give one of them")
+        self._search = Search(self.code_fault)
+        if self.isolated:
+            self._fixed = Configuration()
+        elif self.config is not None:
+            path = Path(self.config)
+            self._fixed = _read(lambda: read_configuration(path, code_fault=self.code_fault)) or Configuration()
+
+    def of(self, path: str | None) -> Configuration:
+        """The configuration of a file; that of standard input is the working folder's."""
+        if self._fixed is not None:
+            return self._fixed
+        folder = Path(os.path.abspath(path or "-")).parent  # noqa: PTH100 - links stay what they are called
+        return _read(lambda: self._search.nearest(folder))
+
+    def wanted(self, path: PurePath) -> bool:
+        """Whether a file in a searched directory is linted: `include` adds to the suffixes, `exclude` removes."""
+        found = self.of(str(path))
+        include, exclude = found.words("include"), found.words("exclude")
+        if not (include or exclude):
+            return is_deck(path)
+        relative = place(found, str(path))
+        return (is_deck(path) or matches(relative, include)) and not matches(relative, exclude)
+
+
+def place(found: Configuration, path: str) -> str:
+    """A path as seen from the folder of a configuration, with `/`."""
+    folder = Path() if found.path is None else found.path.parent
+    try:
+        return os.path.relpath(path, folder).replace(os.sep, "/")
+    except ValueError:  # another drive
+        return path.replace(os.sep, "/")
+
+
+def _read(read: Callable[[], T]) -> T:
+    try:
+        return read()
+    except ConfigurationError as error:
+        raise click.ClickException(str(error)) from error
+    except OSError as error:
+        raise click.ClickException(f"{error.filename}: the configuration cannot be read: {reason(error)}") from error

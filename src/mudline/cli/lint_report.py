@@ -1,0 +1,141 @@
+"""The findings of `mudline lint`: at once for people, at the end for programs, on standard output and in files."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import KW_ONLY, dataclass, field
+from pathlib import Path
+
+import click
+
+from mudline import __version__
+from mudline.cli.streams import counted, emit, notify, write_text
+from mudline.cli.view import View
+from mudline.diagnostics import Diagnostic, Severity
+from mudline.linting.output import TEXT, form, form_names
+from mudline.syntax.source import Source
+
+
+def complete(_context: click.Context, _parameter: click.Parameter, incomplete: str) -> list[str]:
+    """What a shell completes after `--output-format`."""
+    return [name for name in (TEXT, *form_names()) if name.startswith(incomplete)]
+
+
+@dataclass(frozen=True, slots=True)
+class Outputs:
+    """The format of standard output, and those of files."""
+
+    form: str
+    files: tuple[tuple[str, Path], ...]
+
+
+def outputs(given: Sequence[str]) -> Outputs:
+    """What `--output-format` asks for: FORM, or FORM=FILE. Raises click.UsageError."""
+    known = [TEXT, *form_names()]
+    printed: list[str] = []
+    files: list[tuple[str, Path]] = []
+    for word in given:
+        name, mark, path = word.partition("=")
+        if name not in known:
+            raise click.UsageError(f"--output-format: {name!r} is not one of {', '.join(known)}")
+        if not mark:
+            printed.append(name)
+        elif not path or name == TEXT:
+            what = "text goes to the terminal: write concise=FILE" if path else f"write a file name behind {name}="
+            raise click.UsageError(f"--output-format {word}: {what}")
+        else:
+            files.append((name, Path(path)))
+    if len(set(printed)) > 1:
+        raise click.UsageError(f"--output-format: standard output takes one form, not {', '.join(printed)}")
+    return Outputs(printed[0] if printed else TEXT, tuple(files))
+
+
+@dataclass
+class Report:
+    """What a run found. `aside`: standard output carries something else, and findings go to standard error."""
+
+    outputs: Outputs
+    view: View
+    _: KW_ONLY
+    statistics: bool
+    aside: bool
+    fixing: bool
+    found: list[Diagnostic] = field(default_factory=list)
+    names: list[str] = field(default_factory=list)
+    fixed: int = 0
+    failing: bool = False
+
+    def add(self, name: str, data: bytes, found: list[Diagnostic], fixed: int, limit: Severity) -> None:
+        """Add the findings that are left in one file, whose content is `data`, and the number of those fixed."""
+        self.names.append(name)
+        self.found += found
+        self.fixed += fixed
+        self.failing = self.failing or any(one.severity.rank >= limit.rank for one in found)
+        if self._as_they_come and found:
+            self.view.printer().findings(found, Source.from_bytes(data, name))
+        if self.view.verbose:
+            notify(f"{name}: {counted(len(found), 'finding')}")
+
+    @property
+    def _as_they_come(self) -> bool:
+        return self.outputs.form == TEXT and not (self.view.quiet or self.statistics or self.aside)
+
+    def finish(self) -> None:
+        """Write and print what needs all findings."""
+        found = sorted(self.found, key=lambda diagnostic: diagnostic.sort_key)
+        for name, path in self.outputs.files:
+            write_text(path, self._in_form(name, found))
+        if self.aside:
+            self._print_aside(found)
+        elif self.statistics:
+            emit(statistics_lines(found))
+        elif self.outputs.form != TEXT:
+            emit(self._in_form(self.outputs.form, found))
+        elif self.view.quiet:
+            emit(self._in_form("concise", found))
+        elif self.names:
+            self._summary(found)
+
+    def _in_form(self, name: str, found: list[Diagnostic]) -> Iterator[str]:
+        return form(name, self.names, __version__)(found)
+
+    def _print_aside(self, found: list[Diagnostic]) -> None:
+        name = "concise" if self.outputs.form == TEXT else self.outputs.form
+        for piece in statistics_lines(found) if self.statistics else self._in_form(name, found):
+            click.echo(piece, err=True, nl=False)
+        if self.fixing and not self.view.quiet and name == "concise":
+            click.echo(self._fixed_summary(found), err=True)
+
+    def _summary(self, found: list[Diagnostic]) -> None:
+        if self.fixing and (self.fixed or found):
+            click.echo(self._fixed_summary(found))
+        elif found:
+            self.view.printer().summary(found, len(self.names))
+        else:
+            click.echo(f"No findings in {counted(len(self.names), 'file')}.")
+        if hint := fixable(found):
+            click.echo(hint)
+
+    def _fixed_summary(self, found: list[Diagnostic]) -> str:
+        total = counted(self.fixed + len(found), "finding")
+        return f"Found {total} ({self.fixed} fixed, {len(found)} remaining) in {counted(len(self.names), 'file')}."
+
+
+def fixable(found: list[Diagnostic]) -> str:
+    """How many findings have fixes of each kind, or ""."""
+    kinds = [one.fix.applicability for one in found if one.fix is not None]
+    safe, unsafe = kinds.count("safe"), kinds.count("unsafe")
+    if not kinds:
+        return ""
+    if not safe:
+        return f"{unsafe} fixable with --fix --unsafe-fixes."
+    return f"{safe} fixable with --fix" + (f", {unsafe} more with --unsafe-fixes." if unsafe else ".")
+
+
+def statistics_lines(diagnostics: list[Diagnostic]) -> Iterator[str]:
+    """Findings counted by rule, the most frequent first."""
+    counts: dict[tuple[str, str], int] = {}
+    for found in diagnostics:
+        counts[found.code, found.slug] = counts.get((found.code, found.slug), 0) + 1
+    for (code, slug), count in sorted(counts.items(), key=lambda item: (-item[1], item[0])):
+        yield f"{count:6}  {code}  {slug}\n"

@@ -1,0 +1,198 @@
+"""One run of `mudline lint`: the settings of each deck, its findings without the known ones, and fixed decks."""
+
+from __future__ import annotations
+
+import os
+from contextlib import closing
+from dataclasses import KW_ONLY, dataclass, field, replace
+from pathlib import Path
+
+import click
+
+from mudline.cli.configured import Configured, Given, place
+from mudline.cli.inputs import Input, Inputs
+from mudline.cli.lint_jobs import Effort, lint_all
+from mudline.cli.lint_known import KnownDecks
+from mudline.cli.lint_report import Report
+from mudline.cli.streams import counted, emit_deck, notify, reason, write_text
+from mudline.cli.view import View, print_changes
+from mudline.deck.forms import form_of
+from mudline.diagnostics import Diagnostic, Severity
+from mudline.linting.baseline import Baseline, BaselineError, read_baseline
+from mudline.linting.configuration import Configuration
+from mudline.linting.engine import Fixing, LintSettings
+from mudline.linting.fixing import FileReport, lint_one
+from mudline.linting.output import visible
+from mudline.linting.registry import UnknownRule, code_fault, rules, select
+from mudline.patterns import matches
+
+
+@dataclass
+class Settings:
+    """The settings of each deck, made once for decks of the same ones."""
+
+    configured: Configured
+    given: Given
+    fail_on: str | None
+    fixing: Fixing
+    _made: dict[object, LintSettings] = field(default_factory=dict)
+    _of_folder: dict[str, LintSettings] = field(default_factory=dict)
+
+    def of(self, file: Input) -> LintSettings:
+        """The settings of a file."""
+        folder = os.path.dirname(file.path or "-")  # noqa: PTH120 - asked for each of many files
+        if folder in self._of_folder:
+            return self._of_folder[folder]
+        found = self.configured.of(file.path)
+        relative = place(found, file.path or file.name)
+        ignores = found.table("per-file-ignores")
+        hidden = tuple(code for glob, codes in ignores.items() if matches(relative, [glob]) for code in codes)
+        key = (found.path, hidden)
+        if key not in self._made:
+            self._made[key] = self.merged(found, hidden)
+        if not ignores:
+            self._of_folder[folder] = self._made[key]
+        return self._made[key]
+
+    def merged(self, found: Configuration, hidden: tuple[str, ...] = ()) -> LintSettings:
+        """A configuration under a command line; `hidden` are codes that it ignores in a file."""
+        severity = found.table("severity")
+        off = [code for code, word in severity.items() if word == "off"]
+        chosen = list(self.given.chosen) or found.words("select")
+        ignored, also = [*self.given.ignored, *hidden], [*self.given.also]
+        if not self.given.chosen:
+            ignored += [*found.words("ignore"), *off]
+            also += found.words("extend-select")
+        try:
+            running = select(chosen, ignored, also)
+        except UnknownRule as error:
+            raise click.UsageError(str(error)) from error
+        severities = {
+            rule.code.code: Severity(word)
+            for code, word in sorted(severity.items(), key=lambda item: len(item[0]))
+            if word != "off"
+            for rule in select([code])
+        }
+        return LintSettings(
+            running,
+            self.given.units,
+            self.given.dialect or found.values.get("dialect", "mudline"),
+            severities,
+            Severity(self.fail_on or found.values.get("fail-on", "warning")),
+            self.fixing,
+            _unfixable(found),
+        )
+
+
+def _unfixable(found: Configuration) -> frozenset[str]:
+    unfixable = _codes(found.words("unfixable"))
+    fixable = found.words("fixable")
+    return unfixable | ({rule.code.code for rule in rules()} - _codes(fixable)) if fixable else unfixable
+
+
+def _codes(words: list[str]) -> frozenset[str]:
+    return frozenset(rule.code.code for rule in select(words)) if words else frozenset()
+
+
+def _baseline(given: str | None, *, recording: bool) -> Baseline | None:
+    """The known findings; none yet when they are to be recorded. Ends the command for a file that is not a baseline."""
+    if given is None:
+        if recording:
+            raise click.UsageError("--write-baseline needs --baseline FILE: the file to write")
+        return None
+    path = Path(given)
+    if recording:
+        return Baseline(path.parent)
+    try:
+        return read_baseline(path)
+    except OSError as error:
+        raise click.ClickException(f"{given}: the baseline cannot be read: {reason(error)}") from error
+    except BaselineError as error:
+        message = f"{given}: not a baseline: {error}: write a new one with --write-baseline"
+        raise click.ClickException(message) from error
+
+
+def _report_baseline(known: Baseline, path: Path, view: View, *, recording: bool) -> None:
+    """Write what was recorded, or report how much of it is no longer found."""
+    if recording:
+        write_text(path, [known.text()])
+        if not view.quiet:
+            notify(f"{path.as_posix()}: {counted(known.known.total(), 'finding')} recorded")
+    elif view.verbose and (gone := known.gone()):
+        notify(f"{path.as_posix()}: {counted(gone, 'recorded finding')} no longer there: write it again")
+
+
+def checked_settings(config: str | None, given: Given, fixing: str, *, isolated: bool, fail_on: str | None) -> Settings:
+    """The settings of a command line; ends the command for a word that names no rule, whatever the files are."""
+    settings = Settings(Configured(config, isolated, code_fault), given, fail_on, Fixing(fixing))
+    settings.merged(Configuration())
+    return settings
+
+
+@dataclass
+class Run:
+    """All files: fixed decks are written or shown, known findings left out, the others reported.
+
+    `baseline` is the file of the findings that are known already, or that are to be recorded. With `diff` nothing is
+    written.
+    """
+
+    inputs: Inputs
+    settings: Settings
+    report: Report
+    known: KnownDecks | None = None
+    baseline: str | None = None
+    _: KW_ONLY
+    recording: bool = False
+    diff: bool = False
+    jobs: int = 0
+    _differs: bool = field(default=False, init=False)
+    _documents: int = field(default=0, init=False)
+    _recorded: Baseline | None = field(default=None, init=False)
+
+    def go(self) -> bool:
+        """Lint all files; returns whether there is a reason to fail."""
+        self._recorded = _baseline(self.baseline, recording=self.recording)
+        with closing(lint_all(self.inputs, self.settings.of, Effort(self.jobs), self.known)) as results:
+            for file, data, result in results:
+                self._take(file, data, result)
+        if self._documents:
+            notify(f"{counted(self._documents, 'deck')} in JSON or YAML not fixed: only keyword text is")
+        self.report.finish()
+        if self._recorded is not None and self.baseline is not None:
+            _report_baseline(self._recorded, Path(self.baseline), self.report.view, recording=self.recording)
+        return self.report.failing or self._differs
+
+    def _take(self, file: Input, data: bytes, result: FileReport) -> None:
+        settings = self.settings.of(file)
+        content = data if result.changed is None else result.changed
+        if settings.fixing is not Fixing.NONE:
+            self._documents += form_of(file.name) != "keyword"
+            if result.note:
+                notify(f"{file.name}: {result.note}")
+            if not self._deliver(file, data, content):
+                unfixed = replace(settings, fixing=Fixing.NONE)
+                content, result = data, lint_one(file.name, data, unfixed, file.folder)
+        found = self._unknown(file, content, list(result.found))
+        self.report.add(file.name, content, found, len(result.fixed), settings.fail_on)
+
+    def _unknown(self, file: Input, content: bytes, found: list[Diagnostic]) -> list[Diagnostic]:
+        """The findings that the baseline does not hold."""
+        if self._recorded is None:
+            return found
+        path = file.path or file.name
+        if self.recording:
+            self._recorded.record(found, content, path)
+        return self._recorded.unknown(found, content, path)
+
+    def _deliver(self, file: Input, data: bytes, content: bytes) -> bool:
+        """Show, print or write what was fixed; returns whether the fixes are made."""
+        if self.diff:
+            if content != data:
+                self._differs = True
+                print_changes(data, content, visible(file.name), self.report.view)
+        elif file.path is None:
+            emit_deck(content)
+        elif content != data:
+            return self.inputs.replaced(file, content)
+        return True
