@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, NamedTuple, Protocol, Self
+from typing import Any, NamedTuple, Protocol, Self, cast
 
 from mudline.diagnostics import Blocks, Code, DeckError, Diagnostic, Edit, Fix, Problem, Repair, Severity, Where
 from mudline.keywords.model import Block, Comment, Part, record_schema
@@ -14,7 +14,10 @@ from mudline.short_repr import counted, cut, listed, outline, short_repr
 
 
 class Opaque(Part):
-    """A block without a model: its lines are passed through unchanged, without their ends."""
+    """A block without a model: its lines are passed through unchanged, without their ends.
+
+    It has no subclasses: to ask for the very class takes a fifth of the time of `isinstance` with a pydantic model.
+    """
 
     keyword: Text
     lines: list[Text]
@@ -208,14 +211,14 @@ class Deck:
         """
         for index, found in self._named(section):
             for number, block in enumerate(found.blocks):
-                if block.keyword == keyword and isinstance(block, Block):
+                if block.keyword == keyword and type(block) is not Opaque:
                     yield Where(index, number), block
 
     def blocks_that(self, fact: Callable[[type[Block]], object], section: str = "MODEL") -> Iterator[tuple[Where, Any]]:
         """The modelled blocks whose declaration has a fact, in the order of `blocks`."""
         for index, found in self._named(section):
             for number, block in enumerate(found.blocks):
-                if isinstance(block, Block) and fact(type(block)):
+                if type(block) is not Opaque and fact(cast("type[Block]", type(block))):
                     yield Where(index, number), block
 
     def _named(self, name: str) -> list[tuple[int, Section]]:

@@ -19,7 +19,7 @@ from pydantic import ValidationError
 from mudline.diagnostics import Problem, Span
 from mudline.keywords.grammar import ROW, SMALL, fitting, records_of, terminal_of
 from mudline.keywords.model import Block, FieldSpec, ListRow, Part, Record, columns_of, record_schema
-from mudline.keywords.table import Column, from_rows
+from mudline.keywords.table import LARGEST_WHOLE, Column, from_rows
 from mudline.keywords.text import UnreadableError, Value, read_value
 from mudline.keywords.values import Equation, Kind
 from mudline.syntax.fields import Field, canonical_key
@@ -35,7 +35,7 @@ _EQUATION = r"=\[[^\[\]\"\r\n]*\]"
 _BEHIND = rf"[ \t]*((?:{_FIELD}|{_EQUATION})(?:[ \t]*,[ \t]*(?:{_FIELD}|{_EQUATION}))*+)[ \t]*\r?\n"
 _SETTING = re.compile(rf"([ \t]*[A-Za-z][\w \t-]*)={_BEHIND}")
 _LINE = re.compile(_BEHIND)
-_WHOLE = re.compile(r"[-+]?[0-9]{1,15}")
+_WHOLE = re.compile(r"[-+]?[0-9]{1,16}")
 _COMMA = re.compile(r"[ \t]*,[ \t]*(?![^\[]*\])")
 _TIGHT_COMMA = re.compile(r"[^ \t],[^ \t]")
 _FEWEST_MIXED = 4
@@ -310,7 +310,7 @@ def _value(word: str, slot: FieldSpec) -> Value:
     if not slot.choices:
         if kind is Kind.REAL and (number := read_number(word)) is not None:
             return number
-        if (kind is Kind.WHOLE or kind is Kind.IDENT) and _WHOLE.fullmatch(word):
+        if (kind is Kind.WHOLE or kind is Kind.IDENT) and _WHOLE.fullmatch(word) and abs(int(word)) <= LARGEST_WHOLE:
             return int(word)
     problems: list[Problem] = []
     try:

@@ -106,7 +106,7 @@ class Table:
     @property
     def equations(self) -> bool:
         """Whether any field is an equation."""
-        return any(isinstance(word, Equation) for word in self.words.values())
+        return bool(self.words) and any(isinstance(word, Equation) for word in self.words.values())
 
     def column(self, index: int, default: float = math.nan) -> NDArray[np.float64]:
         """One column as an array (rows,); `default` where the row ends before it or the field is empty."""
@@ -301,8 +301,9 @@ def _not_whole(table: Table, columns: Sequence[Column]) -> dict[tuple[int, int],
 
 def _all_whole(values: NDArray[np.float64], columns: Sequence[Column]) -> bool:
     """Whether the whole columns, where they are the first ones, hold nothing but whole numbers and no zero."""
-    count = next((index for index, column in enumerate(columns) if not column.whole), len(columns))
-    if any(column.whole for column in columns[count:]):
+    whole = [column.whole for column in columns]
+    count = whole.index(False) if False in whole else len(whole)
+    if True in whole[count:]:
         return False
     first = values[:, :count]
     return bool(((first == np.floor(first)) & (first != 0.0) & (np.abs(first) <= LARGEST_WHOLE)).all())
