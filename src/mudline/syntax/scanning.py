@@ -6,7 +6,6 @@ import json
 import os
 import re
 import sys
-import tempfile
 from contextlib import suppress
 from pathlib import Path
 from typing import Any, cast
@@ -18,6 +17,7 @@ from lark.grammar import Rule
 from lark.lexer import TerminalDef
 
 from mudline.cache_folder import cache_folder
+from mudline.files import write_atomically
 
 
 def scanner(grammar: Lark) -> re.Pattern[str]:
@@ -95,14 +95,7 @@ def _write(path: Path, tables: dict[str, Any]) -> None:
     body = json.dumps(tables).encode()
     with suppress(OSError):
         path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-        handle, temporary = tempfile.mkstemp(prefix=f".{_OPENING}", dir=path.parent)
-        try:
-            with os.fdopen(handle, "wb") as stream:
-                stream.write(_checksum(body) + b"\n" + body)
-            Path(temporary).replace(path)
-        except OSError:
-            Path(temporary).unlink()
-            raise
+        write_atomically(path, _checksum(body) + b"\n" + body)
         for other in path.parent.glob(f"{path.name.rpartition('-')[0]}-*"):
             if other != path:
                 other.unlink()
