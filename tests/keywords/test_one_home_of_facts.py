@@ -20,7 +20,7 @@ ROOT = Path(mudline.__file__).parent
 ASKING = frozenset(
     {
         *("blocks", "possible_definition", "misplaced", "missing", "report_missing", "has_unread_line_after"),
-        *("get", "add", "setdefault"),
+        *("get", "add", "setdefault", "written"),
     }
 )
 CONSTANTS = frozenset({"KEYWORD", "_KEYWORD"})

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mudline.deck.forms import FORMS
+from mudline.deck.forms import form_names
 from mudline.deck.loading import dump, load_bytes
 from mudline.deck.parameters import Parameters, folded
 from mudline.diagnostics import DeckError
@@ -357,7 +357,7 @@ def test_new_decks_of_samples_are_found_fault_with_as_little_as_their_source(nam
         assert not read.keywords("PREPROCESSOR") & {"VARIATION", "COMBINATIONS"}
 
 
-@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize("form", form_names())
 def test_findings_are_those_of_the_source(form: str) -> None:
     content = varied_deck(WAVES, ALL) + "$MODEL\n*SEABED STIFFNESS\n CURVE=Clay\n 1, 1\n 0, 0\n"
     original = deck_of(content)

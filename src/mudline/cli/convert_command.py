@@ -11,17 +11,19 @@ from mudline.cli import DONE
 from mudline.cli.inputs import STDIN, SUFFIXES, GivenDeck, takes_deck
 from mudline.cli.streams import emit, notify, write_text
 from mudline.cli.view import View
-from mudline.deck.forms import FORMS, form_of
+from mudline.deck.forms import form_names, form_of
 from mudline.deck.loading import dump
 from mudline.deck.model import Deck
 from mudline.keywords.model import Comment
 from mudline.keywords.table import Table
 
+_FORMS = click.Choice(form_names())
+
 
 @click.command("convert")
 @click.option("-o", "--output", metavar="OUT", help="File to write; without it, or with -, standard output.")
-@click.option("--from", "source", type=click.Choice(FORMS), help="Format of DECK, instead of that of its suffix.")
-@click.option("--to", "target", type=click.Choice(FORMS), help="Format to write, instead of that of the suffix of OUT.")
+@click.option("--from", "source", type=_FORMS, help="Format of DECK, instead of that of its suffix.")
+@click.option("--to", "target", type=_FORMS, help="Format to write, instead of that of the suffix of OUT.")
 @click.option("--sorted", "in_order", is_flag=True, help="Write curves with their points sorted by ratio.")
 @takes_deck
 def command(
@@ -52,8 +54,8 @@ def _form_of_output(output: str | None) -> str:
         raise click.UsageError("unknown format to write: give -o OUT with a suffix, or --to")
     form, suffix = form_of(output), PurePath(output).suffix.lower()
     if form == "keyword" and suffix not in SUFFIXES:
-        known = ", ".join(sorted({*SUFFIXES, *(f".{name}" for name in FORMS if name != form)}))
-        raise click.UsageError(f"{output}: unknown file format (known: {known}): give --to {', '.join(FORMS)}")
+        known = ", ".join(sorted({*SUFFIXES, *(f".{name}" for name in form_names() if name != form)}))
+        raise click.UsageError(f"{output}: unknown file format (known: {known}): give --to {', '.join(form_names())}")
     return form
 
 

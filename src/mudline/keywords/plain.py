@@ -125,7 +125,8 @@ def _lines(text: str, leaves: Sequence[Leaf], keys: frozenset[str], *, tabular: 
 
 
 def _matched(pattern: re.Pattern[str], text: str, start: int, end: int) -> re.Match[str]:
-    match = pattern.fullmatch(text, start, end)
+    """The match of a line; none of a very long one, which would take a hundred times its size in memory."""
+    match = pattern.fullmatch(text, start, end) if end - start <= LONGEST_TABLE else None
     if match is None:
         raise _OddError
     return match

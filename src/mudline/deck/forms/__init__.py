@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import PurePath
 from pkgutil import iter_modules
 
 KEYWORD = "keyword"
-FORMS = tuple(sorted((found.name for found in iter_modules(__path__)), key=lambda name: (name != KEYWORD, name)))
-"""The modules of this package, found without importing one; "keyword" is the first."""
-_SUFFIXES = {f".{form}": form for form in FORMS if form != KEYWORD} | {".yml": "yaml"}
+
+
+@cache
+def form_names() -> tuple[str, ...]:
+    """Return the modules of this package, found without importing one; "keyword" is the first."""
+    return tuple(sorted((found.name for found in iter_modules(__path__)), key=lambda name: (name != KEYWORD, name)))
 
 
 def form_of(name: str) -> str:
     """Return the form that the suffix of a file name means, which is its name, else "keyword"."""
-    return _SUFFIXES.get(PurePath(name).suffix.lower(), KEYWORD)
+    suffix = PurePath(name).suffix.lower().removeprefix(".")
+    if suffix == "yml":
+        return "yaml"
+    return suffix if suffix in form_names() else KEYWORD
