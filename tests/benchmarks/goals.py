@@ -26,7 +26,7 @@ SPELLINGS = {
 before it was rewritten in numpy (medians of the same benchmark)."""
 
 SPELLINGS_BEFORE = (
-    "The goal of a row is what the reader reached before it was written anew, in the same comparison: no spelling may\n"
+    "The goal of a row is what the reader reached before it was rewritten, in the same comparison: no spelling may\n"
     "have become slower. np.loadtxt reads the same text, but for the exponent D, which it reads as E."
 )
 
