@@ -161,6 +161,25 @@ def test_what_is_at_a_path(tmp_path: Path) -> None:
     assert cache.state(str(tmp_path)) != listed
 
 
+def test_a_large_file_goes_by_size_and_date(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cache, "LARGEST_READ", 3)
+    file = tmp_path / "a.txt"
+    file.write_text("long", encoding="utf-8")
+    first = cache.state(str(file))
+    os.utime(file, (1.0, 1.0))
+    assert cache.state(str(file)) not in ("", first)
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="named pipes are of POSIX")
+def test_a_deck_that_names_a_pipe_does_not_wait_for_it(folder: Path, place: Place, linted: Linted) -> None:
+    os.mkfifo(folder / "static.keyxm")
+    words = ("lint", place(RESTART, "wave.keyxm"), "--output-format", "concise")
+    first = run(*words)
+    assert "REF015" in first.out
+    assert run(*words) == first
+    assert linted
+
+
 # -------------------------------------------------------------------------------------------- decks without findings
 
 

@@ -88,6 +88,22 @@ def test_a_process_with_threads_is_not_copied(monkeypatch: pytest.MonkeyPatch) -
     assert lint_jobs._start_method() == "forkserver"
 
 
+@pytest.mark.usefixtures("eager")
+def test_known_decks_do_not_count_as_work_that_was_done(
+    decks: str, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("MUDLINE_CACHE_DIR", str(folder / "cache"))
+    first = run("lint", decks, "--jobs", "1")
+    for name in ("57", "58", "59"):  # behind 57 decks that are known
+        path = folder / decks / f"{name}.keyxm"
+        path.write_text(path.read_text(encoding="utf-8") + "C\n", encoding="utf-8")
+    estimates: list[float] = []
+    monkeypatch.setattr(lint_jobs, "_pays", lambda estimate, _: estimates.append(estimate))
+    assert run("lint", decks).code == first.code
+    assert len(estimates) == 3
+    assert estimates[0] > 0.0
+
+
 def end(orders: Sequence[object]) -> list[FileReport]:
     """A worker that dies."""
     os._exit(len(orders))
@@ -129,7 +145,7 @@ def test_small_runs_stay_in_one_process(decks: str, monkeypatch: pytest.MonkeyPa
 def test_workers_do_what_is_done_here(place: Place) -> None:
     name = place(BAD_NUMBER)
     one = lint_jobs.Task(Input(name, name), BAD_NUMBER.encode(), LintSettings(rules()))
-    order, codes = lint_jobs._order(one)
+    order, codes = lint_jobs._order(one, {})
     assert order.settings.rules == ()
     assert lint_jobs.lint_orders([(order, codes)]) == [one.lint()]
 

@@ -84,6 +84,14 @@ Order = tuple[Task, tuple[str, ...]]
 """A file as it is sent to a process: without its rules, whose functions may not be picklable, and their codes."""
 
 
+class Sendable(NamedTuple):
+    """Settings, the same without their rules, and the codes of these."""
+
+    settings: LintSettings
+    without_rules: LintSettings
+    codes: tuple[str, ...]
+
+
 def lint_all(
     inputs: Inputs, settings_of: SettingsOf, effort: Effort, known: KnownDecks | None = None
 ) -> Generator[Linted, None, None]:
@@ -92,10 +100,11 @@ def lint_all(
     Files without a finding that are known as such are not read again: their content is given as empty.
     """
     tasks = _tasks(inputs, settings_of, known)
+    plugins = plugin_files() if known is not None else ()
     with closing(_reports(tasks, len(inputs.files) - len(known.clean if known else ()), effort)) as reports:
         for one, report in reports:
             if known is not None and one.key and one.known is None:
-                known.cache.put(one.key, report.found, (*report.looked_at, *plugin_files()))
+                known.cache.put(one.key, report.found, (*report.looked_at, *plugins))
             yield one.file, one.data, report
     if known is not None:
         known.cache.save()
@@ -116,15 +125,18 @@ def _tasks(inputs: Inputs, settings_of: SettingsOf, known: KnownDecks | None) ->
 
 
 def _reports(tasks: Iterable[Task], count: int, effort: Effort) -> Generator[tuple[Task, FileReport], None, None]:
-    """The reports of so many files, in their order. Processes are used once that pays."""
+    """The reports of the files in their order, `count` of them not known. Processes are used once that pays."""
     rest = iter(tasks)
     spent = 0.0
-    for done, one in enumerate(rest, 1):
+    done = 0
+    for one in rest:
         start = time.perf_counter()
         report = one.lint()
         spent += time.perf_counter() - start
+        done += one.known is None
         yield one, report
-        if one.settings.fixing is Fixing.NONE and spent >= TRIED and _pays(spent / done * (count - done), effort):
+        alone = one.settings.fixing is not Fixing.NONE or not done or spent < TRIED
+        if not alone and _pays(spent / done * (count - done), effort):
             break
     else:
         return
@@ -139,8 +151,9 @@ def _pays(estimate: float, effort: Effort) -> bool:
 def _ahead(tasks: Iterable[Task], executor: Executor, most: int) -> Iterator[tuple[Task, FileReport]]:
     """The reports in order, while the processes work ahead on `most` chunks of files."""
     waiting: deque[tuple[list[Task], Future[list[FileReport]] | None]] = deque()
+    sendable: dict[int, Sendable] = {}
     for chunk in _chunks(tasks):
-        waiting.append((chunk, _sent(executor, [_order(one) for one in chunk if one.known is None])))
+        waiting.append((chunk, _sent(executor, [_order(one, sendable) for one in chunk if one.known is None])))
         if len(waiting) > most:
             yield from _done(*waiting.popleft())
     while waiting:
@@ -186,7 +199,7 @@ def _start_method() -> str:
 @contextmanager
 def pool(processes: int) -> Iterator[Executor]:
     """Processes that lint; they end at once when not all is done. Ends the command where one has died."""
-    import multiprocessing  # noqa: PLC0415 - as above
+    import multiprocessing  # noqa: PLC0415 - most runs are too small to start processes
     from concurrent.futures.process import BrokenProcessPool, ProcessPoolExecutor  # noqa: PLC0415 - as above
 
     before = set(multiprocessing.active_children())
@@ -208,20 +221,13 @@ def pool(processes: int) -> Iterator[Executor]:
         executor.shutdown(cancel_futures=True)
 
 
-def _order(task: Task) -> Order:
-    return task._replace(settings=_sendable(task.settings)[0]), _sendable(task.settings)[1]
-
-
-_SENDABLE: dict[int, tuple[LintSettings, LintSettings, tuple[str, ...]]] = {}
-"""Settings, the same without rules, and the codes of the rules: many files share them, and so they are sent once."""
-
-
-def _sendable(settings: LintSettings) -> tuple[LintSettings, tuple[str, ...]]:
-    found = _SENDABLE.get(id(settings))
-    if found is None:
-        codes = tuple(rule.code.code for rule in settings.rules)
-        found = _SENDABLE[id(settings)] = (settings, replace(settings, rules=()), codes)
-    return found[1], found[2]
+def _order(task: Task, sendable: dict[int, Sendable]) -> Order:
+    """`sendable` has settings that many files share: a process is sent the same object once in a chunk."""
+    if id(task.settings) not in sendable:
+        codes = tuple(rule.code.code for rule in task.settings.rules)
+        sendable[id(task.settings)] = Sendable(task.settings, replace(task.settings, rules=()), codes)
+    found = sendable[id(task.settings)]
+    return task._replace(settings=found.without_rules), found.codes
 
 
 def _sent(executor: Executor, orders: list[Order]) -> Future[list[FileReport]] | None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 import os
+import stat
 import sys
 import time
 from collections.abc import Mapping, Sequence
@@ -29,6 +30,9 @@ LONGEST = 100_000
 
 KEY = 40
 """Letters of a key."""
+
+LARGEST_READ = 50_000_000
+"""Bytes of a file that a deck names whose content is looked at in each run."""
 
 MOST_FILES = 40
 MOST_ENTRIES = 50_000
@@ -70,13 +74,22 @@ def _version(path: str) -> str:
 
 
 def state(path: str) -> str:
-    """What is at a path: a digest of a file's content or of the names in a folder; "" for nothing that can be read."""
+    """What is at a path: a digest of a file's content or of the names in a folder; "" for nothing that can be read.
+
+    What is neither, such as a pipe, is not opened: no deck is read from it. Very large files go by size and date.
+    """
     digest = blake2b(digest_size=16)
     try:
-        if os.path.isdir(path):  # noqa: PTH112 - as above
-            digest.update("\0".join(["", *sorted(os.listdir(path))]).encode("utf-8", "surrogateescape"))  # noqa: PTH208
+        found = os.stat(path)  # noqa: PTH116 - as above
+        if stat.S_ISDIR(found.st_mode):
+            names = "\0".join(["", *sorted(os.listdir(path))])  # noqa: PTH208 - as above
+            digest.update(names.encode("utf-8", "surrogateescape"))
+        elif not stat.S_ISREG(found.st_mode):
+            return ""
+        elif found.st_size > LARGEST_READ:
+            digest.update(_version(path).encode("utf-8", "surrogateescape"))
         else:
-            with open(path, "rb") as stream:  # noqa: PTH123
+            with open(path, "rb") as stream:  # noqa: PTH123 - as above
                 while piece := stream.read(1 << 20):
                     digest.update(piece)
     except (OSError, ValueError):  # a name that no file has
