@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import errno
+import re
 from pathlib import Path
 from unittest.mock import Mock
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
+from mudline.cli.changes import unified_diff
 from mudline.formatting import document
-from mudline.formatting.changes import unified_diff
 from mudline.formatting.document import formatted
 from tests.builders.decks import BAD_NUMBER, CLEAN
 from tests.cli.conftest import Place
@@ -27,12 +30,12 @@ DIFF = """\
 -*ocean
 -100 1025\t9.81
 -C note\x20\x20
+-
 +$MODEL
 +*OCEAN
 + 100, 1025, 9.81
 +C note
 \x20
--
  *NODE
 -1,0,0
 -10,0,100.5
@@ -215,10 +218,10 @@ def test_a_diff_is_a_patch(folder: Path, name: str, end: str, cut: bool) -> None
 
 def patched(data: bytes, diff: bytes) -> bytes:
     """The content after a unified diff, whose context and old lines must be those of the content."""
-    old = data.splitlines(keepends=True)
+    old = re.findall(rb"[^\n]*\n|[^\n]+", data)
     new: list[bytes] = []
     at = 0
-    lines = diff.splitlines(keepends=True)[2:]
+    lines = re.findall(rb"[^\n]*\n", diff)[2:]
     for number, line in enumerate(lines):
         text = line[1:].removesuffix(b"\n") if lines[number + 1 : number + 2] == [NO_END] else line[1:]
         if line.startswith(b"@@"):
@@ -251,6 +254,23 @@ def test_far_changes_have_hunks_of_their_own() -> None:
     assert heads == ["@@ -1,7 +1,7 @@\n", "@@ -18,7 +18,7 @@\n"]
     assert list(unified_diff("", "a\n", "x.json"))[2:] == ["@@ -0,0 +1 @@\n", "+a\n"]
     assert list(unified_diff(old, old, "x.json")) == []
+
+
+_TEXTS = st.lists(st.sampled_from(["a\n", "b\n", "\n", " \n", "1\r\n", "2\n", "3\rx\n"])).map("".join)
+
+
+@given(_TEXTS, _TEXTS, st.sampled_from(["", "x", "7"]), st.sampled_from(["", "x", "8"]))
+def test_a_diff_of_any_texts_is_a_patch(old: str, new: str, last: str, new_last: str) -> None:
+    one, other = (old + last).encode(), (new + new_last).encode()
+    assert patched(one, "".join(unified_diff(old + last, new + new_last, "x.keyxm")).encode()) == other
+
+
+def test_moved_and_removed_lines_leave_the_others_alone() -> None:
+    old = "".join(f"{number}\n" for number in range(30))
+    new = old.replace("5\n6\n7\n", "", 1).replace("20\n21\n", "21\n20\n")
+    changed = [line for line in list(unified_diff(old, new, "x.keyxm"))[2:] if line[0] in "+-"]
+    assert changed[:3] == ["-5\n", "-6\n", "-7\n"]
+    assert len(changed) == 5
 
 
 @pytest.mark.untraced

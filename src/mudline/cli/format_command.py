@@ -7,13 +7,12 @@ from collections import Counter
 import click
 
 from mudline.cli import DONE, FOUND, options
+from mudline.cli.changes import print_changes
 from mudline.cli.inputs import Input, Inputs, collect
 from mudline.cli.streams import counted, emit, emit_deck, notify, notify_diagnostics
-from mudline.cli.view import View, print_diff
+from mudline.cli.view import View
 from mudline.diagnostics import DeckError
-from mudline.formatting.changes import unified_diff
 from mudline.formatting.document import FormatError, formatted
-from mudline.syntax.source import Source
 
 _CHANGED, _SAME, _FAILED = "reformatted", "left unchanged", "not formatted"
 
@@ -52,8 +51,7 @@ def _outcome(inputs: Inputs, file: Input, data: bytes, view: View, *, check: boo
     if check:
         emit([f"would reformat: {file.name}\n"])
     if diff:
-        old, after = (Source.from_bytes(text, file.name).text for text in (data, new))
-        print_diff(unified_diff(old, after, file.name), view)
+        print_changes(data, new, file.name, view)
     if not (check or diff):
         if not inputs.replaced(file, new):
             return _FAILED

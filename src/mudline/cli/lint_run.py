@@ -15,14 +15,13 @@ from mudline.cli.lint_jobs import Effort, lint_all
 from mudline.cli.lint_known import KnownDecks
 from mudline.cli.lint_report import Report
 from mudline.cli.streams import counted, emit_deck, notify, reason, write_text
-from mudline.cli.view import View, print_changes
+from mudline.cli.view import View
 from mudline.deck.forms import form_of
 from mudline.diagnostics import Diagnostic, Severity
 from mudline.linting.baseline import Baseline, BaselineError, read_baseline
 from mudline.linting.configuration import Configuration
 from mudline.linting.engine import Fixing, LintSettings
 from mudline.linting.fixing import FileReport, lint_one
-from mudline.linting.output import visible
 from mudline.linting.registry import UnknownRule, code_fault, rules, select
 from mudline.patterns import matches
 
@@ -190,7 +189,9 @@ class Run:
         if self.diff:
             if content != data:
                 self._differs = True
-                print_changes(data, content, visible(file.name), self.report.view)
+                from mudline.cli.changes import print_changes  # noqa: PLC0415 - most runs change nothing
+
+                print_changes(data, content, file.name, self.report.view)
         elif file.path is None:
             emit_deck(content)
         elif content != data:

@@ -7,13 +7,13 @@ from pathlib import Path
 import click
 
 from mudline.cli import DONE, FOUND, options
+from mudline.cli.changes import print_changes
 from mudline.cli.inputs import Input, collect
 from mudline.cli.streams import counted, emit_deck, notify, notify_diagnostics, write_bytes
-from mudline.cli.view import View, print_changes
+from mudline.cli.view import View
 from mudline.deck.forms import form_of
 from mudline.deck.loading import dump, load_bytes
 from mudline.diagnostics import DeckError
-from mudline.linting.output import visible
 from mudline.migration.migrating import Continuations, Migration, legacy_blocks, migrate
 from mudline.migration.verification import Verdict, verify
 
@@ -112,10 +112,10 @@ class _Run:
         return not verdict.differences
 
     def _print_changes(self, content: bytes, migration: Migration) -> None:
-        print_changes(self.data, content, visible(self.file.name), self.view)
+        print_changes(self.data, content, self.file.name, self.view)
         for beside, data in migration.files.items():
             path = Path(self.file.name).with_name(beside).as_posix()
-            print_changes(b"", data, visible(path), self.view, created=True)
+            print_changes(b"", data, path, self.view, created=True)
 
     def _write(self, content: bytes, files: dict[str, bytes], replaced: str = "") -> int:
         if self.target is None:

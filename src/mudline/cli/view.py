@@ -1,18 +1,14 @@
-"""How a command prints: colours, less or more, what would change in a file, and a bar of how far a long run is."""
+"""How a command prints: colours, less or more, and a bar of how far a long run is."""
 
 from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from time import monotonic
 from types import TracebackType
 from typing import TYPE_CHECKING, Self, TypeVar
-
-from mudline.cli.streams import emit
-from mudline.linting.output import visible_lines
-from mudline.syntax.source import Source
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Bar, Printer
@@ -21,8 +17,6 @@ DELAY = 0.5
 """Seconds of a run before a bar is drawn."""
 _PAUSE = 0.1
 """Seconds between two drawings."""
-_NO_END = "\\ No newline at end of file\n"
-_STYLES = {"+++": "bold", "---": "bold", "@@ ": "cyan", "+": "green", "-": "red"}
 
 T = TypeVar("T")
 
@@ -46,34 +40,6 @@ class View:
         from mudline.cli.printing import Bar  # noqa: PLC0415 - as above
 
         return Bar(total, self.color)
-
-
-# ----------------------------------------------------------------------------------------- what would change in a file
-
-
-def print_changes(old: bytes, new: bytes, name: str, view: View, *, created: bool = False) -> None:
-    """Print how a deck changes, as a unified diff in which only LF ends a line; `created`: the file is new."""
-    from difflib import unified_diff  # noqa: PLC0415 - most runs change nothing
-
-    lines = unified_diff(_lines(old, name), _lines(new, name), "/dev/null" if created else name, name)
-    print_diff((line if line.endswith("\n") else f"{line}\n{_NO_END}" for line in lines), view)
-
-
-def _lines(data: bytes, name: str) -> list[str]:
-    *lines, last = Source.from_bytes(data, name).text.split("\n")
-    return [f"{line}\n" for line in lines] + ([last] if last else [])
-
-
-def print_diff(lines: Iterable[str], view: View) -> None:
-    """Print the lines of a unified diff, coloured on a terminal. A pipe gets them unchanged, fit for a patch."""
-    if view.color == "always" or (view.color == "auto" and sys.stdout.isatty()):
-        view.printer().lines((visible_lines(line.rstrip("\r\n")), _style(line)) for line in lines)
-    else:
-        emit(lines)
-
-
-def _style(line: str) -> str:
-    return next((style for mark, style in _STYLES.items() if line.startswith(mark)), "")
 
 
 # ------------------------------------------------------------------------------------------------ how far a long run is
