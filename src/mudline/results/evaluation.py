@@ -12,9 +12,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from mudline.codes import RUN001
 from mudline.contact import ContactModel, ContactResult, ElementError, PositionError
-from mudline.diagnostics import DeckError, Problem, Where
 from mudline.scene.mesh import distances
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices, Mask
@@ -106,7 +104,7 @@ class Evaluation:
         Raises DeckError: a position that is not finite, a value that overflows.
         """
         clock = self.time if self.model.input.has("suction") else None
-        with _as_deck_errors(self.scene):
+        with as_deck_errors(self.scene):
             for start, result in self.model.stream(
                 self.positions, present=self.present, velocities=self.velocities, times=clock
             ):
@@ -152,31 +150,31 @@ def prepare(scene: Scene, positions: Positions | None = None, tension: Tension =
     """
     _require_elements(scene.require_evaluable(tension))
     complete, filled = _with_lengths(scene, positions)
-    with _as_deck_errors(complete):
+    with as_deck_errors(complete):
         return Prepared(complete, complete.contact(tension), filled)
 
 
 @contextmanager
-def _as_deck_errors(scene: Scene) -> Iterator[None]:
+def as_deck_errors(scene: Scene) -> Iterator[None]:
     """Raise what the evaluator refuses as an error of the deck, at the line of the element."""
     try:
         yield
     except ElementError as error:
-        raise _located(scene, str(error), error.element) from error
+        raise scene.refusal(str(error), element=error.element) from error
     except PositionError as error:
-        raise _refusal(scene, str(error)) from error
+        raise scene.refusal(str(error)) from error
 
 
 def _require_elements(scene: Scene) -> None:
     definers = scene.set_table.context.external_definers
     hint = f": *{definers[0]} may make them, and is not read; give them with --elements" if definers else ""
     if not len(scene.element_ids):
-        raise _refusal(scene, f"the deck has no elements to evaluate{hint}")
+        raise scene.refusal(f"the deck has no elements to evaluate{hint}")
     dangling = np.flatnonzero((scene.element_nodes < 0).any(axis=1))
     if dangling.size:
         count = f"{dangling.size} elements end" if dangling.size > 1 else "an element ends"
         message = f"{count} at nodes that are not known{hint}"
-        raise _located(scene, message, int(scene.element_ids[dangling[0]]))
+        raise scene.refusal(message, scene.table.numbered.where(int(dangling[0])))
 
 
 def _with_lengths(scene: Scene, positions: Positions | None) -> tuple[Scene, int]:
@@ -197,7 +195,7 @@ def _require_coordinates(scene: Scene) -> None:
     if missing.any():
         example = int(scene.node_ids[np.argmax(missing)])
         message = f"{int(missing.sum())} nodes have no coordinates, node {example} is one: give them with --positions"
-        raise _refusal(scene, message)
+        raise scene.refusal(message)
 
 
 def _require_clock(scene: Scene, positions: Positions) -> None:
@@ -205,17 +203,8 @@ def _require_clock(scene: Scene, positions: Positions) -> None:
     if positions.time is None or len(positions.time) < 2:
         return
     if not positions.timed:
-        raise _refusal(scene, "suction needs velocities, or the times of the steps: the positions have neither")
+        raise scene.refusal("suction needs velocities, or the times of the steps: the positions have neither")
     falls = np.flatnonzero(np.diff(positions.time) <= 0.0)
     if falls.size:
         before, after = positions.time[falls[0] : falls[0] + 2].tolist()
-        raise _refusal(scene, f"suction needs velocities, or times that rise: {after!r} follows {before!r}")
-
-
-def _refusal(scene: Scene, message: str, where: Where | None = None) -> DeckError:
-    return DeckError(scene.deck.diagnose([Problem(RUN001, message, where=where)]))
-
-
-def _located(scene: Scene, message: str, element: int) -> DeckError:
-    index = int(np.flatnonzero(scene.element_ids == element)[0])
-    return _refusal(scene, message, scene.table.numbered.where(index))
+        raise scene.refusal(f"suction needs velocities, or times that rise: {after!r} follows {before!r}")

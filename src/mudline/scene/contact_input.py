@@ -15,7 +15,7 @@ from mudline.codes import RUN001
 from mudline.contact import ElementError
 from mudline.contact.input import ContactInput, LawAssignment, LawKind
 from mudline.contact.seabed import PlanesSeabed, SeabedError, SlopingSeabed
-from mudline.diagnostics import DeckError, Problem, Where
+from mudline.diagnostics import DeckError, Problem
 from mudline.scene.numbering import Floats, Indices, Mask
 from mudline.scene.resolved import LawArrays, ResolvedDeck
 from mudline.scene.seabed import SeabedKind, SeabedShape
@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from mudline.contact.seabed import Seabed
     from mudline.contact.seabed.profile import Interpolation
 
+_REFUSED = "; this cannot be evaluated"
+
 
 def contact_input(scene: ResolvedDeck, tension: Literal["keep", "cut"]) -> ContactInput:
     """The arrays that the evaluator is made from; raises DeckError (RUN001) for what no check covers."""
@@ -33,8 +35,7 @@ def contact_input(scene: ResolvedDeck, tension: Literal["keep", "cut"]) -> Conta
     try:
         return _contact_input(scene, tension)
     except ElementError as error:
-        index = int(np.flatnonzero(scene.element_ids == error.element)[0])
-        raise _refused(scene, str(error), scene.table.numbered.where(index)) from error
+        raise scene.refusal(f"{error}{_REFUSED}", element=error.element) from error
 
 
 def _contact_input(scene: ResolvedDeck, tension: Literal["keep", "cut"]) -> ContactInput:
@@ -58,10 +59,6 @@ def _contact_input(scene: ResolvedDeck, tension: Literal["keep", "cut"]) -> Cont
     )
 
 
-def _refused(scene: ResolvedDeck, why: str, where: Where) -> DeckError:
-    return DeckError(scene.deck.diagnose([Problem(RUN001, f"{why}; this cannot be evaluated", where=where)]))
-
-
 def _refusals(scene: ResolvedDeck) -> Iterator[Problem]:
     """What no check covers: a problem for each kind, at the first element concerned."""
     springs = np.isin(scene.law, (LawKind.CURVE, LawKind.LINEAR))
@@ -74,7 +71,7 @@ def _refusals(scene: ResolvedDeck) -> Iterator[Problem]:
 def _refusal(scene: ResolvedDeck, found: Mask, one: str, many: str) -> Iterator[Problem]:
     at = np.flatnonzero(found)
     if at.size:
-        message = f"{scene.describe(at, one, many)}; this cannot be evaluated"
+        message = f"{scene.describe(at, one, many)}{_REFUSED}"
         yield Problem(RUN001, message, where=scene.table.numbered.where(int(at[0])))
 
 
@@ -175,14 +172,14 @@ def _seabed(scene: ResolvedDeck) -> Seabed | None:
     if seabed.kind is SeabedKind.FLAT:
         return None
     if seabed.missing:
-        raise _refused(scene, f"the seabed is not known: {seabed.missing}", seabed.where)
+        raise scene.refusal(f"the seabed is not known: {seabed.missing}{_REFUSED}", seabed.where)
     if seabed.kind is SeabedKind.SURFACE and find_spec("scipy") is None:
         message = "a 3D surface needs scipy, which is not installed: pip install 'mudline[study]'"
-        raise DeckError(scene.deck.diagnose([Problem(RUN001, message, where=seabed.where)]))
+        raise scene.refusal(message, seabed.where)
     try:
         return made_seabed(seabed)
     except SeabedError as error:
-        raise _refused(scene, str(error), seabed.where) from error
+        raise scene.refusal(f"{error}{_REFUSED}", seabed.where) from error
 
 
 def made_seabed(seabed: SeabedShape) -> Seabed:

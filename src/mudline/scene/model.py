@@ -44,6 +44,7 @@ _INTERNAL = frozenset(
         "nodes",
         "noticed",
         "problems",
+        "refusal",
         "require",
         "require_evaluable",
         "resistance",

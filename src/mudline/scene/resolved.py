@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar, overload
 import numpy as np
 from numpy.typing import NDArray
 
+from mudline.codes import RUN001
 from mudline.contact.input import LawKind
 from mudline.deck.parameters import EvaluatedDeck, folded
-from mudline.diagnostics import Problem
+from mudline.diagnostics import DeckError, Problem, Where
 from mudline.keywords.text import suggestion
 from mudline.scene.context import Context
 from mudline.scene.force_curves import SceneCurve
@@ -198,6 +199,12 @@ class ResolvedDeck:
             if entry.named and (before is None or before.embedment or not entry.embedment):
                 held[folded(entry.name)] = entry
         return ByName("curve", ((entry.name, entry.curve) for entry in held.values() if entry.curve is not None))
+
+    def refusal(self, message: str, where: Where | None = None, *, element: int | None = None) -> DeckError:
+        """Return why the deck cannot be evaluated (RUN001), with the line of a place or of an element's number."""
+        if element is not None:
+            where = self.table.numbered.where(int(np.flatnonzero(self.element_ids == element)[0]))
+        return DeckError(self.deck.diagnose([Problem(RUN001, message, where=where)]))
 
     def set_law(self, element: int) -> SetLaw | None:
         """What gives the element of an index its law."""

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
 from dataclasses import dataclass
 from enum import StrEnum
 from fractions import Fraction
@@ -17,10 +16,9 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from mudline.codes import RUN001
-from mudline.contact import ElementError
 from mudline.contact.result import ContactResult
-from mudline.diagnostics import DeckError, Problem, Severity
+from mudline.diagnostics import DeckError, Severity
+from mudline.results.evaluation import as_deck_errors
 from mudline.scene.model import Scene
 from mudline.study import scene_of
 from mudline.study.exact import BOUND, SMALLEST, Compared, ExactCurve, ExactLaw, Tally
@@ -150,17 +148,6 @@ def guarded(family: str, value: str, judged: Callable[[], Judgement]) -> Judgeme
             return Judgement(family, value, Verdict.WARNED, message=f"{type(error).__name__}: {error}")
 
 
-@contextmanager
-def located(scene: Scene) -> Iterator[None]:
-    """What the evaluator refuses, as an error of the deck at the line of the element."""
-    try:
-        yield
-    except ElementError as error:
-        index = int(np.flatnonzero(scene.element_ids == error.element)[0])
-        where = scene.table.numbered.where(index)
-        raise DeckError(scene.deck.diagnose([Problem(RUN001, str(error), where=where)])) from error
-
-
 def refusal(error: DeckError) -> str:
     """The first error with its line; empty where it names none."""
     errors = [found for found in error.diagnostics if found.severity is Severity.ERROR]
@@ -231,7 +218,7 @@ def _evaluated(scene: Scene, heights: list[float]) -> ContactResult:
     points = np.zeros((len(heights), 2, 3))
     points[:, :, 0] = np.array(heights)[:, None]
     points[:, 1, 1] = 2.0
-    with located(scene):
+    with as_deck_errors(scene):
         return scene.contact().evaluate(points)
 
 
@@ -321,7 +308,7 @@ def _suction_judged(cell: SuctionCell) -> Judgement:
     for index, height in enumerate([-0.01, *heights]):
         points, moving = np.zeros((2, 3)), np.zeros((2, 3))
         points[:, 0], points[1, 1], moving[:, 0] = height, 2.0, velocity
-        with located(scene):
+        with as_deck_errors(scene):
             result, state = model.step(points, moving, state)
         if index:
             force, stiffness = exact[index - 1]
