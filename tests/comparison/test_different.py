@@ -6,10 +6,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from mudline.comparison.comparing import compare
 from mudline.comparison.model import Difference
+from mudline.deck.loading import dump
 from mudline.diagnostics import DeckError
 from tests.builders.decks import ordered_deck
-from tests.builders.scenes import brief, differences
+from tests.builders.scenes import brief, deck_of, differences, scene_of
 
 CHANGES = [
     ("od, 0.5", "od, 0.6", "parameters/od"),
@@ -45,6 +47,35 @@ def swapped(one: Difference) -> str:
     kinds = {"added": "removed", "removed": "added", "changed": "changed"}
     given = one.after, one.before, one.after_line, one.before_line
     return str(Difference(kinds[one.kind], one.group, one.where, *given))  # type: ignore[arg-type]  # a kind again
+
+
+@pytest.mark.parametrize("form", ["json", "yaml"])
+@pytest.mark.parametrize(("written", "other", "where"), CHANGES)
+def test_a_change_in_a_document_has_its_lines(written: str, other: str, where: str, form: str) -> None:
+    texts = ordered_deck(), ordered_deck().replace(written, other)
+    documents = [dump(deck_of(text), form) for text in texts]
+    found = compare(*(scene_of(text, f"deck.{form}") for text in documents))
+    assert [brief([one]) for one in found] == [brief([one]) for one in differences(*texts)], where
+    for one, same in zip(found, differences(*texts), strict=True):
+        assert (one.before_line is None, one.after_line is None) == (same.before_line is None, same.after_line is None)
+        for text, line, value in zip(
+            documents, (one.before_line, one.after_line), (one.before, one.after), strict=True
+        ):
+            if line is not None and isinstance(value, float):
+                assert str(value) in text.splitlines()[line - 1]
+
+
+@pytest.mark.parametrize("form", ["json", "yaml"])
+def test_lines_of_a_long_table_in_a_document(form: str) -> None:
+    rows = [f"{number}, 0, {number}" for number in range(1, 3001)]
+    changed = [row.replace(", 0,", ", 7,") if number % 2 else row for number, row in enumerate(rows)]
+    documents = [dump(deck_of("$MODEL\n*NODE\n" + "\n".join(given) + "\n"), form) for given in (rows, changed)]
+    found = compare(*(scene_of(text, f"deck.{form}") for text in documents))
+    assert len(found) == 1500
+    lines = documents[1].splitlines()
+    for one in found:
+        assert one.after_line is not None
+        assert lines[one.after_line - 1].strip(" [],").startswith(f"{one.where.removeprefix('nodes/')}, 7")
 
 
 @given(st.floats(0.01, 99.0), st.sampled_from(["stiffness", "density"]))

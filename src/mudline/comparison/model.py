@@ -15,7 +15,6 @@ from mudline.codes.fields import SYN002, SYN006, SYN017
 from mudline.codes.references import REF013, REF014
 from mudline.deck.model import Nowhere
 from mudline.deck.parameters import Parameters
-from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Blocks, DeckError, Problem, Where
 from mudline.keywords.model import Block
 from mudline.scene.model import Scene
@@ -207,11 +206,6 @@ class Members:
 
 _NO_VALUE = (SYN002, SYN006, SYN017, REF013, REF014)
 
-_MOST_STEPS = 1_000_000
-"""Rows that may be passed to find lines in a document: a row is found by counting from the first one of its table."""
-
-_FEW = 100
-
 
 @dataclass
 class Side:
@@ -220,7 +214,6 @@ class Side:
     scene: Scene
     names: dict[str, str] = field(default_factory=dict)
     """Names as the deck writes them, by their folded form."""
-    _steps: int = _MOST_STEPS
 
     def path(self, path: str) -> str:
         """A path of folded names with the names as the deck writes them."""
@@ -244,14 +237,11 @@ class Side:
         return {(where.section, where.block) for where in places if where is not None}
 
     def line(self, where: Where | None) -> int | None:
-        """The line of a place; None for what stands in no line of this file, and once too many were sought."""
+        """The line of a place; None for what stands in no line of this file."""
         deck = self.scene.deck
-        if where is None or not 0 <= where.section < len(deck.own_sections) or isinstance(deck.origin, Nowhere):
+        made = type(deck.origin) is Nowhere  # which the origin of a JSON or YAML text extends
+        if made or where is None or not 0 <= where.section < len(deck.own_sections):
             return None
-        steps = 0 if isinstance(deck.origin, TextOrigin) else sum(step for step in where.path if isinstance(step, int))
-        if steps > max(self._steps, _FEW):
-            return None
-        self._steps -= steps
         return deck.origin.place(Problem(SYN002, "", where=where)).line
 
     def require(self) -> None:

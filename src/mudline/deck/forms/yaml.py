@@ -225,6 +225,7 @@ def locator(text: str, root: yaml.Node | None) -> Locate:
     """A function that finds the place of a path, or of the nearest thing around it."""
     lines, width = text.count("\n") + 1, len(text) - text.rfind("\n")
     known: dict[int, dict[str, yaml.Node]] = {}
+    rows: dict[int, list[int]] = {}
 
     def inner(node: yaml.Node, part: str | int) -> yaml.Node | None:
         if isinstance(node, yaml.MappingNode) and isinstance(part, str):
@@ -243,7 +244,9 @@ def locator(text: str, root: yaml.Node | None) -> Locate:
             below = inner(node, part)
             if below is None:
                 if isinstance(node, yaml.ScalarNode) and node.style == "|" and isinstance(part, int):
-                    return _table_row(node, part)
+                    rows[id(node)] = rows.get(id(node)) or _row_lines(node)
+                    number = next(iter(rows[id(node)][part : part + 1]), node.start_mark.line + 2)
+                    return Range(number, 1, number, 1)
                 break
             node = below
         return _between(node.start_mark, node.end_mark, lines, width)
@@ -251,9 +254,7 @@ def locator(text: str, root: yaml.Node | None) -> Locate:
     return locate
 
 
-def _table_row(block: yaml.ScalarNode, row: int) -> Range:
-    """The line of a row of a table that is a block of text; blank lines are no rows."""
-    lines = block.value.split("\n")
-    written = [number for number, line in enumerate(lines) if line.strip()]
-    number = block.start_mark.line + 2 + (written[row] if row < len(written) else 0)
-    return Range(number, 1, number, 1)
+def _row_lines(block: yaml.ScalarNode) -> list[int]:
+    """The lines of the rows of a table that is a block of text; blank lines are no rows."""
+    first = block.start_mark.line + 2
+    return [first + number for number, line in enumerate(block.value.split("\n")) if line.strip()]
