@@ -28,8 +28,8 @@ def test_a_change_in_json(place: Place) -> None:
     ran = run("diff", place(), place(LINEAR, "b.keyxm"), "--output-format", "json")
     assert ran.code == 1
     assert_fits(ran.json(), "diff")
-    laws = [one for one in ran.json()["differences"] if one["group"] == "laws of elements"]
-    assert [(one["before"], one["after"]) for one in laws] == [("curve:Clay", "linear"), (None, 20000.0)]
+    found = [one for one in ran.json()["differences"] if one["group"] == "*SEABED PROPERTIES"]
+    assert [(one["before"], one["after"]) for one in found] == [("Clay", 20000.0)]
 
 
 def test_no_change_in_json(place: Place) -> None:

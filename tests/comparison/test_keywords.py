@@ -22,12 +22,17 @@ def between(old: str, new: str) -> list[tuple[str, object, object]]:
     return brief(differences(ordered_deck() + old, ordered_deck() + new))
 
 
-def test_an_extension_is_told_by_element_and_by_record() -> None:
+def test_an_extension_is_told_by_record_and_where_none_says_it_by_element() -> None:
     found = between(FRICTION, FRICTION.replace("0.6", "0.7"))
-    assert ("elements 1-2/seabed friction/coefficients/second", 0.6, 0.7) in found
-    assert ("*SEABED FRICTION/Pipe/coefficients/second", 0.6, 0.7) in found
+    assert found == [("*SEABED FRICTION/Pipe/coefficients/second", 0.6, 0.7)]
+    more = FRICTION + " SET=Rest\n COEFFICIENTS=0.1, 0.1\n STIFFNESS=1e4\n"
+    later = ordered_deck().replace(" SET=Rest\n 3", " SET=Rest\n 2, 3")
+    assert ("elements 2/seabed friction/stiffness/first", 20000.0, 10000.0) in brief(
+        differences(ordered_deck() + more, later + more)
+    )
     added = between("", FRICTION)
-    assert ("elements 1-2/seabed friction/stiffness/first", None, 20000.0) in added
+    assert ("*SEABED FRICTION/Pipe/stiffness/first", None, 20000.0) in added
+    assert not [where for where, _, _ in added if where.startswith("elements")]
     assert [(where, before) for where, before, _ in added if where == "*SEABED FRICTION"] == [
         ("*SEABED FRICTION", None)
     ]

@@ -214,8 +214,19 @@ def flat_differences(group: str, before: Flat, after: Flat, pair: Pair) -> Itera
         if old and new and pair.tolerance.values(old.compared, new.compared):
             continue
         where = f"{group}/{(pair.one if old else pair.other).path(path)}"
+        pair.said.update(_around(path, before, after))
         held, found = ((entry.shown, entry.where) if entry else None for entry in (old, new))
         yield pair.difference(group, where, held, found)
+
+
+def _around(path: str, before: Flat, after: Flat) -> Iterator[tuple[Where | None, Where | None]]:
+    """Where the records and the block of a value stand in both decks."""
+    old, new = before.get(path), after.get(path)
+    yield old and old.where._replace(path=()), new and new.where._replace(path=())
+    steps = path.split("/")
+    for end in range(1, len(steps) + 1):
+        old, new = (flat.get("/".join(steps[:end])) for flat in (before, after))
+        yield old and old.where, new and new.where
 
 
 def _group(name: _Name) -> str:

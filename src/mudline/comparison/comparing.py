@@ -33,8 +33,9 @@ def compare(before: Scene, after: Scene, tolerance: float = 0.0) -> list[Differe
     pair = Pair(Side(before), Side(after), Tolerance(tolerance))
     pair.one.require()
     pair.other.require()
-    groups = (_units, _parameters, _nodes, _elements, _sets, _curves, _by_element, _floor, blocks)
-    return [found for differences in groups for found in differences(pair)]
+    of_keywords = list(blocks(pair))  # before the elements, of which nothing is said twice
+    groups = (_units, _parameters, _nodes, _elements, _sets, _curves, _by_element, _floor)
+    return [*(found for differences in groups for found in differences(pair)), *of_keywords]
 
 
 def _units(pair: Pair) -> Iterator[Difference]:
@@ -265,7 +266,10 @@ class _Followed:
 
 
 def _by_element(pair: Pair) -> Iterator[Difference]:
-    """Elements that both decks have and that follow something else, as ranges of numbers."""
+    """Elements that both decks have and that follow something else, as ranges of numbers.
+
+    Of elements that follow one record in both, or one that only one deck has, the record says what differs.
+    """
     yield from _differ("laws", _laws, pair)
     yield from _differ("sections", _sections, pair)
     yield from _differ("bed", _bed, pair)
@@ -284,6 +288,9 @@ def _differ(group: str, read: Callable[[Side], _Followed], pair: Pair) -> Iterat
     starts = np.append(0, np.flatnonzero(followed[1:] != followed[:-1]) + 1)  # neighbours mostly follow the same
     for both in sorted(set(followed[starts].tolist())):
         i, j = both // width - 1, both % width - 1
+        places = first.places[i] if i >= 0 else None, second.places[j] if j >= 0 else None
+        if places in pair.said:
+            continue
         old, new = _entry(first, i), _entry(second, j)
         names = [
             name for name in dict.fromkeys([*old, *new]) if not pair.tolerance.values(old.get(name), new.get(name))
@@ -291,7 +298,7 @@ def _differ(group: str, read: Callable[[Side], _Followed], pair: Pair) -> Iterat
         if not names:
             continue
         elements = text_of(spans_of(one.scene.element_ids[here[followed == both]]))
-        lines = (one.line(first.places[i]) if i >= 0 else None, other.line(second.places[j]) if j >= 0 else None)
+        lines = one.line(places[0]), other.line(places[1])
         for name in names:
             where = f"elements {elements}/{group}" + (f"/{name}" if name else "")
             values = cast("Value", old.get(name)), cast("Value", new.get(name))

@@ -267,6 +267,8 @@ class Pair:
     one: Side
     other: Side
     tolerance: Tolerance
+    said: set[tuple[Where | None, Where | None]] = field(default_factory=set)
+    """Places of the records and blocks whose differences are said under their keywords; None where a deck has none."""
 
     def difference(self, group: str, where: str, before: _Held, after: _Held) -> Difference:
         """What only one of the decks has, or what is another value in the second."""
