@@ -54,7 +54,7 @@ def swapped(one: Difference) -> str:
 def test_a_change_in_a_document_has_its_lines(written: str, other: str, where: str, form: str) -> None:
     texts = ordered_deck(), ordered_deck().replace(written, other)
     documents = [dump(deck_of(text), form) for text in texts]
-    found = compare(*(scene_of(text, f"deck.{form}") for text in documents))
+    found = compare(scene_of(documents[0], f"deck.{form}"), scene_of(documents[1], f"deck.{form}"))
     assert [brief([one]) for one in found] == [brief([one]) for one in differences(*texts)], where
     for one, same in zip(found, differences(*texts), strict=True):
         assert (one.before_line is None, one.after_line is None) == (same.before_line is None, same.after_line is None)
@@ -67,7 +67,7 @@ def test_lines_of_a_long_table_in_a_document(form: str) -> None:
     rows = [f"{number}, 0, {number}" for number in range(1, 3001)]
     changed = [row.replace(", 0,", ", 7,") if number % 2 else row for number, row in enumerate(rows)]
     documents = [dump(deck_of("$MODEL\n*NODE\n" + "\n".join(given) + "\n"), form) for given in (rows, changed)]
-    found = compare(*(scene_of(text, f"deck.{form}") for text in documents))
+    found = compare(scene_of(documents[0], f"deck.{form}"), scene_of(documents[1], f"deck.{form}"))
     assert len(found) == 1500
     lines = documents[1].splitlines()
     for one in found:

@@ -38,6 +38,20 @@ def test_an_extension_is_told_by_record_and_where_none_says_it_by_element() -> N
     ]
 
 
+def test_a_surface_without_sets_is_said_once() -> None:
+    surface = "$MODEL\n*NODE\n 1, 0, 0\n 2, 0, 1\n*ELEMENT\n 1, 1, 2\n*ELASTIC SURFACE\n 40000.0, 0.35, 0.6\n"
+    found = brief(differences(surface, surface.replace("40000.0, 0.35", "41000.0, 0.4")))
+    properties = "*ELASTIC SURFACE/properties"
+    assert found == [(f"{properties}/stiffness", 40000.0, 41000.0), (f"{properties}/longitudinal", 0.35, 0.4)]
+
+
+def test_a_type_of_all_records_is_said_of_each_once() -> None:
+    bed = "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=Pipe\n STIFFNESS=1e4\n"
+    lean = ordered_deck().partition("*SEABED PROPERTIES")[0]
+    found = brief(differences(lean + bed, lean + bed.replace("ELASTIC", "RIGID")))
+    assert found == [("*SEABED PROPERTIES/Pipe/type", "ELASTIC", "RIGID")]
+
+
 def test_a_later_record_of_a_set_replaces_an_earlier_one() -> None:
     twice = FRICTION + " SET=PIPE\n COEFFICIENTS=0.1, 0.1\n STIFFNESS=1e4\n"
     assert between(twice, "*SEABED FRICTION\n SET=Pipe\n COEFFICIENTS=0.1, 0.1\n STIFFNESS=1e4\n") == []

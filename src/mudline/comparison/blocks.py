@@ -220,13 +220,12 @@ def flat_differences(group: str, before: Flat, after: Flat, pair: Pair) -> Itera
 
 
 def _around(path: str, before: Flat, after: Flat) -> Iterator[tuple[Where | None, Where | None]]:
-    """Where the records and the block of a value stand in both decks."""
-    old, new = before.get(path), after.get(path)
-    yield old and old.where._replace(path=()), new and new.where._replace(path=())
-    steps = path.split("/")
-    for end in range(1, len(steps) + 1):
-        old, new = (flat.get("/".join(steps[:end])) for flat in (before, after))
-        yield old and old.where, new and new.where
+    """Where a value stands in both decks, all that it is in, and the record that a value of the whole block is for."""
+    record = path.partition("/")[0]
+    yield before[record].where if record in before else None, after[record].where if record in after else None
+    old, new = (flat[path].where if path in flat else None for flat in (before, after))
+    for end in range(max(len(where.path) for where in (old, new) if where) + 1):
+        yield old and old._replace(path=old.path[:end]), new and new._replace(path=new.path[:end])
 
 
 def _group(name: _Name) -> str:
