@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sized
+from collections.abc import Collection, Iterable, Iterator, Sequence, Sized
 from dataclasses import fields, is_dataclass
 from enum import Enum
 
@@ -10,6 +10,7 @@ LONGEST = 200
 """Characters of a representation."""
 MOST_NAMES = 8
 """Most names that a list of names shows."""
+_MOST_NUMBERS = 10
 _LONGEST_TEXT = 40
 _LONGEST_TUPLE = 4
 
@@ -75,6 +76,12 @@ def cut(text: str, most: int) -> str:
 def counted(number: int, thing: str) -> str:
     """Return a number with its noun: `1 set`, `2 sets`."""
     return f"{number} {thing}{'' if number == 1 else 's'}"
+
+
+def listed_numbers(numbers: Sequence[float]) -> str:
+    """Return the first numbers, and how many there are besides."""
+    more = f" and {len(numbers) - _MOST_NUMBERS} more" if len(numbers) > _MOST_NUMBERS else ""
+    return ", ".join(map(repr, numbers[:_MOST_NUMBERS])) + more
 
 
 def listed(names: Collection[str]) -> str:

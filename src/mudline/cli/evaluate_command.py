@@ -30,11 +30,11 @@ from mudline.results.totals import PlotData, StepSummary
 from mudline.scene.csv_file import read_external
 from mudline.scene.model import Scene, resolve
 from mudline.scene.positions import Positions, read_positions
+from mudline.short_repr import listed_numbers
 
 MOST_ROWS = 40
 """Lines of a table on the terminal, unless more is asked for."""
 
-_MOST_NAMED = 10
 _PICTURES = ("png", "svg")
 _PLOTS = "mudline.results.plots"
 _EXTRAS = {"parquet": ("pyarrow", "parquet"), "png": ("matplotlib", "plot"), "svg": ("matplotlib", "plot")}
@@ -288,9 +288,4 @@ def _notify_unmatched(comparison: Comparison) -> None:
         (comparison.reference.missing_times.tolist(), "evaluated time", f"not in {file}"),
     ):
         if numbers:
-            notify(f"{counted(len(numbers), thing)} {where}: {_named(numbers)}")
-
-
-def _named(numbers: Sequence[float]) -> str:
-    more = f" and {len(numbers) - _MOST_NAMED} more" if len(numbers) > _MOST_NAMED else ""
-    return ", ".join(map(repr, numbers[:_MOST_NAMED])) + more
+            notify(f"{counted(len(numbers), thing)} {where}: {listed_numbers(numbers)}")

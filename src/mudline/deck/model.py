@@ -295,7 +295,7 @@ class BaseProblem(Problem):
 def _diagnostic(deck: Deck, problem: Problem) -> Diagnostic:
     code: Code = problem.code
     place = deck.origin.place(problem)
-    message = problem.message if len(problem.message) <= _LONGEST else problem.message[: _LONGEST - 3] + "..."
+    message = cut(problem.message, _LONGEST)
     if not message.isprintable():  # names of the deck are quoted verbatim
         message = "".join(char if char.isprintable() else "\ufffd" for char in message)
     fix = _fix(deck.origin, problem.repair, code) if problem.repair else None

@@ -163,10 +163,13 @@ def decimal_comma(values: list[Field], kinds: list[Kind | None], fewest: int) ->
         names = sum(kind is Kind.NAME for kind in kinds[:length])
         if sum(widths) == len(values) > length and len(numbers) >= len(values) - names:
             first = widths.index(2)
-            one, two = values[first : first + 2]
-            message = f"decimal comma? {one.text},{two.text} is two fields here: write {one.text}.{two.text}"
-            return Problem(SYN015, message, one.span._replace(end=two.span.end))
+            return _two_fields(*values[first : first + 2])
     return None
+
+
+def _two_fields(one: Field, two: Field) -> Problem:
+    message = f"decimal comma? {one.text},{two.text} is two fields here: write {one.text}.{two.text}"
+    return Problem(SYN015, message, one.span._replace(end=two.span.end))
 
 
 def mixed_commas(values: list[Field], kinds: list[Kind | None], fewest: int) -> Problem | None:
@@ -185,9 +188,7 @@ def mixed_commas(values: list[Field], kinds: list[Kind | None], fewest: int) -> 
         return None
     if any(kinds[place] not in _REAL for place in places):
         return None
-    one, two = values[pairs[0] : pairs[0] + 2]
-    message = f"decimal comma? {one.text},{two.text} is two fields here: write {one.text}.{two.text}"
-    return Problem(SYN015, message, one.span._replace(end=two.span.end))
+    return _two_fields(*values[pairs[0] : pairs[0] + 2])
 
 
 def _choice(field: Field, slot: FieldSpec) -> str:

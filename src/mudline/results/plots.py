@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from mudline.results.quantities import ELEMENTS, STEPS, headed, labelled, unit_names
 from mudline.results.totals import TRACED, Chosen, PlotData
 from mudline.scene.numbering import Floats, Indices, Mask
+from mudline.short_repr import cut
 
 _Panel = Callable[[Axes], None]
 _Spelled = Callable[[str], str]
@@ -27,10 +28,6 @@ def _write(make: Callable[[], Figure], form: str, stream: BinaryIO) -> None:
     with mpl.rc_context({"svg.hashsalt": "mudline"}), warnings.catch_warnings():
         warnings.simplefilter("ignore")  # a letter that the font lacks becomes a box
         make().savefig(stream, format=form, metadata={"Date": None} if form == "svg" else None)
-
-
-def _short(name: str, longest: int) -> str:
-    return name if len(name) <= longest else name[: longest - 3] + "..."
 
 
 # ------------------------------------------------------------------------------------------------------- of curves
@@ -104,7 +101,7 @@ def _marker(mark: Line2D) -> dict[str, Any]:
 
 def _legend(figure: Figure, handles: list[Line2D], rows: list[dict[str, Any]]) -> None:
     """Beside the axes, where it covers nothing; a name is plain text, whatever is in it."""
-    entries = [(handle, _short(row["name"], 40)) for handle, row in zip(handles, rows, strict=True)]
+    entries = [(handle, cut(row["name"], 40)) for handle, row in zip(handles, rows, strict=True)]
     entries.append((_DASHED, "beyond the points"))
     if any(row["at"] for row in rows):
         entries.append((_ASKED, "values asked for"))
@@ -287,7 +284,7 @@ def on_curves(axes: Axes, data: PlotData, spelled: _Spelled) -> None:
         curve = curves[index]
         reach = np.array([0.0, max(float(ratio.max()), float(curve.ratios[-1]))])
         knots = np.unique(np.concatenate([curve.ratios[(curve.ratios > reach[0]) & (curve.ratios < reach[1])], reach]))
-        label = _short(spelled(str(curve.name)), 30) if place < _MOST_CURVES else None
+        label = cut(spelled(str(curve.name)), 30) if place < _MOST_CURVES else None
         axes.plot(knots, curve.evaluate(knots)[0], color=color, linewidth=1.2, zorder=2)
         axes.plot(
             ratio, force, color=color, linestyle="none", marker="o", markersize=4, alpha=0.55, zorder=3, rasterized=True

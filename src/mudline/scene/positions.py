@@ -18,11 +18,10 @@ from numpy.typing import NDArray
 from mudline.diagnostics import DeckError
 from mudline.scene.csv_file import NumericTable, data_error, finite, read_numeric_csv, whole_numbers
 from mudline.scene.numbering import Floats, Ids, Indices, Mask, Numbered
-from mudline.short_repr import short_repr
+from mudline.short_repr import listed_numbers, short_repr
 
 _AXES = ("x", "y", "z")
 _VELOCITIES = ("vx", "vy", "vz")
-_MOST_NAMED = 10
 
 Reals = NDArray[np.floating]
 
@@ -139,10 +138,8 @@ def _scatter(
 def _unknown(file: str, ids: Ids, line: int = 1) -> DeckError:
     """Nodes that the deck lacks."""
     numbers = np.unique(ids).tolist()
-    named = ", ".join(map(str, numbers[:_MOST_NAMED]))
-    more = f" and {len(numbers) - _MOST_NAMED} more" if len(numbers) > _MOST_NAMED else ""
     noun, verb = ("node", "is") if len(numbers) == 1 else ("nodes", "are")
-    return data_error(file, f"{noun} {named}{more} {verb} not defined in the deck", line)
+    return data_error(file, f"{noun} {listed_numbers(numbers)} {verb} not defined in the deck", line)
 
 
 def _load_npy(path: Path) -> Reals:

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any, Generic, Literal, NamedTuple, TypeAlias, 
 
 from mudline.files import write_atomically
 from mudline.results.quantities import csv_lines
+from mudline.short_repr import cut
 from mudline.study.timing import machine
 
 if TYPE_CHECKING:  # only who draws loads matplotlib
@@ -218,7 +219,7 @@ def panels(figure: Figure, count: int, across: int, *, sharey: bool = False) -> 
 
 def shortened(name: str) -> str:
     """A name that fits above a panel."""
-    return name if len(name) <= _LONGEST else name[: _LONGEST - 3] + "..."
+    return cut(name, _LONGEST)
 
 
 def label(axes: Axes, title: str, x: str, y: str) -> None:

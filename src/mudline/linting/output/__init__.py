@@ -16,6 +16,7 @@ from pkgutil import iter_modules
 from typing import Protocol, cast
 
 from mudline.diagnostics import Diagnostic
+from mudline.short_repr import cut
 
 TEXT = "text"
 """The form for people, which goes to the terminal as the findings come."""
@@ -80,7 +81,7 @@ def visible(text: str, encoding: str = "utf-8") -> str:
     Nothing in a deck acts on a terminal then. What a terminal's encoding lacks is escaped, so that the text is as long
     here as it is there. A text that nobody would read to its end is cut.
     """
-    shown = text if len(text) <= LONGEST else f"{text[: LONGEST - 3]}..."
+    shown = cut(text, LONGEST)
     if not shown.isprintable():
         shown = "".join(char if char.isprintable() else " " if char == "\t" else _REPLACEMENT for char in shown)
     if encoding.startswith("utf"):
