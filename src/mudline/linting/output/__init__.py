@@ -1,7 +1,7 @@
 """The forms of findings, a module each, imported when it is asked for, and what they share.
 
-A module is a form by being here. It has the name of the form and holds what `FormModule` says; `text`, the form for
-people, is printed as the findings come.
+A module is a form by being here, under its name: `SUMMARY` is a sentence for the documentation, `write(diagnostics,
+run)` returns the text of findings in pieces. `text`, the form for people, is printed as the findings come.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from functools import partial
 from hashlib import sha256
 from importlib import import_module
 from pkgutil import iter_modules
-from typing import Protocol, cast
+from types import ModuleType
 
 from mudline.diagnostics import Diagnostic
 from mudline.short_repr import cut
@@ -37,23 +37,14 @@ class LintRun:
     version: str
 
 
-class FormModule(Protocol):
-    """What the module of a form holds: a sentence for the documentation, and what makes its text."""
-
-    SUMMARY: str
-
-    def write(self, diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:
-        """Return the text of findings in pieces."""
-
-
 def form_names() -> list[str]:
     """Return the name of every form but text, found without importing one."""
     return sorted(found.name for found in iter_modules(__path__) if found.name != TEXT)
 
 
-def form_module(name: str) -> FormModule:
+def form_module(name: str) -> ModuleType:
     """Return the module of a form."""
-    return cast("FormModule", import_module(f"{__name__}.{name}"))
+    return import_module(f"{__name__}.{name}")
 
 
 def form(name: str, files: Sequence[str], version: str) -> Callable[[Iterable[Diagnostic]], Iterator[str]]:

@@ -1,18 +1,19 @@
 """The forms of result files, a module each with the name of the suffix, imported when it is asked for.
 
-A module is a form by being here, and holds what `FormModule` says. Results come a few steps at a time and are written
-as they come: a long series is never in memory as text.
+A module is a form by being here: `SUMMARY` says in the documentation what is in a file, `opened(output)` is a context
+with the `Sink` that writes it, and where it is `BESIDE`, the nodes go to a second file. Results come a few steps at a
+time and are written as they come: a long series is never in memory as text.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from importlib import import_module
 from itertools import chain, islice
 from pathlib import Path
 from pkgutil import iter_modules
+from types import ModuleType
 from typing import Any, BinaryIO, Protocol, TypeVar, cast
 
 import numpy as np
@@ -82,27 +83,14 @@ class Output:
         return [self.elements, NodeTable(self.evaluation)]
 
 
-class FormModule(Protocol):
-    """The module of a form.
-
-    `SUMMARY` says in the documentation what is in a file; where it is `BESIDE`, the nodes go to a second file.
-    """
-
-    SUMMARY: str
-    BESIDE: bool
-
-    def opened(self, output: Output) -> AbstractContextManager[Sink]:
-        """Return what takes the results and writes them."""
-
-
 def form_names() -> list[str]:
     """Return the name of every form, found without importing one."""
     return sorted(found.name for found in iter_modules(__path__))
 
 
-def form_module(name: str) -> FormModule:
+def form_module(name: str) -> ModuleType:
     """Return the module of a form; raises ImportError without the library that it needs."""
-    return cast("FormModule", import_module(f"{__name__}.{name}"))
+    return import_module(f"{__name__}.{name}")
 
 
 # ----------------------------------------------------------------------------------------------------- rows as text
@@ -110,7 +98,7 @@ def form_module(name: str) -> FormModule:
 
 def text_form(name: str) -> Callable[[Evaluation, Table, Write], Sink]:
     """Return what writes a table (JSON: that of elements, and the nodes) as text: "csv" or "json"."""
-    return cast("Callable[[Evaluation, Table, Write], Sink]", import_module(f"{__name__}.{name}").Text)
+    return cast("Callable[[Evaluation, Table, Write], Sink]", form_module(name).Text)
 
 
 def text_into(stream: BinaryIO) -> Write:
