@@ -100,26 +100,15 @@ fill_counting = _compiled(_fill_counting)
 fill_bucketing = _compiled(_fill_bucketing)
 
 
-class CountingLaw:
-    """Compares every ratio with every point."""
+class CompiledLaw:
+    """Evaluates with one of the compiled functions."""
 
-    def __init__(self, knots: Knots) -> None:
-        self.curve = (knots.ratios, knots.forces, knots.tails)
-
-    def fill(self, ratio: FloatArray, force: FloatArray, slope: FloatArray) -> bool:
-        """See `Law`."""
-        return bool(fill_counting(self.curve, _given(ratio), force, slope))
-
-
-class BucketingLaw:
-    """Looks into the table of buckets; bisects for ratios in a bucket of several points."""
-
-    def __init__(self, knots: Knots) -> None:
-        self.curve = ((knots.ratios, knots.forces, knots.tails), knots.prepare())
+    def __init__(self, compiled: Callable[..., bool], *tables: Curve | BucketTable) -> None:
+        self.compiled, self.tables = compiled, tables
 
     def fill(self, ratio: FloatArray, force: FloatArray, slope: FloatArray) -> bool:
         """See `Law`."""
-        return bool(fill_bucketing(*self.curve, _given(ratio), force, slope))
+        return bool(self.compiled(*self.tables, _given(ratio), force, slope))
 
 
 def _given(ratio: FloatArray) -> FloatArray:
@@ -129,9 +118,12 @@ def _given(ratio: FloatArray) -> FloatArray:
     return view
 
 
-def compiled_law(knots: Knots) -> CountingLaw | BucketingLaw:
-    """Return the fastest compiled law of the curve."""
-    points = len(knots.inner)
+def compiled_law(knots: Knots) -> CompiledLaw:
+    """Return the fastest compiled law of the curve.
+
+    It compares every ratio with every point, or looks into the table of buckets and bisects in a bucket of several.
+    """
+    points, curve = len(knots.inner), (knots.ratios, knots.forces, knots.tails)
     if points <= _COUNTED_POINTS or (points <= _COUNTED_IF_CROWDED and knots.prepare().crowded):
-        return CountingLaw(knots)
-    return BucketingLaw(knots)
+        return CompiledLaw(fill_counting, curve)
+    return CompiledLaw(fill_bucketing, curve, knots.prepare())
