@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from mudline.codes.fields import SYN002, SYN006, SYN017
 from mudline.codes.references import REF013, REF014
-from mudline.deck.model import Nowhere
+from mudline.deck.model import Origin
 from mudline.deck.parameters import Parameters
 from mudline.diagnostics import Blocks, DeckError, Problem, Where
 from mudline.keywords.model import Block
@@ -239,8 +239,7 @@ class Side:
     def line(self, where: Where | None) -> int | None:
         """The line of a place; None for what stands in no line of this file."""
         deck = self.scene.deck
-        made = type(deck.origin) is Nowhere  # which the origin of a JSON or YAML text extends
-        if made or where is None or not 0 <= where.section < len(deck.own_sections):
+        if type(deck.origin) is Origin or where is None or not 0 <= where.section < len(deck.own_sections):
             return None
         return deck.origin.place(Problem(SYN002, "", where=where)).line
 

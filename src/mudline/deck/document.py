@@ -10,7 +10,7 @@ from pydantic import BaseModel, TypeAdapter, ValidationError
 from pydantic.json_schema import models_json_schema
 
 from mudline.deck.faults import DocumentPath, Faults, Locate, document_path, refusal, shown
-from mudline.deck.model import START, Deck, Nowhere, Opaque, Range, Section
+from mudline.deck.model import START, Deck, Opaque, Origin, Range, Section
 from mudline.deck.reading import Findings
 from mudline.diagnostics import Problem, Severity, Where
 from mudline.keywords import catalogue
@@ -54,7 +54,7 @@ def _comments(comments: list[Comment]) -> Document:
     return {"comments": [comment.model_dump() for comment in comments]} if comments else {}
 
 
-class DocumentOrigin(Nowhere):
+class DocumentOrigin(Origin):
     """Where the values of a deck are in a JSON or YAML text. A document is whole or refused."""
 
     def __init__(self, locate: Locate) -> None:

@@ -10,7 +10,7 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from mudline.codes import DOC001, DOC002
-from mudline.deck.model import START, Deck, Nowhere, Range
+from mudline.deck.model import START, Deck, Origin, Range
 from mudline.diagnostics import MORE, MOST_REPORTED, DeckError, Diagnostic, Problem, Span, Where
 from mudline.keywords.values import Equation, Label
 
@@ -84,7 +84,7 @@ def _message(faults: list[ErrorDetails]) -> str:
     return "; or ".join(dict.fromkeys(others))
 
 
-class _Numbered(Nowhere):
+class _Numbered(Origin):
     """Places of problems whose span is the number of the place."""
 
     def __init__(self, places: list[Range]) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, NamedTuple, Protocol, Self, cast
+from typing import Any, NamedTuple, Self, cast
 
 from mudline.diagnostics import Blocks, Code, DeckError, Diagnostic, Edit, Fix, Problem, Repair, Severity, Where
 from mudline.keywords.model import Block, Comment, Part, record_schema
@@ -72,39 +72,23 @@ _INTERNAL = frozenset(
 START = Range(1, 1, 1, 1)
 
 
-class Origin(Protocol):
-    """What a deck was read from: tells where a problem is."""
+class Origin:
+    """What a deck was read from; this class itself: nothing, as a program made the deck."""
 
     def place(self, problem: Problem) -> Range:
         """Lines and columns of a problem."""
-
-    def damaged(self, where: Where) -> bool:
-        """Whether something at this place could not be read."""
-
-    def lost(self, section: int, block: int) -> int:
-        """How many lines of a block could not be used at all."""
-
-    def written(self, where: Where) -> bool:
-        """Whether exactly this value stands in the file."""
-
-
-class Nowhere:
-    """The origin of a deck that was made by a program."""
-
-    def place(self, problem: Problem) -> Range:
-        """Always the start."""
         return START
 
     def damaged(self, where: Where) -> bool:
-        """Nothing is."""
+        """Whether something at this place could not be read."""
         return False
 
     def lost(self, section: int, block: int) -> int:
-        """Nothing is."""
+        """How many lines of a block could not be used at all."""
         return 0
 
     def written(self, where: Where) -> bool:
-        """Everything is."""
+        """Whether exactly this value stands in the file."""
         return True
 
 
@@ -136,7 +120,7 @@ class Deck:
     sections: list[Section] = field(default_factory=list)
     comments: list[Comment] = field(default_factory=list)
     problems: list[Problem] = field(default_factory=list, compare=False)
-    origin: Origin = field(default_factory=Nowhere, compare=False, repr=False)
+    origin: Origin = field(default_factory=Origin, compare=False, repr=False)
     folder: Path | None = field(default=None, compare=False)
     bases: tuple[Base, ...] = ()
     incomplete: bool = False

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, cast
 
 from mudline.codes.fields import SYN002, SYN006
 from mudline.codes.lines import SYN007, SYN008, SYN009, SYN010, SYN011, SYN014
-from mudline.deck.model import START, Deck, Opaque, Range, Section
+from mudline.deck.model import START, Deck, Opaque, Origin, Range, Section
 from mudline.deck.parameters import Parameters
 from mudline.diagnostics import MORE, MOST_REPORTED, Code, Problem, Severity, Span, Where
 from mudline.keywords import catalogue
@@ -102,7 +102,7 @@ def _belongs(keyword: str) -> str:
 
 
 @dataclass
-class TextOrigin:
+class TextOrigin(Origin):
     """Where the values of a deck are in its text."""
 
     tree: SyntaxTree
