@@ -143,7 +143,7 @@ STEPS = _by_name(
 
 
 def labelled(text: str, unit: str) -> str:
-    """A label of an axis: with the unit in brackets if it has one."""
+    """A label, with the unit in brackets behind it if it has one."""
     return f"{text} [{unit}]" if unit else text
 
 

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, Literal, NamedTuple, TypeAlias, TypeVar, get_type_hints
 
 from mudline.files import write_atomically
-from mudline.results.quantities import csv_lines
+from mudline.results.quantities import csv_lines, labelled
 from mudline.short_repr import cut
 from mudline.study.timing import machine
 
@@ -63,11 +63,6 @@ class Column(NamedTuple):
     name: str
     unit: str = ""
 
-    @property
-    def heading(self) -> str:
-        """Name and unit in one."""
-        return f"{self.name} [{self.unit}]" if self.unit else self.name
-
 
 @dataclass(frozen=True, slots=True)
 class StudyTable:
@@ -90,7 +85,7 @@ class StudyTable:
     def csv(self) -> Iterator[str]:
         """The lines of the table as CSV, headed by the columns with their units; what is not finite is empty."""
         rows: Iterable[Iterable[Cell]] = (tuple(map(_finite, row)) for row in self.rows)
-        return csv_lines([tuple(column.heading for column in self.columns), *rows])
+        return csv_lines([tuple(labelled(*column) for column in self.columns), *rows])
 
     def as_json(self) -> dict[str, Any]:
         """The table as it stands in the JSON of a report; what is not finite is null."""
