@@ -8,6 +8,7 @@ import pytest
 
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import select
+from tests.builders.decks import CLAY
 from tests.linting.findings import PIPE, PROPERTIES, RESTART, found, messages
 
 SETS = "*ELEMENT SETS\n SET=A\n GEN=1, 4\n SET=B\n GEN=3, 6\n SET=C\n GEN=3, 4\n SET=D\n GEN=1, 4\n"
@@ -72,7 +73,8 @@ def test_sets_of_unknown_elements_are_compared_by_name() -> None:
         (points("ALL", 10) + points("A", 20), 1),
         (points("A", 10) + points("B", 10), 0),
         (points("A", 10), 0),
-        (points("A", 10) + points("B", 20) + "*SEABED PROPERTIES\n TYPE=ELASTIC\n" + soil("C"), 0),
+        (points("A", 10) + points("B", 20) + "*SEABED PROPERTIES\n TYPE=ELASTIC\n" + soil("C"), 1),
+        (points("A", 10) + points("B", 20) + CLAY + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=C\n STIFFNESS=clay\n", 0),
     ],
 )
 def test_curves_of_embedment_may_not_overlap(lines: str, expected: int) -> None:

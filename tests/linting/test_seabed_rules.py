@@ -145,6 +145,20 @@ def test_findings_of_a_rule(code: str, lines: str, expected: int) -> None:
     assert len(found(PIPE + lines, code)) == expected
 
 
+def test_both_families_say_which_law_each_set_gets() -> None:
+    sets = "*ELEMENT SETS\n SET=West\n 1\n SET=East\n 2\n"
+    new = "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=West\n STIFFNESS=30000\n SET=East\n STIFFNESS=clay\n"
+    legacy = "*EMBEDMENT\n SET=West\n 0, 0\n 1, 1\n SET=East\n 0, 0\n 1, 2\n"
+    curve = "*SEABED STIFFNESS\n CURVE=clay\n 0, 0\n 1, 5\n"
+    text = PIPE + sets + curve + legacy + new
+    (finding,) = lint_bytes(text.encode(), "deck.keyxm", select(["SBD016"]))
+    assert finding.message == (
+        "*EMBEDMENT and *SEABED STIFFNESS are in one model (partly inferred: SET='West' gets the curve of *EMBEDMENT "
+        "for SET='West', SET='East' gets curve 'clay', no element gets the curve of *EMBEDMENT for SET='East'): "
+        "keep one family"
+    )
+
+
 def test_a_steep_slope_is_a_warning_and_a_vertical_one_an_error() -> None:
     for slope, severity in ((45.1, "warning"), (-89.9, "warning"), (90.0, "error")):
         text = f"{PIPE}*SEABED PROFILE\n TYPE=SLOPING\n SLOPE={slope}\n"

@@ -157,6 +157,19 @@ def test_a_new_block_that_gives_a_stiffness_wins_over_the_legacy_family() -> Non
     assert stiffnesses(scene_of(text)) == [1] * 5 + [500] * 5
 
 
+def test_a_legacy_curve_wins_over_a_number_of_the_new_family() -> None:
+    new = "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=30000\n"
+    for text in (BASE + embedment("b") + new, BASE + new + embedment("b")):
+        assert laws(text) == "lllcccccll"
+        assert scene_of(text).law_sets == ["ALL"] * 3 + ["b"] * 5 + ["ALL"] * 2
+
+
+def test_of_two_curves_of_both_families_that_of_the_new_one_wins() -> None:
+    curve = "*SEABED STIFFNESS\n CURVE=clay\n 0, 0\n 1, 5\n"
+    text = BASE + embedment("ALL") + curve + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=a\n STIFFNESS=clay\n"
+    assert scene_of(text).law_names == ["curve:clay"] * 5 + ["curve:ALL"] * 5
+
+
 def test_a_new_block_without_stiffness_leaves_the_legacy_law() -> None:
     text = BASE + embedment("b") + "*ELASTIC SURFACE\n 500\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n FRICTION=1\n"
     assert laws(text) == "lllcccccll"

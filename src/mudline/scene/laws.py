@@ -80,7 +80,11 @@ class LawTable:
 
 
 def read_laws(context: Context, sets: Sets, named: list[SceneCurve], by_set: list[SceneCurve], count: int) -> LawTable:
-    """The law of each of `count` elements."""
+    """The law of each of `count` elements.
+
+    Of both families, a curve holds before a number, whichever gives it; of two curves or two numbers, that of the new
+    family.
+    """
     laws = LawTable(curves=[*named, *by_set])
     surfaces = [*_rigid_surface(context, sets, laws), *_elastic_surface(context, sets, laws)]
     legacy = [*surfaces, *_embedment(sets, laws, len(named))]
@@ -91,11 +95,19 @@ def read_laws(context: Context, sets: Sets, named: list[SceneCurve], by_set: lis
     laws.covered = looked_up(np.array([*range(len(legacy), len(laws.set_laws)), NOTHING], dtype=np.intp), wins)
     gives = np.array([*(set_law.kind is not LawKind.NONE or set_law.unknown for set_law in laws.set_laws), False])
     replaced = looked_up(gives, laws.covered)
+    if any(set_law.kind is LawKind.CURVE for set_law in legacy):
+        curves, numbers = (_marked(laws, kind) for kind in (LawKind.CURVE, LawKind.LINEAR))
+        replaced = replaced & ~(looked_up(curves, laws.of_element) & looked_up(numbers, laws.covered))
     if replaced.all():
         laws.of_element = laws.covered
     elif replaced.any():
         laws.of_element = np.where(replaced, laws.covered, laws.of_element)
     return laws
+
+
+def _marked(laws: LawTable, kind: LawKind) -> Mask:
+    """Whether each of the set_laws is of a kind; the last one is that of no set_law, -1."""
+    return np.array([*(set_law.kind is kind for set_law in laws.set_laws), False])
 
 
 def _rigid_surface(context: Context, sets: Sets, laws: LawTable) -> Iterator[SetLaw]:

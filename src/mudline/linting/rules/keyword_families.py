@@ -4,14 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+import numpy as np
+
+from mudline.contact.input import LawKind
 from mudline.diagnostics import Code, Problem, Repair, Severity, Where
 from mudline.keywords.catalogue import is_extension, is_superseded, supersedes
+from mudline.keywords.text import shown
 from mudline.linting.rule import LintContext, rule
+from mudline.scene.model import Scene
 from mudline.syntax.edits import with_line_ends
 
 LEG001 = Code("LEG001", "superseded-keyword", Severity.INFO)
 SBD016 = Code("SBD016", "mixed-families", Severity.WARNING)
 SBD018 = Code("SBD018", "extension-keyword", Severity.ERROR)
+
+_MOST_LAWS = 6
+"""Sets whose laws a message lists."""
 
 
 @rule(LEG001)
@@ -64,8 +72,9 @@ def _migration(context: LintContext) -> Repair | None:
 def mixed_families(context: LintContext) -> Iterator[Problem]:
     """The model has legacy and new seabed keywords.
 
-    The manual does not say how the two combine, so the deck may mean something else to another version of the program.
-    Here a block of *SEABED PROPERTIES that gives a stiffness overrides the legacy keywords (inferred). Keep one family.
+    The manual says that a non-linear curve is used where there is one. The rest is inferred: of two curves, and of two
+    numbers, that of the newer keywords is used. Another version of the program may read the deck otherwise. The message
+    lists what each set gets, and the curves that no element gets. Keep one family.
 
     Example:
          $MODEL
@@ -89,8 +98,42 @@ def mixed_families(context: LintContext) -> Iterator[Problem]:
     own = len(context.scene.deck.own_sections)
     where, keyword = max((place for place in (legacy, new) if place[0].section < own), default=legacy)
     other = (new if is_superseded(keyword) else legacy)[1]
-    message = f"*{keyword} and *{other} are in one model, and how they combine is not documented: keep one family"
+    message = f"*{keyword} and *{other} are in one model{_laws_by_set(context.scene)}: keep one family"
     yield Problem(SBD016, message, where=where)
+
+
+def _laws_by_set(scene: Scene) -> str:
+    """What each set gets where both families give laws, as far as it is known: ` (SET=A gets curve clay)`."""
+    laws = scene.laws
+    if not scene.element_ids.size or laws.uncertain or len({set_law.family for set_law in laws.set_laws}) < 2:
+        return ", and how they combine is partly inferred"
+    used = np.unique(laws.of_element).tolist()
+    parts = [
+        f"SET={shown(laws.set_laws[index].set_.name)} gets {_called(scene, index)}" for index in used if index >= 0
+    ]
+    idle = [
+        _called(scene, index)
+        for index, set_law in enumerate(laws.set_laws)
+        if set_law.kind is LawKind.CURVE and index not in used
+    ]
+    parts += [f"no element gets {name}" for name in idle]
+    more = f", {len(parts) - _MOST_LAWS} more" if len(parts) > _MOST_LAWS else ""
+    return f" (partly inferred: {', '.join(parts[:_MOST_LAWS])}{more})"
+
+
+def _called(scene: Scene, index: int) -> str:
+    """A law of a set as a reader knows it: `curve clay`, `stiffness 500`, `a rigid seabed`."""
+    set_law = scene.laws.set_laws[index]
+    match set_law.kind:
+        case LawKind.CURVE if set_law.family == "legacy":
+            return f"the curve of *EMBEDMENT for SET={shown(set_law.set_.name)}"
+        case LawKind.CURVE:
+            return f"curve {shown(scene.laws.curves[set_law.curve].name)}" if set_law.curve >= 0 else "an unknown curve"
+        case LawKind.LINEAR:
+            return f"stiffness {set_law.stiffness:.10g}"
+        case LawKind.RIGID:
+            return "a rigid seabed"
+    return "no stiffness"
 
 
 def _first(context: LintContext, names: Iterable[str]) -> tuple[Where, str] | None:
