@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import errno
 import os
-import secrets
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from contextvars import ContextVar
@@ -82,6 +81,6 @@ def replacement(path: Path) -> Iterator[BinaryIO]:
 def _new_beside(target: Path, mode: int) -> tuple[int, Path]:
     """An open new file in the folder of another one; the system takes its mask for new files off the mode."""
     while True:
-        path = target.with_name(f".{target.name[:40]}.{secrets.token_hex(8)}")
+        path = target.with_name(f".{target.name[:40]}.{os.urandom(8).hex()}")
         with suppress(FileExistsError):
             return os.open(path, _CREATE, mode), path
