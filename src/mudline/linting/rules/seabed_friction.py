@@ -15,7 +15,7 @@ from mudline.scene.laws import Extension, typed_blocks
 from mudline.scene.sets import ALL
 
 if TYPE_CHECKING:
-    from mudline.keywords.common import Surface
+    from mudline.keywords.surfaces import Surface
 
 SBD007 = Code("SBD007", "lateral-and-friction", Severity.WARNING)
 SBD013 = Code("SBD013", "legacy-friction-order", Severity.WARNING)
