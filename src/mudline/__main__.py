@@ -20,6 +20,9 @@ collector. By default a third of the time of a deck of many entries goes into lo
 _THREADS = "OPENBLAS_NUM_THREADS"
 """No command multiplies large matrices: threads for that would take as long to start as numpy, and forbid to fork."""
 
+_PLUGINS = "PYDANTIC_DISABLE_PLUGINS"
+"""No command is for those who watch what pydantic does: to look for their plugins reads of every installed package."""
+
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command line and return its exit code. The version is printed before anything else is imported."""
@@ -29,6 +32,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 0
     gc.set_threshold(*_COLLECTION)
     os.environ.setdefault(_THREADS, "1")
+    os.environ.setdefault(_PLUGINS, "__all__")
     try:
         from mudline.cli.main import run
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import errno
 import os
-import secrets
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from contextvars import ContextVar
@@ -38,17 +37,18 @@ def look(path: Path) -> Path:
     return path
 
 
-def write_atomically(path: Path, data: bytes | Iterable[bytes]) -> None:
+def write_atomically(path: Path, data: bytes | Iterable[bytes], *, synced: bool = True) -> None:
     """Write a file, whole or in pieces as they come, as `replacement` does it.
 
+    What is not `synced` is not waited for until it is on the disk: for files with a checksum, that can be made again.
     Raises OSError, and whatever making the pieces raises; the old file is then still there.
     """
-    with replacement(path) as stream:
+    with replacement(path, synced=synced) as stream:
         stream.writelines([data] if isinstance(data, bytes) else data)
 
 
 @contextmanager
-def replacement(path: Path) -> Iterator[BinaryIO]:
+def replacement(path: Path, *, synced: bool = True) -> Iterator[BinaryIO]:
     """A temporary file beside `path` to write to, which replaces it in one step when all is written.
 
     Permissions are kept, and a symbolic link stays one: the file that it points to is replaced. What is no regular
@@ -69,7 +69,8 @@ def replacement(path: Path) -> Iterator[BinaryIO]:
         with os.fdopen(handle, "wb") as stream:
             yield stream
             stream.flush()
-            os.fsync(stream.fileno())
+            if synced:
+                os.fsync(stream.fileno())
         if kept is not None:
             temporary.chmod(kept)
         temporary.replace(target)
@@ -82,6 +83,6 @@ def replacement(path: Path) -> Iterator[BinaryIO]:
 def _new_beside(target: Path, mode: int) -> tuple[int, Path]:
     """An open new file in the folder of another one; the system takes its mask for new files off the mode."""
     while True:
-        path = target.with_name(f".{target.name[:40]}.{secrets.token_hex(8)}")
+        path = target.with_name(f".{target.name[:40]}.{os.urandom(8).hex()}")
         with suppress(FileExistsError):
             return os.open(path, _CREATE, mode), path

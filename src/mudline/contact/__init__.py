@@ -9,11 +9,14 @@ Nothing here knows decks, sets or keywords. X is up, the units are those of the 
 
 from __future__ import annotations
 
-from mudline.contact.input import ContactInput, ElementError, LawAssignment, LawKind, PositionError, Tension
-from mudline.contact.model import ContactModel
-from mudline.contact.plan import Plan, Stage
-from mudline.contact.result import ContactResult
-from mudline.contact.tables import ContactState
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from mudline.contact.input import ContactInput, ElementError, LawAssignment, LawKind, PositionError, Tension
+    from mudline.contact.model import ContactModel
+    from mudline.contact.plan import Plan, Stage
+    from mudline.contact.result import ContactResult
+    from mudline.contact.tables import ContactState
 
 __all__ = [
     "ContactInput",
@@ -28,3 +31,31 @@ __all__ = [
     "Stage",
     "Tension",
 ]
+
+_HOMES = {
+    "ContactInput": "input",
+    "ContactModel": "model",
+    "ContactResult": "result",
+    "ContactState": "tables",
+    "ElementError": "input",
+    "LawAssignment": "input",
+    "LawKind": "input",
+    "Plan": "plan",
+    "PositionError": "input",
+    "Stage": "plan",
+    "Tension": "input",
+}
+
+
+def __getattr__(name: str) -> object:
+    """Public names are imported when they are first used: to lint a deck takes the input alone."""
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from importlib import import_module  # noqa: PLC0415 - as above
+
+    found = globals()[name] = getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)
+    return found
+
+
+def __dir__() -> list[str]:
+    return __all__

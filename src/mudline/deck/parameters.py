@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple, NewType, cast
 
 from pydantic import BaseModel
 
+from mudline import expression as equations
 from mudline.codes.fields import SYN002, SYN006, SYN017
 from mudline.codes.references import REF013, REF014
 from mudline.deck.model import Deck
 from mudline.diagnostics import Blocks, Code, Problem, Severity, Where
-from mudline.expression import Expression, ExpressionError, UndefinedName, UnknownFunction, evaluate, parse
 from mudline.keywords.model import FieldSpec, ListRow, Part, columns_of, record_schema
 from mudline.keywords.table import Table
 from mudline.keywords.text import shown, suggestion
@@ -25,6 +25,7 @@ from mudline.spelling import Effort
 from mudline.syntax.rows import read_number
 
 if TYPE_CHECKING:
+    from mudline.expression import Expression, ExpressionError
     from mudline.keywords.library.parameters import Parameter
 
 
@@ -216,8 +217,8 @@ class Parameters:
 
     def _parse(self, equation: Equation, where: Where) -> Expression:
         try:
-            return parse(equation.expression)
-        except ExpressionError as error:
+            return equations.parse(equation.expression)
+        except equations.ExpressionError as error:
             raise NoValueError(_problem(SYN017, equation, error, where)) from error
 
     def _known(self, name: str) -> Value:
@@ -225,18 +226,18 @@ class Parameters:
 
     def _value(self, expression: Expression, where: Where) -> Value:
         try:
-            return evaluate(expression, self._known)
-        except UndefinedName as error:
+            return equations.evaluate(expression, self._known)
+        except equations.UndefinedName as error:
             word = expression.text[error.start : error.end]
             known = (definition.name for definition in self.definitions.values())
             near = suggestion(word, known, self._effort)
             message = f"parameter {word} is not defined{near}: define it in *PARAMETERS"
             raise NoValueError(Problem(REF013, message, None, None, where)) from error
-        except UnknownFunction as error:
+        except equations.UnknownFunction as error:
             problem = _problem(SYN017, _equation(expression), error, where)
             message = f"{problem.message}; the equation is not evaluated"
             raise NoValueError(Problem(SYN017, message, None, Severity.WARNING, where)) from error
-        except ExpressionError as error:
+        except equations.ExpressionError as error:
             raise NoValueError(_problem(SYN017, _equation(expression), error, where)) from error
 
 

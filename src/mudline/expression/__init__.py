@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from mudline.expression.evaluation import CONSTANTS, FORMS, FUNCTIONS, Form, Function, evaluate
-from mudline.expression.nodes import (
-    EvaluationError,
-    Expression,
-    ExpressionError,
-    NameSpan,
-    UndefinedName,
-    UnknownFunction,
-)
-from mudline.expression.parsing import DEEPEST, LONGEST, parse
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from mudline.expression.evaluation import CONSTANTS, FORMS, FUNCTIONS, Form, Function, evaluate
+    from mudline.expression.nodes import (
+        EvaluationError,
+        Expression,
+        ExpressionError,
+        NameSpan,
+        UndefinedName,
+        UnknownFunction,
+    )
+    from mudline.expression.parsing import DEEPEST, LONGEST, parse
 
 __all__ = [
     "CONSTANTS",
@@ -30,3 +33,35 @@ __all__ = [
     "evaluate",
     "parse",
 ]
+
+_HOMES = {
+    "CONSTANTS": "evaluation",
+    "DEEPEST": "parsing",
+    "FORMS": "evaluation",
+    "FUNCTIONS": "evaluation",
+    "LONGEST": "parsing",
+    "EvaluationError": "nodes",
+    "Expression": "nodes",
+    "ExpressionError": "nodes",
+    "Form": "evaluation",
+    "Function": "evaluation",
+    "NameSpan": "nodes",
+    "UndefinedName": "nodes",
+    "UnknownFunction": "nodes",
+    "evaluate": "evaluation",
+    "parse": "parsing",
+}
+
+
+def __getattr__(name: str) -> object:
+    """Public names are imported when they are first used: most decks have no equation."""
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from importlib import import_module  # noqa: PLC0415 - as above
+
+    found = globals()[name] = getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)
+    return found
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -142,6 +142,11 @@ class Comment(BaseModel):
         return with_fields(self, [("before", self.before), ("text", self.text)])
 
 
+def _no_comments() -> list[Comment]:
+    """A function of our own: of the class `list` pydantic parses the signature, in each model that has the field."""
+    return []
+
+
 class Part(BaseModel):
     """Anything with declared fields."""
 
@@ -204,7 +209,7 @@ class Record(Part):
 
     rule: ClassVar[str]
     sticky: ClassVar[str] = ""
-    comments: list[Comment] = Field(default_factory=list)
+    comments: list[Comment] = Field(default_factory=_no_comments)
 
     @classmethod
     def row_slot(cls, number: int, fields: int, given: dict[str, object], last: object) -> str:

@@ -205,7 +205,7 @@ def write_entries(path: Path, entries: Mapping[str, str]) -> None:
     body = b"".join(reversed(lines))
     with suppress(OSError):
         path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-        write_atomically(path, _head(body) + b"\n" + body)
+        write_atomically(path, _head(body) + b"\n" + body, synced=False)
         _drop_old(path.parent)
 
 

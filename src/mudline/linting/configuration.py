@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -56,6 +55,8 @@ def read_configuration(
     Raises OSError and ConfigurationError.
     """
     content = path.read_bytes()
+    import tomllib  # noqa: PLC0415 - most commands find no file
+
     try:
         text = content.decode("utf-8-sig").replace("\r\n", "\n")
         document = tomllib.loads(text)

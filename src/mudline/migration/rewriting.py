@@ -17,9 +17,9 @@ from mudline.deck.parameters import folded
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Problem, Span, Where
 from mudline.keywords.catalogue import in_order, is_superseded, supersedes
-from mudline.keywords.common import Surface
 from mudline.keywords.library.embedment import Embedment
 from mudline.keywords.model import Block, record_schema
+from mudline.keywords.surfaces import Surface
 from mudline.keywords.text import reads_as_name
 from mudline.keywords.values import Equation
 from mudline.syntax.edits import TextEdit

@@ -19,7 +19,7 @@ from mudline.syntax.fields import read_line
 from mudline.syntax.rows import read_number
 
 if TYPE_CHECKING:
-    from mudline.keywords.common import Surface
+    from mudline.keywords.surfaces import Surface
 
 
 FOOT = 0.3048

@@ -21,9 +21,9 @@ from mudline.syntax.rows import read_number
 from mudline.syntax.source import Source
 
 if TYPE_CHECKING:
-    from mudline.keywords.common import Surface
     from mudline.keywords.library.seabed_planes import Plane, SeabedPlanes
     from mudline.keywords.library.seabed_profile import SeabedProfile
+    from mudline.keywords.surfaces import Surface
 
 
 _NO_POINTS = np.zeros((0, 2))

@@ -285,7 +285,13 @@ class _Reader:
 
 def _ascending(indices: Indices) -> Indices:
     """Indices in ascending order, each once."""
-    return indices if (indices[1:] > indices[:-1]).all() else np.unique(indices)
+    return indices if (indices[1:] > indices[:-1]).all() else _distinct(indices)
+
+
+def _distinct(indices: Indices) -> Indices:
+    """The same as `np.unique`, which imports `numpy.ma`: that would take longer than all sets of most decks."""
+    ordered = np.sort(indices)
+    return ordered[np.concatenate([[True], ordered[1:] != ordered[:-1]])] if len(ordered) else ordered
 
 
 def _union(parts: list[Indices]) -> Indices:
@@ -296,7 +302,7 @@ def _union(parts: list[Indices]) -> Indices:
     rest = [part for part in parts if part is not largest and len(part)]
     if not rest:
         return largest
-    others = np.unique(np.concatenate(rest))
+    others = _distinct(np.concatenate(rest))
     at = np.searchsorted(largest, others)
     new = largest[np.minimum(at, len(largest) - 1)] != others
     return np.insert(largest, at[new], others[new]) if new.any() else largest

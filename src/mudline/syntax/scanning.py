@@ -95,7 +95,7 @@ def _write(path: Path, tables: dict[str, Any]) -> None:
     body = json.dumps(tables).encode()
     with suppress(OSError):
         path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-        write_atomically(path, _checksum(body) + b"\n" + body)
+        write_atomically(path, _checksum(body) + b"\n" + body, synced=False)
         for other in path.parent.glob(f"{path.name.rpartition('-')[0]}-*"):
             if other != path:
                 other.unlink()

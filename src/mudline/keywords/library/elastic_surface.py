@@ -4,14 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from mudline.keywords.common import (
-    SUCTION_STIFFNESS,
-    SURFACE_SUCCESSORS,
-    FrictionCoefficients,
-    FrictionLengths,
-    Surface,
-)
+from mudline.keywords.common import SUCTION_STIFFNESS
 from mudline.keywords.model import Row, about
+from mudline.keywords.surfaces import SURFACE_SUCCESSORS, FrictionCoefficients, FrictionLengths, Surface
 from mudline.keywords.values import Facts, Real
 
 

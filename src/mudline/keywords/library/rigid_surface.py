@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from mudline.keywords.common import SURFACE_SUCCESSORS, FrictionCoefficients, FrictionLengths, Surface
 from mudline.keywords.model import about
+from mudline.keywords.surfaces import SURFACE_SUCCESSORS, FrictionCoefficients, FrictionLengths, Surface
 from mudline.keywords.values import Facts
 
 

@@ -6,8 +6,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from mudline.keywords.common import OTHER_SOIL_FORMS, CurvesFile, SoilCurves
 from mudline.keywords.model import Block, Record, setting
+from mudline.keywords.soil_springs import OTHER_SOIL_FORMS, CurvesFile, SoilCurves
 from mudline.keywords.values import Facts, Name, Names
 
 

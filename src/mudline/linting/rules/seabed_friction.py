@@ -15,7 +15,7 @@ from mudline.scene.laws import Extension, typed_blocks
 from mudline.scene.sets import ALL
 
 if TYPE_CHECKING:
-    from mudline.keywords.common import Surface
+    from mudline.keywords.surfaces import Surface
 
 SBD007 = Code("SBD007", "lateral-and-friction", Severity.WARNING)
 SBD013 = Code("SBD013", "legacy-friction-order", Severity.WARNING)
@@ -269,7 +269,7 @@ def short_mobilisation(context: LintContext) -> Iterator[Problem]:
     for side, name in enumerate(("longitudinal_mobilisation", "transverse_mobilisation")):
         length = lengths[:, side]
         short = (length > 0.0) & (friction[:, side] > 0.0) & (length < _SHORTEST * scene.diameter)
-        for index in np.unique(bed.of_element[short]).tolist():
+        for index in sorted(set(bed.of_element[short].tolist())):
             where = bed.places[index]
             path = (name,) if where.path[0] == "properties" else ("friction", name)
             value = bed.values[index].mobilisation[side]

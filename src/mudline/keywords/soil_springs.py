@@ -1,0 +1,45 @@
+"""What the keywords of soil springs share: curves of resistance against displacement, by depth or by node."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from mudline.codes.lines import SYN001, SYN004, SYN005
+from mudline.diagnostics import Code
+from mudline.keywords.model import Record, Row, about, rows, setting
+from mudline.keywords.table import Table
+from mudline.keywords.values import Ident, Name, Names, Real
+
+OTHER_SOIL_FORMS: tuple[Code, ...] = (SYN001, SYN004, SYN005)
+"""Faults that may be one of the other forms of the keywords of soil springs, which are not public."""
+
+_SOIL_POINTS = "points of the curve: resistance and displacement"
+
+
+class SoilPoint(Row):
+    """A point of a curve: resistance first."""
+
+    resistance: Annotated[
+        Real, about("soil resistance; it comes first", unit="F/L", inferred="P is per unit length, as T is")
+    ]
+    displacement: Annotated[Real, about("displacement of the pipe against the soil", unit="L")]
+
+
+class DepthCurve(Record):
+    """The curve of a depth."""
+
+    rule = "depth_curve"
+    depth: Annotated[Real, setting("DEPTH", "depth below the mudline, negative above it", unit="L")]
+    points: Annotated[Table, rows(SoilPoint, _SOIL_POINTS, unordered=True)]
+
+
+class NodeCurve(Record):
+    """The curve of a node."""
+
+    rule = "node_curve"
+    node: Annotated[Ident, setting("NODE", "node that the curve belongs to", inferred="in place of DEPTH=")]
+    points: Annotated[Table, rows(SoilPoint, _SOIL_POINTS, unordered=True)]
+
+
+SoilCurves = list[DepthCurve | NodeCurve]
+CurvesFile = Annotated[Name | None, setting("FILE", "file with the curves, instead of lines", names=Names.FILE)]
