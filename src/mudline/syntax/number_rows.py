@@ -16,6 +16,7 @@ LONGEST_BLANK_SEPARATED = 10_000
 _TAB, _LINE, _BLANK, _PLUS, _COMMA, _MINUS, _POINT, _ZERO = b"\t\n +,-.0"
 _EXPONENT, _ANY_CASE = ord("e"), 0x21  # what makes an e of E, d and D, and of nothing else
 _MOST_PLACES = 8
+_FEW = 16  # fields to a mark from which on marks are looked up one by one
 _D_TO_E = bytes.maketrans(b"dD", b"EE")
 
 
@@ -147,10 +148,14 @@ class NumberRows:
             return otherwise
         if len(marks) == len(self.ends) and (self.starts <= marks).all() and (marks < self.ends).all():
             return marks
-        owner = np.repeat(np.arange(len(self.ends), dtype=np.int32), np.diff(self.ends, prepend=0))
-        found = otherwise.copy()
-        found[owner.take(marks)] = marks
-        return found
+        if len(marks) * _FEW < len(self.ends):
+            found = otherwise.copy()
+            found[np.searchsorted(self.ends, marks)] = marks
+            return found
+        places = np.flatnonzero(mask[1:] | (self.field[:-1] > self.field[1:]))
+        places += 1
+        ends = np.flatnonzero(~self.field.take(places))
+        return np.where(np.diff(ends, prepend=-1) > 1, places.take(ends - 1), otherwise)
 
     def _faulty(self, faults: list[Flags], accounted: Whole) -> Flags | None:
         """Which fields have a fault or hold other than the accounted number of digits; None if there is no such one."""
