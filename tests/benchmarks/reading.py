@@ -70,7 +70,7 @@ def _readers(bench: Bench, kinds: dict[str, str]) -> dict[str, Maker]:
     loadtxt = Work("import numpy as np", f"return np.loadtxt(path, delimiter=',', skiprows={head})")
     makers = {
         "mudline": maker("mudline", _OURS),
-        "mudline, pyarrow": maker("mudline", _OURS._replace(setup="import mudline")),
+        "mudline, pyarrow": maker("mudline", _OURS._replace(setup="import mudline, pyarrow.csv")),
         "np.loadtxt": maker("np.loadtxt", loadtxt),
     }
     there = {name: work for name, work in _PROGRAMS.items() if name in kinds and bench.has(name)}

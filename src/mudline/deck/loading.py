@@ -36,7 +36,9 @@ def load_bytes(
     """
     form = form or form_of(name)
     if form == KEYWORD:
-        deck = read_source(Source.from_bytes(data, name), units=units, read=read)
+        source = Source.from_bytes(data, name)
+        del data  # where nobody else has it, its memory is free for the tables
+        deck = read_source(source, units=units, read=read)
     else:
         deck = cast("Deck", _form(form).read(data, name))
         deck.units = units or deck.units

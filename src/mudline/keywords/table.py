@@ -305,8 +305,15 @@ def _all_whole(values: NDArray[np.float64], columns: Sequence[Column]) -> bool:
     count = whole.index(False) if False in whole else len(whole)
     if True in whole[count:]:
         return False
-    first = values[:, :count]
-    return bool(((first == np.floor(first)) & (first != 0.0) & (np.abs(first) <= LARGEST_WHOLE)).all())
+    for start in range(0, len(values) if count else 0, _ROWS_AT_ONCE):
+        first = values[start : start + _ROWS_AT_ONCE, :count]
+        if not ((first == np.floor(first)) & (first != 0.0) & (np.abs(first) <= LARGEST_WHOLE)).all():
+            return False
+    return True
+
+
+_ROWS_AT_ONCE = 1 << 14
+"""Rows of which what is worked out stays in the fast memory of a processor."""
 
 
 _ENTRIES_AT_ONCE = 32

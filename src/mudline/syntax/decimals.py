@@ -39,6 +39,7 @@ _STEPS = tuple(
         (0x0000FFFF0000FFFF, 10_000 << 32 | 1, 32),
     )
 )
+_LAST, _DIGIT = np.uint64(56), np.uint64(0x0F)
 BEFORE = 24
 """How many characters a text needs in front of its first digit, and 8 behind its last, to be read as words."""
 
@@ -62,10 +63,14 @@ def whole_numbers(words: Words, end: Whole, count: Whole) -> Words:
             unused = _UNUSED[number].take(count)
             word >>= unused
             word <<= unused
-        for mask, factor, shift in _STEPS:  # neighbours are added in pairs, fours and eights
-            word &= mask
-            word *= factor
-            word >>= shift
+        if most == number * 8 + 1:
+            word >>= _LAST
+            word &= _DIGIT
+        else:
+            for mask, factor, shift in _STEPS:  # neighbours are added in pairs, fours and eights
+                word &= mask
+                word *= factor
+                word >>= shift
         if number:
             word *= _PLACES[8 * number]
             total += word

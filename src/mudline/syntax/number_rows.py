@@ -16,6 +16,7 @@ LONGEST_BLANK_SEPARATED = 10_000
 _TAB, _LINE, _BLANK, _PLUS, _COMMA, _MINUS, _POINT, _ZERO = b"\t\n +,-.0"
 _EXPONENT, _ANY_CASE = ord("e"), 0x21  # what makes an e of E, d and D, and of nothing else
 _MOST_PLACES = 8
+_FEW = 16  # fields to a mark from which on marks are looked up one by one
 _D_TO_E = bytes.maketrans(b"dD", b"EE")
 
 
@@ -86,8 +87,11 @@ class NumberRows:
 
     def _strange(self) -> bool:
         """Whether anything but blanks, commas and line ends is between the fields."""
-        kinds = (self.field, self.commas, self.line_ends, self.letters == _BLANK, self.letters == _TAB)
-        return sum(int(np.count_nonzero(kind)) for kind in kinds) < len(self.letters)
+        known = int(self.ends.sum() - self.starts.sum()) + self.count
+        known += int(np.count_nonzero(self.commas)) + int(np.count_nonzero(self.letters == _BLANK))
+        if known < len(self.letters):
+            known += int(np.count_nonzero(self.letters == _TAB))
+        return known < len(self.letters)
 
     def _found(self, letter: int, marks: Flags, expected: Whole) -> Whole:
         """Where a character is; `expected` has as many places as there are of it, and mostly is right."""
@@ -142,15 +146,25 @@ class NumberRows:
 
     def _marks(self, mask: Flags, otherwise: Whole) -> Whole:
         """Where each field has a mark, its last one; `otherwise` for fields that have none."""
-        marks = np.flatnonzero(mask)
-        if not len(marks):
+        count, fields = int(np.count_nonzero(mask)), len(self.ends)
+        if not count:
             return otherwise
-        if len(marks) == len(self.ends) and (self.starts <= marks).all() and (marks < self.ends).all():
-            return marks
-        owner = np.repeat(np.arange(len(self.ends), dtype=np.int32), np.diff(self.ends, prepend=0))
-        found = otherwise.copy()
-        found[owner.take(marks)] = marks
-        return found
+        if count * _FEW < fields:
+            marks, found = np.flatnonzero(mask), otherwise.copy()
+            found[np.searchsorted(self.ends, marks)] = marks
+            return found
+        width = fields // self.count
+        some = slice(int(np.searchsorted(self.ends, mask.argmax())), width)
+        if count == (width - some.start) * self.count:  # it may be that the last columns have one in every row
+            first, behind, found = (one.reshape(-1, width) for one in (self.starts, self.ends, otherwise.copy()))
+            expected = np.flatnonzero(mask).reshape(self.count, -1)
+            if (first[:, some] <= expected).all() and (expected < behind[:, some]).all():
+                found[:, some] = expected
+                return found.ravel()
+        places = np.flatnonzero(mask[1:] | (self.field[:-1] > self.field[1:]))
+        places += 1
+        ends = np.flatnonzero(~self.field.take(places))
+        return np.where(np.diff(ends, prepend=-1) > 1, places.take(ends - 1), otherwise)
 
     def _faulty(self, faults: list[Flags], accounted: Whole) -> Flags | None:
         """Which fields have a fault or hold other than the accounted number of digits; None if there is no such one."""

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mudline.diagnostics import Span
+from mudline.syntax import arrow_rows
 from mudline.syntax.fields import Field, split
 from mudline.syntax.number_rows import LONGEST_BLANK_SEPARATED, LONGEST_NUMBER, NumberRows
 
@@ -26,6 +27,8 @@ _PIECE = 256 * 1024  # characters: the arrays of a piece stay in the fast memory
 _MOST_ODD = 0.5
 _ROOM = 1.05
 _KEPT_BACK = 1 << 22
+_REFUSED = 2
+"""How many more pieces pyarrow may refuse than read: a text of which it refuses half is read sooner without it."""
 
 
 class Rows(NamedTuple):
@@ -70,8 +73,7 @@ def read_rows(text: str, span: Span, columns: int) -> Rows:
     """Read the lines of a run into at most `columns` columns. `text` must have LF or CRLF line ends."""
     if span.end - span.start < _SHORT:
         return read_rows_slow(text, span, columns)
-    pieces = (text[start:end] for start, end in _pieces(text, span))
-    return _together((_read_piece(lines, columns) for lines in pieces), span.end - span.start)
+    return _together(_parts(text, span, columns), span.end - span.start)
 
 
 def read_rows_slow(text: str, span: Span, columns: int) -> Rows:
@@ -97,19 +99,35 @@ def read_rows_slow(text: str, span: Span, columns: int) -> Rows:
 
 def read_rows_fast(text: str, span: Span, columns: int) -> Rows | None:
     """The same rows where every field is a number and all rows have one length; None otherwise."""
-    parts: list[Rows] = []
+    parts: list[tuple[int, Rows]] = []
     for start, end in _pieces(text, span):
         found = NumberRows(text[start:end]).read() if end - start <= 2 * _PIECE else None
         if found is None or found[1] is not None or found[0].shape[1] > columns:
             return None
-        parts.append(_plain(found[0]))
-        if parts[-1].values.shape[1] != parts[0].values.shape[1]:
+        parts.append((end - start, _plain(found[0])))
+        if found[0].shape[1] != parts[0][1].values.shape[1]:
             return None
     return _together(parts, span.end - span.start) if parts else None
 
 
 def _plain(values: NDArray[np.float64]) -> Rows:
     return Rows(values, np.broadcast_to(np.intp(values.shape[1]), len(values)), {})
+
+
+def _parts(text: str, span: Span, columns: int) -> Iterator[tuple[int, Rows]]:
+    """The rows of one piece of a text after the other, and how many characters each piece has."""
+    arrow = arrow_rows.arrow_csv(span.end - span.start)
+    refused = 0
+    for start, end in _pieces(text, span, arrow_rows.PIECE if arrow else _PIECE):
+        values = arrow_rows.read(arrow, text[start:end], columns) if arrow else None
+        if values is not None:
+            refused -= 1
+            yield end - start, _plain(values)
+            continue
+        refused += 1
+        arrow = arrow if refused < _REFUSED else None
+        for piece in _pieces(text, Span(start, end)):
+            yield piece.end - piece.start, _read_piece(text[piece.start : piece.end], columns)
 
 
 def _read_piece(lines: str, columns: int) -> Rows:
@@ -150,8 +168,8 @@ def _merged(numbers: Rows, lines: str, odd: NDArray[np.bool_], columns: int) -> 
     return Rows(values, lengths, {(places[row], column): word for (row, column), word in others.words.items()})
 
 
-def _together(parts: Iterable[Rows], size: int) -> Rows:
-    """The rows of the parts of a text, which has `size` characters, one below the other.
+def _together(parts: Iterable[tuple[int, Rows]], size: int) -> Rows:
+    """The rows of the parts of a text, which has `size` characters, one below the other; each with its own count.
 
     They are copied to one array as they come, as large as the first part lets expect: to copy all parts at the end
     would take twice the memory.
@@ -160,11 +178,11 @@ def _together(parts: Iterable[Rows], size: int) -> Rows:
     lengths: list[NDArray[np.intp]] = []
     words: dict[tuple[int, int], str] = {}
     start = 0
-    for part in parts:
+    for characters, part in parts:
         count, width = part.values.shape
         end = start + count
         if end > len(values) or width > values.shape[1]:
-            expected = int(end * max(_ROOM, size / _PIECE * _ROOM)) if not start else max(int(end * _ROOM), len(values))
+            expected = max(int(end * (_ROOM if start else _ROOM * size / characters)), len(values))
             values = _grown(values[:start], expected, max(width, values.shape[1]))
         values[start:end, :width] = part.values
         values[start:end, width:] = math.nan
@@ -190,8 +208,8 @@ def _all_lengths(parts: list[NDArray[np.intp]]) -> NDArray[np.intp]:
     return np.concatenate(parts) if parts else np.zeros(0, dtype=np.intp)
 
 
-def _pieces(text: str, span: Span) -> Iterator[Span]:
-    """Parts of whole lines, each but the last of about `_PIECE` characters, without the line end of the last line.
+def _pieces(text: str, span: Span, size: int = _PIECE) -> Iterator[Span]:
+    """Parts of whole lines, each but the last of about `size` characters, without the line end of the last line.
 
     A C library that has given back a large block keeps smaller ones for the next that are asked for; otherwise every
     array of a piece would be memory that the system has to clear.
@@ -199,10 +217,10 @@ def _pieces(text: str, span: Span) -> Iterator[Span]:
     start, end = span
     while end > start and text[end - 1] in "\r\n":
         end -= 1
-    if end - start > _PIECE:
+    if end - start > size:
         np.empty(_KEPT_BACK, np.uint8)
     while start < end:
-        stop = text.find("\n", min(start + _PIECE, end), end)
+        stop = text.find("\n", min(start + size, end), end)
         stop = end if stop < 0 else stop
         yield Span(start, stop)
         start = stop + 1

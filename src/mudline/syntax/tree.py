@@ -16,6 +16,10 @@ from mudline.syntax.source import CONTROLS, Source
 
 _BLANKS = re.compile(r"[ \t]+")
 _COMMA = re.compile(r" *, *")
+_LONG = 1 << 16
+"""Characters of a run, or of a text, from which on the run is found with arrays."""
+_CHUNK = 1 << 18
+_LF, _PLUS, _SLASH, _NINE = b"\n+/9"  # a line of a run begins with a character from + to 9, but not with a slash
 _TERMINAL = re.compile(r"^([A-Z]+)\.?(\d*): /(.*)/$", re.MULTILINE)
 
 
@@ -91,6 +95,28 @@ def _cutter() -> re.Pattern[str]:
     return re.compile("|".join(f"(?P<{name}>{pattern})" for name, _, pattern in order))
 
 
+def _long_runs(text: str) -> Iterator[Span]:
+    """The inner lines of long runs, all but the first and the last, which the pattern finds: arrays are sooner done."""
+    if len(text) < _LONG:
+        return
+    import numpy as np  # noqa: PLC0415 - short decks are cut without arrays
+
+    others = [np.zeros(1, np.intp)]
+    for at in range(0, len(text), _CHUNK):
+        letters = np.frombuffer(text[at : at + _CHUNK + 1].encode("latin-1", "replace"), np.uint8)
+        first = letters[1:] - np.uint8(_PLUS)
+        begins = (first > _NINE - _PLUS) | (first == _SLASH - _PLUS)
+        begins &= letters[:-1] == _LF
+        others.append(np.flatnonzero(begins) + (at + 1))
+    lines = np.concatenate([*others, [len(text)]])
+    for index in np.flatnonzero(np.diff(lines) >= _LONG).tolist():
+        line, end = int(lines[index]), int(lines[index + 1])
+        second = text.find("\n", text.find("\n", line, end) + 1 or end, end) + 1
+        last = text.rfind("\n", line, end - 1) + 1
+        if 0 < second < last:
+            yield Span(second, last)
+
+
 def canonical_name(line: str) -> str:
     """The name that a `$` or `*` line gives: upper case, single blanks, none around a comma."""
     name = _BLANKS.sub(" ", line.lstrip(f" \t{CONTROLS}").rstrip(" \t\r\n")[1:].strip(" \t"))
@@ -112,19 +138,25 @@ def parse(source: Source) -> SyntaxTree:
     sections: list[RawSection] = []
     leaves = section.leaves
     new = tuple.__new__  # what the classes call, in a third of the time: a deck has a leaf for nearly every line
-    for match in _cutter().finditer(source.unified):
-        kind = _KINDS[match.lastgroup]
-        leaf = new(Leaf, (kind, new(Span, match.span())))
-        if kind is Kind.SECTION:
-            section = RawSection(leaf, canonical_name(match[0]))
-            sections.append(section)
-            leaves = section.leaves
-        elif kind is Kind.KEYWORD:
-            block = RawBlock(leaf, canonical_name(match[0]))
-            section.blocks.append(block)
-            leaves = block.leaves
-        else:
-            leaves.append(leaf)
+    text, cutter = source.unified, _cutter()
+    begun = resumed = 0
+    for run in (*_long_runs(text), Span(len(text), len(text))):
+        for match in cutter.finditer(text, resumed, run.start):
+            kind, end = _KINDS[match.lastgroup], match.end()
+            leaf = new(Leaf, (kind, new(Span, (begun, end))))
+            begun = end
+            if kind is Kind.SECTION:
+                section = RawSection(leaf, canonical_name(match[0]))
+                sections.append(section)
+                leaves = section.leaves
+            elif kind is Kind.KEYWORD:
+                block = RawBlock(leaf, canonical_name(match[0]))
+                section.blocks.append(block)
+                leaves = block.leaves
+            else:
+                leaves.append(leaf)
+        if run.end > run.start:
+            begun, resumed = leaves.pop().span.start, run.end
     return SyntaxTree(source, preamble, tuple(sections))
 
 
