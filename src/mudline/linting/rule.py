@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property, wraps
 from itertools import chain, islice, pairwise
 from textwrap import dedent
-from typing import Any, TypeVar, cast
+from typing import Any, TypeVar
 
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.reading import TextOrigin
@@ -38,7 +38,7 @@ class LintContext:
 
     deck: Deck
     dialect: str = "mudline"
-    _made: dict[object, object] = field(default_factory=dict, repr=False)
+    _made: dict[object, Any] = field(default_factory=dict, repr=False)
 
     @property
     def text(self) -> TextOrigin | None:
@@ -101,10 +101,10 @@ class LintContext:
     def once(self, make: Callable[[LintContext], T]) -> T:
         """What a function makes of this deck, made once for all rules that ask."""
         try:
-            return cast("T", self._made[make])
+            found: T = self._made[make]
         except KeyError:
-            made = self._made[make] = make(self)
-            return made
+            found = self._made[make] = make(self)
+        return found
 
     def problems_of(self, code: Code) -> Sequence[Problem]:
         """What reading and resolving the deck, and the checks of its scene, report under a code."""

@@ -91,9 +91,10 @@ def read_laws(context: Context, sets: Sets, named: list[SceneCurve], by_set: lis
     laws.covered = looked_up(np.array([*range(len(legacy), len(laws.set_laws)), NOTHING], dtype=np.intp), wins)
     gives = np.array([*(set_law.kind is not LawKind.NONE or set_law.unknown for set_law in laws.set_laws), False])
     replaced = looked_up(gives, laws.covered)
-    if replaced.all():
+    count_replaced = np.count_nonzero(replaced)
+    if count_replaced == count:
         laws.of_element = laws.covered
-    elif replaced.any():
+    elif count_replaced:
         laws.of_element = np.where(replaced, laws.covered, laws.of_element)
     return laws
 
@@ -227,7 +228,7 @@ def _present(covered: Indices) -> list[int]:
     index = one_index(covered)
     if index is not None:
         return [index] * (index >= 0)
-    found: list[int] = np.flatnonzero(np.bincount(covered[covered >= 0])).tolist()
+    found: list[int] = np.bincount(covered[covered >= 0]).nonzero()[0].tolist()
     return found
 
 
@@ -236,6 +237,8 @@ def _two(part: Part | None, name: str) -> tuple[float, float]:
 
 
 def _of_set(entry: SeabedSet) -> ResistanceValues:
+    if entry.friction is None and entry.suction is None:
+        return ResistanceValues(lateral=number(entry, "lateral"))
     return ResistanceValues(
         friction=_two(entry.friction, ""),
         mobilisation=_two(entry.friction, "_mobilisation"),

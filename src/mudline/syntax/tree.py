@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import Enum
-from functools import cache
+from functools import cache, lru_cache
 from typing import NamedTuple
 
 from mudline.diagnostics import Span
@@ -16,6 +16,8 @@ from mudline.syntax.source import CONTROLS, Source
 
 _BLANKS = re.compile(r"[ \t]+")
 _COMMA = re.compile(r" *, *")
+_LONGEST_KNOWN = 100
+"""Characters of a line whose name is remembered: few lines are longer, and most decks have the same ones."""
 _TERMINAL = re.compile(r"^([A-Z]+)\.?(\d*): /(.*)/$", re.MULTILINE)
 
 
@@ -93,6 +95,11 @@ def _cutter() -> re.Pattern[str]:
 
 def canonical_name(line: str) -> str:
     """The name that a `$` or `*` line gives: upper case, single blanks, none around a comma."""
+    return _known_name(line) if len(line) <= _LONGEST_KNOWN else _known_name.__wrapped__(line)
+
+
+@lru_cache(maxsize=1024)
+def _known_name(line: str) -> str:
     name = _BLANKS.sub(" ", line.lstrip(f" \t{CONTROLS}").rstrip(" \t\r\n")[1:].strip(" \t"))
     return _COMMA.sub(",", name).upper()
 
