@@ -56,7 +56,7 @@ class Where(NamedTuple):
 
     def inside(self, *steps: str | int) -> Where:
         """The place that steps lead to from this one."""
-        return Where(self.section, self.block, (*self.path, *steps))
+        return Where(self.section, self.block, self.path + steps)
 
 
 class Blocks(StrEnum):

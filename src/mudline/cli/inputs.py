@@ -7,7 +7,7 @@ import os
 import sys
 from collections.abc import Callable, Container, Iterator, Sequence
 from dataclasses import dataclass, field
-from functools import wraps
+from functools import lru_cache, wraps
 from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -42,7 +42,7 @@ class Input:
     @property
     def folder(self) -> Path | None:
         """The folder of files that the deck names; None for standard input."""
-        return None if self.path is None else Path(self.path).parent
+        return None if self.path is None else _folder(os.path.dirname(self.path))  # noqa: PTH120 - asked for many files
 
     def read(self) -> bytes:
         """The content; raises OSError."""
@@ -51,6 +51,11 @@ class Input:
         if sys.stdin is None:
             raise OSError(errno.EBADF, "standard input is closed")
         return sys.stdin.buffer.read()
+
+
+@lru_cache(maxsize=64)
+def _folder(path: str) -> Path:
+    return Path(path)
 
 
 @dataclass(slots=True)

@@ -37,7 +37,7 @@ A copy of this process is there at once; the others take a part of a second to i
 TRIED = 0.05
 """Seconds of linting by which the remaining work is estimated."""
 
-_CHUNK_FILES = 50
+_CHUNK_FILES = 20
 _CHUNK_BYTES = 500_000
 _CHUNK_KNOWN = 256
 _MOST_ON_WINDOWS = 61

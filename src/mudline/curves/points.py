@@ -89,7 +89,7 @@ def checked_points(points: ArrayLike) -> CurvePoints:
     """
     given = _pairs(points)
     order = np.arange(len(given))
-    if not (given[1:, 0] > given[:-1, 0]).all():
+    if np.count_nonzero(given[1:, 0] > given[:-1, 0]) < len(given) - 1:
         order = given[:, 0].argsort(kind="stable")
         order = order[_first_of_each_ratio(given, order)]
     if len(order) < 2:
@@ -108,7 +108,7 @@ def _pairs(points: ArrayLike) -> FloatArray:
     with np.errstate(over="ignore"):
         pairs = given.astype(np.float64) + 0.0
     finite = np.isfinite(pairs)
-    if not finite.all():
+    if np.count_nonzero(finite) < finite.size:
         index = int(finite.all(axis=1).argmin())
         ratio, force = pairs[index].tolist()
         raise CurveError("SYN002", index, f"point {index + 1} is not finite: ({ratio!r}, {force!r})")
@@ -142,7 +142,7 @@ def _slopes(ratios: FloatArray, forces: FloatArray, order: IndexArray) -> FloatA
     slopes = difference_quotient(forces[1:], forces[:-1], widths)
     subnormal = (forces[1:] != forces[:-1]) & (np.abs(slopes) < _SMALLEST_NORMAL)
     sound = np.isfinite(widths) & np.isfinite(slopes) & ~subnormal
-    if not sound.all():
+    if np.count_nonzero(sound) < len(sound):
         segment = int(sound.argmin())
         ends = order[segment : segment + 2]
         what = "width" if not np.isfinite(widths[segment]) else "slope"
@@ -159,6 +159,6 @@ def difference_quotient(
     with np.errstate(all="ignore"):
         plain = np.asarray((upper - lower) / divisor)
         overflowed = np.isinf(plain)
-        if not overflowed.any():
+        if not np.count_nonzero(overflowed):
             return plain
         return np.where(overflowed, (0.5 * upper - 0.5 * lower) / divisor * 2.0, plain)

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, NamedTuple, Self, cast
+from typing import Any, NamedTuple, Self
 
 from mudline.diagnostics import Blocks, Code, DeckError, Diagnostic, Edit, Fix, Problem, Repair, Severity, Where
 from mudline.keywords.model import Block, Comment, Part, record_schema
@@ -193,25 +193,28 @@ class Deck:
         What the deck continues comes first, so that what it says itself holds. The caller knows the class that the
         keyword has; it is not imported for a deck that lacks the keyword.
         """
-        for index, found in self._named(section):
-            for number, block in enumerate(found.blocks):
-                if block.keyword == keyword and type(block) is not Opaque:
-                    yield Where(index, number), block
+        for index, found in self._in_order():
+            if found.name == section:
+                for number, block in enumerate(found.blocks):
+                    if block.keyword == keyword and type(block) is not Opaque:
+                        yield Where(index, number), block
 
     def blocks_that(self, fact: Callable[[type[Block]], object], section: str = "MODEL") -> Iterator[tuple[Where, Any]]:
         """The modelled blocks whose declaration has a fact, in the order of `blocks`."""
-        for index, found in self._named(section):
-            for number, block in enumerate(found.blocks):
-                if type(block) is not Opaque and fact(cast("type[Block]", type(block))):
-                    yield Where(index, number), block
+        for index, found in self._in_order():
+            if found.name == section:
+                for number, block in enumerate(found.blocks):
+                    declared: type[Any] = type(block)
+                    if declared is not Opaque and fact(declared):
+                        yield Where(index, number), block
 
-    def _named(self, name: str) -> list[tuple[int, Section]]:
-        """The sections of a name, with their numbers: those of the decks that it continues first."""
-        named = [(index, section) for index, section in enumerate(self.sections) if section.name == name]
+    def _in_order(self) -> Iterable[tuple[int, Section]]:
+        """The sections with their numbers: those of the decks that it continues first."""
+        numbered = enumerate(self.sections)
         if not self.bases:
-            return named
+            return numbered
         own = len(self.own_sections)
-        return sorted(named, key=lambda placed: placed[0] < own)
+        return sorted(numbered, key=lambda placed: placed[0] < own)
 
     def keywords(self, section: str = "MODEL") -> set[str]:
         """Names of the keywords in the sections of a name."""

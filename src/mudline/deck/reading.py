@@ -271,7 +271,8 @@ _NEAR = 0.02
 
 def units_of(deck: Deck) -> str:
     """The system, "metric", "imperial" or "user": by suffix, else `*UNITS`, else the gravity of `*OCEAN` within 2 %."""
-    suffix = PurePath(deck.source).suffix.lower()
+    at = deck.source.rfind(".")  # a path would take longer, for each of many decks
+    suffix = deck.source[at:].lower() if at > 0 else ""
     if suffix in _SUFFIXES:
         return _SUFFIXES[suffix]
     for _, block in deck.blocks("UNITS", "ANALYSIS"):

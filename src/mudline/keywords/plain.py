@@ -19,7 +19,7 @@ from pydantic import ValidationError
 from mudline.diagnostics import Problem, Span
 from mudline.keywords.grammar import ROW, SMALL, fitting, records_of, terminal_of
 from mudline.keywords.model import Block, FieldSpec, ListRow, Part, Record, columns_of, record_schema
-from mudline.keywords.table import LARGEST_WHOLE, Column, from_rows
+from mudline.keywords.table import LARGEST_WHOLE, Column, from_numbers, from_rows
 from mudline.keywords.text import UnreadableError, Value, read_value
 from mudline.keywords.values import Equation, Kind
 from mudline.syntax.fields import Field, canonical_key
@@ -38,6 +38,12 @@ _LINE = re.compile(_BEHIND)
 _WHOLE = re.compile(r"[-+]?[0-9]{1,16}")
 _COMMA = re.compile(r"[ \t]*,[ \t]*(?![^\[]*\])")
 _TIGHT_COMMA = re.compile(r"[^ \t],[^ \t]")
+_DIGITS = r"[0-9]{1,99}+"
+_NUMBER = rf"[-+]?(?:{_DIGITS}(?:\.(?:{_DIGITS})?+)?|\.{_DIGITS})(?:[eE][-+]?{_DIGITS})?"
+_NUMBERS = re.compile(rf"(?:[ \t]*+{_NUMBER}[ \t]*+(?:,[ \t]*+{_NUMBER}[ \t]*+)*+\r?\n)++")
+"""Rows of numbers that are separated by commas: those of most tables."""
+_SHORT_TABLE = 1600
+"""Characters of such rows: longer ones are read sooner with arrays."""
 _FEWEST_MIXED = 4
 """Fields of a row in which two commas can be decimal ones and another one is not."""
 
@@ -285,6 +291,14 @@ def _one(slot: FieldSpec, found: Values, fields: str, _: object) -> None:
 
 
 def _table(json: str, columns: list[Column], found: Values, run: str, _: object) -> None:
+    if len(run) <= _SHORT_TABLE and _NUMBERS.fullmatch(run):
+        rows = run.splitlines()
+        commas = rows[0].count(",")
+        if all(row.count(",") == commas for row in rows):
+            numbers = [float(number) for number in ",".join(rows).split(",")]
+            if (short := from_numbers(numbers, commas + 1, columns)) is not None:
+                found[json] = short
+                return
     table, faults = from_rows(read_rows(run, Span(0, len(run)), len(columns)), columns)
     if faults:
         raise _OddError

@@ -225,6 +225,18 @@ def from_text(text: str, columns: Sequence[Column]) -> Table:
     return table
 
 
+def from_numbers(numbers: list[float], width: int, columns: Sequence[Column]) -> Table | None:
+    """The table of a few numbers in rows of `width`; None where any of them, or the width, needs a closer look."""
+    if not _fewest(columns) <= width <= len(columns) or math.inf in numbers or -math.inf in numbers:
+        return None
+    for index in range(width):
+        if columns[index].whole:
+            for number in numbers[index::width]:
+                if not number.is_integer() or not 0.0 < abs(number) <= LARGEST_WHOLE:
+                    return None
+    return Table(np.array(numbers).reshape(-1, width))
+
+
 def from_rows(raw: RawRows, columns: Sequence[Column]) -> tuple[Table, dict[tuple[int, int], str]]:
     """A table from raw rows, and what is wrong in it by row and column (column -1: the whole row).
 

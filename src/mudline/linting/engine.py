@@ -13,7 +13,7 @@ from mudline.deck.model import BaseProblem, Deck
 from mudline.diagnostics import Blocks, DeckError, Diagnostic, Problem, Severity
 from mudline.keywords.model import Block
 from mudline.keywords.reader import ReadBlock, read_block, read_piece
-from mudline.linting.rule import LintContext, Rule
+from mudline.linting.rule import LintContext, Noticed, Rule
 from mudline.linting.suppression import suppressions
 from mudline.syntax.tree import RawBlock
 
@@ -58,11 +58,14 @@ def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
     Suppressed problems are among them; unused suppression comments are not.
     """
     found: list[Problem] = []
+    noticed = bool(context.noticed)
     for rule in chosen:
-        if rule.advises:
-            found.extend(map(_advice, rule.check(context)))
-        elif context.noticed:
-            found += rule.check(context)
+        if isinstance(rule.check, Noticed):
+            if noticed:
+                found += rule.check(context)
+        else:
+            for problem in rule.check(context):
+                found.append(_advice(problem))
     return [problem for problem in found if not _of_base(context.deck, problem)]
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property, wraps
 from itertools import chain, islice, pairwise
 from textwrap import dedent
-from typing import Any, TypeVar, cast
+from typing import Any, TypeVar
 
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.reading import TextOrigin
@@ -16,7 +16,13 @@ from mudline.diagnostics import MORE, MOST_REPORTED, Blocks, Code, Problem, Wher
 from mudline.keywords.catalogue import holds_in_soil, is_superseded
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene, resolve
-from mudline.variations.names import misspelt_keywords, misspelt_sections, undefined_parameters, undefined_variations
+from mudline.variations.names import (
+    may_vary,
+    misspelt_keywords,
+    misspelt_sections,
+    undefined_parameters,
+    undefined_variations,
+)
 
 T = TypeVar("T")
 
@@ -38,7 +44,7 @@ class LintContext:
 
     deck: Deck
     dialect: str = "mudline"
-    _made: dict[object, object] = field(default_factory=dict, repr=False)
+    _made: dict[object, Any] = field(default_factory=dict, repr=False)
 
     @property
     def text(self) -> TextOrigin | None:
@@ -101,10 +107,10 @@ class LintContext:
     def once(self, make: Callable[[LintContext], T]) -> T:
         """What a function makes of this deck, made once for all rules that ask."""
         try:
-            return cast("T", self._made[make])
+            found: T = self._made[make]
         except KeyError:
-            made = self._made[make] = make(self)
-            return made
+            found = self._made[make] = make(self)
+        return found
 
     def problems_of(self, code: Code) -> Sequence[Problem]:
         """What reading and resolving the deck, and the checks of its scene, report under a code."""
@@ -125,6 +131,8 @@ def _by_keyword(deck: Deck) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
 
 def _of_variations(deck: Deck) -> Iterator[Problem]:
     """Undefined names in variations: they are faults of the varied decks, and not of this one."""
+    if not may_vary(deck):
+        return
     for find in (undefined_parameters, undefined_variations, misspelt_keywords, misspelt_sections):
         for problem in islice(find(deck), MOST_REPORTED):
             yield replace(problem, blocks=Blocks.NEVER)
@@ -162,6 +170,8 @@ class Rule:
     and column), `good` the deck corrected; `file` is the name that the examples are read under. `encoding` is that of
     the bad deck's bytes, `dialect` the one under which it is at fault. A rule that is `off` runs only where it is
     selected.
+
+    The findings of a rule whose check is not `Noticed` never keep a deck from being evaluated, whatever their severity.
     """
 
     code: Code
@@ -175,11 +185,6 @@ class Rule:
     encoding: str
     off: bool
     dialect: str = "mudline"
-
-    @property
-    def advises(self) -> bool:
-        """Whether its findings, whatever their severity, never keep a deck from being evaluated."""
-        return not isinstance(self.check, Noticed)
 
     @property
     def bad_bytes(self) -> bytes:

@@ -86,7 +86,7 @@ def _curve(context: Context, name: str | None, table: Table, where: Where, *, em
     if name is None and not embedment:
         context.unread.add("SEABED STIFFNESS")
     points = side_by_side(table.column(0), table.column(1))
-    rows = np.flatnonzero((table.lengths == 2) & ~(np.isnan(points[:, 0]) | np.isnan(points[:, 1])))
+    rows = ((table.lengths == 2) & ~(np.isnan(points[:, 0]) | np.isnan(points[:, 1]))).nonzero()[0]
     points = points[rows]
     clashing, _ = clashes_and_repeats(points)
     unread = len(rows) < len(table) or context.has_read_errors(where)
@@ -121,7 +121,7 @@ def _made(points: Floats, name: str) -> tuple[ForceCurve | None, CurveError | No
 
 def clashes_and_repeats(points: Floats) -> tuple[Indices, Indices]:
     """Indices of points at the ratio of an earlier one: those with another force than the first there, and the same."""
-    if (points[1:, 0] > points[:-1, 0]).all():
+    if np.count_nonzero(points[1:, 0] > points[:-1, 0]) == max(len(points) - 1, 0):
         return _NOWHERE, _NOWHERE
     order = np.argsort(points[:, 0], kind="stable")
     ratios, forces = points[order].T

@@ -98,9 +98,10 @@ def read_laws(context: Context, sets: Sets, named: list[SceneCurve], by_set: lis
     if any(set_law.kind is LawKind.CURVE for set_law in legacy):
         curves, numbers = (_marked(laws, kind) for kind in (LawKind.CURVE, LawKind.LINEAR))
         replaced = replaced & ~(looked_up(curves, laws.of_element) & looked_up(numbers, laws.covered))
-    if replaced.all():
+    count_replaced = np.count_nonzero(replaced)
+    if count_replaced == count:
         laws.of_element = laws.covered
-    elif replaced.any():
+    elif count_replaced:
         laws.of_element = np.where(replaced, laws.covered, laws.of_element)
     return laws
 
@@ -239,7 +240,7 @@ def _present(covered: Indices) -> list[int]:
     index = one_index(covered)
     if index is not None:
         return [index] * (index >= 0)
-    found: list[int] = np.flatnonzero(np.bincount(covered[covered >= 0])).tolist()
+    found: list[int] = np.bincount(covered[covered >= 0]).nonzero()[0].tolist()
     return found
 
 
@@ -248,6 +249,8 @@ def _two(part: Part | None, name: str) -> tuple[float, float]:
 
 
 def _of_set(entry: SeabedSet) -> ResistanceValues:
+    if entry.friction is None and entry.suction is None:
+        return ResistanceValues(lateral=number(entry, "lateral"))
     return ResistanceValues(
         friction=_two(entry.friction, ""),
         mobilisation=_two(entry.friction, "_mobilisation"),

@@ -88,7 +88,7 @@ def _add_nodes(context: Context, gathered: Definitions, entry: NodeRows, where: 
 def _add_rows(gathered: Definitions, numbers: Floats, values: Floats, where: Where, table: str) -> bool:
     """Add the rows of a table that have a number; whether all of them do."""
     ids, known = whole_numbers(numbers)
-    if known.all():
+    if np.count_nonzero(known) == len(known):
         gathered.add(Batch(ids, values, where, table))
         return True
     rows = np.flatnonzero(known)
@@ -242,7 +242,7 @@ def _join(context: Context, elements: Numbered, nodes: Numbered) -> Indices:
         given, numbers = _node_numbers(elements.values[block])
         indices[block] = np.where(given, nodes.indices(numbers), -1)
         lacks = given & (indices[block] < 0)
-        if lacks.any():
+        if np.count_nonzero(lacks):
             found.append(np.argwhere(lacks))
             found[-1][:, 0] += block.start
     if not found:
@@ -273,7 +273,7 @@ def _lengths(ends: Indices, coordinates: Floats) -> Floats:
     length = np.full(len(ends), np.nan)
     for block in blocks_of(len(ends)):
         first, last = ends[block].T
-        known = np.flatnonzero((first >= 0) & (last >= 0))
+        known = ((first >= 0) & (last >= 0)).nonzero()[0]
         length[block][known] = distances(coordinates[first[known]], coordinates[last[known]])
     return length
 
@@ -285,9 +285,9 @@ def distances(points: Floats, others: Floats) -> Floats:
     """Return the distances (m,) between points (m, 3); infinite only where a float64 cannot hold them."""
     with np.errstate(all="ignore"):
         span = np.subtract(others, points)
-        square = (span**2).sum(axis=1)
+        square = np.add.reduce(span**2, axis=1)
         found: Floats = np.sqrt(square)
-        if (odd := (square < _SMALLEST_SQUARE) | (square > _LARGEST_SQUARE)).any():
+        if np.count_nonzero(odd := (square < _SMALLEST_SQUARE) | (square > _LARGEST_SQUARE)):
             largest = np.abs(span[odd]).max(axis=1, initial=0.0)
             scale = np.where((largest > 0.0) & (largest < np.inf), largest, 1.0)
             found[odd] = scale * np.sqrt(((span[odd] / scale[:, None]) ** 2).sum(axis=1))

@@ -270,7 +270,7 @@ class Numbered:
 
 
 def _is_ascending(numbers: Ids | Indices) -> bool:
-    return bool((numbers[1:] > numbers[:-1]).all())
+    return not np.count_nonzero(numbers[1:] <= numbers[:-1])
 
 
 def _all_different(ids: Ids) -> bool:

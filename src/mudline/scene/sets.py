@@ -235,7 +235,7 @@ class _Reader:
         numbers = np.array([element for element in member.elements if isinstance(element, int)], dtype=np.int64)
         indices = self.elements.indices(numbers)
         known = indices >= 0
-        if len(numbers) == len(member.elements) and known.all():
+        if np.count_nonzero(known) == len(member.elements):
             return _ascending(indices), not self.context.has_read_errors(where.inside("elements"))
         positions = [position for position, element in enumerate(member.elements) if isinstance(element, int)]
         missing = np.flatnonzero(~known).tolist()
@@ -285,7 +285,7 @@ class _Reader:
 
 def _ascending(indices: Indices) -> Indices:
     """Indices in ascending order, each once."""
-    return indices if (indices[1:] > indices[:-1]).all() else _distinct(indices)
+    return _distinct(indices) if np.count_nonzero(indices[1:] <= indices[:-1]) else indices
 
 
 def _distinct(indices: Indices) -> Indices:

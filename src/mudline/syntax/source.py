@@ -138,12 +138,16 @@ def _heads_found(text: str) -> str:
     return "".join((*pieces, text[done:])) if pieces else text
 
 
+_STRANGE = bytes({*range(9), 11, *range(14, 26), *range(27, 32), 127})
+"""Control characters that no text has many of."""
+
+
 def _refusal(body: bytes) -> str:
     """Why these bytes are not read at all, or nothing."""
     if body.startswith((b"\xff\xfe", b"\xfe\xff")) or _looks_like_utf16(body[:_SAMPLE]):
         return "the file is UTF-16, which no deck reader takes: save it as UTF-8"
     sample = body[:_SAMPLE]
-    strange = len(sample) - len(sample.translate(None, bytes({*range(9), 11, *range(14, 26), *range(27, 32), 127})))
+    strange = len(sample) - len(sample.translate(None, _STRANGE))
     if strange > max(_BINARY_SHARE * len(sample), _FEW):
         share = f"{strange} control characters in its first {len(sample)} bytes"
         return f"the file looks like binary data ({share}): choose the keyword file, or save it as text"
@@ -151,6 +155,8 @@ def _refusal(body: bytes) -> str:
 
 
 def _looks_like_utf16(sample: bytes) -> bool:
+    if 0 not in sample:
+        return False
     even, odd = sample[0::2].count(0), sample[1::2].count(0)
     half = len(sample) // 2
     return half > _FEW and max(even, odd) > 0.4 * half and min(even, odd) <= 0.05 * half

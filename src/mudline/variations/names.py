@@ -66,6 +66,11 @@ _Named = tuple[str, Where]
 """A name, and where it stands."""
 
 
+def may_vary(deck: Deck) -> bool:
+    """Whether a deck has a section in which variations and their names may stand."""
+    return any(section.name == _SECTION for section in deck.sections)
+
+
 def undefined_parameters(deck: Deck) -> Iterator[Problem]:
     """Parameters in PARA= or as `%name%` in a folder or file name that `*PARAMETERS` does not define."""
     named = [*_varied(deck), *_in_names(deck)]

@@ -17,6 +17,9 @@ def form_names() -> tuple[str, ...]:
 
 def form_of(name: str) -> str:
     """Return the form that the suffix of a file name means, which is its name, else "keyword"."""
+    end = name.rpartition(".")[2].lower()
+    if end != "yml" and end not in form_names():  # asked for each of many decks
+        return KEYWORD
     suffix = PurePath(name).suffix.lower().removeprefix(".")
     if suffix == "yml":
         return "yaml"

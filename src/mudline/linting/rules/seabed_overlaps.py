@@ -170,7 +170,7 @@ def _overlaps(sets: Sequence[NamedSet], count: int) -> Iterator[_Overlap]:
     for index, later in enumerate(sets):
         before = holder[later.elements]
         first = int(before[0]) if index and before.size else -1
-        if (before == first).all():  # as mostly: of one set, or of none
+        if np.count_nonzero(before == first) == len(before):  # as mostly: of one set, or of none
             if first >= 0:
                 yield _Overlap(first, index, later.elements)
         else:

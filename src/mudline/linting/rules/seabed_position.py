@@ -197,7 +197,7 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
     if context.problems_of(SBD004):
         return  # that there is no stiffness is reported there
     free = scene.law == LawKind.NONE
-    if free.any():
+    if np.count_nonzero(free):
         yield from _blocks(scene, np.flatnonzero(free & (scene.laws.covered >= 0)))
         yield from _lying(context, np.flatnonzero(free & (scene.laws.covered < 0)))
 

@@ -306,7 +306,7 @@ def _extremes(entry: SceneCurve) -> tuple[float, float]:
 def _neighbours(scene: Scene) -> tuple[Indices, Indices]:
     """Pairs of elements that meet at a node: one on a linear seabed, one on a curve."""
     law = scene.law
-    if not ((law == LawKind.LINEAR).any() and (law == LawKind.CURVE).any()):
+    if not (np.count_nonzero(law == LawKind.LINEAR) and np.count_nonzero(law == LawKind.CURVE)):
         nothing: Indices = np.zeros(0, dtype=np.intp)
         return nothing, nothing
     nodes = scene.element_nodes.ravel()

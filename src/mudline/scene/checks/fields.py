@@ -215,7 +215,7 @@ def zero_length_element(scene: ResolvedDeck) -> Iterator[Problem]:
     Finds: 9:2
     """
     suspects = ~(scene.length > 0.0)
-    if not suspects.any():
+    if not np.count_nonzero(suspects):
         return
     known = np.flatnonzero((scene.element_nodes >= 0).all(axis=1) & suspects)
     first, second = scene.element_nodes[known].T

@@ -252,7 +252,10 @@ def missing_diameter(scene: ResolvedDeck) -> Iterator[Problem]:
     if all(set_law.kind is not LawKind.CURVE for set_law in scene.laws.set_laws):
         return
     sections = scene.section_table
-    missing = np.flatnonzero((scene.law == LawKind.CURVE) & np.isnan(sections.diameter) & ~sections.faulty)
+    lacking = np.isnan(sections.diameter) & ~sections.faulty
+    if not np.count_nonzero(lacking):
+        return
+    missing = np.flatnonzero((scene.law == LawKind.CURVE) & lacking)
     if not missing.size:
         return
     missing = missing[np.argsort(scene.laws.of_element[missing], kind="stable")]
