@@ -89,6 +89,11 @@ def run(arguments: Sequence[str]) -> int:
 
 def _invoke(arguments: Sequence[str]) -> int:
     """Not through `main` of click, which ends the process with its own exit codes."""
+    if sys.flags.optimize > 1:  # helps are docstrings too
+        from mudline.linting.registry import STRIPPED  # noqa: PLC0415 - most runs have them
+
+        notify(STRIPPED)
+        return WRONG_USAGE
     try:
         with mudline.make_context("mudline", list(arguments)) as context:
             if not arguments:
