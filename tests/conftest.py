@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
+from importlib.util import find_spec
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -14,6 +16,22 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 settings.register_profile("mudline", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.register_profile("mudline-ci", settings.get_profile("mudline"), derandomize=True, print_blob=True)
 settings.load_profile("mudline-ci" if os.environ.get("CI") else "mudline")
+
+
+OPTIONAL = ("numba", "matplotlib", "mpmath", "pyarrow", "scipy")
+"""Libraries of the extras: a test that needs one that is not installed is skipped, and names it."""
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_call() -> Iterator[None]:
+    """Skip a test that fails for want of an optional library."""
+    try:
+        yield
+    except ImportError as error:
+        name = (error.name or "").partition(".")[0]
+        if name in OPTIONAL and find_spec(name) is None:
+            pytest.skip(f"{name} is not installed")
+        raise
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:

@@ -23,7 +23,7 @@ SERIES = np.arange(36, dtype=np.float64).reshape(4, 3, 3)
 
 
 def saved(tmp_path: Path, **arrays: NDArray[Any]) -> Path:
-    np.savez(tmp_path / "p.npz", allow_pickle=True, **arrays)
+    np.savez(tmp_path / "p.npz", **arrays)
     return tmp_path / "p.npz"
 
 
