@@ -132,7 +132,10 @@ def test_times_of_an_archive_rise_for_laws_with_history(
 ) -> None:
     places = np.zeros((3, 3, 3))
     places[..., 1] = [0.0, 10.0, 20.0]
-    np.savez(folder / "p.npz", positions=places, time=times, **({"velocities": 0 * places} if velocities else {}))
+    if velocities:
+        np.savez(folder / "p.npz", positions=places, time=times, velocities=0 * places)
+    else:
+        np.savez(folder / "p.npz", positions=places, time=times)
     deck = {"suction": UPLIFT, "friction": SLIDING, "none": CLEAN}[law]
     outcome = run("evaluate", place(deck), "--positions", "p.npz")
     if law == "none":

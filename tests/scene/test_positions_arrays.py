@@ -23,7 +23,7 @@ SERIES = np.arange(36, dtype=np.float64).reshape(4, 3, 3)
 
 
 def saved(tmp_path: Path, **arrays: NDArray[Any]) -> Path:
-    np.savez(tmp_path / "p.npz", **arrays)
+    np.savez(tmp_path / "p.npz", **arrays)  # type: ignore[arg-type]
     return tmp_path / "p.npz"
 
 
@@ -163,9 +163,9 @@ def test_archive_of_some_nodes_in_its_own_order(tmp_path: Path) -> None:
     assert found.present.tolist() == [True, False, True]
     assert found.time is not None
     assert found.time.tolist() == times.tolist()
-    assert np.array_equal(found.values[:, 2], SERIES[:, 0])
-    assert np.array_equal(found.values[:, 0], SERIES[:, 1])
-    assert np.isnan(found.values[:, 1]).all()
+    assert np.array_equal(found.whole[:, 2], SERIES[:, 0])
+    assert np.array_equal(found.whole[:, 0], SERIES[:, 1])
+    assert np.isnan(found.whole[:, 1]).all()
     assert found.velocities is not None
     assert np.array_equal(found.velocities[:, 2], -SERIES[:, 0])
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from mudline.contact import ContactResult, LawKind
 from mudline.results.evaluation import Evaluation, Part
 from mudline.results.quantities import SLIDING, STATES, Names, finite
-from mudline.scene.numbering import Floats, Indices
+from mudline.scene.numbering import Floats, Indices, Mask
 
 
 class Total(NamedTuple):
@@ -132,7 +132,7 @@ def _node_step(evaluation: Evaluation, time: float, result: ContactResult) -> No
 
 def acted_on(evaluation: Evaluation, result: ContactResult) -> Indices:
     """The indices of the evaluated nodes on which the seabed acts at a step, also by restraining them."""
-    acts = (result.reaction != 0.0).any(axis=1)
+    acts: Mask = (result.reaction != 0.0).any(axis=1)
     if result.restrained is not None:
         acts |= result.restrained
     return evaluation.nodes[acts[evaluation.nodes]]

@@ -97,6 +97,11 @@ class Positions:
     __repr__ = short_repr
 
     @property
+    def whole(self) -> Reals:
+        """All steps at once, those of a file read into memory. Raises OSError, DeckError."""
+        return self.values[:]
+
+    @property
     def missing(self) -> int:
         """Number of nodes without a position."""
         return int((~self.present).sum())
