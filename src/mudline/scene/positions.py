@@ -68,7 +68,7 @@ class StepFile(StepReader):
             return cast("Reals", self[wanted : wanted + 1][0])
         first, last, _ = wanted.indices(len(self))
         found = np.empty((max(0, last - first), *self.shape[1:]), self.dtype)
-        left = memoryview(found.view(np.uint8).reshape(-1))
+        left = found.reshape(-1).view(np.uint8).data
         self._stream.seek(self._offset + first * found[:1].nbytes)
         while left:
             count = self._stream.readinto(left)
