@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from importlib.util import find_spec
 
 import pytest
@@ -18,8 +18,9 @@ settings.register_profile("mudline-ci", settings.get_profile("mudline"), derando
 settings.load_profile("mudline-ci" if os.environ.get("CI") else "mudline")
 
 
-OPTIONAL = ("numba", "matplotlib", "mpmath", "pyarrow", "scipy")
-"""Libraries of the extras: a test that needs one that is not installed is skipped, and names it."""
+Report = pytest.CollectReport
+OPTIONAL = ("jsonschema", "matplotlib", "mpmath", "numba", "pyarrow", "scipy")
+"""Libraries without which the rest can be tested: what needs one that is not installed is skipped, and names it."""
 
 
 @pytest.hookimpl(wrapper=True)
@@ -32,6 +33,20 @@ def pytest_runtest_call() -> Iterator[None]:
         if name in OPTIONAL and find_spec(name) is None:
             pytest.skip(f"{name} is not installed")
         raise
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_make_collect_report(
+    collector: pytest.Collector,
+) -> Generator[None, Report, Report]:
+    """Skip a module that cannot be imported for want of an optional library."""
+    report = yield
+    if report.failed:
+        missing = [name for name in OPTIONAL if f"No module named '{name}" in str(report.longrepr)]
+        if missing and find_spec(missing[0]) is None:
+            report.outcome = "skipped"
+            report.longrepr = (str(collector.path), 0, f"Skipped: {missing[0]} is not installed")
+    return report
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:

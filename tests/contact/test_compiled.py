@@ -7,6 +7,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
+import numba
 import numpy as np
 import pytest
 
@@ -20,7 +21,6 @@ from mudline.contact.tables import Batch
 from tests.builders.contact import CURVE, LINEAR, at_depths, chain, everything, friction, journey
 from tests.processes import TIMEOUT
 
-numba = pytest.importorskip("numba")
 pytestmark = pytest.mark.slow
 
 LONG, LONGER = 2_000_000, 15_000_000

@@ -6,6 +6,7 @@ import math
 import sys
 from collections.abc import Callable
 
+import numba
 import numpy as np
 import pytest
 from hypothesis import given, reject
@@ -16,8 +17,6 @@ from mudline.curves.curve import Backend, NumpyLaw, _loads, law_for
 from mudline.curves.points import FloatArray
 from mudline.curves.search import BLOCK, BucketTable, Workspace
 from tests.curves.plain import POINTS, near, plain_values, steps
-
-numba = pytest.importorskip("numba")
 
 BACKENDS: tuple[Backend, ...] = ("numpy", "fast")
 FORCES: list[Callable[[FloatArray], FloatArray]] = [
