@@ -2,6 +2,7 @@
 
 PYTHON ?= python3
 VENV := .venv
+LOWEST := .venv-lowest
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 # An installation is as old as the files that say what it consists of.
@@ -12,7 +13,7 @@ CORE := $(addprefix tests/,syntax expression keywords curves contact scene compa
 ARGS ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help install demo test test-fast lint format typecheck docs pictures studies bench build clean
+.PHONY: help install demo test test-fast test-lowest lint format typecheck docs pictures studies bench build clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-10s %s\n", $$1, $$2 }' Makefile
@@ -58,6 +59,19 @@ test: $(VENV)/.developer ## the whole test suite, with coverage
 test-fast: $(VENV)/.developer ## the unit tests of the core, in about a minute
 	$(BIN)/python -m pytest --numprocesses auto -m "not slow" $(CORE) $(ARGS)
 
+# Old libraries use what newer ones, which they depend on, warn of.
+test-lowest: $(LOWEST)/.installed ## the tests but the slow ones, with the oldest libraries that are allowed
+	$(LOWEST)/bin/python -m pytest --numprocesses auto -m "not slow and not untraced" -W ignore::DeprecationWarning $(ARGS)
+
+# The oldest libraries were built for Python 3.11 and 3.12.
+$(LOWEST)/.installed: pyproject.toml tests/lowest.py
+	$(PYTHON) -m venv $(LOWEST)
+	$(LOWEST)/bin/python -m pip --disable-pip-version-check --quiet install "pip>=25.1"
+	$(LOWEST)/bin/python tests/lowest.py > $(LOWEST)/constraints.txt
+	$(LOWEST)/bin/python -m pip --disable-pip-version-check --quiet install \
+		--constraint $(LOWEST)/constraints.txt --group test --editable ".[all]"
+	@touch $@
+
 lint: $(VENV)/.developer ## style, layout of the code, and the order of the layers
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
@@ -86,5 +100,5 @@ build: $(VENV)/.developer ## the source archive and the wheel, in dist/
 	$(BIN)/python -m hatchling build
 
 clean: ## remove everything that can be made again
-	rm -rf $(VENV) .bench $(OUT) dist build htmlcov .coverage .coverage.* .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
+	rm -rf $(VENV) $(LOWEST) .bench $(OUT) dist build htmlcov .coverage .coverage.* .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
 	find src tests -type d -name __pycache__ -prune -exec rm -rf {} +

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Generator, Iterator
+from importlib.util import find_spec
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -14,6 +16,37 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 settings.register_profile("mudline", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.register_profile("mudline-ci", settings.get_profile("mudline"), derandomize=True, print_blob=True)
 settings.load_profile("mudline-ci" if os.environ.get("CI") else "mudline")
+
+
+Report = pytest.CollectReport
+OPTIONAL = ("jsonschema", "matplotlib", "mpmath", "numba", "pyarrow", "scipy")
+"""Libraries without which the rest can be tested: what needs one that is not installed is skipped, and names it."""
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_call() -> Iterator[None]:
+    """Skip a test that fails for want of an optional library."""
+    try:
+        yield
+    except ImportError as error:
+        name = (error.name or "").partition(".")[0]
+        if name in OPTIONAL and find_spec(name) is None:
+            pytest.skip(f"{name} is not installed")
+        raise
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_make_collect_report(
+    collector: pytest.Collector,
+) -> Generator[None, Report, Report]:
+    """Skip a module that cannot be imported for want of an optional library."""
+    report = yield
+    if report.failed:
+        missing = [name for name in OPTIONAL if f"No module named '{name}" in str(report.longrepr)]
+        if missing and find_spec(missing[0]) is None:
+            report.outcome = "skipped"
+            report.longrepr = (str(collector.path), 0, f"Skipped: {missing[0]} is not installed")
+    return report
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:

@@ -9,7 +9,6 @@ import sys
 from pathlib import Path
 
 import click
-import jsonschema
 import pytest
 
 from mudline.cli.main import COMMANDS, mudline
@@ -159,6 +158,7 @@ def test_every_option_of_a_command_is_described(name: str) -> None:
 @pytest.mark.usefixtures("no_diameter")
 def test_json_has_the_form_that_is_described(schema: str, words: str) -> None:
     form = json.loads((ROOT / "docs/schemas" / f"{schema}.json").read_text(encoding="utf-8"))
+    jsonschema = pytest.importorskip("jsonschema")
     jsonschema.Draft202012Validator.check_schema(form)
     printed = output(f"mudline {words} --output-format json")
     jsonschema.validate(json.loads(printed), form, jsonschema.Draft202012Validator)
@@ -170,6 +170,7 @@ def test_findings_of_a_verdict_are_those_of_lint(checkout: Path) -> None:
     printed = output("mudline validate samples/broken.keyxm --output-format json")
     findings = json.loads(printed)["decks"][0]["findings"]
     assert findings
+    jsonschema = pytest.importorskip("jsonschema")
     jsonschema.validate(findings, form, jsonschema.Draft202012Validator)
 
 

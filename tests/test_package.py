@@ -14,6 +14,7 @@ import pytest
 
 import mudline
 from mudline.resources import grammar_file
+from tests.lowest import constraints
 from tests.processes import TIMEOUT
 
 ROOT = Path(__file__).parents[1]
@@ -70,6 +71,14 @@ def test_dependencies_have_lower_bounds_only() -> None:
     others = [line for line in requirements if not line.startswith("mudline[")]
     assert len(others) > 5
     assert [line for line in others if not re.fullmatch(r"[a-z0-9-]+>=[0-9.]+", line)] == []
+
+
+def test_the_oldest_libraries_are_those_of_the_project() -> None:
+    text = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    found = constraints(text)
+    assert "pydantic==2.11" in found
+    assert all(re.fullmatch(r"[a-z0-9-]+==[0-9.]+", line) for line in found)
+    assert {line.partition("==")[0] for line in found} >= {"click", "matplotlib", "numba", "pyarrow", "scipy"}
 
 
 def test_no_file_is_too_long_to_read() -> None:

@@ -101,7 +101,7 @@ def test_touchdown_moves_with_heave(riser: Evaluated) -> None:
     assert positions.time is not None
     assert positions.time.tolist() == [1.5 * step for step in range(8)]
     assert scene.node_ids[positions.present].tolist() == list(range(71, 132))
-    result = scene.contact().evaluate(positions.values, present=positions.present)
+    result = scene.contact().evaluate(positions.whole, present=positions.present)
     assert int(result.evaluated.sum()) == 60
     last = [int(scene.element_ids[np.flatnonzero(step)[-1]]) for step in result.contact]
     assert last == [97, 95, 94, 95, 97, 99, 100, 99]

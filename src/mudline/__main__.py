@@ -27,18 +27,35 @@ _PLUGINS = "PYDANTIC_DISABLE_PLUGINS"
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command line and return its exit code. The version is printed before anything else is imported."""
     given = list(sys.argv[1:] if arguments is None else arguments)
-    if given == ["--version"]:
-        sys.stdout.write(f"mudline {__version__}\n")
+    if given == ["--version"] and _printed(f"mudline {__version__}\n"):
         return 0
     gc.set_threshold(*_COLLECTION)
     os.environ.setdefault(_THREADS, "1")
     os.environ.setdefault(_PLUGINS, "__all__")
     try:
-        from mudline.cli.main import run
+        from mudline.cli.signals import Ended, ending_cleans_up
 
-        return run(given)
+        try:
+            with ending_cleans_up():
+                from mudline.cli.main import run
+
+                return run(given)
+        except Ended as ended:
+            return ended.code
     except KeyboardInterrupt:
         return INTERRUPTED
+
+
+def _printed(text: str) -> bool:
+    """Whether standard output takes a text; if not, `run` tries again, and says what is wrong."""
+    if sys.stdout is None:
+        return False
+    try:
+        sys.stdout.write(text)
+        sys.stdout.flush()
+    except OSError:
+        return False
+    return True
 
 
 if __name__ == "__main__":

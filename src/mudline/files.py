@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from contextvars import ContextVar
@@ -14,6 +15,14 @@ _CREATE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0) | ge
 _NEW = 0o666
 _PRIVATE = 0o600
 """Of a file that replaces another: until it has the permissions of the other one, nobody else reads it."""
+
+_MARK = ".mudline"
+"""The end of the names of temporary files: those that a killed run left are known by it."""
+_RANDOM = 8
+"""Random bytes in the name of a temporary file."""
+
+_tidied: set[str] = set()
+"""Folders in which this run has looked for what killed runs left."""
 
 _LOOKED_AT: ContextVar[dict[str, None] | None] = ContextVar("looked_at", default=None)
 
@@ -51,8 +60,11 @@ def write_atomically(path: Path, data: bytes | Iterable[bytes], *, synced: bool 
 def replacement(path: Path, *, synced: bool = True) -> Iterator[BinaryIO]:
     """A temporary file beside `path` to write to, which replaces it in one step when all is written.
 
-    Permissions are kept, and a symbolic link stays one: the file that it points to is replaced. What is no regular
-    file, such as a terminal or a pipe, is written to directly. Raises OSError; the old file is then still there.
+    Permissions are kept, owner and group where this user may give files to them, and a symbolic link stays one: the
+    file that it points to is replaced. Other hard links to the file keep its old content. What is not a regular file,
+    such as a terminal or a pipe, is written to directly. Raises OSError; the old file is then still there.
+
+    What a killed run has left in the folder is removed.
     """
     if path.exists() and not path.is_file():
         with path.open("wb") as stream:  # a directory says here that it is one
@@ -63,26 +75,109 @@ def replacement(path: Path, *, synced: bool = True) -> Iterator[BinaryIO]:
         raise OSError(errno.ELOOP, os.strerror(errno.ELOOP), str(path))
     if target.exists() and not os.access(target, os.W_OK):
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(path))
-    kept = target.stat().st_mode & 0o7777 if target.exists() else None
-    handle, temporary = _new_beside(target, _NEW if kept is None else _PRIVATE)
+    old = target.stat() if target.exists() else None
+    _tidy(str(target.parent))
+    handle, temporary = _new_beside(target, _NEW if old is None else _PRIVATE)
     try:
         with os.fdopen(handle, "wb") as stream:
             yield stream
             stream.flush()
             if synced:
                 os.fsync(stream.fileno())
-        if kept is not None:
-            temporary.chmod(kept)
-        temporary.replace(target)
+            if old is not None:
+                _take_over(stream.fileno(), temporary, old)
+            if sys.platform != "win32":  # there, what is open cannot be renamed; here, it is locked until it is closed
+                temporary.replace(target)
+        if sys.platform == "win32":
+            temporary.replace(target)
     except BaseException:
         with suppress(OSError):
             temporary.unlink()
         raise
 
 
+def _take_over(handle: int, temporary: Path, old: os.stat_result) -> None:
+    """Give a file the owner and the group of another one, as far as this user may, and its permissions.
+
+    A program that runs as its owner does not become one that runs as this user.
+    """
+    bits = old.st_mode & 0o7777
+    if sys.platform != "win32":
+        new = os.fstat(handle)
+        if new.st_gid != old.st_gid:
+            with suppress(OSError):
+                os.fchown(handle, -1, old.st_gid)
+        if new.st_uid != old.st_uid:
+            with suppress(OSError):
+                os.fchown(handle, old.st_uid, -1)
+        new = os.fstat(handle)
+        if (new.st_uid, new.st_gid) != (old.st_uid, old.st_gid):
+            bits &= 0o1777
+    temporary.chmod(bits)
+
+
+# ------------------------------------------------------------------------------------------------- temporary files
+
+
 def _new_beside(target: Path, mode: int) -> tuple[int, Path]:
-    """An open new file in the folder of another one; the system takes its mask for new files off the mode."""
+    """An open and locked new file in the folder of another one; the system takes its mask for new files off the mode.
+
+    One that another run took for left behind, before it was locked, is given up.
+    """
     while True:
-        path = target.with_name(f".{target.name[:40]}.{os.urandom(8).hex()}")
+        path = target.with_name(f".{target.name[:40]}.{os.urandom(_RANDOM).hex()}{_MARK}")
         with suppress(FileExistsError):
-            return os.open(path, _CREATE, mode), path
+            handle = os.open(path, _CREATE, mode)
+            if _locked(handle) is not False and path.exists():
+                return handle, path
+            os.close(handle)
+
+
+def _locked(handle: int) -> bool | None:
+    """Whether a file is now locked until it is closed, by this run; None where files cannot be locked.
+
+    The lock says that a temporary file is in use. On Windows, that it is open says so.
+    """
+    if sys.platform == "win32":
+        return None
+    import fcntl  # noqa: PLC0415 - most runs write nothing
+
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    except OSError:  # a file system without locks
+        return None
+    return True
+
+
+def _tidy(folder: str) -> None:
+    """Remove the temporary files that killed runs left in a folder, once in a run: those that nobody has locked."""
+    if folder in _tidied:
+        return
+    _tidied.add(folder)
+    with suppress(OSError), os.scandir(folder) as entries:
+        for path in [one.path for one in entries if _is_temporary(one.name) and one.is_file(follow_symlinks=False)]:
+            with suppress(OSError):  # it is another user's, or in use
+                _remove_left(path)
+
+
+def _is_temporary(name: str) -> bool:
+    """Whether a name is one that `_new_beside` gives."""
+    if not (name.startswith(".") and name.endswith(_MARK)):
+        return False
+    _, _, drawn = name.removesuffix(_MARK).rpartition(".")
+    return len(drawn) == 2 * _RANDOM and all(letter in "0123456789abcdef" for letter in drawn)
+
+
+def _remove_left(path: str) -> None:
+    """Remove a temporary file unless it is in use; raises OSError."""
+    if sys.platform == "win32":
+        os.unlink(path)  # noqa: PTH108 - as below
+        return
+    handle = os.open(path, os.O_RDWR | os.O_NOFOLLOW | os.O_NONBLOCK)
+    try:
+        if _locked(handle):
+            os.unlink(path)  # noqa: PTH108 - the path is a text of scandir
+    finally:
+        os.close(handle)

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from functools import cache
+from typing import TYPE_CHECKING, Any
 
+import pytest
 from hypothesis import strategies as st
-from jsonschema import Draft202012Validator
 
 from mudline.deck.document import FORMAT, UNITS, json_schema
 from mudline.keywords import catalogue
@@ -19,11 +20,19 @@ from mudline.syntax.rows import spells_number
 from tests.builders.spellings import EQUATIONS, NAMES, labels, no_head, texts
 from tests.builders.spellings import comments as comment_lines
 
+if TYPE_CHECKING:
+    from jsonschema import Draft202012Validator
+
 Values = dict[str, Any]
 """What JSON holds of a deck, a block or a record."""
 Keyword = tuple[str, str]
-VALIDATOR = Draft202012Validator(json_schema())
-"""Holds documents to the schema, which takes a while to make."""
+
+
+@cache
+def validator() -> Draft202012Validator:
+    """What holds documents to the schema, which takes a while to make."""
+    found: Draft202012Validator = pytest.importorskip("jsonschema").Draft202012Validator(json_schema())
+    return found
 
 
 def declared(keyword: Keyword) -> type[Block]:

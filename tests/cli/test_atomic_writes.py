@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import errno
 import os
-import secrets
 from collections.abc import Iterator
 from pathlib import Path
 from unittest.mock import Mock
@@ -109,7 +108,8 @@ def test_long_name(folder: Path) -> None:
 
 
 def test_name_of_the_temporary_file_may_be_taken(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    (folder / ".a.taken").write_bytes(b"another's")
-    monkeypatch.setattr(secrets, "token_hex", Mock(side_effect=["taken", "free"]))
+    taken = ".a.7461.mudline"
+    (folder / taken).write_bytes(b"another's")
+    monkeypatch.setattr(os, "urandom", Mock(side_effect=[b"ta", b"free"]))
     write_atomically(folder / "a", b"x")
-    assert {path.name: path.read_bytes() for path in folder.iterdir()} == {"a": b"x", ".a.taken": b"another's"}
+    assert {path.name: path.read_bytes() for path in folder.iterdir()} == {"a": b"x", taken: b"another's"}

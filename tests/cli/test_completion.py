@@ -8,6 +8,7 @@ from unittest.mock import patch
 import pytest
 
 from mudline.cli.main import COMMANDS
+from mudline.linting import registry
 from tests.cli.runner import Outcome, run
 
 
@@ -50,6 +51,25 @@ def test_paths_are_left_to_the_shell(command: str) -> None:
 def test_options_and_their_words_are_offered() -> None:
     assert "plain,--output-format" in offered("lint", "--o")
     assert offered("lint", "--fail-on", "w") == ["plain,warning"]
+
+
+def test_rules_are_offered_by_code_and_name() -> None:
+    assert offered("lint", "--select", "crv00") == [f"plain,CRV00{number}" for number in range(1, 10)]
+    assert offered("lint", "--ignore", "CRV001,too-f") == ["plain,CRV001,too-few-points"]
+    assert offered("lint", "--extend-select", "SYN001") == ["plain,SYN001"]
+    assert offered("rules", "too-f") == ["plain,too-few-points"]
+
+
+def test_formats_and_commands_are_offered() -> None:
+    assert offered("lint", "--output-format", "sa") == ["plain,sarif"]
+    assert offered("convert", "--to", "y") == ["plain,yaml"]
+    assert offered("help", "li") == ["plain,lint"]
+
+
+def test_nothing_is_offered_for_what_is_unknown(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert offered("lnit", "--sel") == []
+    monkeypatch.setattr(registry, "_collected", lambda: ((), ("a plugin cannot be used",)))
+    assert offered("lint", "--select", "SYN") == []
 
 
 def test_an_unknown_question_is_answered_by_nothing() -> None:

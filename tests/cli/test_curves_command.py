@@ -87,6 +87,7 @@ def test_static_embedment_in_json(place: Place) -> None:
             "slope": 5000.0,
             "segment": 1,
             "extrapolated": "above",
+            "stable": True,
             "stiffness": [{"diameter": 0.5, "depth": 0.3, "stiffness": 10000.0}],
         }
     ]
@@ -114,10 +115,46 @@ def test_csv_holds_the_values_asked_for(place: Place) -> None:
 def test_csv_holds_the_static_embedment(place: Place) -> None:
     deck = UNUSED.replace(" CURVE=Sand\n 0.0, 0.0\n 0.1, 1.0\n", " CURVE=Sand\n 0.0, 0.0\n 0.1, 3000.0\n")
     assert rows(run("curves", place(deck), "--weight", "1500", "--output-format", "csv").out) == [
-        ["curve", "ratio", "force", "slope", "segment", "extrapolated", "diameter", "depth", "stiffness"],
-        ["Clay", "0.2", "1500.0", "5000.0", "1", "", "0.5", "0.1", "10000.0"],
-        ["Sand", "0.05", "1500.0", "30000.0", "0", "", "", "", ""],
+        ["curve", "ratio", "force", "slope", "segment", "extrapolated", "stable", "diameter", "depth", "stiffness"],
+        ["Clay", "0.2", "1500.0", "5000.0", "1", "", "true", "0.5", "0.1", "10000.0"],
+        ["Sand", "0.05", "1500.0", "30000.0", "0", "", "true", "", "", ""],
     ]
+
+
+def test_an_embedment_where_the_curve_softens_is_unstable(place: Place) -> None:
+    deck = place(CLEAN.replace(" 0.5, 3000.0", " 0.3, 500.0\n 0.5, 3000.0"))
+    outcome = run("curves", deck, "--weight", "800")
+    table = outcome.out.partition("static embedment")[2].splitlines()
+    assert [line.split()[-1] for line in table[4:7]] == ["20000", "unstable", "25000"]
+    assert "unstable: the curve softens there" in outcome.out
+    found = run("curves", deck, "--weight", "800", "--output-format", "json").json()
+    assert_fits(found, "curves")
+    assert [one["stable"] for one in found[0]["static"]] == [True, False, True]
+    assert "unstable" not in run("curves", deck, "--weight", "400").out
+
+
+def test_diameters_of_lines_come_from_their_sections(place: Place) -> None:
+    lines = (SAMPLES / "lines-deck.keyxm").read_text(encoding="utf-8")
+    outcome = run("curves", place(lines), "--weight", "135")
+    assert "curve Clay: 8 points, diameters of *GEOMETRIC SETS\n" in outcome.out
+    assert "D=0.168" in outcome.out
+    section = " SET=Dynamic Section\n 12.0E3, 12.0E3, 8.0E3, 250.0E6, 36.5, 0.12, 0.0, 0.2, 0.2, 0.2\n"
+    two = lines.replace("C\n*HYDRODYNAMIC SETS", f"{section}C\n*HYDRODYNAMIC SETS")
+    assert "D=0.2\n" in run("curves", place(two)).out
+    other = two.replace(" SET=Dynamic Section\n STIFFNESS=Clay", " SET=Static Section\n STIFFNESS=Clay")
+    both = run("curves", place(other)).out
+    assert "D=0.168" in both
+    assert "D=0.2" in both
+
+
+def test_names_for_a_spreadsheet(place: Place) -> None:
+    deck = place(CLEAN.replace("Clay", "=1+1"))
+    options = ("--output-format", "csv", "--spreadsheet")
+    assert rows(run("curves", deck, *options).out)[1] == ["'=1+1", "0.0", "0.0", "10000.0"]
+    assert rows(run("curves", deck, *options[:2]).out)[1][0] == "=1+1"
+    wrong = run("curves", deck, "--spreadsheet")
+    assert (wrong.code, wrong.out) == (2, "")
+    assert "--spreadsheet is for CSV: give --output-format csv" in wrong.err
 
 
 def test_csv_holds_one_table(place: Place) -> None:

@@ -121,6 +121,29 @@ def test_written_csv_has_a_table_of_nodes_beside_it(place: Place, steps: str, fo
         assert (folder / name).read_bytes() == printed.output
 
 
+def test_nodes_of_steps_are_shown(place: Place, steps: str) -> None:
+    outcome = run("evaluate", place(), "--positions", steps, "--table", "nodes")
+    table = outcome.out.split("\n\n")[0].splitlines()
+    assert table[1].split() == ["smallest", "largest", "total"]
+    assert table[2].split() == ["time", "in", "first", "last", "gap", "on", "a", "node", "reaction"]
+    first, second = (line.split() for line in table[5:7])
+    assert first == ["0", "2", "1", "2", "-0.1", "7500", "15000"]
+    assert (second[0], second[2:4]) == ("2.5", ["1", "3"])
+    assert run("evaluate", place(), "--positions", steps).out.split("\n\n")[0] != outcome.out.split("\n\n")[0]
+
+
+def test_names_for_a_spreadsheet(place: Place) -> None:
+    deck = place(CLEAN.replace("Pipe", "@Pipe"))
+    options = ("--output-format", "csv", "--spreadsheet")
+    assert run("evaluate", deck, *options).out.splitlines()[1].split(",")[1] == "'@Pipe"
+    assert run("evaluate", deck, *options[:2]).out.splitlines()[1].split(",")[1] == "@Pipe"
+    assert run("evaluate", deck, "-o", "out.csv", "--spreadsheet", "-q").code == 0
+    assert Path("out.csv").read_text(encoding="utf-8") == run("evaluate", deck, *options).out
+    wrong = run("evaluate", deck, "-o", "out.json", "--spreadsheet")
+    assert (wrong.code, Path("out.json").exists()) == (2, False)
+    assert "--spreadsheet is for CSV" in wrong.err
+
+
 def test_quiet_writes_both_tables_and_says_nothing(place: Place, folder: Path) -> None:
     assert run("evaluate", place(), "-o", "out.csv", "-q").err == ""
     assert sorted(path.name for path in folder.glob("*.csv")) == ["out-nodes.csv", "out.csv"]

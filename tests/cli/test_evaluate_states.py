@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import csv
+import os
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
+from mudline.contact import ContactModel
+from mudline.scene.positions import StepFile
 from tests.builders.decks import CLEAN
 from tests.cli.conftest import Place
 from tests.cli.runner import assert_fits, run
@@ -117,6 +122,44 @@ def test_suction_needs_a_clock(place: Place, folder: Path) -> None:
     outcome = run("evaluate", name, "--positions", "p.npz")
     assert (outcome.code, outcome.out) == (1, "")
     assert "times that rise: 1.0 follows 2.0" in outcome.err
+
+
+@pytest.mark.parametrize("times", [[0.0, 2.0, 1.0], [0.0, 1.0, 1.0]], ids=["fall", "repeat"])
+@pytest.mark.parametrize("velocities", [False, True], ids=["positions", "velocities"])
+@pytest.mark.parametrize("law", ["suction", "friction", "none"])
+def test_times_of_an_archive_rise_for_laws_with_history(
+    place: Place, folder: Path, law: str, velocities: bool, times: list[float]
+) -> None:
+    places = np.zeros((3, 3, 3))
+    places[..., 1] = [0.0, 10.0, 20.0]
+    if velocities:
+        np.savez(folder / "p.npz", positions=places, time=times, velocities=0 * places)
+    else:
+        np.savez(folder / "p.npz", positions=places, time=times)
+    deck = {"suction": UPLIFT, "friction": SLIDING, "none": CLEAN}[law]
+    outcome = run("evaluate", place(deck), "--positions", "p.npz")
+    if law == "none":
+        assert (outcome.code, outcome.err.count("rise")) == (0, 0)
+        return
+    assert (outcome.code, outcome.out) == (1, "")
+    assert outcome.err.endswith(f"times that rise: {times[2]} follows {times[1]}\n")
+
+
+def test_a_positions_file_that_becomes_shorter(place: Place, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    np.save(folder / "p.npy", np.zeros((20000, 3, 3)))
+    first = ContactModel.stream
+
+    def shortened(self: ContactModel, positions: StepFile, **others: Any) -> Iterator[Any]:  # noqa: ANN401 - passed on
+        parts = first(self, positions, **others)
+        yield next(parts)
+        os.truncate("p.npy", 1000)
+        yield from parts
+
+    monkeypatch.setattr(ContactModel, "stream", shortened)
+    outcome = run("evaluate", place(), "--positions", "p.npy", "-o", "out.csv")
+    assert (outcome.code, outcome.out) == (1, "")
+    assert "p.npy:1:1: error: DAT001 the file has become shorter while it was read" in outcome.err
+    assert sorted(path.name for path in folder.iterdir()) == ["deck.keyxm", "p.npy"]
 
 
 def test_time_step(place: Place, folder: Path) -> None:

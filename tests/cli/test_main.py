@@ -65,6 +65,30 @@ def test_no_command_shows_the_help_as_an_error() -> None:
     assert outcome.err == run("--help").out
 
 
+@pytest.mark.parametrize("command", EVERY)
+def test_help_as_a_command(command: str) -> None:
+    outcome = run("help", command)
+    assert (outcome.code, outcome.err) == (0, "")
+    assert outcome.out == run(command, "--help").out
+
+
+def test_help_of_all_and_of_none() -> None:
+    assert run("help").out == run("--help").out
+    outcome = run("help", "lnit")
+    assert (outcome.code, outcome.out) == (2, "")
+    assert outcome.err.endswith("mudline: unknown command 'lnit': did you mean lint?\n")
+
+
+def test_docstrings_that_are_stripped_are_refused(place: Place) -> None:
+    outcome = process("lint", place(), env={"PYTHONOPTIMIZE": "2"})
+    assert (outcome.code, outcome.out) == (2, "")
+    assert outcome.err == (
+        "mudline: rules are described by docstrings, which python -OO and PYTHONOPTIMIZE=2 strip: "
+        "run Python with -O or without\n"
+    )
+    assert process("lint", place(), env={"PYTHONOPTIMIZE": "1"}).code == 0
+
+
 def test_unknown_command() -> None:
     outcome = run("lnit")
     assert (outcome.code, outcome.out) == (2, "")

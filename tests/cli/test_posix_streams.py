@@ -23,6 +23,7 @@ PIPED = {
     "curves": ["curves", str(SAMPLES / "scr-touchdown.keyxm")],
     "rules": ["rules"],
     "help": ["--help"],
+    "version": ["--version"],
 }
 
 
@@ -56,12 +57,24 @@ def test_standard_error_that_is_closed(folder: Path) -> None:
     assert (done.returncode, done.stdout) == (141, b"")
 
 
-@pytest.mark.parametrize("arguments", [PIPED["lint"], PIPED["curves"], PIPED["rules"]], ids=["lint", "curves", "rules"])
+CLOSED = {name: PIPED[name] for name in ("lint", "curves", "rules", "version")}
+
+
+@pytest.mark.parametrize("arguments", CLOSED.values(), ids=CLOSED)
 def test_output_that_was_closed_before_the_start(arguments: list[str]) -> None:
     words = f"exec {sys.executable} -m mudline {' '.join(arguments)} >&-"
     done = subprocess.run(["/bin/sh", "-c", words], capture_output=True, timeout=TIMEOUT, check=False)
     assert done.returncode in {0, 1}
     assert done.stderr == b""
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no device that is always full")
+@pytest.mark.parametrize("arguments", [PIPED["rules"], PIPED["version"]], ids=["rules", "version"])
+def test_output_that_is_full(arguments: list[str]) -> None:
+    with Path("/dev/full").open("wb") as full:
+        words = [sys.executable, "-m", "mudline", *arguments]
+        done = subprocess.run(words, stdout=full, stderr=subprocess.PIPE, timeout=TIMEOUT, check=False)
+    assert (done.returncode, done.stderr) == (2, b"mudline: the output cannot be written: no space left on device\n")
 
 
 def test_interruption(folder: Path) -> None:

@@ -183,6 +183,41 @@ def test_numbers_of_thousands_of_digits(number: str) -> None:
         with pytest.raises(DeckError) as caught:
             load_bytes(text.encode(), name)
         assert all(len(one.message) < 1000 for one in caught.value.diagnostics)
+        assert not any("sys." in one.message for one in caught.value.diagnostics)
+
+
+def test_a_number_of_too_many_digits_is_found() -> None:
+    for text, name in ((f"a:\n b: {'7' * 5000}", "a.yaml"), (f'{{"a":\n  {"7" * 5000}}}', "a.json")):
+        with pytest.raises(DeckError) as caught:
+            load_bytes(text.encode(), name)
+        (found,) = caught.value.diagnostics
+        assert (found.code, found.line) == ("DOC001", 2)
+        assert found.message == "a whole number of 5000 digits is too large"
+
+
+@pytest.mark.parametrize("value", ["=[1", 'x "b', '"b', "=[[1]"])
+@pytest.mark.parametrize(
+    "block",
+    [
+        {
+            "keyword": "VARIATION",
+            "variations": [{"name": "V", "parameters": [{"parameter": "P", "values": ["VALUE"]}]}],
+        },
+        {"keyword": "PARAMETERS", "parameters": [{"name": "P", "value": "VALUE"}]},
+    ],
+    ids=["VARIATION", "PARAMETERS"],
+)
+def test_a_text_that_would_not_read_back_is_refused(block: Document, value: str) -> None:
+    document = json.dumps(made(section(block))).replace('"VALUE"', json.dumps(value)).encode()
+    with pytest.raises(DeckError, match=r"DOC00[12]"):
+        dump(load_bytes(document, "a.json"), "keyword")
+
+
+@pytest.mark.parametrize("form", ["json", "yaml"])
+def test_a_file_name_that_is_not_utf_8_is_escaped(form: str) -> None:
+    deck = load_bytes(b"$MODEL\n", "deck-\udcff.keyxm")
+    again = load_bytes(dump(deck, form).encode(), f"a.{form}")
+    assert again.source == "deck-\\udcff.keyxm"
 
 
 def test_a_fault_in_a_block_of_rows_is_told_at_its_row() -> None:

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from mudline.deck.loading import dump, load_bytes
 from mudline.deck.model import Deck
 from mudline.diagnostics import DeckError, Diagnostic
-from tests.builders.documents import VALIDATOR
+from tests.builders.documents import validator
 from tests.builders.keyword_texts import deck_texts, mutated
 from tests.processes import TIMEOUT
 
@@ -155,7 +155,7 @@ BREAKS: list[tuple[Path, object, str]] = [
 @pytest.mark.parametrize(("path", "value", "named"), BREAKS)
 def test_a_broken_document_is_refused_by_the_reader_and_by_the_schema(path: Path, value: object, named: str) -> None:
     broken = changed(path, value)
-    assert not VALIDATOR.is_valid(broken)
+    assert not validator().is_valid(broken)
     for text, name in ((json.dumps(broken, indent=1), "a.json"), (yaml.safe_dump(broken, sort_keys=False), "a.yaml")):
         found = refusal(text, name)
         assert any(named in one.message for one in found), [str(one) for one in found]
@@ -172,7 +172,7 @@ def test_a_set_needs_the_section_of_its_option() -> None:
 
 @pytest.mark.parametrize("text", ["[]", "5", '"text"', "null", "true", "{}", '{"format": null}'])
 def test_other_documents(text: str) -> None:
-    assert not VALIDATOR.is_valid(json.loads(text))
+    assert not validator().is_valid(json.loads(text))
     for name in ("a.json", "a.yaml"):
         (found,) = refusal(text, name)
         assert "mudline-deck/1" in found.message
@@ -281,7 +281,7 @@ def _paths(value: object, path: Path = ()) -> list[Path]:
 @settings(max_examples=150)
 def test_any_value_at_any_place_is_read_or_refused_as_the_schema_says(path: Path, value: object) -> None:
     made = changed(path, value)
-    accepted = VALIDATOR.is_valid(made)
+    accepted = validator().is_valid(made)
     for text, name in ((json.dumps(made), "a.json"), (yaml.safe_dump(made), "a.yaml")):
         deck = read_or_refuse(text.encode(), name)
         assert deck is None or accepted
@@ -293,7 +293,7 @@ def test_any_value_at_any_place_is_read_or_refused_as_the_schema_says(path: Path
 def test_mutated_json_is_read_or_refused(data: bytes, as_yaml: bool) -> None:
     deck = read_or_refuse(data, "a.yaml" if as_yaml else "a.json")
     if deck is not None:
-        VALIDATOR.validate(json.loads(dump(deck, "json")))
+        validator().validate(json.loads(dump(deck, "json")))
 
 
 @given(st.text(max_size=40) | st.text("{}[]:-,'\"&*!|> \n#?%@a1", max_size=40), st.sampled_from(["a.json", "a.yaml"]))

@@ -16,7 +16,7 @@ from mudline.deck.forms import form_of
 from mudline.deck.loading import dump, load_bytes
 from mudline.deck.model import Deck
 from mudline.diagnostics import Severity
-from tests.builders.documents import VALIDATOR
+from tests.builders.documents import validator
 from tests.builders.keyword_texts import MODELLED, deck_texts, mutated
 from tests.builders.scenes import deck_of
 from tests.samples import SAMPLES
@@ -35,7 +35,7 @@ def same(one: Deck, other: Deck) -> None:
 def held(deck: Deck) -> None:
     """Every way between the forms gives the same deck and the same text, and the schema takes what is written."""
     as_json = dump(deck, "json")
-    VALIDATOR.validate(json.loads(as_json))
+    validator().validate(json.loads(as_json))
     from_json = deck_of(as_json, "deck.json")
     same(deck, from_json)
     assert (from_json.source, from_json.units) == (deck.source, deck.units)

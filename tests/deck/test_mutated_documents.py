@@ -14,7 +14,7 @@ from mudline.deck.forms.yaml import CoreDumper
 from mudline.deck.loading import dump, load_bytes
 from mudline.deck.model import Deck
 from mudline.diagnostics import DeckError, Diagnostic
-from tests.builders.documents import KEYWORDS, VALIDATOR, Values, alone, block
+from tests.builders.documents import KEYWORDS, Values, alone, block, validator
 from tests.deck.test_round_trips import values
 
 blocks = st.sampled_from(KEYWORDS).flatmap(lambda keyword: block(keyword).map(lambda made: alone(keyword, made)))
@@ -97,7 +97,7 @@ def read(text: str, form: str) -> Deck | tuple[Diagnostic, ...]:
 @settings(max_examples=300)
 def test_schema_and_reader_agree(mutant: tuple[Values, DocumentPath]) -> None:
     made, _ = mutant
-    allowed = VALIDATOR.is_valid(made)
+    allowed = validator().is_valid(made)
     as_json = read(json.dumps(made), "json")
     as_yaml = read(as_yaml_text(made), "yaml")
     if isinstance(as_json, Deck):

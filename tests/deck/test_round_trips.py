@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from mudline.deck.loading import dump, load_bytes
 from mudline.deck.model import Deck
-from tests.builders.documents import KEYWORDS, VALIDATOR, Keyword, Values, alone, block, declared, document
+from tests.builders.documents import KEYWORDS, Keyword, Values, alone, block, declared, document, validator
 
 
 def read(text: str, form: str) -> Deck:
@@ -44,7 +44,7 @@ def held_in_documents(deck: Deck) -> None:
     """JSON and YAML give the deck and each other's text back, and hold to the schema."""
     as_json, as_yaml = dump(deck, "json"), dump(deck, "yaml")
     from_json, from_yaml = read(as_json, "json"), read(as_yaml, "yaml")
-    VALIDATOR.validate(json.loads(as_json))
+    validator().validate(json.loads(as_json))
     assert from_json == from_yaml == deck
     assert dump(from_json, "json") == dump(from_yaml, "json") == as_json
     assert dump(from_json, "yaml") == dump(from_yaml, "yaml") == as_yaml

@@ -66,7 +66,7 @@ def cycle(samples: Path) -> Cycle:
     steps = np.arange(len(given.time))
     fine = np.linspace(0.0, steps[-1], _FINER * steps[-1] + 1)
     times = np.interp(fine, steps, given.time)
-    height = np.interp(fine, steps, given.values[:, 0, 0])  # all nodes move alike
+    height = np.interp(fine, steps, given.whole[:, 0, 0])  # all nodes move alike
     positions = np.repeat(scene.coordinates[None], len(fine), axis=0)
     positions[:, :, 0] = height[:, None]
     result = scene.contact().evaluate(positions, times=times)

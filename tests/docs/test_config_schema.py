@@ -8,13 +8,13 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from jsonschema import Draft7Validator
 
 from mudline.linting.configuration import KEYS, ConfigurationError, read_configuration
 from tests.docs.blocks import Page
 from tests.docs.config_schema import CONFIG_SCHEMA, MEANINGS, config_schema
 from tests.docs.make import ROOT
 
+Draft7Validator = pytest.importorskip("jsonschema").Draft7Validator
 SCHEMA = json.loads(config_schema())
 PAGE = Page.read(ROOT / "docs" / "configuration.md")
 

@@ -16,7 +16,7 @@ from mudline.diagnostics import DeckError
 from mudline.formatting.document import formatted
 from mudline.keywords.library.seabed_suction import CyclicLoading, SeabedSuction, SuctionSet
 from mudline.keywords.library.seabed_trench import Centreline, SeabedTrench, TrenchSet
-from tests.builders.documents import VALIDATOR
+from tests.builders.documents import validator
 
 TRENCH = "*SEABED TRENCH\n SET=ALL\n GEOMETRY=1, 2, 3\n"
 
@@ -200,7 +200,7 @@ def test_every_form_holds_cyclic_loading_and_trenches(block: str) -> None:
         again = load_bytes(dump(deck, form).encode(), f"deck.{form}")
         assert again.sections == deck.sections
         assert dump(again, "keyword") == text
-    VALIDATOR.validate(json.loads(dump(deck, "json")))
+    validator().validate(json.loads(dump(deck, "json")))
     assert load_bytes(formatted(text.encode(), "deck.keyxm"), "deck.keyxm").sections == deck.sections
 
 

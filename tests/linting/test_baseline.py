@@ -6,7 +6,6 @@ import json
 from pathlib import Path
 
 import pytest
-from jsonschema import Draft202012Validator
 
 from mudline.linting.baseline import Baseline, BaselineError, read_baseline
 from mudline.linting.engine import lint_bytes
@@ -55,9 +54,10 @@ def test_what_is_gone_is_counted_for_the_files_seen(tmp_path: Path) -> None:
 def test_the_file_is_sorted_and_keeps_to_its_schema(tmp_path: Path) -> None:
     text = recorded(tmp_path).text()
     schema = json.loads(SCHEMA.read_text(encoding="utf-8"))
-    Draft202012Validator.check_schema(schema)
-    Draft202012Validator(schema).validate(json.loads(text))
-    Draft202012Validator(schema).validate(json.loads(Baseline(tmp_path).text()))
+    validator = pytest.importorskip("jsonschema").Draft202012Validator
+    validator.check_schema(schema)
+    validator(schema).validate(json.loads(text))
+    validator(schema).validate(json.loads(Baseline(tmp_path).text()))
     first, second = json.loads(text)["findings"]
     assert first == {"path": "decks/a.keyxm", "code": "REF003", "content": "CURVE=Clay", "count": 1}
     assert second["content"] == "CURVE=Sand"

@@ -156,6 +156,7 @@ FAULTS = {
     "fails at import": ("import nowhere_at_all", "ModuleNotFoundError: No module named 'nowhere_at_all': report"),
     "fails without words": ("raise ValueError", "cannot be used: ValueError: report it to its authors"),
     "ends the program": ("raise SystemExit(5)", "SystemExit: 5: report it to its authors"),
+    "ends it otherwise": ("raise GeneratorExit('enough')", "GeneratorExit: enough: report it to its authors"),
     "adds nothing": ("", "it adds no rule: use the decorator mudline.plugins.rule"),
     "letters of mudline": (RULE.format(code="CRV900", slug="model", body="yield"), "CRV900 belong to mudline"),
     "letters without rules": (RULE.format(code="RUN900", slug="model", body="yield"), "RUN900 belong to mudline"),
@@ -205,6 +206,10 @@ def test_every_plugin_with_a_fault_is_told(site: Site) -> None:
 
 
 FAILURES = {
+    "ends the program": ("raise SystemExit(0)", "SystemExit: 0"),
+    "ends it later": ("yield from ()\n    raise SystemExit", "SystemExit)"),
+    "ends a generator": ("yield from ()\n    raise GeneratorExit('enough')", "GeneratorExit: enough"),
+    "raises what it made": ("raise type('Own', (BaseException,), {})('words')", "Own: words"),
     "raises": ("raise ZeroDivisionError('by zero')", "ZeroDivisionError: by zero"),
     "raises without words": ("raise RecursionError", "(RecursionError)"),
     "finds a string": ("yield 'model'", "AttributeError: 'str' object has no attribute 'code'"),

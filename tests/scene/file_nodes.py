@@ -35,4 +35,4 @@ def refusal(path: Path, nodes: Numbered = NODES) -> Diagnostic:
 
 def assert_same(found: Positions, expected: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> None:
     assert found.values.shape == expected.shape
-    assert np.array_equal(found.values, expected, equal_nan=True)
+    assert np.array_equal(found.whole, expected, equal_nan=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import os
 import zipfile
 from pathlib import Path
 from typing import Any
@@ -14,7 +15,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from mudline.diagnostics import DeckError
-from mudline.scene.positions import read_positions
+from mudline.scene.positions import StepFile, read_positions
 from tests.scene.file_nodes import NODES, assert_same, refusal
 
 STATE = np.arange(9, dtype=np.float64).reshape(3, 3)
@@ -22,7 +23,7 @@ SERIES = np.arange(36, dtype=np.float64).reshape(4, 3, 3)
 
 
 def saved(tmp_path: Path, **arrays: NDArray[Any]) -> Path:
-    np.savez(tmp_path / "p.npz", allow_pickle=True, **arrays)
+    np.savez(tmp_path / "p.npz", **arrays)  # type: ignore[arg-type]
     return tmp_path / "p.npz"
 
 
@@ -34,13 +35,25 @@ def one(tmp_path: Path, array: NDArray[Any]) -> Path:
 # ----------------------------------------------------------------------------------------------------------------- NPY
 
 
-def test_series_is_mapped_not_read(tmp_path: Path) -> None:
+def test_series_is_read_when_it_is_asked_for(tmp_path: Path) -> None:
     found = read_positions(one(tmp_path, SERIES), NODES)
+    assert isinstance(found.values, StepFile)
     assert_same(found, SERIES)
-    assert isinstance(found.values, np.memmap)
+    assert np.array_equal(found.values[1:3], SERIES[1:3])
+    assert np.array_equal(found.values[2], SERIES[2])
+    assert found.values[4:9].shape == (0, 3, 3)
     assert found.time is not None
     assert found.time.tolist() == [0.0, 1.0, 2.0, 3.0]
     assert found.missing == 0
+
+
+def test_a_file_that_becomes_shorter_is_refused(tmp_path: Path) -> None:
+    path = one(tmp_path, SERIES)
+    found = read_positions(path, NODES)
+    os.truncate(path, path.stat().st_size - 100)
+    assert np.array_equal(found.values[0:2], SERIES[:2])
+    with pytest.raises(DeckError, match="has become shorter while it was read: wait until it is written"):
+        found.values[2:4]
 
 
 def test_one_state(tmp_path: Path) -> None:
@@ -150,9 +163,9 @@ def test_archive_of_some_nodes_in_its_own_order(tmp_path: Path) -> None:
     assert found.present.tolist() == [True, False, True]
     assert found.time is not None
     assert found.time.tolist() == times.tolist()
-    assert np.array_equal(found.values[:, 2], SERIES[:, 0])
-    assert np.array_equal(found.values[:, 0], SERIES[:, 1])
-    assert np.isnan(found.values[:, 1]).all()
+    assert np.array_equal(found.whole[:, 2], SERIES[:, 0])
+    assert np.array_equal(found.whole[:, 0], SERIES[:, 1])
+    assert np.isnan(found.whole[:, 1]).all()
     assert found.velocities is not None
     assert np.array_equal(found.velocities[:, 2], -SERIES[:, 0])
 
@@ -181,6 +194,16 @@ ARCHIVES = {
     "node nan": ({"positions": SERIES, "node": np.array([10, 20, np.nan])}, "node holds nan, expected finite numbers"),
     "node text": ({"positions": SERIES, "node": np.array(["a", "b", "c"])}, "node holds <U1, expected numbers"),
     "times": ({"positions": SERIES, "time": np.zeros(3)}, "time has the shape (3,), expected (4,)"),
+    "times in a column": (
+        {"positions": SERIES, "time": np.zeros((4, 1))},
+        "time has the shape (4, 1), expected (4,)",
+    ),
+    "one time of many steps": ({"positions": SERIES, "time": np.array(1.0)}, "time has the shape (), expected (4,)"),
+    "nodes in a column": (
+        {"positions": SERIES, "node": np.array([[10], [20], [30]])},
+        "node has the shape (3, 1), expected one axis",
+    ),
+    "one node": ({"positions": SERIES, "node": np.array(10)}, "node has the shape (), expected one axis"),
     "time inf": ({"positions": SERIES, "time": np.array([0, 1, 2, np.inf])}, "time holds inf, expected finite numbers"),
     "velocities": (
         {"positions": SERIES, "velocities": STATE},

@@ -162,7 +162,7 @@ def test_numbers_come_back_to_the_last_bit(
 ) -> None:
     rows = "".join(f"{n},{x!r},{y!r},{z!r}\n" for n, (x, y, z) in zip((10, 20, 30), values, strict=True))
     file = write(tmp_path_factory.getbasetemp() / "bits.csv", f"node,x,y,z\n{rows}")
-    assert read_positions(file, NODES).values.tobytes() == np.array([values]).tobytes()
+    assert read_positions(file, NODES).whole.tobytes() == np.array([values]).tobytes()
 
 
 ALPHABET = st.sampled_from([*"0123456789.,-+eE \n\r\t\"';xyz", "\x00", "\ufeff", "\u00e4", "node,x,y,z\n", "10,"])
@@ -176,4 +176,4 @@ def test_any_text_is_read_or_refused(tmp_path_factory: pytest.TempPathFactory, t
     except DeckError as error:
         assert error.diagnostics[0].line >= 1  # noqa: PT017 - either outcome is right
     else:
-        assert np.isfinite(found.values[:, found.present]).all()
+        assert np.isfinite(found.whole[:, found.present]).all()

@@ -101,6 +101,19 @@ def test_command_says_why_a_study_cannot_be_made(monkeypatch: pytest.MonkeyPatch
         run("study", "precision")
 
 
+@pytest.mark.parametrize(
+    ("study", "library"), [("precision", "scipy.integrate"), ("stability", "mpmath"), ("pruning", "scipy.interpolate")]
+)
+def test_libraries_are_looked_for_before_a_study_runs(
+    monkeypatch: pytest.MonkeyPatch, study: str, library: str
+) -> None:
+    monkeypatch.setitem(sys.modules, library, None)
+    monkeypatch.setattr(f"mudline.study.{study}.run", Mock(side_effect=AssertionError("it runs")))
+    outcome = run("study", study, "-q")
+    name = library.partition(".")[0]
+    assert (outcome.code, outcome.err) == (1, f"mudline: this study needs {name}: pip install 'mudline[study]'\n")
+
+
 def test_command_shows_every_kind_of_cell(monkeypatch: pytest.MonkeyPatch) -> None:
     cells = [("a", True, 0.25, None), ("b", False, float("nan"), 3)]
     columns = (Column("name"), Column("right"), Column("size", "m"), Column("count"))

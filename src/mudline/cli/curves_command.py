@@ -14,6 +14,7 @@ from mudline.cli.inputs import GivenDeck, takes_deck
 from mudline.cli.streams import emit, emit_json, notify, notify_missing, writing
 from mudline.cli.view import View
 from mudline.curves import ForceCurve
+from mudline.deck.parameters import folded
 from mudline.linting.output import visible
 from mudline.results.quantities import UnitNames, csv_lines, finite, headed, shown, unit_names
 from mudline.results.summary import CURVE_SIDES, followers
@@ -27,6 +28,7 @@ _MOST_DIAMETERS = 3
 _AT = ("ratio", "force", "slope", "segment", "extrapolated")
 _OF_DIAMETER = ("diameter", "depth", "stiffness")
 _GOES_ON = "Below its first and above its last point a curve goes on with the slope of its end segment."
+_SOFTENS = "unstable: the curve softens there, and a pipe that is pushed deeper sinks on to the next stable embedment"
 
 
 @click.command("curves")
@@ -40,6 +42,7 @@ _GOES_ON = "Below its first and above its last point a curve goes on with the sl
     help="Static embedment under a submerged weight per unit length, in the deck's units.",
 )
 @click.option("--plot", "picture", metavar="FILE.png|svg", help="Draw the curves (needs the extra mudline[plot]).")
+@options.spreadsheet
 @options.output_format("text", "json", "csv")
 @takes_deck
 def command(
@@ -48,6 +51,7 @@ def command(
     ratios: tuple[float, ...],
     weight: float | None,
     picture: str | None,
+    spreadsheet: bool,
     output_format: str,
     view: View,
 ) -> int:
@@ -55,6 +59,8 @@ def command(
 
     CSV holds one table: the points, or the values for --at or --weight.
     """
+    if spreadsheet and output_format != "csv":
+        raise click.UsageError(options.CSV_ONLY)
     if output_format == "csv" and ratios and weight is not None:
         raise click.UsageError("CSV holds one table: give --at or --weight, not both")
     form = "" if picture is None else Path(picture).suffix.lower().removeprefix(".")
@@ -70,7 +76,7 @@ def command(
     if output_format == "json":
         emit_json(rows)
     elif output_format == "csv":
-        emit(csv_lines(_csv_rows(rows, ratios, weight)))
+        emit(csv_lines(_csv_rows(rows, ratios, weight), as_text=spreadsheet))
     elif rows:
         _print_curves(scene, rows, view)
     else:
@@ -98,8 +104,18 @@ def _used_curves(scene: Scene) -> list[tuple[int, SceneCurve, ForceCurve]]:
 
 
 def _diameters(scene: Scene, curve: int) -> list[float]:
-    """The different external diameters of the elements that follow a curve."""
-    found = scene.diameter[followers(scene, curve)]
+    """The different external diameters of the elements that follow a curve.
+
+    Where the deck does not show its elements, as those of `*LINES`, these are the diameters of the sections of the sets
+    that follow the curve, or of all sections, if none has the name of such a set.
+    """
+    follow = followers(scene, curve)
+    found = scene.diameter[follow]
+    if not follow.any() and scene.context.external_definers:
+        sets = {folded(grant.set_.name) for grant in scene.laws.set_laws if grant.curve == curve}
+        sections = scene.section_table.sections if sets else ()
+        of_sets = [section.diameter for section in sections if folded(section.name) in sets]
+        found = np.array(of_sets or [section.diameter for section in sections])
     return [float(value) for value in np.unique(found[~np.isnan(found)])]
 
 
@@ -132,11 +148,15 @@ def _value_at(curve: ForceCurve, ratio: float) -> dict[str, Any]:
 
 
 def _static(curve: ForceCurve, ratio: float, sizes: list[float]) -> dict[str, Any]:
-    """Static embedment: where the curve carries the weight; depth and stiffness there for each diameter."""
+    """Static embedment: where the curve carries the weight; depth and stiffness there for each diameter.
+
+    It is stable where the force rises with the depth: where it falls, the pipe sinks on.
+    """
     values = _value_at(curve, ratio)
     slope = values["slope"]
     return {
         **values,
+        "stable": slope > 0.0,
         "stiffness": [
             {"diameter": size, "depth": finite(ratio * size), "stiffness": finite(slope / size)} for size in sizes
         ],
@@ -151,7 +171,7 @@ def _csv_rows(
         yield ("curve", *_AT)
         yield from ((row["name"], *value.values()) for row in rows for value in row["at"])
     elif weight is not None:
-        yield ("curve", *_AT, *_OF_DIAMETER)
+        yield ("curve", *_AT, "stable", *_OF_DIAMETER)
         for row in rows:
             for static in row["static"]:
                 *values, sizes = static.values()
@@ -189,7 +209,8 @@ def _print_curves(scene: Scene, rows: list[dict[str, Any]], view: View) -> None:
         drawn = sizes if view.verbose or len(sizes) <= _MOST_DIAMETERS else [sizes[0], sizes[-1]]
         stiffnesses = (headed(f"stiffness\nD={shown(size)}", names.stiffness) for size in drawn)
         note = "" if drawn == sizes else f"{len(sizes)} diameters follow this curve: -v shows all"
-        title = _title(row, sizes, embedment=entry.embedment)
+        shown_here = bool(followers(scene, index).any())
+        title = _title(row, sizes, embedment=entry.embedment, of_sections=not shown_here)
         printer.table(title, (*ends, slope, *stiffnesses), _segments(row, drawn), note=note)
         if row["at"]:
             values = [[value[key] for key in _AT] for value in row["at"]]
@@ -199,9 +220,11 @@ def _print_curves(scene: Scene, rows: list[dict[str, Any]], view: View) -> None:
     printer.line((_GOES_ON, "dim"))
 
 
-def _title(row: dict[str, Any], sizes: list[float], *, embedment: bool) -> str:
+def _title(row: dict[str, Any], sizes: list[float], *, embedment: bool, of_sections: bool) -> str:
     what = "set" if embedment else "curve"
-    used = "" if sizes else ", not used by an element with a diameter"
+    used = ", diameters of *GEOMETRIC SETS" if of_sections else ""
+    if not sizes:
+        used = ", not used by an element with a diameter"
     return f"{what} {row['name']}: {len(row['points'])} points{used}"
 
 
@@ -218,10 +241,14 @@ def _print_static(printer: Printer, row: dict[str, Any], names: UnitNames) -> No
         notify(f"curve {row['name']} never carries this weight")
         return
     diameter, depth = headed("diameter", names.length), headed("depth", names.length)
-    columns = ("ratio", diameter, depth, headed("stiffness", names.stiffness), "extrapolated")
+    columns = ("ratio", diameter, depth, headed("stiffness", names.stiffness), "extrapolated", "equilibrium")
+    kinds = ["" if static["stable"] else "unstable" for static in row["static"]]
     rows = [
-        (static["ratio"], each["diameter"], each["depth"], each["stiffness"], static["extrapolated"])
-        for static in row["static"]
+        (static["ratio"], each["diameter"], each["depth"], each["stiffness"], static["extrapolated"], kind)
+        for static, kind in zip(row["static"], kinds, strict=True)
         for each in static["stiffness"] or [dict.fromkeys(_OF_DIAMETER)]
     ]
-    printer.table(f"{row['name']}: static embedment", columns, rows)
+    note = _SOFTENS if "unstable" in kinds else ""
+    printer.table(
+        f"{row['name']}: static embedment", columns, rows, left=columns[-1:], optional=columns[-1:], note=note
+    )

@@ -67,8 +67,9 @@ _Read = TypeVar("_Read")
     type=click.Choice(["elements", "nodes"]),
     default="elements",
     show_default=True,
-    help="Which rows text and CSV on standard output show.",
+    help="Which rows text and CSV on standard output show, of one state or of time steps.",
 )
+@options.spreadsheet
 @options.output_format("text", "json", "csv")
 @takes_deck
 def command(
@@ -83,6 +84,7 @@ def command(
     picture: str | None,
     plan_only: bool,
     table: str,
+    spreadsheet: bool,
     output_format: str,
     view: View,
 ) -> int:
@@ -90,6 +92,8 @@ def command(
 
     Forces are per unit length, in the deck's units; reactions are the total force of the seabed on a node.
     """
+    if spreadsheet and "csv" not in (output_format, _suffix(Path(output or ""))):
+        raise click.UsageError(options.CSV_ONLY)
     for needed in (_form(output, form_names()), _form(picture, _PICTURES)):
         if needed and not _has_library(needed):
             return FOUND
@@ -107,10 +111,11 @@ def command(
         _notify_before(evaluation, comparison)
     drawing = PlotData(evaluation) if picture else None
     shown = "" if output else output_format
-    digest = StepSummary(evaluation, None if view.verbose else MOST_ROWS) if shown == "text" else None
+    most = None if view.verbose else MOST_ROWS
+    digest = StepSummary(evaluation, most, table == "nodes") if shown == "text" else None
     slow = _SlowSuction()
     consumers: list[ResultConsumer] = [one for one in (comparison, drawing, digest, slow) if one is not None]
-    with _sink(evaluation, comparison, output, shown, table, view) as sink:
+    with _sink(evaluation, comparison, output, (shown, table), view, as_text=spreadsheet) as sink:
         _run(evaluation, [*consumers, sink], view, bar=shown in {"", "text"})
         sink.finish({} if comparison is None else {"against": comparison.summary()})
     if picture and drawing is not None:
@@ -185,25 +190,31 @@ def _has_library(form: str) -> bool:
 
 
 def _sink(
-    evaluation: Evaluation, comparison: Comparison | None, output: str | None, shown: str, table: str, view: View
+    evaluation: Evaluation,
+    comparison: Comparison | None,
+    output: str | None,
+    shown: tuple[str, str],
+    view: View,
+    *,
+    as_text: bool,
 ) -> AbstractContextManager[Sink]:
-    """Where the rows go: files, standard output, or nowhere."""
+    """Where the rows go: files, standard output (a form and a table), or nowhere."""
     elements = ElementTable(evaluation, None if comparison is None else comparison.others)
     if output:
-        return _files(evaluation, elements, Path(output), view)
-    if shown in {"json", "csv"}:
-        rows = NodeTable(evaluation) if (shown, table) == ("csv", "nodes") else elements
-        return nullcontext(text_form(shown)(evaluation, rows, emit))
+        return _files(evaluation, elements, Path(output), view, as_text=as_text)
+    if shown[0] in {"json", "csv"}:
+        rows = NodeTable(evaluation) if shown == ("csv", "nodes") else elements
+        return nullcontext(text_form(shown[0], as_text=as_text)(evaluation, rows, emit))
     return nullcontext(Together())
 
 
 @contextmanager
-def _files(evaluation: Evaluation, elements: ElementTable, path: Path, view: View) -> Iterator[Sink]:
+def _files(evaluation: Evaluation, elements: ElementTable, path: Path, view: View, *, as_text: bool) -> Iterator[Sink]:
     """The file of an evaluation by its suffix, or two files; they exist when all is written, or not at all."""
     form = form_module(_suffix(path))
     with ExitStack() as stack:
         streams = [stack.enter_context(writing(one)) for one in (path, *([_beside(path)] if form.BESIDE else []))]
-        output = Output(evaluation, elements, streams, path.parent, partial(tracked, view=view))
+        output = Output(evaluation, elements, streams, path.parent, partial(tracked, view=view), as_text)
         yield stack.enter_context(form.opened(output))
 
 

@@ -14,7 +14,7 @@ from mudline.results.against import Comparison
 from mudline.results.columns import ElementTable
 from mudline.results.evaluation import Evaluation, Part
 from mudline.results.quantities import SLIDING, STATES, UnitNames, headed, shown, unit_names
-from mudline.results.totals import StepSummary, Total, counts, reaction, totals
+from mudline.results.totals import StepSummary, Total, acted_on, counts, reaction, totals
 from mudline.scene.numbering import Floats, Indices
 
 if TYPE_CHECKING:
@@ -113,17 +113,18 @@ def _print_states(printer: Printer, evaluation: Evaluation, part: Part) -> None:
 
 
 def _print_steps(printer: Printer, digest: StepSummary) -> None:
-    evaluation, found = digest.evaluation, digest.steps
+    """Print a line for each step: of the elements, or of the nodes."""
+    evaluation = digest.evaluation
     names = unit_names(evaluation.scene.units)
-    rows = [
-        (each.time, each.touching, each.first, each.last, each.deepest, each.reaction, each.sucked, each.slipping)
-        for each in found
-    ]
-    depth, force = headed("largest\ndepth", names.length), headed("total\nreaction", names.force)
-    more = ("suction\nor hold", "nodes\nslipping")
-    columns = (_time(names), "in\ncontact", "first\nelement", "last\nelement", depth, force, *more)
-    left = evaluation.steps - len(found)
+    which = "node" if digest.of_nodes else "element"
+    depth, gap = headed("largest\ndepth", names.length), headed("smallest\ngap", names.length)
+    largest, total = headed("largest\non a node", names.force), headed("total\nreaction", names.force)
+    figures = (gap, largest, total) if digest.of_nodes else (depth, total)
+    more = ("nodes\nslipping",) if digest.of_nodes else ("suction\nor hold", "nodes\nslipping")
+    columns = (_time(names), "in\ncontact", f"first\n{which}", f"last\n{which}", *figures, *more)
+    left = evaluation.steps - digest.shown
     note = f"{left} more steps: -v shows all, -o writes all" if left else ""
+    rows = digest.nodes if digest.of_nodes else digest.steps
     printer.table(f"{_title(evaluation)}, {evaluation.steps} steps", columns, rows, optional=more, note=note)
     _print_peaks(printer, digest)
 
@@ -194,10 +195,7 @@ def _touching_nodes(evaluation: Evaluation, part: Part) -> tuple[Cells, Iterator
     axes = (headed(f"reaction {axis}", names.force) for axis in "XYZ")
     columns: Cells = ("node", headed("gap", names.length), *axes)
     result = part.result.step(0)
-    acts = (result.reaction != 0.0).any(axis=1)
-    if result.restrained is not None:
-        acts |= result.restrained
-    index = evaluation.nodes[acts[evaluation.nodes]]
+    index = acted_on(evaluation, result)
     cells = [
         [str(number) for number in evaluation.scene.node_ids[index].tolist()],
         *(_numbers(column, index) for column in (result.gap, *result.reaction.T)),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import click
 
 from mudline.cli import DONE, FOUND, options
@@ -13,7 +15,7 @@ from mudline.cli.view import View
 from mudline.diagnostics import Severity
 from mudline.linting.output import TEXT, form_names
 
-_CODES = "CODE[,CODE...]"
+_rules = partial(click.option, multiple=True, metavar="CODE[,CODE...]", shell_complete=options.complete_rules)
 
 
 def _words(given: tuple[str, ...]) -> tuple[str, ...]:
@@ -22,11 +24,9 @@ def _words(given: tuple[str, ...]) -> tuple[str, ...]:
 
 @click.command("lint")
 @options.paths
-@click.option(
-    "--select", "chosen", multiple=True, metavar=_CODES, help="Run these rules only: codes, prefixes or slugs."
-)
-@click.option("--extend-select", "also", multiple=True, metavar=_CODES, help="Run these rules too.")
-@click.option("--ignore", "ignored", multiple=True, metavar=_CODES, help="Do not run these rules.")
+@_rules("--select", "chosen", help="Run these rules only: codes, prefixes or slugs.")
+@_rules("--extend-select", "also", help="Run these rules too.")
+@_rules("--ignore", "ignored", help="Do not run these rules.")
 @click.option(
     "--fail-on",
     type=click.Choice([severity.value for severity in (Severity.ERROR, Severity.WARNING, Severity.INFO)]),

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import os
 import sys
-import threading
 import time
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
@@ -20,6 +19,7 @@ import click
 
 from mudline.cli.inputs import Input, Inputs
 from mudline.cli.lint_known import KnownDecks
+from mudline.cli.signals import ignore_interrupt, interrupt_deferred
 from mudline.linting.engine import Fixing, LintSettings
 from mudline.linting.fixing import FileReport, lint_one
 from mudline.linting.registry import plugin_files, rules
@@ -207,7 +207,7 @@ def pool(processes: int) -> Iterator[Executor]:
     context = multiprocessing.get_context(method)
     if method == "forkserver":
         context.set_forkserver_preload([__name__])
-    executor = ProcessPoolExecutor(processes, context, _quiet)
+    executor = ProcessPoolExecutor(processes, context, ignore_interrupt)
     try:
         yield executor
     except BaseException as error:
@@ -233,7 +233,7 @@ def _order(task: Task, sendable: dict[int, Sendable]) -> Order:
 def _sent(executor: Executor, orders: list[Order]) -> Future[list[FileReport]] | None:
     if not orders:
         return None
-    with _interrupt_deferred():
+    with interrupt_deferred():
         return executor.submit(lint_orders, orders)
 
 
@@ -245,31 +245,3 @@ def lint_orders(orders: Sequence[Order]) -> list[FileReport]:
 @cache
 def _named(codes: tuple[str, ...]) -> tuple[Rule, ...]:
     return tuple(rule for rule in rules() if rule.code.code in codes)
-
-
-def _quiet() -> None:
-    """Ignore Ctrl-C, which reaches all processes of a terminal: the first one ends the others."""
-    import signal  # noqa: PLC0415 - as above
-
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-
-
-@contextmanager
-def _interrupt_deferred() -> Iterator[None]:
-    """Block Ctrl-C, also in processes that are started here until they ignore it; this one gets it afterwards."""
-    import signal  # noqa: PLC0415 - as above
-
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    received: list[int] = []
-    before = signal.signal(signal.SIGINT, lambda number, _: received.append(number))
-    masked = sys.platform != "win32" and signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        if sys.platform != "win32":
-            signal.pthread_sigmask(signal.SIG_SETMASK, masked or ())
-        signal.signal(signal.SIGINT, before)
-        if received:
-            signal.raise_signal(signal.SIGINT)

@@ -36,6 +36,7 @@ COMMANDS = {
     "rules": "List the rules, or explain one.",
     "schema": "Print the JSON Schema of a deck in JSON or YAML.",
     "config": "Show the configuration of a deck.",
+    "help": "Show the help of a command.",
 }
 
 
@@ -53,6 +54,8 @@ class _Commands(click.Group):
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
         if args[0] not in COMMANDS:
+            if ctx.resilient_parsing:  # a shell asks for completions, and shows no errors
+                return None, None, []
             near = nearest(args[0], self.list_commands(ctx))
             hint = f": did you mean {near}?" if near else ""
             ctx.fail(f"unknown command {args[0]!r}{hint}")
@@ -77,6 +80,11 @@ def mudline() -> None:
 def run(arguments: Sequence[str]) -> int:
     """Run a command line; returns its exit code. A closed pipe ends quietly."""
     streams.prepare()
+    if sys.flags.optimize > 1:  # helps are docstrings too
+        from mudline.linting.registry import STRIPPED  # noqa: PLC0415 - most runs have them
+
+        notify(STRIPPED)
+        return WRONG_USAGE
     completing = os.environ.get(COMPLETION)
     try:
         code = shell_complete(mudline, {}, "mudline", COMPLETION, completing) if completing else _invoke(arguments)

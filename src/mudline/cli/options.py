@@ -50,9 +50,28 @@ deck = click.argument("deck", metavar="DECK", shell_complete=_files)
 
 paths = click.argument("paths", nargs=-1, required=True, metavar="PATHS...", shell_complete=_files)
 
+
+def complete_rules(_context: click.Context, _parameter: click.Parameter, incomplete: str) -> list[str]:
+    """What a shell completes where rules are named: codes and slugs, also behind others and a comma."""
+    from mudline.diagnostics import PluginError  # noqa: PLC0415 - only completion needs it
+    from mudline.linting.registry import rules  # noqa: PLC0415 - as above
+
+    before, comma, word = incomplete.rpartition(",")
+    try:
+        names = [name for rule in rules() for name in (rule.code.code, rule.code.slug)]
+    except PluginError:
+        return []
+    return [f"{before}{comma}{name}" for name in names if name.startswith((word.upper(), word.lower()))]
+
+
 every_file = click.option(
     "--no-gitignore", "every_file", is_flag=True, help="Include files of directories that a .gitignore hides."
 )
+
+spreadsheet = click.option(
+    "--spreadsheet", is_flag=True, help="In CSV, write names that a spreadsheet would take as formulas as text."
+)
+CSV_ONLY = "--spreadsheet is for CSV: give --output-format csv, or a .csv file with -o where the command has one"
 
 stdin_name = click.option(
     "--stdin-filename",

@@ -21,7 +21,7 @@ _COLUMNS = ("code", "severity", "name", "finds")
 
 
 @click.command("rules")
-@click.argument("code", required=False)
+@click.argument("code", required=False, shell_complete=options.complete_rules)
 @options.output_format("text", "json")
 @options.common
 def command(*, code: str | None, output_format: str, view: View) -> int:

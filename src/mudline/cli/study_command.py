@@ -20,13 +20,15 @@ from mudline.study.report import Cell, StudyError, StudyOptions, StudyReport, St
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer
 
-STUDIES = ("precision", "stability", "pruning")
+STUDIES = {"precision": ["scipy.integrate"], "stability": ["mpmath"], "pruning": ["scipy.interpolate"]}
+"""The studies, and what each needs of the extra `mudline[study]`."""
+_PICTURES = "matplotlib.figure"
 _EXTRAS = frozenset({"matplotlib", "mpmath", "scipy"})
 _DIGITS = 4
 
 
 @click.command("study")
-@click.argument("study", type=click.Choice(STUDIES))
+@click.argument("study", type=click.Choice(list(STUDIES)))
 @click.argument("deck", required=False, metavar="[DECK]", shell_complete=click.Path().shell_complete)
 @click.option("-o", "--output", metavar="DIR", help="Write CSV, JSON and PNG files into this folder.")
 @click.option("--full", is_flag=True, help="Use finer steps and more repeats; takes longer than two minutes.")
@@ -51,6 +53,8 @@ def command(
     precision: error against run time of curves, time integration and smoothing. stability: critical steps, energy at
     touchdown, extreme values. pruning: what each feature costs. Without DECK a built-in sample is studied.
     """
+    if not all(map(_is_installed, [*STUDIES[study], *([_PICTURES] if output else [])])):
+        return FOUND
     scene = _scene(deck, units, stdin_name)
     progress = silent if view.quiet else lambda message: notify(f"{study}: {message}")
     try:
@@ -75,6 +79,16 @@ def command(
     elif not (output and view.quiet):
         _print_report(report, view)
     return DONE
+
+
+def _is_installed(library: str) -> bool:
+    """Whether a library can be imported; reports it if not, before a study has taken its time."""
+    try:
+        import_module(library)
+    except ImportError:
+        notify_missing("this study", library.partition(".")[0], "study")
+        return False
+    return True
 
 
 def _scene(deck: str | None, units: str | None, stdin_name: str) -> Scene:

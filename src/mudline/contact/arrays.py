@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,6 +14,26 @@ IndexArray = NDArray[np.intp]
 SmallIndexArray = NDArray[np.int32]
 StateArray = NDArray[np.int8]
 Picked = IndexArray | slice
+
+
+class StepReader(ABC):
+    """A series (steps, nodes, 3) of real numbers that is not in memory.
+
+    Attributes:
+        shape, dtype, ndim: those of the array that it stands for.
+    """
+
+    shape: tuple[int, ...]
+    dtype: np.dtype[np.floating]
+    ndim: int
+
+    @abstractmethod
+    def __len__(self) -> int:
+        """The number of steps."""
+
+    @abstractmethod
+    def __getitem__(self, wanted: slice) -> NDArray[np.floating]:
+        """Some steps (steps, nodes, 3)."""
 
 
 def taken(values: FloatArray, at: Picked) -> FloatArray:

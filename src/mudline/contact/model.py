@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mudline.contact.arrays import BoolArray, FloatArray, IdArray
+from mudline.contact.arrays import BoolArray, FloatArray, IdArray, StepReader
 from mudline.contact.input import ContactInput, PositionError
 from mudline.contact.numpy_driver import NumpyDriver
 from mudline.contact.plan import Backend, BackendChoice, Plan, make_plan
@@ -106,7 +106,7 @@ class ContactModel:
 
     def stream(
         self,
-        positions: ArrayLike,
+        positions: ArrayLike | StepReader,
         *,
         present: ArrayLike | None = None,
         velocities: ArrayLike | None = None,
@@ -314,19 +314,19 @@ def _blank_absent(part: ContactResult) -> None:
         part.friction[:, ~part.present] = np.nan
 
 
-def _as_series(positions: ArrayLike, nodes: int) -> RealArray:
+def _as_series(positions: ArrayLike | StepReader, nodes: int) -> RealArray | StepReader:
     """Return (nodes, 3) or (steps, nodes, 3) positions as (steps, nodes, 3), neither copied nor converted.
 
     Raises:
         ValueError: the shape or the kind of number is not one of these.
     """
-    given: RealArray = np.asarray(positions)
+    given: RealArray | StepReader = positions if isinstance(positions, StepReader) else np.asarray(positions)
     if given.dtype.kind not in "iuf":
         raise ValueError(f"positions must be real numbers, not {given.dtype}")
     if given.ndim not in {2, 3} or given.shape[-2:] != (nodes, 3):
         expected = f"({nodes}, 3) or (steps, {nodes}, 3)"
         raise ValueError(f"positions must have the shape {expected}, not {given.shape}")
-    return given if given.ndim == 3 else given[np.newaxis]
+    return given if isinstance(given, StepReader) or given.ndim == 3 else given[np.newaxis]
 
 
 def _as_mask(present: ArrayLike | None, nodes: int) -> BoolArray:
@@ -343,7 +343,7 @@ def _as_mask(present: ArrayLike | None, nodes: int) -> BoolArray:
     return mask
 
 
-def _read_steps(series: RealArray, steps: range, node_ids: IdArray, present: BoolArray) -> FloatArray:
+def _read_steps(series: RealArray | StepReader, steps: range, node_ids: IdArray, present: BoolArray) -> FloatArray:
     """Return the positions (steps, nodes, 3) of a few steps as float64, NaN for the nodes that are not present.
 
     Raises:

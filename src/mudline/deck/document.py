@@ -28,8 +28,12 @@ Document = dict[str, Any]
 
 
 def to_document(deck: Deck) -> Document:
-    """The deck as dicts and lists, its tables as listings; empty things are left out."""
-    document: Document = {"format": FORMAT, "source": deck.source, "units": deck.units}
+    """The deck as dicts and lists, its tables as listings; empty things are left out.
+
+    A file name that is not UTF-8 is escaped: JSON and YAML cannot hold its bytes.
+    """
+    source = deck.source.encode("utf-8", "backslashreplace").decode()
+    document: Document = {"format": FORMAT, "source": source, "units": deck.units}
     if deck.preamble:
         document["preamble"] = deck.preamble
     document |= _comments(deck.comments)

@@ -56,6 +56,7 @@ _INTERNAL = frozenset(
         "bases",
         "damaged",
         "diagnose",
+        "errors",
         "folder_of",
         "incomplete",
         "lost",
@@ -128,7 +129,7 @@ class Deck:
     def __repr__(self) -> str:
         blocks = sum(len(section.blocks) for section in self.sections)
         parts = [self.units, counted(len(self.sections), "section"), counted(blocks, "block")]
-        if errors := len(self._errors()):
+        if errors := len(self.errors()):
             parts.append(counted(errors, "error"))
         return outline(f"{type(self).__name__} {cut(self.file, 80)!r}", ", ".join(parts))
 
@@ -226,11 +227,12 @@ class Deck:
 
     def require(self) -> Self:
         """The deck itself; raises DeckError when something in it could not be read."""
-        if errors := self._errors():
+        if errors := self.errors():
             raise DeckError(self.diagnose(errors))
         return self
 
-    def _errors(self) -> list[Problem]:
+    def errors(self) -> list[Problem]:
+        """What could not be read."""
         return [problem for problem in self.problems if problem.weight is Severity.ERROR]
 
 

@@ -27,6 +27,11 @@ GROUP = "mudline.rules"
 
 RUN002 = Code("RUN002", "rule-failed", Severity.ERROR)
 
+STRIPPED = (
+    "rules are described by docstrings, which python -OO and PYTHONOPTIMIZE=2 strip: run Python with -O or without"
+)
+"""Why there are no rules."""
+
 RESERVED = {"DOC", "DAT", "EXP", "MIG", "RUN"}
 """Letters of mudline's codes that no rule has; those of its rules are kept from others too."""
 
@@ -41,6 +46,8 @@ class UnknownRule(ValueError):  # noqa: N818 - the name of the fault, as callers
 
 @cache
 def _collected() -> tuple[tuple[Rule, ...], tuple[str, ...]]:
+    if sys.flags.optimize > 1:
+        raise RuntimeError(STRIPPED)
     declared = {code.code: (code, code.page) for code in all_codes() if code.page}
     for found in all_checks():
         declared.setdefault(found.code.code, (found.code, found.find.__doc__ or ""))
@@ -145,7 +152,9 @@ def _run(entry: EntryPoint) -> str:
         loaded = entry.load()
         if not isinstance(loaded, ModuleType):
             loaded()
-    except (Exception, SystemExit) as error:  # noqa: BLE001 - the code of others may fail in any way
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # noqa: BLE001 - the code of others may fail in any way, and end nothing
         return f"{_said(error)}: report it to its authors"
     return ""
 
@@ -173,17 +182,27 @@ class Guarded:
     package: str
 
     def __call__(self, context: LintContext) -> Iterator[Problem]:
-        """What the rule finds, as far as it comes; then RUN002 if it failed."""
-        try:
-            for problem in self.check(context):
+        """What the rule finds, as far as it comes; then RUN002 if it failed, were it by ending the program."""
+        found: Iterator[Problem] = iter(())
+        started = False
+        while True:
+            try:
+                if not started:
+                    found, started = iter(self.check(context)), True
+                problem = next(found, None)
+                if problem is None:
+                    return
                 self._examine(problem, context)
-                yield problem
-        except Exception as error:  # noqa: BLE001 - the code of others may fail in any way
-            message = (
-                f"the rule {self.code} of {self.package} failed on this deck ({_said(error)}): report it to "
-                f"its authors, or leave it out with --ignore {self.code}; add what it checks by hand"
-            )
-            yield Problem(RUN002, message, where=Where())
+            except KeyboardInterrupt:
+                raise
+            except BaseException as error:  # noqa: BLE001 - the code of others may fail in any way, and end nothing
+                message = (
+                    f"the rule {self.code} of {self.package} failed on this deck ({_said(error)}): report it to "
+                    f"its authors, or leave it out with --ignore {self.code}; add what it checks by hand"
+                )
+                yield Problem(RUN002, message, where=Where())
+                return
+            yield problem
 
     def _examine(self, problem: Problem, context: LintContext) -> None:
         """Fail now, in the guard, for what would fail later: another rule's code, a place that the deck has not."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import mmap
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
@@ -16,10 +15,12 @@ from mudline.contact import ContactModel, ContactResult, ElementError, PositionE
 from mudline.scene.mesh import distances
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices, Mask
-from mudline.scene.positions import Positions
+from mudline.scene.positions import Positions, StepFile
 from mudline.short_repr import counted, cut, outline, short_repr
 
 Tension = Literal["keep", "cut"]
+
+_HISTORY = "this deck has laws whose result depends on the steps before, which need times that rise"
 
 
 @dataclass(frozen=True)
@@ -62,7 +63,7 @@ class Evaluation:
 
     scene: Scene
     model: ContactModel
-    positions: NDArray[np.floating]
+    positions: NDArray[np.floating] | StepFile
     present: Mask
     time: Floats | None = None
     velocities: NDArray[np.floating] | None = None
@@ -109,16 +110,6 @@ class Evaluation:
                 self.positions, present=self.present, velocities=self.velocities, times=clock
             ):
                 yield Part(start, result)
-                _forget(self.positions)
-
-
-def _forget(values: NDArray[np.floating]) -> None:
-    """Release the pages of a file that were read: they are in memory as long as the file is mapped, and needed once."""
-    owner: object = values
-    while isinstance(owner, np.ndarray):
-        owner = owner.base
-    if isinstance(owner, mmap.mmap) and hasattr(owner, "madvise"):
-        owner.madvise(mmap.MADV_DONTNEED)
 
 
 def evaluate_scene(scene: Scene, positions: Positions | None = None, tension: Tension = "keep") -> Evaluation:
@@ -130,8 +121,8 @@ def evaluate_scene(scene: Scene, positions: Positions | None = None, tension: Te
         _require_coordinates(scene.require_evaluable(tension))
     ready = prepare(scene, positions, tension)
     given = positions or Positions(scene.coordinates[np.newaxis], np.ones(len(scene.nodes), dtype=bool), None)
-    if ready.model.input.has("suction") and given.velocities is None:
-        _require_clock(ready.scene, given)
+    if ready.model.plan.history:
+        _require_clock(ready, given)
     return Evaluation(
         ready.scene,
         ready.model,
@@ -198,13 +189,18 @@ def _require_coordinates(scene: Scene) -> None:
         raise scene.refusal(message)
 
 
-def _require_clock(scene: Scene, positions: Positions) -> None:
-    """Suction follows from velocities, and these, where they are not given, from times."""
+def _require_clock(ready: Prepared, positions: Positions) -> None:
+    """Steps that follow each other need times that rise; suction without velocities needs times."""
     if positions.time is None or len(positions.time) < 2:
         return
+    pulled = ready.model.input.has("suction") and positions.velocities is None
     if not positions.timed:
-        raise scene.refusal("suction needs velocities, or the times of the steps: the positions have neither")
+        if pulled:
+            message = "suction needs velocities, or the times of the steps: the positions have neither"
+            raise ready.scene.refusal(message)
+        return
     falls = np.flatnonzero(np.diff(positions.time) <= 0.0)
     if falls.size:
         before, after = positions.time[falls[0] : falls[0] + 2].tolist()
-        raise scene.refusal(f"suction needs velocities, or times that rise: {after!r} follows {before!r}")
+        what = "suction needs velocities, or times that rise" if pulled else _HISTORY
+        raise ready.scene.refusal(f"{what}: {after!r} follows {before!r}")

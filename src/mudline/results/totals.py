@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from mudline.contact import ContactResult, LawKind
 from mudline.results.evaluation import Evaluation, Part
 from mudline.results.quantities import SLIDING, STATES, Names, finite
-from mudline.scene.numbering import Floats, Indices
+from mudline.scene.numbering import Floats, Indices, Mask
 
 
 class Total(NamedTuple):
@@ -49,6 +49,23 @@ class StepTotal(NamedTuple):
     slipping: int | None = None
 
 
+class NodeTotal(NamedTuple):
+    """All evaluated nodes at one step; `first` and `last` are those on which the seabed acts, in the deck's order.
+
+    `gap` is the smallest distance from the seabed, None where there is none; `largest` the largest normal force on a
+    node.
+    """
+
+    time: float
+    acted_on: int
+    first: int | None
+    last: int | None
+    gap: float | None
+    largest: float | None
+    reaction: float
+    slipping: int | None = None
+
+
 def totals(evaluation: Evaluation, part: Part) -> list[Total]:
     """By law and set, in the order of the elements, at the first step of a part."""
     scene, result = evaluation.scene, part.result.step(0)
@@ -80,7 +97,6 @@ def _step(evaluation: Evaluation, time: float, result: ContactResult) -> StepTot
     ids = evaluation.scene.element_ids[chosen]
     touching = np.flatnonzero(result.contact[chosen])
     first, last = (int(ids[touching[end]]) if touching.size else None for end in (0, -1))
-    slips = result.friction_state
     return StepTotal(
         time,
         len(touching),
@@ -89,8 +105,37 @@ def _step(evaluation: Evaluation, time: float, result: ContactResult) -> StepTot
         _deepest(result.depth[chosen]),
         reaction(evaluation, result),
         None if result.state is None else int(np.isin(result.state, _HELD).sum()),
-        None if slips is None else int((slips == SLIDING.index("slip")).any(axis=-1).sum()),
+        _slipping(result),
     )
+
+
+def _slipping(result: ContactResult) -> int | None:
+    slips = result.friction_state
+    return None if slips is None else int((slips == SLIDING.index("slip")).any(axis=-1).sum())
+
+
+def _node_step(evaluation: Evaluation, time: float, result: ContactResult) -> NodeTotal:
+    touched = evaluation.scene.node_ids[acted_on(evaluation, result)]
+    first, last = (int(touched[end]) if touched.size else None for end in (0, -1))
+    deepest = _deepest(-result.gap[evaluation.nodes])
+    return NodeTotal(
+        time,
+        len(touched),
+        first,
+        last,
+        None if deepest is None else 0.0 - deepest,
+        _deepest(result.normal_force[evaluation.nodes]),
+        reaction(evaluation, result),
+        _slipping(result),
+    )
+
+
+def acted_on(evaluation: Evaluation, result: ContactResult) -> Indices:
+    """The indices of the evaluated nodes on which the seabed acts at a step, also by restraining them."""
+    acts: Mask = (result.reaction != 0.0).any(axis=1)
+    if result.restrained is not None:
+        acts |= result.restrained
+    return evaluation.nodes[acts[evaluation.nodes]]
 
 
 _AT_NODES = ("nodal", "rigid")
@@ -161,14 +206,22 @@ class Peak(NamedTuple):
 class StepSummary:
     """The first step, the figures of the first `most` steps (None: of all), and the largest of all steps.
 
+    The figures are those of elements, or `of_nodes`.
     `peaks` have the names of `STEPS`. A single state without a time has neither steps nor peaks.
     """
 
     evaluation: Evaluation
     most: int | None
+    of_nodes: bool = False
     first: Part | None = None
     steps: list[StepTotal] = field(default_factory=list)
+    nodes: list[NodeTotal] = field(default_factory=list)
     peaks: dict[str, Peak] = field(default_factory=dict)
+
+    @property
+    def shown(self) -> int:
+        """The number of steps that have figures."""
+        return len(self.steps) + len(self.nodes)
 
     def take(self, part: Part) -> None:
         """Look at some steps."""
@@ -177,9 +230,13 @@ class StepSummary:
         times = self.evaluation.time
         if times is None:
             return
-        left = part.count if self.most is None else min(part.count, self.most - len(self.steps))
+        left = part.count if self.most is None else min(part.count, self.most - self.shown)
         for step in range(left):
-            self.steps.append(_step(self.evaluation, float(times[part.start + step]), part.result.step(step)))
+            time, result = float(times[part.start + step]), part.result.step(step)
+            if self.of_nodes:
+                self.nodes.append(_node_step(self.evaluation, time, result))
+            else:
+                self.steps.append(_step(self.evaluation, time, result))
         for name, (values, elements) in traces(self.evaluation, part).items():
             sizes = np.abs(values) if name == "force" else values
             if np.isnan(sizes).all():

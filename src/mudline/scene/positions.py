@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import tokenize
 import warnings
+import weakref
 import zipfile
 import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mudline.contact.arrays import StepReader
 from mudline.diagnostics import DeckError
 from mudline.scene.csv_file import NumericTable, data_error, finite, read_numeric_csv, whole_numbers
 from mudline.scene.numbering import Floats, Ids, Indices, Mask, Numbered
@@ -42,6 +44,40 @@ _UNREADABLE = (
 )
 
 
+class StepFile(StepReader):
+    """The steps of an NPY file, an array (steps, nodes, 3) in C order, read when they are asked for.
+
+    They are read and not mapped: a file that becomes shorter while it is mapped ends the program.
+    """
+
+    def __init__(self, path: Path, mapped: np.memmap[tuple[int, ...], np.dtype[np.floating]]) -> None:
+        self.shape, self.dtype, self.ndim = mapped.shape, mapped.dtype, mapped.ndim
+        self._file, self._offset = path.as_posix(), mapped.offset
+        self._stream = path.open("rb", buffering=0)
+        weakref.finalize(self, self._stream.close)
+
+    __repr__ = short_repr
+
+    def __len__(self) -> int:
+        return self.shape[0]
+
+    def __getitem__(self, wanted: slice | int) -> Reals:
+        """Some steps (steps, nodes, 3), or one (nodes, 3). Raises OSError, DeckError."""
+        if not isinstance(wanted, slice):
+            return cast("Reals", self[wanted : wanted + 1][0])
+        first, last, _ = wanted.indices(len(self))
+        found = np.empty((max(0, last - first), *self.shape[1:]), self.dtype)
+        left = found.reshape(-1).view(np.uint8).data
+        self._stream.seek(self._offset + first * found[:1].nbytes)
+        while left:
+            count = self._stream.readinto(left)
+            if not count:
+                message = "the file has become shorter while it was read: wait until it is written, and try again"
+                raise data_error(self._file, message)
+            left = left[count:]
+        return found
+
+
 @dataclass(frozen=True, slots=True)
 class Positions:
     """Positions (steps, nodes, 3) in the order of the scene's nodes, NaN for those that the file has not.
@@ -51,13 +87,18 @@ class Positions:
     counts the steps.
     """
 
-    values: NDArray[np.floating]
+    values: Reals | StepFile
     present: Mask
     time: Floats | None
     velocities: NDArray[np.floating] | None = None
     timed: bool = True
 
     __repr__ = short_repr
+
+    @property
+    def whole(self) -> Reals:
+        """All steps at once, those of a file read into memory. Raises OSError, DeckError."""
+        return self.values[:]
 
     @property
     def missing(self) -> int:
@@ -73,7 +114,7 @@ def read_positions(path: Path, nodes: Numbered) -> Positions:
     """
     file, suffix = path.as_posix(), path.suffix.lower()
     if suffix == ".npy":
-        return _from_arrays(file, {"positions": _load_npy(path)}, nodes)
+        return _from_npy(path, nodes)
     if suffix == ".npz":
         return _from_arrays(file, _load_npz(path), nodes)
     return _from_csv(path, nodes)
@@ -142,15 +183,18 @@ def _unknown(file: str, ids: Ids, line: int = 1) -> DeckError:
     return data_error(file, f"{noun} {listed_numbers(numbers)} {verb} not defined in the deck", line)
 
 
-def _load_npy(path: Path) -> Reals:
-    """An array, memory-mapped. Raises OSError, or DeckError for anything else."""
+def _from_npy(path: Path, nodes: Numbered) -> Positions:
+    """One array; of a series few steps are in memory. Raises OSError, or DeckError for anything else."""
     file = path.as_posix()
     try:
         with _from_old_python():
-            values = np.lib.format.open_memmap(path, mode="r")
+            mapped = np.lib.format.open_memmap(path, mode="r")  # reads the header only
+            in_steps = mapped.ndim == 3 and mapped.dtype.kind == "f" and mapped.flags.c_contiguous
+            given = mapped if in_steps else np.load(path, allow_pickle=False)
     except _UNREADABLE as error:
         raise data_error(file, f"not an NPY array: {error}") from error
-    return _real(file, "positions", values)
+    found = _from_arrays(file, {"positions": _real(file, "positions", given)}, nodes)
+    return replace(found, values=StepFile(path, mapped)) if in_steps else found
 
 
 def _load_npz(path: Path) -> dict[str, Reals]:
@@ -190,7 +234,7 @@ def _member(archive: zipfile.ZipFile, name: str) -> NDArray[np.generic]:
 
 def _from_arrays(file: str, arrays: dict[str, Reals], nodes: Numbered) -> Positions:
     """Arrays (steps, nodes, 3) or (nodes, 3) in the order of the deck's nodes, or in that of the array `node`."""
-    ids = whole_numbers(file, "node", finite(file, "node", arrays["node"])) if "node" in arrays else None
+    ids = _ids(file, arrays["node"]) if "node" in arrays else None
     given = arrays["positions"]
     expected = len(nodes) if ids is None else len(ids)
     values = given[np.newaxis] if given.ndim == 2 else given
@@ -203,12 +247,8 @@ def _from_arrays(file: str, arrays: dict[str, Reals], nodes: Numbered) -> Positi
         if velocities.shape != given.shape:
             raise _wrong_shape(file, "velocities", velocities, str(given.shape))
         velocities = velocities.reshape(values.shape)
-    if "time" in arrays:
-        time: Floats | None = finite(file, "time", arrays["time"])
-    else:
-        time = None if given.ndim == 2 else np.arange(len(values), dtype=np.float64)
-    if time is not None and len(time) != len(values):
-        raise _wrong_shape(file, "time", arrays["time"], f"({len(values)},)")
+    counted = None if given.ndim == 2 else np.arange(len(values), dtype=np.float64)
+    time = _times(file, arrays["time"], len(values)) if "time" in arrays else counted
     present = np.full(len(nodes), ids is None)
     if ids is not None:
         where = nodes.indices(ids)
@@ -220,6 +260,19 @@ def _from_arrays(file: str, arrays: dict[str, Reals], nodes: Numbered) -> Positi
         values = _spread(values, where, len(nodes))
         velocities = None if velocities is None else _spread(velocities, where, len(nodes))
     return Positions(values, present, time, velocities, "time" in arrays)
+
+
+def _ids(file: str, given: Reals) -> Ids:
+    if given.ndim != 1:
+        raise _wrong_shape(file, "node", given, "one axis")
+    return whole_numbers(file, "node", finite(file, "node", given))
+
+
+def _times(file: str, given: Reals, steps: int) -> Floats:
+    """The time of each step; that of one state may stand alone."""
+    if given.shape != (steps,) and not (given.shape == () and steps == 1):
+        raise _wrong_shape(file, "time", given, f"({steps},)")
+    return finite(file, "time", given)
 
 
 def _wrong_shape(file: str, name: str, found: Reals, expected: str) -> DeckError:

@@ -15,6 +15,7 @@ from pydantic_core import to_json as compact
 from mudline.deck.document import decoded, from_document, to_document
 from mudline.deck.faults import DocumentPath, path_text, refusal
 from mudline.deck.model import Deck, Range
+from mudline.diagnostics import DeckError
 from mudline.keywords.table import Listing
 from mudline.syntax.source import Source
 
@@ -77,12 +78,29 @@ def read(data: bytes, file: str) -> Deck:
         raise refusal(file, f"no JSON: {error.msg}", place) from error
     except RecursionError as error:
         raise refusal(file, "nested too deeply: is this a deck?") from error
-    except ValueError as error:
+    except _UnfitError as error:
         raise refusal(file, str(error)) from error
+    except ValueError as error:  # what is left is that Python reads no whole number of so many digits
+        raise _too_long(text, file) from error
     places = JsonPlaces(text)
     if "\\ud" in text or "\\uD" in text:
         _refuse_half_pairs(document, file, places)
     return from_document(document, file, places.locate)
+
+
+class _UnfitError(ValueError):
+    """The text is JSON, but holds what a deck does not."""
+
+
+_LONG = re.compile(r"-?[0-9]{1000,}")
+
+
+def _too_long(text: str, file: str) -> DeckError:
+    """A whole number with more digits than Python reads: the first with the most of them."""
+    longest = max(_LONG.finditer(text), key=lambda number: number.end() - number.start(), default=None)
+    start, end = longest.span() if longest else (0, 0)
+    place = Range(*Source("", text).position(start), *Source("", text).position(end))
+    return refusal(file, f"a whole number of {end - start} digits is too large", place)
 
 
 def _refuse_half_pairs(document: object, file: str, places: JsonPlaces) -> None:
@@ -103,13 +121,13 @@ def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     values: dict[str, Any] = {}
     for key, value in pairs:
         if key in values:
-            raise ValueError(f"the key {key!r} stands twice in one object")
+            raise _UnfitError(f"the key {key!r} stands twice in one object")
         values[key] = value
     return values
 
 
 def _no_constant(name: str) -> None:
-    raise ValueError(f"{name} is no JSON number: a deck holds finite numbers only")
+    raise _UnfitError(f"{name} is no JSON number: a deck holds finite numbers only")
 
 
 _BLANKS = " \t\r\n"

@@ -32,7 +32,7 @@ write = to_keyword  # as `dump` knows it
 
 
 def _require_survival(deck: Deck) -> None:
-    """Write the deck with shortened tables and read it again: all must be there, comments in their order too."""
+    """Write the deck with shortened tables and read it again without an error: all must be there, also its comments."""
     light = sampled(deck)
     text = _text(light)
     again = read_source(Source.from_bytes(text.encode(errors="replace"), deck.source), units=deck.units)
@@ -44,6 +44,11 @@ def _require_survival(deck: Deck) -> None:
         lines = zip(text.split("\n"), other.split("\n"), strict=False)
         one, two = next(pair for pair in lines if pair[0] != pair[1])
         message = f"the line {shown(one)} cannot be said in keyword text: {shown(two)} would be read there"
+        raise DeckError(deck.diagnose([Problem(DOC002, message)]))
+    if (errors := again.errors()) and not deck.errors():
+        line = again.diagnose(errors[:1])[0].line
+        written = text.split("\n")[line - 1]
+        message = f"the line {shown(written)} cannot be said in keyword text: {errors[0].message}"
         raise DeckError(deck.diagnose([Problem(DOC002, message)]))
 
 

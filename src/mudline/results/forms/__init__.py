@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from importlib import import_module
 from itertools import chain, islice
 from pathlib import Path
@@ -69,13 +70,17 @@ class Together:
 
 @dataclass(frozen=True, slots=True)
 class Output:
-    """What is written, and one or two open files of `folder`; `tracked` shows how far a long loop over a list is."""
+    """What is written, and one or two open files of `folder`; `tracked` shows how far a long loop over a list is.
+
+    `as_text`: no name in CSV is a formula for a spreadsheet.
+    """
 
     evaluation: Evaluation
     elements: Table
     streams: Sequence[BinaryIO]
     folder: Path
     tracked: Callable[[Sequence[Any]], Iterable[Any]] = iter
+    as_text: bool = False
 
     @property
     def tables(self) -> list[Table]:
@@ -96,9 +101,13 @@ def form_module(name: str) -> ModuleType:
 # ----------------------------------------------------------------------------------------------------- rows as text
 
 
-def text_form(name: str) -> Callable[[Evaluation, Table, Write], Sink]:
-    """Return what writes a table (JSON: that of elements, and the nodes) as text: "csv" or "json"."""
-    return cast("Callable[[Evaluation, Table, Write], Sink]", form_module(name).Text)
+def text_form(name: str, *, as_text: bool = False) -> Callable[[Evaluation, Table, Write], Sink]:
+    """Return what writes a table (JSON: that of elements, and the nodes) as text: "csv" or "json".
+
+    `as_text` is for CSV, as in `Output`.
+    """
+    made = cast("Callable[..., Sink]", form_module(name).Text)
+    return partial(made, as_text=True) if as_text else made
 
 
 def text_into(stream: BinaryIO) -> Write:

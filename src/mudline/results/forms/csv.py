@@ -14,25 +14,23 @@ SUMMARY = "elements; the nodes in `...-nodes.csv`"
 BESIDE = True
 
 
-def _quoted(name: str) -> str:
-    """A name as a field of CSV: quoted where it has to be."""
-    return next(csv_lines([[name]])).removesuffix("\n")
-
-
-_SPELLING = Spelling(_quoted, "")
+def _spelling(*, as_text: bool) -> Spelling:
+    """Names as fields of CSV, quoted where they have to be; `as_text` for spreadsheets."""
+    return Spelling(lambda name: next(csv_lines([[name]], as_text=as_text)).removesuffix("\n"), "")
 
 
 def opened(output: Output) -> AbstractContextManager[Sink]:
     """What takes the results."""
     pairs = zip(output.tables, output.streams, strict=True)
-    return nullcontext(Together([Text(output.evaluation, table, text_into(stream)) for table, stream in pairs]))
+    made = [Text(output.evaluation, table, text_into(stream), as_text=output.as_text) for table, stream in pairs]
+    return nullcontext(Together(made))
 
 
 class Text:
     """The rows of a table as CSV, with a column `time` in front when there are times."""
 
-    def __init__(self, evaluation: Evaluation, table: Table, write: Write) -> None:
-        self._table, self._write = table, write
+    def __init__(self, evaluation: Evaluation, table: Table, write: Write, *, as_text: bool = False) -> None:
+        self._table, self._write, self._spelling = table, write, _spelling(as_text=as_text)
         self._times = None if evaluation.time is None else evaluation.time.tolist()
 
     def take(self, part: Part) -> None:
@@ -47,7 +45,7 @@ class Text:
         if part.start == 0:
             names = [flat.name for column in columns for flat in column.flat()]
             yield ",".join(names if self._times is None else ["time", *names]) + "\n"
-        for step, rows in enumerate(step_rows(columns, part.count, self._table.rows, _SPELLING), part.start):
+        for step, rows in enumerate(step_rows(columns, part.count, self._table.rows, self._spelling), part.start):
             before = "" if self._times is None else f"{self._times[step]!r},"
             for piece in batched(rows):
                 yield "".join([f"{before}{','.join(row)}\n" for row in piece])
