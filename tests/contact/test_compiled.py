@@ -6,6 +6,7 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numba
 import numpy as np
@@ -18,7 +19,7 @@ from mudline.contact.compiled.functions import edition
 from mudline.contact.laws import NormalLaw, law_named
 from mudline.contact.plan import Backend, BackendChoice
 from mudline.contact.tables import Batch
-from tests.builders.contact import CURVE, LINEAR, at_depths, chain, everything, friction, journey
+from tests.builders.contact import CURVE, LINEAR, at_depths, chain, everything, friction, journey, on
 from tests.processes import TIMEOUT
 
 pytestmark = pytest.mark.slow
@@ -155,6 +156,17 @@ def test_the_same_laws_have_the_same_loops() -> None:
     assert sloping is not None
     assert one._node_loop is other._node_loop
     assert one._element_loop is not sloping._element_loop
+
+
+def test_loops_are_compiled_once_for_any_number_of_elements_and_springs() -> None:
+    """The arrays of a single row have the same layout as those of several."""
+    for elements in (1, 3):
+        contact = ContactModel(chain([LINEAR] * elements, on("lateral", elements, stiffness=1e3)), backend="fast")
+        contact.evaluate(at_depths([[0.1] * (elements + 1)] * 2))
+        driver = contact._driver(2)
+        assert driver is not None
+        loops: Any = (driver._element_loop, driver._node_loop)
+        assert [len(loop.signatures) for loop in loops] == [1, 1]
 
 
 def test_values_that_are_not_finite_are_left_to_numpy() -> None:

@@ -8,7 +8,9 @@ import tracemalloc
 import numpy as np
 import pytest
 
+from mudline.contact import numpy_driver
 from mudline.diagnostics import DeckError
+from mudline.results import forms
 from mudline.results.evaluation import Evaluation, Tension, evaluate_scene, prepare
 from mudline.results.forms import plan_rows
 from mudline.results.totals import StepTotal, Total
@@ -51,8 +53,12 @@ def test_formats_agree(absent: tuple[int, ...]) -> None:
 
 
 @pytest.mark.untraced
-def test_pieces_are_small() -> None:
-    evaluation = series(36_000)
+def test_pieces_are_small(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With pieces of an eighth of the usual size, so that an eighth of the steps is many pieces."""
+    monkeypatch.setattr(numpy_driver, "BLOCK", numpy_driver.BLOCK // 8)
+    monkeypatch.setattr(forms, "_BLOCK", forms._BLOCK // 8)
+    monkeypatch.setattr(forms, "_PIECE", forms._PIECE // 8)
+    evaluation = series(4_500)
     tracemalloc.start()
     sizes = {
         name: sum(len(piece) for piece in pieces)
@@ -64,8 +70,8 @@ def test_pieces_are_small() -> None:
     }
     _, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
-    assert sizes["json"] > 36e6
-    assert peak < 30e6, "the results of a chunk, not of all steps"
+    assert sizes["json"] > 4.5e6
+    assert peak < 3.75e6, "the results of a chunk, not of all steps"
 
 
 @pytest.mark.untraced

@@ -201,8 +201,8 @@ def read_only(array: Any) -> Any:
 
 
 def by_component(array: Any) -> Any:
-    """Components (k, c), each in one piece of memory."""
-    return array if array.flags.f_contiguous and array.flags.writeable else np.array(array, order="F")
+    """The components (c, k) of rows (k, c), each in one piece of memory: one type to compile for, also for one row."""
+    return (array if array.flags.f_contiguous and array.flags.writeable else np.array(array, order="F")).T
 
 
 NO_LINE = (read_only(np.empty((7, 0))), (read_only(np.empty((0, 2), np.intp)), read_only(np.empty((0, 2), np.intp))))

@@ -136,12 +136,12 @@ def elements_loop(
                     held = index[e, col.SPRINGS_BACK]
                     x, y, z = 0.5 * p[0] + 0.5 * q[0], 0.5 * p[1] + 0.5 * q[1], 0.5 * p[2] + 0.5 * q[2]
                     if not touches:
-                        touchdown[held, 0] = touchdown[held, 1] = touchdown[held, 2] = np.nan
-                    elif math.isnan(touchdown[held, 0]):
-                        touchdown[held, 0], touchdown[held, 1], touchdown[held, 2] = x, y, z
+                        touchdown[0, held] = touchdown[1, held] = touchdown[2, held] = np.nan
+                    elif math.isnan(touchdown[0, held]):
+                        touchdown[0, held], touchdown[1, held], touchdown[2, held] = x, y, z
                     n = (normals[0, 0, 0], normals[0, 0, 1], normals[0, 0, 2])
                     wanted: Numbers = unit[1:] if flat else unit
-                    x, y, z = x - touchdown[held, 0], y - touchdown[held, 1], z - touchdown[held, 2]
+                    x, y, z = x - touchdown[0, held], y - touchdown[1, held], z - touchdown[2, held]
                     arm: Numbers = (y, z) if flat else (x, y, z)
                     if not flat and normals.shape[1] > 1:
                         n = mean_normal(normals, step, a, b)
@@ -252,10 +252,10 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
                         one = other = index[i, col.ACTIVE] - 1
                         if index[i, col.ACTIVE] > 0 and total > 0.0:
                             p = (points[step, i, 0], points[step, i, 1], points[step, i, 2])
-                            held = sticking[i, 0] > 0
+                            held = sticking[0, i] > 0
                             if not held:
-                                sticks[i, 0], sticks[i, 1], sticks[i, 2] = p
-                            x, y, z = p[0] - sticks[i, 0], p[1] - sticks[i, 1], p[2] - sticks[i, 2]
+                                sticks[0, i], sticks[1, i], sticks[2, i] = p
+                            x, y, z = p[0] - sticks[0, i], p[1] - sticks[1, i], p[2] - sticks[2, i]
                             if not held:
                                 x = y = z = 0.0
                             away = (y, z) if flat else (x, y, z)
@@ -271,14 +271,14 @@ def nodes_loop(wrap: Wrap, has: Features, laws: tuple[tuple[Callable[..., Any], 
                             m1, m2 = slip_distance(slip_1, e1, f1, k1), slip_distance(slip_2, e2, f2, k2)
                             moved = blend(along, across, m1, m2)
                             if flat:
-                                sticks[i, 1], sticks[i, 2] = sticks[i, 1] + moved[0], sticks[i, 2] + moved[1]
+                                sticks[1, i], sticks[2, i] = sticks[1, i] + moved[0], sticks[2, i] + moved[1]
                             else:
-                                sticks[i, 0], sticks[i, 1] = sticks[i, 0] + moved[0], sticks[i, 1] + moved[1]
-                                sticks[i, 2] = sticks[i, 2] + moved[2]
+                                sticks[0, i], sticks[1, i] = sticks[0, i] + moved[0], sticks[1, i] + moved[1]
+                                sticks[2, i] = sticks[2, i] + moved[2]
                             f1, f2, one, other = 0.0 - f1, 0.0 - f2, 1 + slip_1, 1 + slip_2
                         else:
-                            sticks[i, 0] = sticks[i, 1] = sticks[i, 2] = np.nan
-                        sticking[i, 0], sticking[i, 1] = one, other
+                            sticks[0, i] = sticks[1, i] = sticks[2, i] = np.nan
+                        sticking[0, i], sticking[1, i] = one, other
                         slipping[step, i, 0], slipping[step, i, 1] = one, other
                         sideward = blend(along, across, f1, f2)
                     if lateral:
