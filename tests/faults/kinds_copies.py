@@ -15,7 +15,8 @@ numbering = NUMBERS.kind
 def _typo(row: Row, draft: Draft) -> None:
     """Exchange the last two letters of the name of a setting."""
     text = row.text.rstrip()
-    draft.needs(len(text) > 2 and text[-1] != text[-2] and text[-2:].isalpha() and not text.endswith("=ALL"))
+    draft.needs(len(text) > 2 and text[-1] != text[-2] and text[-2:].isalpha())
+    draft.needs("," not in text and not text.endswith("=ALL"))
     row.text = text[:-2] + text[-1] + text[-2]
     draft.mark(row)
 
@@ -189,7 +190,7 @@ def section_deleted(draft: Draft) -> None:
     """The section of one set deleted. Seen where the set is defined, or where its law or its curve is given."""
     rows = draft.data("*GEOMETRIC SETS")
     sets = [row for row in rows if "SET=" in row.text]
-    draft.needs(len(sets) >= 2 and "SET=ALL" not in sets[0].text)
+    draft.needs(len(sets) >= 2 and "SET=ALL" not in sets[0].text and draft.text.count("OPTION=") == 1)
     name = sets[0].text.strip()
     at = rows.index(sets[0])
     draft.remove(rows[at : at + 2])
@@ -281,8 +282,9 @@ def node_deleted(draft: Draft) -> None:
 
 @numbering("REF006")
 def wrong_node_in_element(draft: Draft) -> None:
-    """A digit too many in a node number of an element."""
+    """A digit too many in a node number of an element. Seen there, or at a GEN= that steps it."""
     draft.retyped(draft.numbers("*ELEMENT")[-1], 2, lambda text: f"{text}0")
+    draft.mark(*(row for row in draft.data("*ELEMENT") if "GEN=" in row.text))
 
 
 @numbering("REF006")

@@ -106,11 +106,10 @@ def underscore_in_keyword(draft: Draft) -> None:
     _misspelt(draft, "*SEABED PROPERTIES", "*SEABED_PROPERTIES")
 
 
-@kind("SYN009", "SYN008")
+@kind("SYN010")
 def dollar_for_star(draft: Draft) -> None:
     """`$NODE` for `*NODE`."""
     _misspelt(draft, "*NODE", "$NODE")
-    draft.needs(True)
 
 
 @kind("SYN010")
@@ -125,7 +124,7 @@ def misspelt_load_case(draft: Draft) -> None:
     _misspelt(draft, "$LOAD CASE", "$LOADCASE")
 
 
-@kind("SYN009", "SYN010")
+@kind("SYN007", "SYN009")
 def star_for_dollar(draft: Draft) -> None:
     """`*MODEL` for `$MODEL`."""
     _misspelt(draft, "$MODEL", "*MODEL")
@@ -210,7 +209,7 @@ def star_missing_at_seabed(draft: Draft) -> None:
     _misspelt(draft, "*SEABED STIFFNESS", "SEABED STIFFNESS")
 
 
-@kind(*STRAY)
+@kind(*STRAY, "SBD003")
 def points_before_set(draft: Draft) -> None:
     """The points of `*EMBEDMENT` come before their SET=."""
     rows = draft.data("*EMBEDMENT")
@@ -345,7 +344,8 @@ def cut_in_exponent(draft: Draft) -> None:
 def cut_behind_curve_line(draft: Draft) -> None:
     """The file ends behind CURVE=."""
     row = draft.keyed_above(draft.curve()[0])
-    _cut(draft, row, row.text.strip() + " ")
+    del draft.rows[draft.rows.index(row) + 1 :]
+    draft.mark(row)
 
 
 @kind("SYN014", "SYN006")
@@ -361,7 +361,8 @@ def cut_in_equation(draft: Draft) -> None:
 def cut_behind_keyword(draft: Draft) -> None:
     """The file ends behind `*SEABED STIFFNESS`."""
     row = draft.block("*SEABED STIFFNESS")[0]
-    _cut(draft, row, row.text + " ")
+    del draft.rows[draft.rows.index(row) + 1 :]
+    draft.mark(row)
 
 
 @kind("SYN012", "SYN001", "SYN002")

@@ -412,9 +412,9 @@ def new_settings_in_old_block(draft: Draft) -> None:
     draft.insert(row, " FRICTION=0.35, 0.6")
 
 
-@kind("SYN004", "SYN001")
+@kind("SYN004", "SYN001", "SYN013")
 def curve_for_set_in_embedment(draft: Draft) -> None:
-    """CURVE= for SET= under `*EMBEDMENT`."""
+    """CURVE= for SET= under `*EMBEDMENT`, which a C in column 1 makes a comment."""
     draft.swap(draft.setting("*EMBEDMENT", "SET"), "SET=", "CURVE=")
 
 

@@ -74,24 +74,24 @@ def letter_in_node_number(draft: Draft) -> None:
 # -------------------------------------------------------------------------------------------------- points and commas
 
 
-@kind("SYN015", "SYN003", "SYN001")
+@kind("SYN015", "SYN003", "SYN001", "UNT001")
 def decimal_comma_in_ocean(draft: Draft) -> None:
-    """9,81 for 9.81."""
+    """9,81 for 9.81: one value too many, or a gravity of 9."""
     draft.retyped(draft.numbers("*OCEAN")[0], 2, lambda text: text.replace(".", ","))
 
 
-@kind("SYN015", "SYN003", "SYN001")
+@kind("SYN015", "SYN003", "SYN001", "UNT006")
 def decimal_comma_in_coordinate(draft: Draft) -> None:
-    """A decimal comma in a coordinate: the node gets a Z that it does not have."""
+    """A decimal comma in a coordinate: the node gets a Z that it does not have, and its place is far off."""
     row = next((each for each in draft.numbers("*NODE")[1:] if draft.field(each, 1).startswith("-0.")), None)
     draft.needs(row)
     if row:
         draft.retyped(row, 1, lambda text: text.replace(".", ","))
 
 
-@kind("SYN015", "SYN003", "SYN001")
+@kind("SYN015", "SYN003", "SYN001", "GEO001", "SBD010")
 def decimal_comma_in_section(draft: Draft) -> None:
-    """A decimal comma in a diameter."""
+    """A decimal comma in a diameter: a Do of 0, a Di of hundreds."""
     draft.retyped(draft.sections("RIGID")[0], 2, lambda text: text.replace(".", ","))
 
 
@@ -217,17 +217,17 @@ def fortran_exponent(draft: Draft) -> None:
     draft.retyped(row, 0, lambda text: text.replace("E", "D"))
 
 
-@kind("SYN003", "SYN015", "SYN001")
+@kind("SYN003", "SYN015", "SYN001", "UNT004", "UNT001")
 def thousands_separator(draft: Draft) -> None:
-    """1,025.0 for 1025.0."""
+    """1,025.0 for 1025.0: a density of 1, a gravity of 25."""
     row = draft.numbers("*OCEAN")[0]
     draft.needs(draft.value(row, 1) > 1000)
     draft.retyped(row, 1, lambda text: f"{text[0]},{text[1:]}")
 
 
-@kind(*UNREADABLE)
+@kind(*UNREADABLE, "UNT004")
 def thousands_separator_in_section(draft: Draft) -> None:
-    """7,850.0 for 7850.0."""
+    """7,850.0 for 7850.0: a density of 7."""
     row = draft.sections("RIGID")[0]
     draft.needs(draft.value(row, 4) > 1000)
     draft.retyped(row, 4, lambda text: f"{text[0]},{text[1:]}")
@@ -282,9 +282,9 @@ def hash_remark_behind_value(draft: Draft) -> None:
 # -------------------------------------------------------------------------------------------------------- lost fields
 
 
-@kind("SYN003", "SYN001")
+@kind("SYN003", "SYN001", "UNT004")
 def density_left_out(draft: Draft) -> None:
-    """`*OCEAN` with depth and gravity only."""
+    """`*OCEAN` with depth and gravity only: a density of 9.81."""
     row = draft.numbers("*OCEAN")[0]
     fields = draft.fields(row)
     draft.write(row, f"{fields[0]}, {fields[2]}")

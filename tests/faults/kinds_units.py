@@ -347,7 +347,7 @@ def mobilisation_in_millimetres(draft: Draft) -> None:
         draft.scale(row, column, _millimetres(draft))
 
 
-@kind("UNT006", "GEO005")
+@kind("UNT006", "GEO005", "SBD022")
 def coordinates_in_millimetres(draft: Draft) -> None:
     """All coordinates in mm, the pipe in m. Seen at a node, or at an element that is too long."""
     _only(draft, "metric")

@@ -12,7 +12,7 @@ from zlib import crc32
 
 from mudline.diagnostics import Diagnostic, Severity
 from mudline.linting.engine import lint_bytes
-from mudline.linting.registry import rules
+from mudline.linting.registry import select
 from tests.faults.draft import Draft, NotHere
 from tests.faults.kind import Kind
 from tests.faults.kinds_copies import COPIES, NUMBERS
@@ -100,7 +100,7 @@ def run() -> Run:
 
 
 def _lint(deck: LegalDeck, data: bytes, folder: Path) -> list[Diagnostic]:
-    return lint_bytes(data, f"{deck.name}.{deck.suffix}", rules(), folder=folder)
+    return lint_bytes(data, f"{deck.name}.{deck.suffix}", select(), folder=folder)
 
 
 def _outcome(fault: Fault, found: list[Diagnostic], own: Counter[str]) -> Outcome:
