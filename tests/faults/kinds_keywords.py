@@ -1,4 +1,4 @@
-"""Faults of keyword lines and of the shape of a file: misspelt, missing, commented in another program's way, cut off."""
+"""Faults of keyword lines and of files: misspelt, missing, commented in another program's way, cut off."""
 
 from __future__ import annotations
 

@@ -9,7 +9,6 @@ UNITS = Group("units and magnitudes")
 kind = UNITS.kind
 
 FOOT = 0.3048
-POUNDS_PER_SLUG_FT3 = 32.174
 PSI = 144.0
 """lbf/ft2 in a pound per square inch."""
 
@@ -405,17 +404,17 @@ def z_is_up(draft: Draft) -> None:
     draft.needs(max(heights) > 10.0)
     for row in draft.numbers("*NODE"):
         fields = draft.fields(row)
-        self_z = fields[3] if len(fields) > 3 else "0.0"
-        draft.write(row, f"{fields[0]}, {fields[2]}, {self_z}, {fields[1]}")
+        across = fields[3] if len(fields) > 3 else "0.0"
+        draft.write(row, f"{fields[0]}, {fields[2]}, {across}, {fields[1]}")
     draft.mark(draft.block("*NODE")[0])
 
 
 @kind("GEO005")
 def laid_above_the_seabed(draft: Draft) -> None:
-    """The water depth added to every X, as if X were counted from the vessel's keel. Seen at a node or the block."""
+    """50 m added to every X, by a datum of the site below the mudline. Seen at a node or at the block."""
     draft.needs("SEABED P" in draft.text and "*SEABED PROFILE" not in draft.text)
     for row in draft.numbers("*NODE"):
-        draft.put(row, 1, plain(draft.value(row, 1) + 50.0))
+        draft.put(row, 1, plain(draft.value(row, 1) + (50.0 / FOOT if draft.units == "imperial" else 50.0)))
     draft.mark(draft.block("*NODE")[0])
 
 
@@ -544,9 +543,9 @@ def _any_value(draft: Draft) -> None:
     draft.mark(_ocean(draft), *draft.sections())
 
 
-@kind("UNT004", "UNT005")
+@kind("UNT004", "UNT005", "UNT006")
 def user_water_in_other_mass(draft: Draft) -> None:
-    """User units: water in t/m3 in a deck of newtons, in kg/m3 in a deck of kilonewtons."""
+    """User units: water in t/m3 in a deck of newtons, in kg/m3 in a deck of kilonewtons; too heavy for a light line."""
     _any_value(draft)
     row = _ocean(draft)
     draft.scale(row, 1, 0.001 if draft.value(row, 1) > 100.0 else 1000.0)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
 from mudline.contact.input import LawKind
+from mudline.deck.model import Opaque
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.catalogue import is_superseded
 from mudline.linting.rule import LintContext, limited, rule
@@ -163,8 +165,8 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
 
     Either the block of *SEABED PROPERTIES that applies to the elements gives no stiffness: a block overrides an earlier
     one as a whole, and does not inherit its STIFFNESS=. Or the elements lie at or below the seabed (X = 0) in the
-    deck's coordinates, and no law applies to them. A static run may then have no unique solution. Give STIFFNESS=, or
-    put the elements into a set that has it.
+    deck's coordinates, and no law, or a stiffness of 0, applies to them; inner pipes of *PIP SECTION need none. A
+    static run may then have no unique solution. Give STIFFNESS=, or put the elements into a set that has it.
 
     Example:
          $MODEL
@@ -196,10 +198,44 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
         return  # a law that was not read may hold
     if context.problems_of(SBD004):
         return  # that there is no stiffness is reported there
+    yield from _zeros(scene)
     free = scene.law == LawKind.NONE
+    if free.any() and "PIP SECTION" in context.keywords:
+        free &= ~_inside_pipes(scene)
     if free.any():
         yield from _blocks(scene, np.flatnonzero(free & (scene.laws.covered >= 0)))
         yield from _lying(context, np.flatnonzero(free & (scene.laws.covered < 0)))
+
+
+def _zeros(scene: Scene) -> Iterator[Problem]:
+    """Stiffnesses of 0 of elements that lie at or below a flat seabed."""
+    grants = scene.laws.set_laws
+    zero = [
+        i
+        for i, grant in enumerate(grants)
+        if grant.kind is LawKind.LINEAR and grant.stiffness == 0.0 and not grant.unknown
+    ]
+    for index in zero if scene.seabed.kind is SeabedKind.FLAT else ():
+        elements = np.flatnonzero(scene.laws.of_element == index)
+        lying = elements[_depths(scene, elements) >= 0.0]
+        if lying.size and "SEABED CONTACT" not in scene.extensions:
+            which = f"{first_of('element', scene.element_ids[lying[0]], lying.size)} lie{'s' * (lying.size == 1)}"
+            message = f"{which} at or below the seabed (X = 0) and this stiffness is 0: give another one"
+            yield Problem(SBD006, message, where=grants[index].where)
+
+
+_INNER = re.compile(r"\bINNER\s*=\s*([^,]+)", re.IGNORECASE)
+
+
+def _inside_pipes(scene: Scene) -> Mask:
+    """Elements (m,) of the inner pipes of *PIP SECTION, which the seabed does not touch."""
+    inside = np.zeros(len(scene.element_ids), dtype=np.bool_)
+    blocks = (block for section in scene.deck.sections for block in section.blocks if type(block) is Opaque)
+    lines = (line for block in blocks if block.keyword == "PIP SECTION" for line in block.lines)
+    for name in (match[1] for line in lines if (match := _INNER.search(line))):
+        if set_ := scene.set_table.find(name.strip()):
+            inside[set_.elements] = True
+    return inside
 
 
 def _blocks(scene: Scene, elements: Indices) -> Iterator[Problem]:
