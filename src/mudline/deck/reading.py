@@ -192,7 +192,9 @@ class _Reader:
     def _preamble(self) -> None:
         preamble = self.tree.preamble
         if self.tree.source.readable:
-            self._stray(preamble.leaves, "before the first section", title=not preamble.blocks)
+            self._stray(
+                preamble.leaves, "before the first section", title=bool(self.tree.sections) and not preamble.blocks
+            )
         for block in preamble.blocks:
             self.findings.before_sections(block.name, trimmed(self.text, *block.head.span))
         first = self.tree.sections[0].head if self.tree.sections else None

@@ -102,7 +102,8 @@ def not_on_the_seabed(context: LintContext) -> Iterator[Problem]:
         yield Problem(GEO005, message, where=scene.nodes.where(lowest))
 
 
-_LOADS = "HYDRODYNAMIC SETS"
+_KEYWORD = "HYDRODYNAMIC SETS"
+"""Its lines name sets whose sections are given elsewhere."""
 
 
 class _Line(NamedTuple):
@@ -297,8 +298,8 @@ def repeated_section(context: LintContext) -> Iterator[Problem]:
     an entry that was copied and kept the name of the first: the elements of that set have neither stiffness nor mass.
     Correct the name in one of the two entries. A set without a section is also reported where no set has two, but not
     if a keyword that is passed through names it, as that may describe its elements. Nothing is reported where elements
-    come from lines or from another deck, where a section names a set that is not defined (REF001), or where every
-    element has a section.
+    come from lines or from another deck, where a section names a set that is not defined (REF001), where every element
+    has a section, or where a curve lacks a diameter (SBD009).
 
     Example:
          $MODEL
@@ -337,12 +338,13 @@ def repeated_section(context: LintContext) -> Iterator[Problem]:
     bare_sets = [one for one in sets if one.elements.size and not one.open and lacking[one.elements].all()]
     for section in repeated if bare_sets else ():
         message = (
-            f"SET={shown(section.name)} already has a section, and SET={shown(bare_sets[0].name)} has none: correct one "
-            "of the two names"
+            f"SET={shown(section.name)} already has a section, and SET={shown(bare_sets[0].name)} has none: correct "
+            "one of the two names"
         )
         yield Problem(GEO006, message, where=section.where.inside("set"))
     for one in () if repeated else bare_sets:
-        if one.where is not None and folded(one.name) not in _passed_through(scene):
+        on_curve = (scene.law[one.elements] == LawKind.CURVE).any()  # SBD009 says so
+        if one.where is not None and not on_curve and folded(one.name) not in _passed_through(scene):
             message = f"the elements of SET={shown(one.name)} have no section: give one in *GEOMETRIC SETS"
             yield Problem(GEO006, message, where=one.where)
 
@@ -350,7 +352,9 @@ def repeated_section(context: LintContext) -> Iterator[Problem]:
 def _passed_through(scene: Scene) -> set[str]:
     """Names after SET= and the like in blocks that are passed through, but for *HYDRODYNAMIC SETS."""
     blocks = (block for section in scene.deck.sections for block in section.blocks)
-    lines = (line for block in blocks if isinstance(block, Opaque) and block.keyword != _LOADS for line in block.lines)
+    lines = (
+        line for block in blocks if isinstance(block, Opaque) and block.keyword != _KEYWORD for line in block.lines
+    )
     return {folded(field.partition("=")[2]) for line in lines for field in line.split(",") if "=" in field}
 
 

@@ -224,6 +224,7 @@ def _zeros(scene: Scene) -> Iterator[Problem]:
             yield Problem(SBD006, message, where=grants[index].where)
 
 
+_KEYWORD = "PIP SECTION"
 _INNER = re.compile(r"\bINNER\s*=\s*([^,]+)", re.IGNORECASE)
 
 
@@ -231,7 +232,7 @@ def _inside_pipes(scene: Scene) -> Mask:
     """Elements (m,) of the inner pipes of *PIP SECTION, which the seabed does not touch."""
     inside = np.zeros(len(scene.element_ids), dtype=np.bool_)
     blocks = (block for section in scene.deck.sections for block in section.blocks if type(block) is Opaque)
-    lines = (line for block in blocks if block.keyword == "PIP SECTION" for line in block.lines)
+    lines = (line for block in blocks if block.keyword == _KEYWORD for line in block.lines)
     for name in (match[1] for line in lines if (match := _INNER.search(line))):
         if set_ := scene.set_table.find(name.strip()):
             inside[set_.elements] = True

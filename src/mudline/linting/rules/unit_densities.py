@@ -159,9 +159,9 @@ def suspicious_density(context: LintContext) -> Iterator[Problem]:
     depth like a density means that the two were exchanged. A wall has 10 to 40 000 kg/m3, as foam is light and the
     steel of a riser joint may carry the mass of all that is around it; 0 and powers of ten are accepted as
     placeholders. Less or more is reported, but more in a section with an area of its own only where it is steel in
-    another unit: 7.85 is t/m3. A pipe up to 2.5 m wide with the modulus of steel and without an area of its own is also reported if its density is
-    below 7000 kg/m3 and is that of steel in another unit, as 490 lb/ft3. In user units only the ratio is checked: steel
-    is 7 to 8.4 times as heavy as water, and not 1000 times more or less than that.
+    another unit: 7.85 is t/m3. A pipe up to 2.5 m wide with the modulus of steel and without an area of its own is also
+    reported if its density is below 7000 kg/m3 and is that of steel in another unit, as 490 lb/ft3. In user units only
+    the ratio is checked: steel is 7 to 8.4 times as heavy as water, and not 1000 times more or less than that.
 
     Example:
          $MODEL
@@ -263,7 +263,8 @@ def suspicious_modulus(context: LintContext) -> Iterator[Problem]:
     also reported where its modulus is that of steel in kPa, psi, ksi or the unit of the other system. E and G of a
     material give Poisson's ratio, E/2G - 1, from 0 to 0.5: in any units, it is reported when negative, as it is when
     the two are exchanged, and when above 0.5 for metals (2600 kg/m3 and 60 GPa or more). Composites may have any. In
-    user units of metres and seconds a steel wall is reported whose modulus is 1000 times that of its density. A section gets one finding, and FLEXIBLE, MOORING and TRUSS sections, which have no modulus, none.
+    user units of metres and seconds a steel wall is reported whose modulus is 1000 times too large or too small for its
+    density. A section gets one finding, and FLEXIBLE, MOORING and TRUSS sections, which have no modulus, none.
 
     Example:
          $MODEL
@@ -299,8 +300,8 @@ def _of_section(context: LintContext, section: Part, where: Where) -> Iterator[P
                 yield Problem(UNT005, message, where=where.inside(key))
     elif _is_off(context, section, young):
         message = (
-            f"Young's modulus E {young!r} and density {number(section, 'density')!r} do not fit a steel wall: they look "
-            "like units of force and mass 1000 times apart, write both in one system"
+            f"Young's modulus E {young!r} and density {number(section, 'density')!r} do not fit a steel wall: their "
+            "units seem to be 1000 times apart, write both in one system"
         )
         yield Problem(UNT005, message, where=where.inside("E"))
     if not is_placeholder(young) and not is_placeholder(shear):

@@ -296,7 +296,10 @@ def _far_nodes(scene: Scene) -> Iterator[tuple[int, float]]:
     sections = scene.section_table.of_element
     alike = (sections[beyond] == sections[inner][:, :1]).all(axis=1) & (sections[inner[:, 0]] == sections[inner[:, 1]])
     farther = length[beyond].max(axis=1, initial=0.0)
-    ratios = np.divide(length[inner].min(axis=1, initial=np.inf), farther, where=farther > 0.0, out=0.0 * farther)
+    shorter = length[inner].min(axis=1, initial=np.inf)
+    ratios = np.divide(shorter, farther, where=farther > 0.0, out=0.0 * farther)
+    apart = np.linalg.norm(np.diff(scene.coordinates[outer_nodes[complete]], axis=1)[:, 0], axis=1)
+    alike &= apart < shorter  # else the line goes on in two long elements
     found = np.flatnonzero(alike & (ratios > LONGEST_ELEMENT))
     yield from zip(middle[found].tolist(), ratios[found].tolist(), strict=True)
 
