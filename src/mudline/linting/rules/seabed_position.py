@@ -27,7 +27,8 @@ SBD022 = Code("SBD022", "deep-node", Severity.WARNING)
 
 _VERTICAL = 90.0
 
-_DEEPEST = 5.0
+DEEPEST = 5.0
+"""Diameters below the seabed."""
 
 _IN_PLANE = (1, 2)
 
@@ -326,10 +327,10 @@ def deep_node(context: LintContext) -> Iterator[Problem]:
     if not (scene.laws.types or scene.laws.set_laws) or context.in_soil:
         return
     depth, bounds = context.once(depths), context.once(bounds_of)
-    if bounds.thinnest > 0.0 and bounds.deepest <= _DEEPEST * bounds.thinnest:
+    if bounds.thinnest > 0.0 and bounds.deepest <= DEEPEST * bounds.thinnest:
         return
     with np.errstate(over="ignore", invalid="ignore"):
-        limit = _DEEPEST * _widest(scene)
+        limit = DEEPEST * _widest(scene)
         deep = np.flatnonzero((limit > 0.0) & (depth > limit))
     if deep.size:
         which = f"{first_of('node', scene.node_ids[deep[0]], deep.size)} lie{'s' * (deep.size == 1)}"
