@@ -179,7 +179,7 @@ def geometric_sets_line_missing(draft: Draft) -> None:
     _missing(draft, "*GEOMETRIC SETS")
 
 
-@kind(*STRAY)
+@kind(*STRAY, "SBD006")
 def seabed_properties_line_missing(draft: Draft) -> None:
     """The `*SEABED PROPERTIES` line is missing. Seen at the first row behind it."""
     _missing(draft, "*SEABED PROPERTIES")

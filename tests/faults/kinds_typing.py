@@ -223,6 +223,8 @@ def thousands_separator(draft: Draft) -> None:
     row = draft.numbers("*OCEAN")[0]
     draft.needs(draft.value(row, 1) > 1000)
     draft.retyped(row, 1, lambda text: f"{text[0]},{text[1:]}")
+    if draft.units == "user":  # where either side of a contradiction may be the wrong one
+        draft.mark(*draft.sections())
 
 
 @kind(*UNREADABLE, "UNT004")

@@ -32,6 +32,9 @@ _DATA = re.compile(r"[-+.,\d\s]+(?:[eEdD][-+]?\d+[-+.,\d\s]*)*$|\s*[A-Z][A-Z ]*=
 """A line of numbers, or a setting: no title."""
 
 
+_OF_EVERY_BLOCK = {"keyword", "comments"}
+
+
 class Findings:
     """Adds to the problems of a deck; each method takes the place as a span of the text or as one among the values."""
 
@@ -59,7 +62,11 @@ class Findings:
             if self._reports(SYN009, None, where):
                 near = suggest_keyword(keyword)
                 message = f"keyword *{keyword} is not known{_meant(keyword, near)}: it is passed through unchanged"
-                self._misspelt(SYN009, message, where, f"*{near}" if near else "", head)
+                meant = f"*{near}" if near else ""
+                if keyword.startswith("*"):
+                    message = f"*{keyword[:40]} ends the block before it: begin a comment with C and a space"
+                    meant = f"C {keyword.lstrip('* ')}"
+                self._misspelt(SYN009, message, where, meant, head)
         elif (
             sections
             and section not in sections
@@ -240,6 +247,10 @@ class _Reader:
         final = tree.sections[-1].blocks
         last = bool(final) and raw is final[-1]
         read = self.read_block(self.text, raw, declared, last=last)
+        head = self.origin.heads[Where(index, number)]
+        if last and not raw.leaves and head.end == len(self.text) and set(declared.model_fields) - _OF_EVERY_BLOCK:
+            message = f"the file ends behind *{raw.name}: it seems to be cut off, add what is missing"
+            self.problems.append(Problem(SYN014, message, head))
         if read.unpublished:
             self._opaque(section, Where(index, number), raw)
             return

@@ -62,7 +62,8 @@ def not_on_the_seabed(context: LintContext) -> Iterator[Problem]:
     the elements with a seabed law:
 
     * every node lies above the sea surface (*OCEAN gives the depth);
-    * the line lies level, rising by less than a tenth of its length, and over 100 diameters above the seabed;
+    * the line lies level over 100 diameters above the seabed: it rises by less than a tenth of its length, or its
+      lowest four nodes or more have one height;
     * Z goes from 0 to the depth, or from the depth below 0 to 0, within 5 % of the depth, and every node has the same X
       within 1 % of the depth; or, from 0, three nodes or more lie within a diameter of Z = 0, and only one of X = 0.
 
@@ -102,8 +103,8 @@ def not_on_the_seabed(context: LintContext) -> Iterator[Problem]:
         yield Problem(GEO005, message, where=scene.nodes.where(lowest))
 
 
-_KEYWORD = "HYDRODYNAMIC SETS"
-"""Its lines name sets whose sections are given elsewhere."""
+_WITH_SECTIONS = {"HYDRODYNAMIC SETS", "PIP SECTION"}
+"""Keywords that name sets whose sections are given elsewhere."""
 
 
 class _Line(NamedTuple):
@@ -122,10 +123,14 @@ class _Line(NamedTuple):
     depth: float
     flat: tuple[int, int]
     """Nodes within a diameter of X = 0, and of Z = 0."""
+    level: int
+    """Nodes as low as the lowest one."""
 
 
 LAID = 3
 """Nodes of a line that lie on the seabed."""
+ROUNDED = 1e-3
+"""Diameters by which nodes on one level may differ."""
 
 
 def _is_low(context: LintContext) -> bool:
@@ -159,7 +164,8 @@ def _line(context: LintContext) -> _Line | None:
     with np.errstate(invalid="ignore"):
         near = np.abs(scene.coordinates[used]) <= diameter
     flat = int(near[:, 0].sum()), int(near[:, 2].sum())
-    return _Line(used, x, y, z, (-deepest, -highest), diameter, _water_depth(context), flat)
+    level = int((context.once(depths)[used] >= deepest - ROUNDED * diameter).sum())
+    return _Line(used, x, y, z, (-deepest, -highest), diameter, _water_depth(context), flat, level)
 
 
 def _extent(values: Floats, used: Mask) -> tuple[float, float]:
@@ -176,10 +182,11 @@ def _above(line: _Line) -> str:
             "datum of X, which is 0 at the mudline"
         )
     length = math.hypot(line.y[1] - line.y[0], line.z[1] - line.z[0])
-    if highest - lowest < LEVEL * length and lowest > HIGHEST * line.diameter:
+    if (highest - lowest < LEVEL * length or line.level > LAID) and lowest > HIGHEST * line.diameter:
+        what = "the lowest nodes lie" if line.level > LAID else "the line lies"
         return (
-            f"the line lies level, its lowest {{node}} {lowest:.5g} above the seabed (over 100 diameters): correct the "
-            "datum of X, which is 0 at the mudline"
+            f"{what} level, {{node}} {lowest:.5g} above the seabed (over 100 diameters): correct the datum of X, which "
+            "is 0 at the mudline"
         )
     return ""
 
@@ -350,10 +357,13 @@ def repeated_section(context: LintContext) -> Iterator[Problem]:
 
 
 def _passed_through(scene: Scene) -> set[str]:
-    """Names after SET= and the like in blocks that are passed through, but for *HYDRODYNAMIC SETS."""
+    """Names after SET= and the like in blocks that are passed through, but for those that need sections."""
     blocks = (block for section in scene.deck.sections for block in section.blocks)
     lines = (
-        line for block in blocks if isinstance(block, Opaque) and block.keyword != _KEYWORD for line in block.lines
+        line
+        for block in blocks
+        if isinstance(block, Opaque) and block.keyword not in _WITH_SECTIONS
+        for line in block.lines
     )
     return {folded(field.partition("=")[2]) for line in lines for field in line.split(",") if "=" in field}
 

@@ -10,8 +10,8 @@ import numpy as np
 
 from mudline.contact.input import LawKind
 from mudline.deck.model import Opaque
-from mudline.diagnostics import Code, Problem, Severity, Where
-from mudline.keywords.catalogue import is_superseded
+from mudline.diagnostics import Code, Problem, Severity, Span, Where
+from mudline.keywords.catalogue import is_superseded, sections_of
 from mudline.linting.rule import LintContext, limited, rule
 from mudline.scene.checks.laws import SBD004
 from mudline.scene.model import Scene
@@ -193,6 +193,9 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
     """
     scene = context.scene
     reading = scene.context
+    if stray := list(_stray_laws(context)):
+        yield from stray
+        return
     if reading.restart or any(map(is_superseded, reading.misplaced_keywords)) or reading.misplaced("SEABED PROPERTIES"):
         return
     if any(map(is_superseded, reading.unread)) or "SEABED CONTACT" in context.keywords:
@@ -206,6 +209,26 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
     if free.any():
         yield from _blocks(scene, np.flatnonzero(free & (scene.laws.covered >= 0)))
         yield from _lying(context, np.flatnonzero(free & (scene.laws.covered < 0)))
+
+
+_LAW = re.compile(r"^[ \t]*TYPE[ \t]*=[ \t]*(?:ELASTIC|RIGID)[ \t]*$", re.IGNORECASE | re.MULTILINE)
+
+
+def _stray_laws(context: LintContext) -> Iterator[Problem]:
+    """Lines of *SEABED PROPERTIES in blocks that are passed through: their keyword line is missing."""
+    for number, section in enumerate(context.deck.sections):
+        for index, block in enumerate(section.blocks):
+            if type(block) is not Opaque or section.name not in (sections_of(block.keyword) or ()):
+                continue
+            if not any(map(_LAW.match, block.lines)) or not context.text:
+                continue
+            where = Where(number, index)
+            head = context.text.heads[where]
+            found = _LAW.search(context.text.source.text, head.end)
+            message = (
+                f"*{block.keyword} has no such line: begin *SEABED PROPERTIES above it, else no seabed law applies"
+            )
+            yield Problem(SBD006, message, Span(*found.span()) if found else head)
 
 
 def _zeros(scene: Scene) -> Iterator[Problem]:
