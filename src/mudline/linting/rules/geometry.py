@@ -182,12 +182,10 @@ def _above(line: _Line) -> str:
             "datum of X, which is 0 at the mudline"
         )
     length = math.hypot(line.y[1] - line.y[0], line.z[1] - line.z[0])
-    if (highest - lowest < LEVEL * length or line.level > LAID) and lowest > HIGHEST * line.diameter:
-        what = "the lowest nodes lie" if line.level > LAID else "the line lies"
-        return (
-            f"{what} level, {{node}} {lowest:.5g} above the seabed (over 100 diameters): correct the datum of X, which "
-            "is 0 at the mudline"
-        )
+    level = highest - lowest < LEVEL * length
+    if (level or line.level > LAID) and lowest > HIGHEST * line.diameter:
+        what = "the line lies level, its lowest {node}" if level else "the lowest nodes lie level, {node}"
+        return f"{what} {lowest:.5g} above the seabed (over 100 diameters): correct the datum of X, which is 0 at the mudline"
     return ""
 
 
