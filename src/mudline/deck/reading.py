@@ -248,7 +248,8 @@ class _Reader:
         last = bool(final) and raw is final[-1]
         read = self.read_block(self.text, raw, declared, last=last)
         head = self.origin.heads[Where(index, number)]
-        if last and not raw.leaves and head.end == len(self.text) and set(declared.model_fields) - _OF_EVERY_BLOCK:
+        empty = last and not raw.leaves and not read.problems and head.end == len(self.text)
+        if empty and set(declared.model_fields) - _OF_EVERY_BLOCK:
             message = f"the file ends behind *{raw.name}: it seems to be cut off, add what is missing"
             self.problems.append(Problem(SYN014, message, head))
         if read.unpublished:
