@@ -185,7 +185,8 @@ def _above(line: _Line) -> str:
     level = highest - lowest < LEVEL * length
     if (level or line.level > LAID) and lowest > HIGHEST * line.diameter:
         what = "the line lies level, its lowest {node}" if level else "the lowest nodes lie level, {node}"
-        return f"{what} {lowest:.5g} above the seabed (over 100 diameters): correct the datum of X, which is 0 at the mudline"
+        what = f"{what} {lowest:.5g} above the seabed (over 100 diameters)"
+        return f"{what}: correct the datum of X, which is 0 at the mudline"
     return ""
 
 
