@@ -16,6 +16,8 @@ from tests.docs.law_page import law_page
 from tests.docs.layer_picture import layer_picture
 from tests.docs.refresh import copy_of_files, refreshed
 from tests.docs.rule_pages import rule_index, rule_page
+from tests.faults import report
+from tests.faults.rates import run
 
 ROOT = Path(__file__).parents[2]
 
@@ -74,6 +76,7 @@ def write() -> None:
     schema = ROOT / CONFIG_SCHEMA
     schema.parent.mkdir(parents=True, exist_ok=True)
     schema.write_text(config_schema(), encoding="utf-8", newline="\n")
+    report.write(run())
     for path in made_files() - wanted.keys():
         (ROOT / path).unlink()
 

@@ -97,7 +97,10 @@ STEEL = " SET={}\n 207.0E9, 79.6E9, 0.25, 0.22, 7850.0\n"
         (("A", " a ", "A"), "", 2),
         (("A", "B", "A"), "", 0),
         (("A", "A", "ALL"), "", 0),
-        (("A",), "", 0),
+        (("A",), "", 1),
+        (("A",), "*HINGE\n SET=B\n", 0),
+        (("A",), "*HYDRODYNAMIC SETS\n SET=B, TYPE=CONSTANT\n 1.2, 0.0, 2.0, 1.0, 0.0\n", 1),
+        (("A",), "*LINES\n LINE=C\n", 0),
         (("A", "A"), RESTART, 0),
         (("A", "A"), "*LINES\n LINE=B\n", 0),
         (("A", "A"), "*GEOMETRIC SETS\n OPTION=TRUSS\n SET=B\n , 5.0, 0.1\n", 0),
@@ -236,3 +239,28 @@ def test_a_profile_has_one_finding(
     for folder, told in ((tmp_path, expected), (None, [("SBD023", "info")] if name.endswith("fcsbd") else [])):
         findings = lint_bytes(text.encode(), "deck.keyxm", chosen, folder=folder)
         assert [(one.code, str(one.severity)) for one in findings] == told
+
+
+# ------------------------------------------------------------------------------------------- what lies where it should
+
+INNER = "*ELEMENT SETS\n SET=Outer\n GEN=1, 5\n SET=Inner\n GEN=6, 10\n"
+OUTER_LAW = "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=Outer\n STIFFNESS=50000.0\n"
+
+
+@pytest.mark.parametrize(
+    ("pipes", "expected"), [("", 1), ("*PIP SECTION\n OUTER=Outer, INNER=Inner\n", 0), ("*PIP SECTION\n INNER=X\n", 1)]
+)
+def test_the_seabed_does_not_touch_an_inner_pipe(pipes: str, expected: int) -> None:
+    assert len(found(PIPE + INNER + pipes + OUTER_LAW, "SBD006")) == expected
+
+
+def test_a_stiffness_of_zero_supports_no_element_on_the_seabed() -> None:
+    zero = LAW.replace("60000.0", "0.0")
+    assert [line for _, line, _ in found(PIPE + zero, "SBD006")] == [(PIPE + zero).count("\n")]
+    assert found(PIPE.replace("-0.05", "1.0") + zero, "SBD006") == []
+
+
+def test_the_lines_of_a_law_under_another_keyword_are_reported_there() -> None:
+    law = "*HYDRODYNAMIC SETS\n SET=ALL, TYPE=CONSTANT\n 1.2, 0.0, 2.0, 1.0, 0.0\n" + LAW.partition("\n")[2]
+    assert [line for _, line, _ in found(PIPE + law, "SBD006")] == [PIPE.count("\n") + 4]
+    assert found(PIPE + law.replace("HYDRODYNAMIC SETS", "UNHEARD OF"), "SBD006")[0][1] != PIPE.count("\n") + 4

@@ -292,6 +292,14 @@ def test_an_element_longer_than_its_neighbours(y: tuple[int, ...], lines: list[i
         assert [one[:3] for one in told(text, suffix)] == [("UNT006", line, 2) for line in lines]
 
 
+@pytest.mark.parametrize(
+    ("y", "expected"), [((0, 10, 500, 30, 40), [5]), ((0, 10, 250, 30, 40), []), ((0, 10, 500, 990, 1000), [])]
+)
+def test_a_node_far_from_both_of_its_neighbours(y: tuple[int, ...], expected: list[int]) -> None:
+    text = NODES.format(*y) + CHAIN + STEEL
+    assert [one[1] for one in told(text)] == expected
+
+
 def test_an_element_of_another_section_may_be_long() -> None:
     text = NODES.format(0, 10, 1010, 1020, 1030) + CHAIN + "*ELEMENT SETS\n SET=Tether\n 2\n" + STEEL
     assert len(told(text)) == 1

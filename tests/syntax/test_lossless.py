@@ -124,7 +124,7 @@ def test_nothing_to_read(text: str) -> None:
     [("cp1252", "Tiefe \u20ac", "CP1252", "0x80"), ("latin-1", "\xe9t\xe9 \x81", "Latin-1", "0xE9")],
 )
 def test_other_encodings_are_read_with_a_warning(encoding: str, word: str, named: str, byte: str) -> None:
-    data = f"$MODEL\n*OCEAN\n 1.0\nC {word}\n".encode(encoding)
+    data = f"$MODEL\n*OCEAN\n 1.0\nR {word}\n".encode(encoding)
     source = read_back(data)
     assert word in source.text
     assert source.encoding == encoding
@@ -134,6 +134,8 @@ def test_other_encodings_are_read_with_a_warning(encoding: str, word: str, named
     assert byte in found[0].message
     assert (found[0].line, found[0].column) == (4, 3 + word.encode(encoding).index(int(byte, 16)))
     assert len(deck.sections) == 1
+    comment = load_bytes(data.replace(b"R ", b"C "), "deck.keyxm")
+    assert [one.severity for one in comment.diagnose(comment.problems) if named in one.message] == [Severity.INFO]
 
 
 def test_a_changed_text_keeps_encoding_and_mark() -> None:

@@ -171,8 +171,8 @@ SYN011 = Code(
     A data line belongs to no keyword.
 
     Lines before the first section, or between a `$SECTION` and its first keyword, belong to nothing and are not read.
-    Title lines at the top of a deck are common and do no harm, but numbers there are numbers that the model lacks. Turn
-    a title into a comment (C and a space), and put data under their keyword.
+    Title lines at the top of a deck are common and do no harm: words above the first section are a note. Numbers there
+    are numbers that the model lacks. Turn a title into a comment (C and a space), and put data under their keyword.
 
     Example:
         -Flowline on soft clay, as laid
@@ -196,7 +196,8 @@ SYN012 = Code(
     A file that is not UTF-8 is read as CP1252, and as Latin-1 if that cannot be: a guess, after which a set's name may
     not match the same name in another file. Control characters, such as the Ctrl-Z that old systems put at the end of a
     file, are invisible and corrupt the line that holds them (in front of a * or a $ they are ignored). UTF-16 and
-    binary data are not read at all. Save the file as UTF-8, and remove what the message names.
+    binary data are not read at all. Where only comments hold such letters, as a degree sign, it is a note. Save the
+    file as UTF-8, and remove what the message names.
 
     Example:
          $MODEL

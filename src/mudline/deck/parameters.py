@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
 
 Value = float | str
+_CONVERT = "convert"
+"""A function that exists, and whose arguments are not public: a deck with it is no worse for that."""
 _PLACEHOLDER = re.compile(r"%([^%]+)%")
 _ITEM = re.compile(r"""[,\s]*(?:([^\s,:;"=]+)[:;])?(=\[(?:[^\[\]]|\[[^\[\]]*\])*\]|"[^"]*"|[^\s,]+)""")
 
@@ -236,7 +238,9 @@ class Parameters:
         except equations.UnknownFunction as error:
             problem = _problem(SYN017, _equation(expression), error, where)
             message = f"{problem.message}; the equation is not evaluated"
-            raise NoValueError(Problem(SYN017, message, None, Severity.WARNING, where)) from error
+            convert = expression.text[error.start : error.end].strip().casefold() == _CONVERT
+            severity = Severity.INFO if convert else Severity.WARNING
+            raise NoValueError(Problem(SYN017, message, None, severity, where)) from error
         except equations.ExpressionError as error:
             raise NoValueError(_problem(SYN017, _equation(expression), error, where)) from error
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from dataclasses import dataclass, field, replace
 from pathlib import PurePath
@@ -27,6 +28,13 @@ if TYPE_CHECKING:
     from mudline.keywords.library.units import Units
 
 
+_DATA = re.compile(r"[-+.,\d\s]+(?:[eEdD][-+]?\d+[-+.,\d\s]*)*$|\s*[A-Z][A-Z ]*=")
+"""A line of numbers, or a setting: no title."""
+
+
+_OF_EVERY_BLOCK = {"keyword", "comments"}
+
+
 class Findings:
     """Adds to the problems of a deck; each method takes the place as a span of the text or as one among the values."""
 
@@ -38,9 +46,11 @@ class Findings:
         """A section that is not in the catalogue; `head` is its line in a text."""
         if not self._reports(SYN010, None, where):
             return
-        near = meant_section(name)
-        message = f"section ${name} is not known{_meant(name, near)}: it is passed through unchanged"
-        self._misspelt(SYN010, message, where, f"${near}" if near else "", head)
+        near = "" if catalogue.sections_of(name) else meant_section(name)
+        instead_ = f"*{name}" if catalogue.sections_of(name) else f"${near}" if near else ""
+        meant = f" (did you mean *{name}?)" if catalogue.sections_of(name) else _meant(name, near)
+        message = f"section ${name} is not known{meant}: it is passed through unchanged"
+        self._misspelt(SYN010, message, where, instead_, head)
 
     def no_model(self, keyword: str, section: str, where: Where, head: Span | None = None) -> None:
         """A block that is passed through: no finding if its keyword is known and allowed in the section.
@@ -52,7 +62,11 @@ class Findings:
             if self._reports(SYN009, None, where):
                 near = suggest_keyword(keyword)
                 message = f"keyword *{keyword} is not known{_meant(keyword, near)}: it is passed through unchanged"
-                self._misspelt(SYN009, message, where, f"*{near}" if near else "", head)
+                meant = f"*{near}" if near else ""
+                if keyword.startswith("*"):
+                    message = f"*{keyword[:40]} ends the block before it: begin a comment with C and a space"
+                    meant = f"C {keyword.lstrip('* ')}"
+                self._misspelt(SYN009, message, where, meant, head)
         elif (
             sections
             and section not in sections
@@ -75,12 +89,17 @@ class Findings:
             message = f"*{keyword} stands before any $SECTION: put it in its section, {_belongs(keyword)}"
             self.problems.append(Problem(SYN007, message, span, None, where))
 
-    def stray(self, count: int, place: str, span: Span | None = None, where: Where | None = None) -> None:
-        """Data lines of a place under no keyword, the first of which is given: one finding for all of them."""
+    def stray(
+        self, count: int, place: str, span: Span | None = None, where: Where | None = None, *, title: bool = False
+    ) -> None:
+        """Data lines of a place under no keyword, the first of which is given: one finding for all of them.
+
+        `title` says that they are words above the first section: a note.
+        """
         if self._reports(SYN011, span, where):
             lines = counted(count, "line")
             message = f"{lines} {place} under no keyword: not read; write a title as a comment, C and a space"
-            self.problems.append(Problem(SYN011, message, span, None, where))
+            self.problems.append(Problem(SYN011, message, span, Severity.INFO if title else None, where))
 
     def _reports(self, code: Code, span: Span | None, where: Where | None) -> bool:
         """Whether one more finding of a code is reported: a file of another kind would have as many as it has lines."""
@@ -180,21 +199,25 @@ class _Reader:
     def _preamble(self) -> None:
         preamble = self.tree.preamble
         if self.tree.source.readable:
-            self._stray(preamble.leaves, "before the first section")
+            self._stray(
+                preamble.leaves, "before the first section", title=bool(self.tree.sections) and not preamble.blocks
+            )
         for block in preamble.blocks:
             self.findings.before_sections(block.name, trimmed(self.text, *block.head.span))
         first = self.tree.sections[0].head if self.tree.sections else None
         end = first.span.start if first else len(self.text)
         self.deck.preamble = self._lines(Span(0, end)) if end else []
 
-    def _stray(self, leaves: list[Leaf], where: str) -> None:
-        """One finding for all data lines of a place."""
+    def _stray(self, leaves: list[Leaf], where: str, *, title: bool = False) -> None:
+        """One finding for all data lines of a place; where these may be a title, they are one if none is data."""
         data = [leaf for leaf in leaves if leaf.kind not in (Kind.BLANK, Kind.COMMENT)]
         if data:
             first = data[0].span
             end = self.text.find("\n", *first)
             count = sum(len(self._lines(leaf.span)) for leaf in data)
-            self.findings.stray(count, where, trimmed(self.text, first.start, first.end if end < 0 else end))
+            place = trimmed(self.text, first.start, first.end if end < 0 else end)
+            title = title and not any(_DATA.match(line) for leaf in data for line in self._lines(leaf.span))
+            self.findings.stray(count, where, place, title=title)
 
     def _section(self, index: int, raw: RawSection) -> None:
         section = Section(raw.name)
@@ -224,6 +247,11 @@ class _Reader:
         final = tree.sections[-1].blocks
         last = bool(final) and raw is final[-1]
         read = self.read_block(self.text, raw, declared, last=last)
+        head = self.origin.heads[Where(index, number)]
+        empty = last and not raw.leaves and not read.problems and head.end == len(self.text)
+        if empty and set(declared.model_fields) - _OF_EVERY_BLOCK:
+            message = f"the file ends behind *{raw.name}: it seems to be cut off, add what is missing"
+            self.problems.append(Problem(SYN014, message, head))
         if read.unpublished:
             self._opaque(section, Where(index, number), raw)
             return
@@ -270,7 +298,10 @@ _NEAR = 0.02
 
 
 def units_of(deck: Deck) -> str:
-    """The system, "metric", "imperial" or "user": by suffix, else `*UNITS`, else the gravity of `*OCEAN` within 2 %."""
+    """The system, "metric", "imperial" or "user": by suffix, else `*UNITS`, else the gravity of `*OCEAN` within 2 %.
+
+    A file of user units whose water has the density of water in t/m3 is not metric: its forces are in kN.
+    """
     at = deck.source.rfind(".")  # a path would take longer, for each of many decks
     suffix = deck.source[at:].lower() if at > 0 else ""
     if suffix in _SUFFIXES:
@@ -279,14 +310,29 @@ def units_of(deck: Deck) -> str:
         if units := cast("Units", block).units:
             return units.lower()
     gravity = gravity_of(deck)
-    return next((name for name, g in GRAVITIES.items() if gravity and abs(gravity - g) <= _NEAR * g), "user")
+    system = next((name for name, g in GRAVITIES.items() if gravity and abs(gravity - g) <= _NEAR * g), "user")
+    return "user" if system == "metric" and suffix == ".keyx" and _is_in_tonnes(deck) else system
+
+
+_TONNES = (0.9, 1.3)
+"""Densities of water and brines in t/m3."""
+
+
+def _is_in_tonnes(deck: Deck) -> bool:
+    density = _of_ocean(deck, "density")
+    return density is not None and _TONNES[0] <= density <= _TONNES[1]
 
 
 def gravity_of(deck: Deck) -> float | None:
     """Gravity of the last `*OCEAN` that gives one, evaluated; None when there is none."""
+    return _of_ocean(deck, "gravity")
+
+
+def _of_ocean(deck: Deck, name: str) -> float | None:
+    """A value of the last `*OCEAN` that gives it, evaluated; None when there is none."""
     parameters = Parameters(deck)
     found: float | None = None
     for _, ocean in deck.blocks("OCEAN"):
-        value = parameters.number(cast("Ocean", ocean).gravity)
+        value = parameters.number(getattr(cast("Ocean", ocean), name))
         found = value if value is not None else found
     return found

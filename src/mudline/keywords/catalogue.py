@@ -287,7 +287,13 @@ def meant_section(name: str) -> str:
 def suggest_keyword(keyword: str, effort: Effort | None = None) -> str:
     """The keyword that an unknown one was to be, or ""."""
     known = keywords()
-    return nearest(keyword, known, effort) or _begun(keyword, known) or _before(keyword, read_keywords())
+    singular = keyword[:-3] + "Y" if keyword.endswith("IES") else keyword
+    return (
+        nearest(keyword, known, effort)
+        or (singular if singular in known and singular != keyword else "")
+        or _begun(keyword, known)
+        or _before(keyword, read_keywords())
+    )
 
 
 def meant_in(keyword: str, section: str) -> str:

@@ -175,7 +175,8 @@ def _two_fields(one: Field, two: Field) -> Problem:
 def mixed_commas(values: list[Field], kinds: list[Kind | None], fewest: int) -> Problem | None:
     """The finding about a row in which some commas have no space beside them, between digits, and others have one.
 
-    One such pair may be a slip of the fingers; two of them where real numbers belong are decimal commas.
+    One such pair may be a slip of the fingers, unless the second half begins with a zero or all other numbers have a
+    point; two of them where real numbers belong are decimal commas.
     """
     tight = [one.span.end + 1 == two.span.start for one, two in pairwise(values)]
     if not any(tight) or all(tight):
@@ -184,11 +185,22 @@ def mixed_commas(values: list[Field], kinds: list[Kind | None], fewest: int) -> 
     alone = all(later - at > 1 for at, later in pairwise(pairs))
     halves = all(_WHOLE.fullmatch(values[at].text) and _FRACTION.fullmatch(values[at + 1].text) for at in pairs)
     places = [at - before for before, at in enumerate(pairs)]
-    if len(pairs) < 2 or not alone or not halves or len(values) - len(pairs) < fewest:
+    certain = len(pairs) > 1 or _is_split(values, pairs[0])
+    if not certain or not alone or not halves or len(values) - len(pairs) < fewest:
         return None
     if any(kinds[place] not in _REAL for place in places):
         return None
     return _two_fields(*values[pairs[0] : pairs[0] + 2])
+
+
+def _is_split(values: list[Field], at: int) -> bool:
+    """Whether two fields are the halves of one number: `0,05`, or `9,81` among numbers that have a point."""
+    half = values[at + 1].text
+    others = [field.text for i, field in enumerate(values) if i not in (at, at + 1)]
+    pointed = sum("." in other for other in others)
+    return half.strip("0") != "" and (
+        (half[0] == "0" and len(half) > 1) or (pointed > 0 and pointed >= len(others) - 1)
+    )
 
 
 def _choice(field: Field, slot: FieldSpec) -> str:

@@ -27,6 +27,8 @@ _CALLED = {
     "\ufeff": "byte-order mark inside the file",
 }
 _LONE_CR = re.compile(r"\r(?!\n)")
+_FOREIGN_DATA = re.compile(r"(?m)^(?!C(?:[^A-Za-z\r\n]|$)).*[^\x00-\x7f]")
+"""A letter beyond ASCII in a line that is no comment."""
 _NOT_UTF8 = "{} is not UTF-8; the file is read as {}: save it as UTF-8"
 _BINARY_SHARE = 0.1
 _SAMPLE = 65536
@@ -173,7 +175,8 @@ def _decode(body: bytes) -> tuple[str, str, list[Problem]]:
         except UnicodeDecodeError:
             continue
         message = _NOT_UTF8.format(f"byte 0x{body[start]:02X}", shown)
-        return text, encoding, [Problem(SYN012, message, Span(start, start + 1))]
+        severity = None if _FOREIGN_DATA.search(text) else Severity.INFO
+        return text, encoding, [Problem(SYN012, message, Span(start, start + 1), severity)]
     raise AssertionError("Latin-1 decodes every byte")
 
 

@@ -10,7 +10,8 @@ from mudline.curves import ForceCurve, QueryError
 from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.text import shown
 from mudline.linting.rule import STEEPEST, LintContext, rule
-from mudline.linting.rules.seabed_position import bounds_of
+from mudline.linting.rules.curve_shape import is_upside_down
+from mudline.linting.rules.seabed_position import DEEPEST, bounds_of
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.seabed import SeabedKind
 
@@ -107,7 +108,7 @@ def curve_pulls(context: LintContext) -> Iterator[Problem]:
             more = f" (as at {negative.size - 1} more of its points)" if negative.size > 1 else ""
             message = f"the force at ratio {ratio!r} is {force!r}{more}: the seabed pulls the pipe down; correct it"
             yield Problem(CRV012, message, where=entry.point(int(negative[0])))
-        elif entry.curve is not None and entry.whole:
+        elif entry.curve is not None and entry.whole and not is_upside_down(entry):
             if (force := _at_zero(entry.curve)) < 0.0:
                 message = f"the force just above ratio 0 is {force:.6g}: the seabed pulls the pipe down; correct it"
                 yield Problem(CRV012, message, where=entry.where)
@@ -233,8 +234,10 @@ def beyond_curve(context: LintContext) -> Iterator[Problem]:
     with np.errstate(over="ignore"):
         ratios = -(0.5 * heights[:, 0] + 0.5 * heights[:, 1]) / scene.diameter
     deepest_of_all = np.fmax.reduce(ratios, initial=-np.inf)
+    if deepest_of_all > DEEPEST and not context.in_soil:
+        return  # SBD022 reports the datum
     for number, entry in enumerate(scene.laws.curves):
-        if entry.curve is None or not entry.whole or deepest_of_all <= entry.curve.ratios[-1]:
+        if entry.curve is None or not entry.whole or is_upside_down(entry) or deepest_of_all <= entry.curve.ratios[-1]:
             continue
         elements = scene.laws.followers(number)
         last = float(entry.curve.ratios[-1])

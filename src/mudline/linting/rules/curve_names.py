@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator
 from itertools import groupby
@@ -34,7 +35,8 @@ def unused_curve(context: LintContext) -> Iterator[Problem]:
     """No STIFFNESS= uses the curve.
 
     It was measured or calculated for something, so perhaps the elements that it was meant for follow another law. Name
-    it in a STIFFNESS= of *SEABED PROPERTIES, or remove it. Nothing is reported in a deck whose STIFFNESS= is an
+    it in a STIFFNESS= of *SEABED PROPERTIES, or remove it. Another estimate of a soil that is used, as Clay Low beside
+    Clay Best, is a note: decks carry all of them. Nothing is reported in a deck whose STIFFNESS= is an
     equation, as its parameters choose the curve, or for a curve whose name reads as a number (SBD017).
 
     Example:
@@ -71,9 +73,22 @@ def unused_curve(context: LintContext) -> Iterator[Problem]:
             unused[name] = [curve]
     places = [curve.where for curves in unused.values() for curve in curves]
     repairs = removals(context.text, places) if context.text else {}
+    soils = {_soil(name) for name in scene.laws.referenced} - {""}
     for curve, *_ in unused.values():
         message = f"curve {shown(curve.name)} is not used: name it in a STIFFNESS=, or remove it"
-        yield Problem(REF003, message, where=curve.title, repair=repairs.get(curve.where))
+        severity = Severity.INFO if _soil(curve.name) in soils else None
+        yield Problem(REF003, message, None, severity, curve.title, repairs.get(curve.where))
+
+
+_ESTIMATE = re.compile(
+    r"(?:^|[\s_.-]+)(?:low|lower|lb|le|best|be|mean|high|higher|upper|ub|he|min|max|p\d\d)(?:[\s_.-]+(?:estimate|bound))?$"
+)
+
+
+def _soil(name: str) -> str:
+    """The name of a curve without the words that say which estimate of its soil it is; "" where it has none."""
+    soil, count = _ESTIMATE.subn("", folded(name))
+    return soil if count else ""
 
 
 def _chosen_elsewhere(context: LintContext) -> bool:

@@ -146,6 +146,8 @@ def unsorted_points(context: LintContext) -> Iterator[Problem]:
     """
     for _, curve in context.odd_curves:
         ratios = curve.points[:, 0]
+        if is_upside_down(curve):
+            continue
         for index in (np.flatnonzero(ratios[1:] < ratios[:-1])[:1] + 1).tolist():
             before, ratio = ratios[index - 1 : index + 1].tolist()
             message = f"ratio {ratio!r} comes after {before!r}: legal, the points are sorted; put them in order"
@@ -160,7 +162,7 @@ def decreasing_force(context: LintContext) -> Iterator[Problem]:
     The stiffness of the seabed is negative there: the seabed does not support the pipe but lets it snap through, unless
     the pipe itself resists. Equilibrium needs a structural stiffness above |slope| / D for each unit of length, D being
     the external diameter. Softening soil is real, but a static run rarely converges on it; give the curve a force that
-    does not decrease, or keep this one knowingly.
+    does not decrease, or keep this one knowingly. Neighbouring segments are one finding, at the first of them.
 
     Example:
          $MODEL
@@ -181,18 +183,24 @@ def decreasing_force(context: LintContext) -> Iterator[Problem]:
     for number, curve in context.odd_curves:
         order = _distinct(curve)
         ratios, forces = curve.points[order].T
-        falling = np.flatnonzero((forces[1:] < forces[:-1]) & (ratios[1:] > 0.0))[:MOST_REPORTED]
-        for segment in falling.tolist():
-            first, last = ratios[segment : segment + 2].tolist()
-            with np.errstate(over="ignore"):
-                fall = forces[segment] - forces[segment + 1]
-                slope = -float(fall / (ratios[segment + 1] - ratios[segment]))
-            if np.isfinite(slope):
-                message = (
-                    f"force decreases between ratio {first!r} and {last!r}, slope {slope:.6g}: equilibrium needs a "
-                    f"structural stiffness per unit length above {_needed(context.scene, number, slope)}"
-                )
-                yield Problem(CRV005, message, where=curve.point(int(order[segment + 1])))
+        with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+            slopes = (forces[1:] - forces[:-1]) / (ratios[1:] - ratios[:-1])
+        falling = np.flatnonzero((forces[1:] < forces[:-1]) & (ratios[1:] > 0.0) & np.isfinite(slopes))
+        runs = np.split(falling, np.flatnonzero(np.diff(falling) > 1) + 1) if falling.size else []
+        for run in runs[:MOST_REPORTED]:
+            first, last, slope = float(ratios[run[0]]), float(ratios[run[-1] + 1]), float(slopes[run].min())
+            message = (
+                f"force decreases between ratio {first!r} and {last!r}, {'steepest ' * (len(run) > 1)}slope "
+                f"{slope:.6g}: equilibrium needs a structural stiffness per unit length above "
+                f"{_needed(context.scene, number, slope)}"
+            )
+            yield Problem(CRV005, message, where=curve.point(int(order[run[0] + 1])))
+
+
+def is_upside_down(curve: SceneCurve) -> bool:
+    """Whether depths below the mudline are negative: no ratio is above 0 and some are below, as CRV006 reports."""
+    ratios = curve.points[:, 0]
+    return bool(ratios.size and ratios.max() <= 0.0 and ratios.min() < 0.0)
 
 
 def _distinct(curve: SceneCurve) -> Indices:
@@ -242,9 +250,11 @@ def negative_ratio(context: LintContext) -> Iterator[Problem]:
     for _, curve in context.odd_curves:
         if _free_above(curve.points):
             continue
-        for index in np.flatnonzero(curve.points[:, 0] < 0.0)[:MOST_REPORTED].tolist():
+        above = np.flatnonzero(curve.points[:, 0] < 0.0)[: 1 if is_upside_down(curve) else MOST_REPORTED]
+        for index in above.tolist():
             ratio = float(curve.points[index, 0])
             drawn = " (a curve drawn for the invert starts at -0.5)" if ratio == -0.5 else ""
+            drawn = ", as all of them do: are depths negative?" if is_upside_down(curve) else drawn
             message = f"ratio {ratio!r} lies above the mudline, and contact begins at 0: remove or correct it{drawn}"
             yield Problem(CRV006, message, where=curve.point(index))
 

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from mudline.contact.input import LawKind
+from mudline.deck.model import Opaque
+from mudline.deck.parameters import folded
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.text import shown
 from mudline.linting.rule import LintContext, limited, rule
@@ -20,6 +22,7 @@ from mudline.scene.sets import set_key
 
 if TYPE_CHECKING:
     from mudline.keywords.library.geometric_sets import GeometricSet, GeometricSets
+    from mudline.scene.model import Scene
 
 GEO002 = Code("GEO002", "number-and-curve", Severity.WARNING)
 GEO003 = Code("GEO003", "drag-diameter-assumed", Severity.INFO)
@@ -59,9 +62,10 @@ def not_on_the_seabed(context: LintContext) -> Iterator[Problem]:
     the elements with a seabed law:
 
     * every node lies above the sea surface (*OCEAN gives the depth);
-    * the line lies level, rising by less than a tenth of its length, and over 100 diameters above the seabed;
-    * every node has the same X within 1 % of the depth, and Z goes from 0 to the depth, or from the depth below 0 to 0,
-      within 5 % of the depth.
+    * the line lies level over 100 diameters above the seabed: it rises by less than a tenth of its length, or its
+      lowest four nodes or more have one height;
+    * Z goes from 0 to the depth, or from the depth below 0 to 0, within 5 % of the depth, and every node has the same X
+      within 1 % of the depth; or, from 0, three nodes or more lie within a diameter of Z = 0, and only one of X = 0.
 
     Nothing is reported where elements come from lines or from another deck, where the shape of the seabed is not known,
     or in models with soil curves.
@@ -99,6 +103,10 @@ def not_on_the_seabed(context: LintContext) -> Iterator[Problem]:
         yield Problem(GEO005, message, where=scene.nodes.where(lowest))
 
 
+_WITH_SECTIONS = {"HYDRODYNAMIC SETS", "PIP SECTION"}
+"""Keywords that name sets whose sections are given elsewhere."""
+
+
 class _Line(NamedTuple):
     """What is known of the nodes (n,) that belong to elements with a seabed law.
 
@@ -113,6 +121,16 @@ class _Line(NamedTuple):
     heights: tuple[float, float]
     diameter: float
     depth: float
+    flat: tuple[int, int]
+    """Nodes within a diameter of X = 0, and of Z = 0."""
+    level: int
+    """Nodes as low as the lowest one."""
+
+
+LAID = 3
+"""Nodes of a line that lie on the seabed."""
+ROUNDED = 1e-3
+"""Diameters by which nodes on one level may differ."""
 
 
 def _is_low(context: LintContext) -> bool:
@@ -143,7 +161,11 @@ def _line(context: LintContext) -> _Line | None:
     deepest, highest = _extent(context.once(depths), used)[::-1]
     x, y, z = (_extent(axis, used) for axis in scene.coordinates.T)
     diameter = float(np.fmax.reduce(scene.diameter, initial=np.nan, where=scene.law != LawKind.NONE))
-    return _Line(used, x, y, z, (-deepest, -highest), diameter, _water_depth(context))
+    with np.errstate(invalid="ignore"):
+        near = np.abs(scene.coordinates[used]) <= diameter
+    flat = int(near[:, 0].sum()), int(near[:, 2].sum())
+    level = int((context.once(depths)[used] >= deepest - ROUNDED * diameter).sum())
+    return _Line(used, x, y, z, (-deepest, -highest), diameter, _water_depth(context), flat, level)
 
 
 def _extent(values: Floats, used: Mask) -> tuple[float, float]:
@@ -160,11 +182,11 @@ def _above(line: _Line) -> str:
             "datum of X, which is 0 at the mudline"
         )
     length = math.hypot(line.y[1] - line.y[0], line.z[1] - line.z[0])
-    if highest - lowest < LEVEL * length and lowest > HIGHEST * line.diameter:
-        return (
-            f"the line lies level, its lowest {{node}} {lowest:.5g} above the seabed (over 100 diameters): correct the "
-            "datum of X, which is 0 at the mudline"
-        )
+    level = highest - lowest < LEVEL * length
+    if (level or line.level > LAID) and lowest > HIGHEST * line.diameter:
+        what = "the line lies level, its lowest {node}" if level else "the lowest nodes lie level, {node}"
+        what = f"{what} {lowest:.5g} above the seabed (over 100 diameters)"
+        return f"{what}: correct the datum of X, which is 0 at the mudline"
     return ""
 
 
@@ -173,6 +195,12 @@ def _along_z(line: _Line) -> str:
     near = NEAR * line.depth
     first, last = line.z
     upright = abs(last - first - line.depth) <= near and (abs(first) <= near or abs(last) <= near)
+    turned = abs(first) <= near and line.flat[0] <= 1 and line.flat[1] >= LAID
+    if line.depth > 0.0 and upright and turned and line.x[1] - line.x[0] > FLAT * line.depth:
+        return (
+            f"Z goes from {first:.5g} to {last:.5g}, and {line.flat[1]} nodes lie within a diameter of 0 in Z and "
+            f"{line.flat[0]} in X, as if Z were the height: write the height as X, the first coordinate"
+        )
     if line.depth > 0.0 and line.x[1] - line.x[0] <= FLAT * line.depth and upright:
         return (
             f"X is the same at all nodes and Z goes from {first:.5g} to {last:.5g}, as if it were the height: write "
@@ -270,12 +298,14 @@ def drag_diameter_assumed(context: LintContext) -> Iterator[Problem]:
 
 @rule(GEO006)
 def repeated_section(context: LintContext) -> Iterator[Problem]:
-    """A set has two sections, and another set has none.
+    """A set has two sections, and another set has none; or a set has none at all.
 
     The later section of a set overrides the earlier one. That is legal, but beside a set without a section it suggests
     an entry that was copied and kept the name of the first: the elements of that set have neither stiffness nor mass.
-    Correct the name in one of the two entries. Nothing is reported where elements come from lines or from another deck,
-    where a section names a set that is not defined (REF001), or where every element has a section.
+    Correct the name in one of the two entries. A set without a section is also reported where no set has two, but not
+    if a keyword that is passed through names it, as that may describe its elements. Nothing is reported where elements
+    come from lines or from another deck, where a section names a set that is not defined (REF001), where every element
+    has a section, or where a curve lacks a diameter (SBD009).
 
     Example:
          $MODEL
@@ -307,17 +337,34 @@ def repeated_section(context: LintContext) -> Iterator[Problem]:
     hidden = (
         scene.section_table.open or reading.external_definers or reading.restart or "GEOMETRIC SETS" in reading.unread
     )
-    if not repeated or hidden or any(scene.set_table.find(section.name) is None for section in sections):
+    if not sections or hidden or any(scene.set_table.find(section.name) is None for section in sections):
         return
     lacking = scene.section_table.of_element < 0
     sets = scene.set_table.named.values() if lacking.any() else ()
-    bare = [one.name for one in sets if one.elements.size and not one.open and lacking[one.elements].all()]
-    for section in repeated if bare else ():
+    bare_sets = [one for one in sets if one.elements.size and not one.open and lacking[one.elements].all()]
+    for section in repeated if bare_sets else ():
         message = (
-            f"SET={shown(section.name)} already has a section, and SET={shown(bare[0])} has none: correct one of the "
-            "two names"
+            f"SET={shown(section.name)} already has a section, and SET={shown(bare_sets[0].name)} has none: correct "
+            "one of the two names"
         )
         yield Problem(GEO006, message, where=section.where.inside("set"))
+    for one in () if repeated else bare_sets:
+        on_curve = (scene.law[one.elements] == LawKind.CURVE).any()  # SBD009 says so
+        if one.where is not None and not on_curve and folded(one.name) not in _passed_through(scene):
+            message = f"the elements of SET={shown(one.name)} have no section: give one in *GEOMETRIC SETS"
+            yield Problem(GEO006, message, where=one.where)
+
+
+def _passed_through(scene: Scene) -> set[str]:
+    """Names after SET= and the like in blocks that are passed through, but for those that need sections."""
+    blocks = (block for section in scene.deck.sections for block in section.blocks)
+    lines = (
+        line
+        for block in blocks
+        if isinstance(block, Opaque) and block.keyword not in _WITH_SECTIONS
+        for line in block.lines
+    )
+    return {folded(field.partition("=")[2]) for line in lines for field in line.split(",") if "=" in field}
 
 
 def _repeated(sections: Iterable[Section]) -> list[Section]:

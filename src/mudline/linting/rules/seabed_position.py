@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
 from mudline.contact.input import LawKind
-from mudline.diagnostics import Code, Problem, Severity, Where
-from mudline.keywords.catalogue import is_superseded
+from mudline.deck.model import Opaque
+from mudline.diagnostics import Code, Problem, Severity, Span, Where
+from mudline.keywords.catalogue import is_superseded, sections_of
 from mudline.linting.rule import LintContext, limited, rule
 from mudline.scene.checks.laws import SBD004
 from mudline.scene.model import Scene
@@ -25,7 +27,8 @@ SBD022 = Code("SBD022", "deep-node", Severity.WARNING)
 
 _VERTICAL = 90.0
 
-_DEEPEST = 5.0
+DEEPEST = 5.0
+"""Diameters below the seabed."""
 
 _IN_PLANE = (1, 2)
 
@@ -163,8 +166,8 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
 
     Either the block of *SEABED PROPERTIES that applies to the elements gives no stiffness: a block overrides an earlier
     one as a whole, and does not inherit its STIFFNESS=. Or the elements lie at or below the seabed (X = 0) in the
-    deck's coordinates, and no law applies to them. A static run may then have no unique solution. Give STIFFNESS=, or
-    put the elements into a set that has it.
+    deck's coordinates, and no law, or a stiffness of 0, applies to them; inner pipes of *PIP SECTION need none. A
+    static run may then have no unique solution. Give STIFFNESS=, or put the elements into a set that has it.
 
     Example:
          $MODEL
@@ -190,16 +193,74 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
     """
     scene = context.scene
     reading = scene.context
+    if stray := list(_stray_laws(context)):
+        yield from stray
+        return
     if reading.restart or any(map(is_superseded, reading.misplaced_keywords)) or reading.misplaced("SEABED PROPERTIES"):
         return
     if any(map(is_superseded, reading.unread)) or "SEABED CONTACT" in context.keywords:
         return  # a law that was not read may hold
     if context.problems_of(SBD004):
         return  # that there is no stiffness is reported there
+    yield from _zeros(scene)
     free = scene.law == LawKind.NONE
+    if np.count_nonzero(free) and "PIP SECTION" in context.keywords:
+        free &= ~_inside_pipes(scene)
     if np.count_nonzero(free):
         yield from _blocks(scene, np.flatnonzero(free & (scene.laws.covered >= 0)))
         yield from _lying(context, np.flatnonzero(free & (scene.laws.covered < 0)))
+
+
+_LAW = re.compile(r"^[ \t]*TYPE[ \t]*=[ \t]*(?:ELASTIC|RIGID)[ \t]*$", re.IGNORECASE | re.MULTILINE)
+
+
+def _stray_laws(context: LintContext) -> Iterator[Problem]:
+    """Lines of *SEABED PROPERTIES in blocks that are passed through: their keyword line is missing."""
+    for number, section in enumerate(context.deck.sections):
+        for index, block in enumerate(section.blocks):
+            if type(block) is not Opaque or section.name not in (sections_of(block.keyword) or ()):
+                continue
+            if not any(map(_LAW.match, block.lines)) or not context.text:
+                continue
+            where = Where(number, index)
+            head = context.text.heads[where]
+            found = _LAW.search(context.text.source.text, head.end)
+            message = (
+                f"*{block.keyword} has no such line: begin *SEABED PROPERTIES above it, else no seabed law applies"
+            )
+            yield Problem(SBD006, message, Span(*found.span()) if found else head)
+
+
+def _zeros(scene: Scene) -> Iterator[Problem]:
+    """Stiffnesses of 0 of elements that lie at or below a flat seabed."""
+    grants = scene.laws.set_laws
+    zero = [
+        i
+        for i, grant in enumerate(grants)
+        if grant.kind is LawKind.LINEAR and grant.stiffness == 0.0 and not grant.unknown
+    ]
+    for index in zero if scene.seabed.kind is SeabedKind.FLAT else ():
+        elements = np.flatnonzero(scene.laws.of_element == index)
+        lying = elements[_depths(scene, elements) >= 0.0]
+        if lying.size and "SEABED CONTACT" not in scene.extensions:
+            which = f"{first_of('element', scene.element_ids[lying[0]], lying.size)} lie{'s' * (lying.size == 1)}"
+            message = f"{which} at or below the seabed (X = 0) and this stiffness is 0: give another one"
+            yield Problem(SBD006, message, where=grants[index].where)
+
+
+_KEYWORD = "PIP SECTION"
+_INNER = re.compile(r"\bINNER\s*=\s*([^,]+)", re.IGNORECASE)
+
+
+def _inside_pipes(scene: Scene) -> Mask:
+    """Elements (m,) of the inner pipes of *PIP SECTION, which the seabed does not touch."""
+    inside = np.zeros(len(scene.element_ids), dtype=np.bool_)
+    blocks = (block for section in scene.deck.sections for block in section.blocks if type(block) is Opaque)
+    lines = (line for block in blocks if block.keyword == _KEYWORD for line in block.lines)
+    for name in (match[1] for line in lines if (match := _INNER.search(line))):
+        if set_ := scene.set_table.find(name.strip()):
+            inside[set_.elements] = True
+    return inside
 
 
 def _blocks(scene: Scene, elements: Indices) -> Iterator[Problem]:
@@ -289,10 +350,10 @@ def deep_node(context: LintContext) -> Iterator[Problem]:
     if not (scene.laws.types or scene.laws.set_laws) or context.in_soil:
         return
     depth, bounds = context.once(depths), context.once(bounds_of)
-    if bounds.thinnest > 0.0 and bounds.deepest <= _DEEPEST * bounds.thinnest:
+    if bounds.thinnest > 0.0 and bounds.deepest <= DEEPEST * bounds.thinnest:
         return
     with np.errstate(over="ignore", invalid="ignore"):
-        limit = _DEEPEST * _widest(scene)
+        limit = DEEPEST * _widest(scene)
         deep = np.flatnonzero((limit > 0.0) & (depth > limit))
     if deep.size:
         which = f"{first_of('node', scene.node_ids[deep[0]], deep.size)} lie{'s' * (deep.size == 1)}"

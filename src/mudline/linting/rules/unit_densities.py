@@ -158,10 +158,10 @@ def suspicious_density(context: LintContext) -> Iterator[Problem]:
     included; 0 and the density of air are accepted. 1.025 is t/m3, 64 is lb/ft3, and a density like a depth beside a
     depth like a density means that the two were exchanged. A wall has 10 to 40 000 kg/m3, as foam is light and the
     steel of a riser joint may carry the mass of all that is around it; 0 and powers of ten are accepted as
-    placeholders. Below 10 kg/m3, or above where the value is steel in another unit, it is reported: 7.85 is t/m3. A
-    pipe up to 2.5 m wide with the modulus of steel and without an area of its own is also reported if its density is
-    below 7000 kg/m3 and is that of steel in another unit, as 490 lb/ft3. In user units only the ratio is checked: steel
-    is 7 to 8.4 times as heavy as water, and not 1000 times more or less than that.
+    placeholders. Less or more is reported, but more in a section with an area of its own only where it is steel in
+    another unit: 7.85 is t/m3. A pipe up to 2.5 m wide with the modulus of steel and without an area of its own is also
+    reported if its density is below 7000 kg/m3 and is that of steel in another unit, as 490 lb/ft3. In user units only
+    the ratio is checked: steel is 7 to 8.4 times as heavy as water, and not 1000 times more or less than that.
 
     Example:
          $MODEL
@@ -208,9 +208,10 @@ def _walls(context: LintContext, unit: str) -> Iterator[Problem]:
         likely = likely_units(density, DENSITIES, unit, STEEL_DENSITY)
         if density * factor < WALL.low:
             likely = likely or likely_units(density, {"t/m3 or g/cm3": 1e3}, unit, SOLID_DENSITY)
-        elif not likely or not (
-            density * factor > WALL.high or _is_light_steel(entry.rigid, density * factor, context.scene)
-        ):
+        elif density * factor > WALL.high:
+            if not likely and not math.isnan(number(entry.rigid, "area")):
+                continue  # mass per length over an area of its own
+        elif not likely or not _is_light_steel(entry.rigid, density * factor, context.scene):
             continue
         what = f"{density!r} looks like {likely}, write it in {unit}" if likely else "correct it"
         expected = f"{WALL.words(factor, unit)} (steel {rounded(STEEL / factor)})"
@@ -261,8 +262,9 @@ def suspicious_modulus(context: LintContext) -> Iterator[Problem]:
     207 is GPa, 207000 is MPa; 0 and powers of ten are accepted as placeholders. A steel wall (7000 kg/m3 or more) is
     also reported where its modulus is that of steel in kPa, psi, ksi or the unit of the other system. E and G of a
     material give Poisson's ratio, E/2G - 1, from 0 to 0.5: in any units, it is reported when negative, as it is when
-    the two are exchanged, and when above 0.5 for metals (2600 kg/m3 and 60 GPa or more). Composites may have any. A
-    section gets one finding, and FLEXIBLE, MOORING and TRUSS sections, which have no modulus, none.
+    the two are exchanged, and when above 0.5 for metals (2600 kg/m3 and 60 GPa or more). Composites may have any. In
+    user units of metres and seconds a steel wall is reported whose modulus is 1000 times too large or too small for its
+    density. A section gets one finding, and FLEXIBLE, MOORING and TRUSS sections, which have no modulus, none.
 
     Example:
          $MODEL
@@ -296,8 +298,28 @@ def _of_section(context: LintContext, section: Part, where: Where) -> Iterator[P
                 what = f"{value!r} looks like {likely}, write it in {unit}" if likely else "correct it"
                 message = f"{name} {key} is {value!r} {unit}, expected {range_}: {what}"
                 yield Problem(UNT005, message, where=where.inside(key))
+    elif _is_off(context, section, young):
+        message = (
+            f"Young's modulus E {young!r} and density {number(section, 'density')!r} do not fit a steel wall: their "
+            "units seem to be 1000 times apart, write both in one system"
+        )
+        yield Problem(UNT005, message, where=where.inside("E"))
     if not is_placeholder(young) and not is_placeholder(shear):
         yield from _poisson(context, section, young, shear, where)
+
+
+def _is_off(context: LintContext, section: Part, young: float) -> bool:
+    """Whether the modulus of steel is 1000 times too large or too small for its density, in user units of m and s."""
+    density = number(section, "density")
+    if not STEEL_TO_WATER.holds(density / water_density(context)) or not _in_metres(context):
+        return False
+    return any(STEEL_E.holds(young / density * STEEL * scale) for scale in (1e3, 1e-3))
+
+
+def _in_metres(context: LintContext) -> bool:
+    """Whether the last `*OCEAN` has the gravity of metres and seconds."""
+    gravity = next((number(block, "gravity") for _, block in reversed(context.blocks("OCEAN"))), math.nan)
+    return abs(gravity - _GRAVITY) < 0.02 * _GRAVITY
 
 
 def _other_unit(value: float, unit: str, steel_range: Range, *, steel: bool) -> str | None:

@@ -45,8 +45,8 @@ PIPE_WALL = (6.0, 50.0)
 """Diameter to wall thickness of pipes; hulls and piles have more, wellheads and blowout preventers less."""
 NARROWEST_BORE = 0.1
 """Internal to external diameter: a smaller one is a wall thickness."""
-LIGHTEST = 0.01
-"""Mass to that of the water displaced: no line is lighter."""
+LIGHTEST = 0.1
+"""Mass to that of the water displaced: no line is lighter, nor is a float or an air can."""
 LINES = (0.3, 30.0)
 """Mass to that of the water displaced, of usual lines."""
 _METRIC_UNITS = {"mm": 1e-3, "inches": 0.0254}
@@ -150,11 +150,12 @@ def suspicious_length(context: LintContext) -> Iterator[Problem]:
 
     * an external diameter above 60 m (a spar hull of 37 m is legal); one above 2 m with the wall of a steel pipe, at
       least 90 mm and a 6th to a 50th of the diameter; one of a FLEXIBLE, MOORING or TRUSS section whose mass is below
-      1 % of the water that it displaces (0 and powers of ten are placeholders);
+      10 % of the water that it displaces (0 and powers of ten are placeholders);
     * an internal diameter below a tenth of the external one in a steel pipe up to 2.5 m wide: the wall thickness;
     * a mobilisation length above 10 diameters and above 10 ft, the usual characteristic length;
     * a force-embedment curve with three points or more whose ratios become round numbers when divided by the diameter;
-    * an element over 25 times as long as each of the neighbours at its two ends, all of one section;
+    * an element over 25 times as long as each of the neighbours at its two ends, all of one section; a node that is
+      so far from both of its neighbours;
     * nodes over three times as high above the seabed as the water is deep, and over 500 m above the sea.
 
     In user units only ratios are checked: masses against displaced water where *OCEAN gives its density, bores of walls
@@ -260,6 +261,47 @@ def _elements(context: LintContext) -> Iterator[Problem]:
             "the longer of its neighbours: correct the coordinates of its nodes"
         )
         yield Problem(UNT006, message, where=scene.table.numbered.where(element))
+
+    for node, ratio in _far_nodes(scene):
+        message = (
+            f"node {scene.node_ids[node]} is {ratio:.3g} times as far from both of its neighbours as these are from "
+            "theirs: correct its coordinates"
+        )
+        yield Problem(UNT006, message, where=scene.nodes.where(node))
+
+
+def _far_nodes(scene: Scene) -> Iterator[tuple[int, float]]:
+    """Index of each node between two elements that are both over 25 times as long as those beyond them, and how many.
+
+    All four must be of one section, and no other element may end at one of their nodes.
+    """
+    ends, length = scene.element_nodes, scene.length
+    if len(length) < 4 or not np.fmax.reduce(length, initial=0.0) > LONGEST_ELEMENT * np.fmin.reduce(length, initial=1):
+        return
+    usable = np.flatnonzero((ends >= 0).all(axis=1) & np.isfinite(length) & (ends[:, 0] != ends[:, 1]))
+    nodes, elements = ends[usable].ravel(), np.repeat(usable, 2)
+    order = np.argsort(nodes, kind="stable")
+    nodes, elements = nodes[order], elements[order]
+    starts = np.flatnonzero(np.append(True, nodes[1:] != nodes[:-1]))
+    double = starts[np.diff(np.append(starts, len(nodes))) == 2]
+    pair = np.full((len(scene.node_ids), 2), -1, dtype=np.intp)
+    pair[nodes[double]] = np.column_stack([elements[double], elements[double + 1]])
+    middle = nodes[double]
+    inner = pair[middle]
+    outer_nodes = ends[inner].sum(axis=2) - middle[:, None]
+    at_outer = pair[outer_nodes]
+    beyond = np.where(at_outer[:, :, 0] == inner, at_outer[:, :, 1], at_outer[:, :, 0])
+    complete = (at_outer >= 0).all(axis=(1, 2))
+    middle, inner, beyond = middle[complete], inner[complete], beyond[complete]
+    sections = scene.section_table.of_element
+    alike = (sections[beyond] == sections[inner][:, :1]).all(axis=1) & (sections[inner[:, 0]] == sections[inner[:, 1]])
+    farther = length[beyond].max(axis=1, initial=0.0)
+    shorter = length[inner].min(axis=1, initial=np.inf)
+    ratios = np.divide(shorter, farther, where=farther > 0.0, out=0.0 * farther)
+    apart = np.linalg.norm(np.diff(scene.coordinates[outer_nodes[complete]], axis=1)[:, 0], axis=1)
+    alike &= apart < shorter  # else the line goes on in two long elements
+    found = np.flatnonzero(alike & (ratios > LONGEST_ELEMENT))
+    yield from zip(middle[found].tolist(), ratios[found].tolist(), strict=True)
 
 
 def _longest_of_neighbours(scene: Scene) -> Iterator[tuple[int, float]]:

@@ -15,7 +15,7 @@ from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity, Where
 from mudline.keywords.text import shown
 from mudline.linting.rule import LintContext, limited, rule
 from mudline.linting.rules.curve_shape import swapped
-from mudline.linting.rules.seabed_friction import surfaces_of
+from mudline.linting.rules.seabed_friction import given, surfaces_of
 from mudline.scene.model import Scene
 
 if TYPE_CHECKING:
@@ -35,6 +35,7 @@ class _Least(NamedTuple):
     """The least that supports a pipe, in a system of units: less is a value in `thousands`."""
 
     stiffness: float
+    side: float
     force: float
     cohesion: float
     force_unit: str
@@ -45,8 +46,8 @@ class _Least(NamedTuple):
 
 
 LEAST = {
-    "metric": _Least(100.0, 10.0, 100.0, "N/m", "metre", "Pa", "kN", "kPa"),
-    "imperial": _Least(2.0, 0.7, 2.0, "lbf/ft", "foot", "lbf/ft2", "kip", "kip/ft2"),
+    "metric": _Least(500.0, 100.0, 10.0, 100.0, "N/m", "metre", "Pa", "kN", "kPa"),
+    "imperial": _Least(10.0, 2.0, 0.7, 2.0, "lbf/ft", "foot", "lbf/ft2", "kip", "kip/ft2"),
 }
 """Nothing is known of user units."""
 NARROWEST = {"metric": 0.1, "imperial": 0.328}
@@ -92,9 +93,10 @@ def _near(gravity: float, expected: float) -> bool:
 def suspicious_magnitude(context: LintContext) -> Iterator[Problem]:
     """A force or stiffness of the seabed looks as if it were in kilonewtons or kips.
 
-    Metric decks are in metres and newtons, imperial ones in feet and pounds (lbf). A seabed of less than 100 N/m for
-    each metre (2 lbf/ft for each foot), or a curve that nowhere reaches 10 N/m (0.7 lbf/ft), supports no pipe, and a
-    cohesion of less than 100 Pa (2 lbf/ft2) is that of a fluid. Such a value is usually written in other units. Write
+    Metric decks are in metres and newtons, imperial ones in feet and pounds (lbf). A seabed of less than 500 N/m for
+    each metre (10 lbf/ft for each foot), or a curve that nowhere reaches 10 N/m (0.7 lbf/ft), supports no pipe, lateral
+    springs and suction of less than 100 N/m for each metre (2 lbf/ft for each foot) hold none, and a cohesion of less
+    than 100 Pa (2 lbf/ft2) is that of a fluid. Such a value is usually written in other units. Write
     it in newtons or pounds. For cables thinner than 0.1 m the least force of a curve falls with their diameter. A
     stiffness or a cohesion of 0 is accepted.
 
@@ -111,6 +113,7 @@ def suspicious_magnitude(context: LintContext) -> Iterator[Problem]:
     if least := LEAST.get(context.scene.units):
         for kind in (_soft, _weak, _fluid):
             yield from islice(kind(context.scene, least), MOST_REPORTED)
+        yield from islice(_slight(context, least), MOST_REPORTED)
 
 
 def _soft(scene: Scene, least: _Least) -> Iterator[Problem]:
@@ -121,6 +124,20 @@ def _soft(scene: Scene, least: _Least) -> Iterator[Problem]:
                 f"least {least.stiffness:g}: write it in {least.force_unit} ({least.thousands}?)"
             )
             yield Problem(UNT002, message, where=grant.where)
+
+
+def _slight(context: LintContext, least: _Least) -> Iterator[Problem]:
+    """Lateral springs and suction."""
+    for entry in given(context):
+        for name, what in (("lateral", "lateral"), ("suction_stiffness", "suction")):
+            stiffness = entry.value(name)
+            if stiffness is not None and 0.0 < stiffness < least.side:
+                unit = least.force_unit
+                message = (
+                    f"a {what} stiffness of {stiffness!r} {unit} per {least.length_unit}, expected at least "
+                    f"{least.side:g}: write it in {unit} ({least.thousands}?)"
+                )
+                yield Problem(UNT002, message, where=entry.place(name))
 
 
 def _weak(scene: Scene, least: _Least) -> Iterator[Problem]:
@@ -189,6 +206,6 @@ def _coefficients(context: LintContext) -> Iterator[tuple[Where, object, tuple[s
             if entry.friction is not None:
                 yield where.inside("sets", index, "friction"), entry.friction, both
     for where, block in context.blocks("SEABED FRICTION"):
-        for index, given in enumerate(cast("SeabedFriction", block).sets):
+        for index, set_ in enumerate(cast("SeabedFriction", block).sets):
             place = where.inside("sets", index, "coefficients")
-            yield place, getattr(given, "coefficients", None), ("first", "second")
+            yield place, getattr(set_, "coefficients", None), ("first", "second")

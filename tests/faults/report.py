@@ -1,0 +1,96 @@
+"""The rates as tables, for docs/linting.md and the terminal."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterable
+from pathlib import Path
+
+from mudline.diagnostics import Severity
+from tests.faults.known import BURIED, MISSED
+from tests.faults.rates import KINDS, Outcome, Run
+
+PAGE = Path(__file__).parents[2] / "docs" / "linting.md"
+_BEGIN, _END = "<!-- Rates of faults: made by `make docs` -->\n", "<!-- End of the rates -->\n"
+
+
+def share(part: int, whole: int) -> str:
+    """A part in per cent, with one decimal."""
+    return f"{100.0 * part / whole:.1f} %" if whole else "-"
+
+
+def summary(run: Run) -> str:
+    """A row a group of kinds, and the total; then the legal decks."""
+    head = "| group | kinds | faults | found | missed | buried |\n| --- | --- | --- | --- | --- | --- |\n"
+    groups = list(dict.fromkeys(kind.group for kind in KINDS))
+    rows = [_counts(group, run, [kind.slug for kind in KINDS if kind.group == group]) for group in groups]
+    return head + "".join([*rows, _counts("all", run, [kind.slug for kind in KINDS])])
+
+
+def _counts(name: str, run: Run, slugs: Iterable[str]) -> str:
+    kinds = set(slugs)
+    counts = Counter(outcome for fault, outcome, _ in run.outcomes if fault.kind.slug in kinds)
+    total = counts.total()
+    shares = " | ".join(f"{counts[each]} ({share(counts[each], total)})" for each in _ORDER)
+    return f"| {name} | {len(kinds)} | {total} | {shares} |\n"
+
+
+_ORDER = (Outcome.FOUND, Outcome.MISSED, Outcome.BURIED)
+
+
+def legal(run: Run) -> str:
+    """What was said of the legal decks, in words."""
+    errors = {deck.name for deck, each in run.false if each.severity is Severity.ERROR}
+    warnings = {deck.name for deck, each in run.false} - errors
+    return (
+        f"Of the {run.decks} legal decks {len(errors)} have a false error ({share(len(errors), run.decks)}) and "
+        f"{len(warnings)} a false warning ({share(len(warnings), run.decks)}).\n"
+    )
+
+
+def by_kind(run: Run) -> str:
+    """A row a kind."""
+    counts: dict[str, Counter[Outcome]] = {kind.slug: Counter() for kind in KINDS}
+    for fault, outcome, _ in run.outcomes:
+        counts[fault.kind.slug][outcome] += 1
+    head = "| kind | what was done | expected | faults | found | missed | buried |\n" + "| --- " * 7 + "|\n"
+    rows = [
+        f"| `{kind.slug}` | {_cell(kind.did)} | {', '.join(kind.codes)} | {counts[kind.slug].total()} | "
+        f"{' | '.join(str(counts[kind.slug][each]) for each in _ORDER)} |\n"
+        for kind in KINDS
+    ]
+    return head + "".join(rows)
+
+
+def _cell(text: str) -> str:
+    return text.replace("|", "\\|")
+
+
+def known(reasons: dict[str, str]) -> str:
+    """Kinds and reasons, as a list."""
+    return "".join(f"* `{slug}`: {reason}\n" for slug, reason in reasons.items())
+
+
+def section(run: Run) -> str:
+    """What stands in the page, between its two marks."""
+    parts = [summary(run), legal(run)]
+    if MISSED:
+        parts.append("Kinds of which faults are missed, and why:\n\n" + known(MISSED))
+    if BURIED:
+        parts.append("Kinds of which faults are buried, and why:\n\n" + known(BURIED))
+    parts.append("Every kind, with the codes of which one is expected at the place of the fault:\n\n" + by_kind(run))
+    return "\n" + "\n".join(parts) + "\n"
+
+
+def page(run: Run) -> str:
+    """The text of docs/linting.md with the rates of a run."""
+    text = PAGE.read_text(encoding="utf-8")
+    parts = re.split(f"(?s)(?<={re.escape(_BEGIN)}).*(?={re.escape(_END)})", text)
+    assert len(parts) == 2
+    return section(run).join(parts)
+
+
+def write(run: Run) -> None:
+    """Write the rates of a run into docs/linting.md."""
+    PAGE.write_text(page(run), encoding="utf-8", newline="\n")
