@@ -10,9 +10,11 @@ from pathlib import Path
 
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import BaseProblem, Deck
+from mudline.deck.reading import units_of
 from mudline.diagnostics import Blocks, DeckError, Diagnostic, Problem, Severity
 from mudline.keywords.model import Block
 from mudline.keywords.reader import ReadBlock, read_block, read_piece
+from mudline.linting.causes import by_cause
 from mudline.linting.rule import LintContext, Rule
 from mudline.linting.suppression import suppressions
 from mudline.syntax.tree import RawBlock
@@ -48,8 +50,24 @@ class LintSettings:
 
 
 def lint_context(context: LintContext, chosen: Sequence[Rule]) -> list[Diagnostic]:
-    """All findings of the chosen rules in a deck, in the order of the file, without those that comments suppress."""
-    return context.deck.diagnose(unsuppressed(context, problems_in(context, chosen), chosen))
+    """All findings of the chosen rules in a deck, in the order of the file, without those that comments suppress.
+
+    Those that follow from another finding are under it.
+    """
+    return context.deck.diagnose(grouped(context, unsuppressed(context, problems_in(context, chosen), chosen), chosen))
+
+
+def grouped(context: LintContext, problems: list[Problem], chosen: Sequence[Rule]) -> list[Problem]:
+    """The problems that the chosen rules found in a deck, those that follow from another one under it."""
+
+    def check(data: bytes) -> tuple[LintContext, list[Problem]]:
+        deck = context.deck
+        units = None if units_of(deck) == deck.units else deck.units
+        read = load_bytes(data, deck.file, units=units, folder=deck.folder, read=_MEMORY.read)
+        corrected = LintContext(read, dialect=context.dialect)
+        return corrected, unsuppressed(corrected, problems_in(corrected, chosen), chosen)
+
+    return by_cause(context, problems, check)
 
 
 def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
