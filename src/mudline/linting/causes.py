@@ -31,10 +31,10 @@ _STRENGTH = (Blocks.NEVER, Blocks.WITH_TENSION, Blocks.ALWAYS)
 def by_cause(context: LintContext, problems: list[Problem], check: Check) -> list[Problem]:
     """Return the findings with those that follow from another one under it (`Problem.following`).
 
-    A cause says how many findings follow from it, is as severe as the worst of them, and keeps the deck from being
-    evaluated if one of them does. A finding that is still there when the cause is corrected stays where it is.
+    A cause says how many findings follow from it, is as severe as the worst of them, and an error that keeps the deck
+    from being evaluated if one of them does. A finding that is still there when the cause is corrected stays beside it.
     """
-    if len(problems) < 2 or context.text is None:  # noqa: PLR2004 - a cause and what follows from it
+    if len(problems) < 2 or context.text is None:
         return problems
     tried = corrections(context, problems)
     return _Trials(context, problems, check).grouped(tried) if tried else problems
@@ -74,11 +74,11 @@ class _Trials:
         hidden: set[int] = set()
         for alternatives in tried:
             cause = alternatives[0].cause
-            if all(one is not cause for _, one in self.left) or len(self.left) < 2:  # noqa: PLR2004 - as above
+            if all(one is not cause for _, one in self.left) or len(self.left) < 2:
                 continue
             outcomes = [outcome for one in alternatives if (outcome := self._outcome(one)) is not None]
             best = max(outcomes, key=lambda outcome: outcome.gain, default=None)
-            if best is None or best.gain < 1 or len(best.gone) < 2:  # noqa: PLR2004 - as above
+            if best is None or best.gain < 1 or len(best.gone) < 2:
                 continue
             following = self._following(best)
             if following:
@@ -144,14 +144,16 @@ def _cause(correction: Correction, following: Sequence[Problem]) -> Problem:
     """The finding of a cause with those that follow from it."""
     cause = correction.cause
     everything = (cause, *following)
+    blocks = max((one.blocking for one in everything), key=_STRENGTH.index)
+    severity = max((one.weight for one in everything), key=lambda severity: severity.rank)
     are = "is" if len(following) == 1 else "are"
     follow = "follows" if len(following) == 1 else "follow"
     left_out = f"{counted(len(following), 'finding')} that {follow} from it {are} left out"
     return replace(
         cause,
         message=f"{correction.message or cause.message}; {left_out}",
-        severity=max((one.weight for one in everything), key=lambda severity: severity.rank),
-        blocks=max((one.blocking for one in everything), key=_STRENGTH.index),
+        severity=Severity.ERROR if blocks is Blocks.ALWAYS else severity,
+        blocks=blocks,
         following=tuple(following),
     )
 

@@ -6,7 +6,7 @@ import re
 from bisect import bisect_right
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import groupby, islice
+from itertools import islice
 
 from mudline.codes.fields import SYN002, SYN003
 from mudline.codes.lines import SYN001, SYN004, SYN005, SYN007, SYN008, SYN009, SYN010
@@ -89,9 +89,7 @@ class _Blocks:
         self.end = len(text.source.unified)
         tree = text.tree
         self.heads = [section.head.span.start if section.head else 0 for section in (tree.preamble, *tree.sections)]
-        self.blocks = [
-            (section.name, block) for section in (tree.preamble, *tree.sections) for block in section.blocks
-        ]
+        self.blocks = [(section.name, block) for section in (tree.preamble, *tree.sections) for block in section.blocks]
         self.starts = sorted([*self.heads, *(block.head.span.start for _, block in self.blocks)])
 
     def block_at(self, offset: int) -> Span:
@@ -127,10 +125,36 @@ def _sections(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correct
         yield Correction(first, edits, Span(run[0][0], end), message)
     for section in tree.sections:
         placed = [(trimmed_start(text, block), block.name) for block in section.blocks]
-        for wrong, group in groupby(placed, key=lambda one: _is_wrong(one, section.name, elsewhere)):
-            run = list(group)
-            if wrong and run[0][0] in elsewhere:
-                yield _moved(text, elsewhere[run[0][0]], section.name, run, placed)
+        for first, behind in _runs(placed, elsewhere):
+            yield _moved(text, elsewhere[placed[first][0]], section.name, placed[first:behind], placed[behind:])
+
+
+def _runs(placed: list[tuple[int, str]], elsewhere: dict[int, Problem]) -> Iterator[tuple[int, int]]:
+    """Where runs of misplaced blocks that belong in one section begin and end, as indices in `placed`.
+
+    Keywords of which the section is not known do not end a run.
+    """
+    number = 0
+    while number < len(placed):
+        head, keyword = placed[number]
+        first = number
+        number += 1
+        if head not in elsewhere:
+            continue
+        behind = number
+        target = _section_of(keyword)
+        while number < len(placed):
+            head, keyword = placed[number]
+            if catalogue.sections_of(keyword) and not (head in elsewhere and _section_of(keyword) == target):
+                break
+            number += 1
+            behind = number if head in elsewhere else behind
+        yield first, behind if number < len(placed) else number
+
+
+def _section_of(keyword: str) -> str:
+    """The section where a keyword mostly stands."""
+    return (catalogue.sections_of(keyword) or ("MODEL",))[0]
 
 
 def trimmed_start(text: TextOrigin, block: RawBlock) -> int:
@@ -139,20 +163,14 @@ def trimmed_start(text: TextOrigin, block: RawBlock) -> int:
     return block.head.span.start + len(line) - len(line.lstrip(" \t"))
 
 
-def _is_wrong(placed: tuple[int, str], section: str, elsewhere: dict[int, Problem]) -> bool:
-    head, keyword = placed
-    return head in elsewhere or section not in (catalogue.sections_of(keyword) or (section,))
-
-
 def _moved(
-    text: TextOrigin, first: Problem, section: str, run: list[tuple[int, str]], placed: list[tuple[int, str]]
+    text: TextOrigin, first: Problem, section: str, run: list[tuple[int, str]], behind: list[tuple[int, str]]
 ) -> Correction:
     """A run of blocks in a section of their own; the section goes on behind them."""
     edits, words = _section_lines(run, section)
-    behind = placed.index(run[-1]) + 1
     end = _Blocks(text).section_at(run[0][0]).end
-    if behind < len(placed):
-        end = placed[behind][0]
+    if behind:
+        end = behind[0][0]
         edits = (*edits, TextEdit(Span(end, end), f"${section}\n"))
     others = len(run) - 1
     message = ""
@@ -197,19 +215,26 @@ def _missing_line(text: TextOrigin, section: str, block: RawBlock, cause: Proble
     end = block.leaves[-1].span.end
     line = unified.rfind("\n", 0, at) + 1
     settings = [leaf.span.start for leaf in block.leaves if leaf.kind is Kind.SETTING and leaf.span.start < line]
-    for place in (line, *settings[-1:]):
-        read = _reads_as(section, block.name, unified[place:end])
+    first = next((leaf.span.start for leaf in block.leaves if leaf.kind not in (Kind.COMMENT, Kind.BLANK)), end)
+    for place in (at for at in (line, *settings[-1:]) if at > first):  # the block has lines of its own before it
+        read = _reads_as(text, section, block.name, unified[place:end])
         for keyword in islice(read, MOST_ALTERNATIVES):
             message = f"this line and those below it read as *{keyword}: that line seems to be missing above them"
             if place < line:
                 number = text.source.position(place)[0]
-                message = f"the lines from line {number} on read as *{keyword}: that line seems to be missing above them"
+                message = (
+                    f"the lines from line {number} on read as *{keyword}: that line seems to be missing above them"
+                )
             edit = TextEdit(Span(place, place), f"*{keyword}\n")
-            yield Correction(cause, (edit,), Span(place, end), message)
+            yield Correction(cause, (edit,), Span(place, end), message, guessed=True)
 
 
-def _reads_as(section: str, own: str, lines: str) -> Iterator[str]:
-    """The keywords of a section that take some lines as they stand."""
+def _reads_as(text: TextOrigin, section: str, own: str, lines: str) -> Iterator[str]:
+    """The keywords of a section that take some lines as they stand.
+
+    Numbers alone fit several keywords: they are those of one that the deck lacks.
+    """
+    given = {block.name for each in text.tree.sections for block in each.blocks}
     piece = lines if len(lines) <= LONGEST_PIECE else lines[: lines.rfind("\n", 0, LONGEST_PIECE) + 1]
     first = piece.split("\n", 1)[0].strip(" \t*").upper()
     for keyword in catalogue.read_keywords():
@@ -218,6 +243,8 @@ def _reads_as(section: str, own: str, lines: str) -> Iterator[str]:
             continue
         source = Source.from_bytes(f"${section}\n*{keyword}\n{piece}".encode(errors="replace"), "")
         raw = parse(source).sections[0].blocks[0]
+        if keyword in given and not any(leaf.kind is Kind.SETTING for leaf in raw.leaves):
+            continue
         read = read_block(source.unified, raw, declared, last=False)
         if not read.lost and not any(one.weight is Severity.ERROR for one in read.problems):
             yield keyword

@@ -54,20 +54,43 @@ def lint_context(context: LintContext, chosen: Sequence[Rule]) -> list[Diagnosti
 
     Those that follow from another finding are under it.
     """
-    return context.deck.diagnose(grouped(context, unsuppressed(context, problems_in(context, chosen), chosen), chosen))
+    return context.deck.diagnose(grouped_problems(context, chosen))
 
 
-def grouped(context: LintContext, problems: list[Problem], chosen: Sequence[Rule]) -> list[Problem]:
-    """The problems that the chosen rules found in a deck, those that follow from another one under it."""
+def grouped_problems(context: LintContext, chosen: Sequence[Rule], *, suppress: bool = True) -> list[Problem]:
+    """What the chosen rules find in a deck, with what follows from a finding under it (`Problem.following`).
+
+    `suppress` False keeps what comments of the deck suppress.
+    """
+
+    def found_in(looked_at: LintContext) -> list[Problem]:
+        found = problems_in(looked_at, chosen)
+        return unsuppressed(looked_at, found, chosen) if suppress else found
 
     def check(data: bytes) -> tuple[LintContext, list[Problem]]:
         deck = context.deck
         units = None if units_of(deck) == deck.units else deck.units
         read = load_bytes(data, deck.file, units=units, folder=deck.folder, read=_MEMORY.read)
         corrected = LintContext(read, dialect=context.dialect)
-        return corrected, unsuppressed(corrected, problems_in(corrected, chosen), chosen)
+        return corrected, found_in(corrected)
 
-    return by_cause(context, problems, check)
+    return by_cause(context, found_in(context), check)
+
+
+def named_causes(deck: Deck, refused: Sequence[Diagnostic], chosen: Sequence[Rule]) -> list[Diagnostic]:
+    """The findings for which a deck was refused, with the cause in the place of those that follow from it."""
+    waiting = {_place(one): one for one in refused}
+    named: list[Diagnostic] = []
+    for found in deck.diagnose(grouped_problems(LintContext(deck), chosen, suppress=False)):
+        if found.following and any(_place(one) in waiting for one in (found, *found.following)):
+            named.append(found)
+            for one in (found, *found.following):
+                waiting.pop(_place(one), None)
+    return sorted([*named, *waiting.values()], key=lambda one: one.sort_key)
+
+
+def _place(found: Diagnostic) -> tuple[str, str, int, int]:
+    return found.file, found.code, found.line, found.column
 
 
 def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
