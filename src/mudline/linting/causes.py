@@ -34,7 +34,7 @@ def by_cause(context: LintContext, problems: list[Problem], check: Check) -> lis
     A cause says how many findings follow from it, is as severe as the worst of them, and an error that keeps the deck
     from being evaluated if one of them does. A finding that is still there when the cause is corrected stays beside it.
     """
-    if len(problems) < 2 or context.text is None:
+    if context.text is None:
         return problems
     tried = corrections(context, problems)
     return _Trials(context, problems, check).grouped(tried) if tried else problems
@@ -74,14 +74,14 @@ class _Trials:
         hidden: set[int] = set()
         for alternatives in tried:
             cause = alternatives[0].cause
-            if all(one is not cause for _, one in self.left) or len(self.left) < 2:
+            if all(one is not cause for _, one in self.left):
                 continue
             outcomes = [outcome for one in alternatives if (outcome := self._outcome(one)) is not None]
             best = max(outcomes, key=lambda outcome: outcome.gain, default=None)
-            if best is None or best.gain < 1 or len(best.gone) < 2:
+            if best is None or best.gain < 1:
                 continue
             following = self._following(best)
-            if following:
+            if following or (best.correction.message and not best.correction.guessed):
                 self.made += best.correction.edits
                 self.known = best.found
                 self.under[id(cause)] = _cause(best.correction, following)
@@ -143,6 +143,8 @@ class _Trials:
 def _cause(correction: Correction, following: Sequence[Problem]) -> Problem:
     """The finding of a cause with those that follow from it."""
     cause = correction.cause
+    if not following:
+        return replace(cause, message=correction.message)
     everything = (cause, *following)
     blocks = max((one.blocking for one in everything), key=_STRENGTH.index)
     severity = max((one.weight for one in everything), key=lambda severity: severity.rank)

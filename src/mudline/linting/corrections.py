@@ -31,6 +31,11 @@ _OF_FOREIGN_LINES = (SYN001, SYN002, SYN003, SYN004, REF007, REF009)
 """What the lines of another keyword give in a block."""
 _MISREAD = str.maketrans({"O": "0", "o": "0", "l": "1", "I": "1"})
 _NUMBER = re.compile(r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[EeDd][-+]?[0-9]+)?")
+_CURVE_NAMES = {"EMBEDMENT": "SET", "SEABED STIFFNESS": "CURVE"}
+"""Keywords of points, and the setting that names the curve."""
+_NAMED_POINT = re.compile(r"[ \t]*([^-+.,=0-9 \t][^,=\n]*?)[ \t]*,[ \t]*([-+.0-9][^\n\r]*?)[ \t\r]*")
+_LACKS_NAME = re.compile(r"expected (CURVE|SET)= before this line|(SET|CURVE)= has no value")
+_UNDEFINED = re.compile(r"'([^']+)' is not defined")
 _MISSING = re.compile(r"(?:node|element) ([0-9]+)\b[^;]* is not defined")
 
 
@@ -56,7 +61,9 @@ def corrections(context: LintContext, problems: Sequence[Problem]) -> list[list[
         return []
     found = [*_misspelt(text, problems), *_sections(text, problems)]
     if any(one.code in _OF_FOREIGN_LINES for one in problems):
+        found += _tables(text, problems)
         found += _keyword_lines(text, problems)
+        found += _names(text, problems)
         found += _rows(text, problems)
     by_cause: dict[int, list[Correction]] = {}
     for correction in sorted(found, key=lambda one: one.edits[0].span):
@@ -250,7 +257,60 @@ def _reads_as(text: TextOrigin, section: str, own: str, lines: str) -> Iterator[
             yield keyword
 
 
-# ------------------------------------------------------------------------------------------------------ rows
+# ------------------------------------------------------------------------------------------- names and rows
+
+
+def _tables(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
+    """Points with the name of their set or curve in front, as a graphical interface shows them."""
+    wrong = {_line(text, _start(text, one)).start: one for one in reversed(problems) if one.code in (SYN002, SYN003)}
+    for block in (block for section in text.tree.sections for block in section.blocks if block.name in _CURVE_NAMES):
+        edits: list[TextEdit] = []
+        cause, first = None, ""
+        known = ""
+        for span in _lines(text, block):
+            named = _NAMED_POINT.fullmatch(text.source.unified, *span) if span.start in wrong else None
+            if named is None:
+                continue
+            name, point = named.groups()
+            head = "" if name == known else f" {_CURVE_NAMES[block.name]}={name}\n"
+            edits.append(TextEdit(span, f"{head} {point}"))
+            if cause is None:
+                cause, first = wrong[span.start], f"write {head.strip()} on a line of its own, and {point} below it"
+            known = name
+        if cause is not None:
+            message = f"rows of a name and a point, as a graphical interface shows them: {first}"
+            yield Correction(cause, tuple(edits), Span(block.head.span.start, block.leaves[-1].span.end), message)
+
+
+def _lines(text: TextOrigin, block: RawBlock) -> Iterator[Span]:
+    """The lines of a block below its head, without their ends."""
+    at = block.head.span.end
+    end = (block.leaves or [block.head])[-1].span.end
+    while at < end:
+        line = _line(text, at)
+        yield line
+        at = text.source.unified.find("\n", at) + 1 or end
+
+
+def _names(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
+    """A setting without its name, or points in front of it: the names that nothing defines."""
+    missing = {"SET": _undefined(problems, "REF001"), "CURVE": _undefined(problems, "REF002")}
+    for problem in problems:
+        found = _LACKS_NAME.match(problem.message) if problem.code in (SYN001, SYN003) else None
+        if found is None or problem.span is None:
+            continue
+        key = found[1] or found[2]
+        for name in missing[key]:
+            at, written = problem.span.end, name
+            if found[1]:
+                at, written = _line(text, problem.span.start).start, f" {key}={name}\n"
+            yield Correction(problem, (TextEdit(Span(at, at), written),), _Blocks(text).block_at(at))
+
+
+def _undefined(problems: Sequence[Problem], code: str) -> list[str]:
+    """The names that findings of a code say are not defined."""
+    found = (_UNDEFINED.search(one.message) for one in problems if one.code.code == code)
+    return list(dict.fromkeys(name[1] for name in found if name))
 
 
 def _rows(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
