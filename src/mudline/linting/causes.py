@@ -11,13 +11,17 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from mudline.diagnostics import Blocks, Problem, Severity, Span
-from mudline.linting.corrections import Correction, corrections
+from mudline.linting.corrections import Correction, missing_sections, misspelt
+from mudline.linting.line_corrections import line_corrections
 from mudline.linting.rule import LintContext
 from mudline.short_repr import counted
 from mudline.syntax.edits import OverlapError, TextEdit, edited_bytes
 
 MOST_TRIALS = 24
 """Times that a deck is checked again: causes behind them keep what follows from them beside them."""
+
+MOST_ALTERNATIVES = 4
+"""Corrections of one finding that are tried."""
 
 Check = Callable[[bytes], tuple[LintContext, list[Problem]]]
 """Reads a text and gives its findings, those that comments suppress left out."""
@@ -28,7 +32,7 @@ _Key = tuple[str, int]
 _STRENGTH = (Blocks.NEVER, Blocks.WITH_TENSION, Blocks.ALWAYS)
 
 
-def by_cause(context: LintContext, problems: list[Problem], check: Check) -> list[Problem]:
+def under_causes(context: LintContext, problems: list[Problem], check: Check) -> list[Problem]:
     """Return the findings with those that follow from another one under it (`Problem.following`).
 
     A cause says how many findings follow from it, is as severe as the worst of them, and an error that keeps the deck
@@ -36,8 +40,15 @@ def by_cause(context: LintContext, problems: list[Problem], check: Check) -> lis
     """
     if context.text is None:
         return problems
-    tried = corrections(context, problems)
-    return _Trials(context, problems, check).grouped(tried) if tried else problems
+    text = context.text
+    made = [*misspelt(text, problems), *missing_sections(text, problems), *line_corrections(text, problems)]
+    if not made:
+        return problems
+    by_cause: dict[int, list[Correction]] = {}
+    for correction in sorted(made, key=lambda one: one.edits[0].span):
+        by_cause.setdefault(id(correction.cause), []).append(correction)
+    tried = [alternatives[:MOST_ALTERNATIVES] for alternatives in by_cause.values()]
+    return _Trials(context, problems, check).grouped(tried)
 
 
 @dataclass(frozen=True, slots=True)

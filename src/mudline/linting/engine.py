@@ -14,7 +14,7 @@ from mudline.deck.reading import units_of
 from mudline.diagnostics import Blocks, DeckError, Diagnostic, Problem, Severity
 from mudline.keywords.model import Block
 from mudline.keywords.reader import ReadBlock, read_block, read_piece
-from mudline.linting.causes import by_cause
+from mudline.linting.causes import under_causes
 from mudline.linting.rule import LintContext, Rule
 from mudline.linting.suppression import suppressions
 from mudline.syntax.tree import RawBlock
@@ -74,7 +74,7 @@ def grouped_problems(context: LintContext, chosen: Sequence[Rule], *, suppress: 
         corrected = LintContext(read, dialect=context.dialect)
         return corrected, found_in(corrected)
 
-    return by_cause(context, found_in(context), check)
+    return under_causes(context, found_in(context), check)
 
 
 def named_causes(deck: Deck, refused: Sequence[Diagnostic], chosen: Sequence[Rule]) -> list[Diagnostic]:
