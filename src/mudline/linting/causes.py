@@ -15,7 +15,7 @@ from mudline.linting.corrections import Correction, missing_sections, misspelt
 from mudline.linting.line_corrections import line_corrections
 from mudline.linting.rule import LintContext
 from mudline.short_repr import counted
-from mudline.syntax.edits import OverlapError, TextEdit, edited_bytes
+from mudline.syntax.edits import OverlapError, TextEdit, edited_bytes, with_line_ends
 
 MOST_TRIALS = 24
 """Times that a deck is checked again: causes behind them keep what follows from them beside them."""
@@ -107,7 +107,7 @@ class _Trials:
         if text is None or self.trials >= MOST_TRIALS:
             return None
         self.trials += 1
-        edits = [*self.made, *correction.edits]
+        edits = with_line_ends(text.source, [*self.made, *correction.edits])
         try:
             context, problems = self.check(edited_bytes(text.source, edits))
         except (OverlapError, UnicodeEncodeError):  # of a character that the encoding lacks
