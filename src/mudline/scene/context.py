@@ -23,6 +23,7 @@ from mudline.scene.deck_values import (
     definition_by,
     external_definers,
     is_read_definer,
+    makes_labels,
     opaque_labels,
     opaque_set_names,
 )
@@ -125,8 +126,9 @@ class Context:
         return next(places, None)
 
     def _definer(self, keyword: str) -> str:
-        """The keyword that may make things of a kind which the deck does not show, or ""."""
-        return next((definer for definer in self.external_definers if definition_by(definer, keyword)), "")
+        """The keyword whose lines are not read and may define things with numbers of a kind, or ""."""
+        unread = (one for one in self.external_definers if not (is_read_definer(one) or makes_labels(one)))
+        return next((definer for definer in unread if definition_by(definer, keyword)), "")
 
     def missing(self, code: Code, message: str, where: Where, keyword: str, number: int | None = None) -> Problem:
         """A name or number that nothing defines: an error, or a warning where something unread could define it."""
