@@ -101,7 +101,8 @@ SYN008 = Code(
 
     The model is described once, in `$MODEL`, and a load case says what acts on it. A block in the wrong section is not
     read as what it looks like: a restraint in `$MODEL` restrains nothing, a seabed in `$LOAD CASE` carries nothing.
-    Move the block to a section that the message names; a missing `$LOAD CASE` line above it is the usual cause.
+    Move the block to a section that the message names; a missing `$LOAD CASE` line above it is the usual cause. It is
+    an error in `$PREPROCESSOR`, `$MODEL` and `$LOAD CASE` for a keyword whose section is certain, and a note elsewhere.
 
     Example:
          $MODEL
@@ -171,8 +172,8 @@ SYN011 = Code(
     A data line belongs to no keyword.
 
     Lines before the first section, or between a `$SECTION` and its first keyword, belong to nothing and are not read.
-    Title lines at the top of a deck are common and do no harm, but numbers there are numbers that the model lacks. Turn
-    a title into a comment (C and a space), and put data under their keyword.
+    Title lines at the top of a deck are common and do no harm, so words alone are a note, but numbers and settings
+    there are missing from the model. Turn a title into a comment (C and a space), and put data under their keyword.
 
     Example:
         -Flowline on soft clay, as laid
@@ -194,9 +195,10 @@ SYN012 = Code(
 
     Letters beyond the English alphabet, in a set name for instance, are saved as different bytes by different editors.
     A file that is not UTF-8 is read as CP1252, and as Latin-1 if that cannot be: a guess, after which a set's name may
-    not match the same name in another file. Control characters, such as the Ctrl-Z that old systems put at the end of a
-    file, are invisible and corrupt the line that holds them (in front of a * or a $ they are ignored). UTF-16 and
-    binary data are not read at all. Save the file as UTF-8, and remove what the message names.
+    not match the same name in another file; where such letters are in comments only, this is a note. Control
+    characters, such as the Ctrl-Z that old systems put at the end of a file, are invisible and corrupt the line that
+    holds them (in front of a * or a $ they are ignored). UTF-16 and binary data are not read at all. Save the file as
+    UTF-8, and remove what the message names.
 
     Example:
          $MODEL

@@ -27,6 +27,10 @@ if TYPE_CHECKING:
     from mudline.keywords.library.units import Units
 
 
+_CERTAIN = ("PREPROCESSOR", "MODEL", "LOAD CASE")
+"""Sections of which it is certain which keywords do not belong there."""
+
+
 class Findings:
     """Adds to the problems of a deck; each method takes the place as a span of the text or as one among the values."""
 
@@ -62,7 +66,8 @@ class Findings:
             near = meant_in(keyword, section)
             message = f"*{keyword} does not belong in ${section}{hint(near)}: it belongs in {_belongs(keyword)}"
             repair = instead(f"*{near}", head) if head and near else None
-            self.problems.append(Problem(SYN008, message, None, None, where, repair))
+            certain = section in _CERTAIN and (near or catalogue.is_read(keyword))
+            self.problems.append(Problem(SYN008, message, None, None if certain else Severity.INFO, where, repair))
 
     def _misspelt(self, code: Code, message: str, where: Where, meant: str, head: Span | None) -> None:
         """A name that is not known, which is a warning where another one was meant."""
@@ -75,12 +80,14 @@ class Findings:
             message = f"*{keyword} stands before any $SECTION: put it in its section, {_belongs(keyword)}"
             self.problems.append(Problem(SYN007, message, span, None, where))
 
-    def stray(self, count: int, place: str, span: Span | None = None, where: Where | None = None) -> None:
-        """Data lines of a place under no keyword, the first of which is given: one finding for all of them."""
+    def stray(
+        self, count: int, place: str, span: Span | None = None, where: Where | None = None, *, words: bool = False
+    ) -> None:
+        """Lines of a place under no keyword, the first of which is given: one finding for all; `words` are a title."""
         if self._reports(SYN011, span, where):
             lines = counted(count, "line")
             message = f"{lines} {place} under no keyword: not read; write a title as a comment, C and a space"
-            self.problems.append(Problem(SYN011, message, span, None, where))
+            self.problems.append(Problem(SYN011, message, span, Severity.INFO if words else None, where))
 
     def _reports(self, code: Code, span: Span | None, where: Where | None) -> bool:
         """Whether one more finding of a code is reported: a file of another kind would have as many as it has lines."""
@@ -194,7 +201,9 @@ class _Reader:
             first = data[0].span
             end = self.text.find("\n", *first)
             count = sum(len(self._lines(leaf.span)) for leaf in data)
-            self.findings.stray(count, where, trimmed(self.text, first.start, first.end if end < 0 else end))
+            line = trimmed(self.text, first.start, first.end if end < 0 else end)
+            words = bool(self.tree.sections) and not any(leaf.kind in (Kind.RUN, Kind.SETTING) for leaf in data)
+            self.findings.stray(count, where, line, words=words)
 
     def _section(self, index: int, raw: RawSection) -> None:
         section = Section(raw.name)

@@ -238,6 +238,11 @@ def facts_of(keyword: str) -> Facts:
     return found.facts if found else Block.facts
 
 
+def is_read(keyword: str) -> bool:
+    """Whether the lines of a keyword are read in some section, so that it is certain where it belongs."""
+    return keyword in _MODULES
+
+
 def is_extension(keyword: str) -> bool:
     """Whether a keyword is mudline's own."""
     return facts_of(keyword).extension

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from mudline.codes.lines import SYN004, SYN005, SYN007, SYN008, SYN009, SYN010
 from mudline.deck.reading import TextOrigin
-from mudline.diagnostics import Problem, Span
+from mudline.diagnostics import Problem, Severity, Span
 from mudline.keywords import catalogue
 from mudline.syntax.edits import TextEdit
 from mudline.syntax.tree import RawBlock
@@ -86,7 +86,7 @@ class Blocks:
 def missing_sections(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Blocks that stand before their section, or in another one: a `$SECTION` line in front of each run of them."""
     outside = {start_of(text, one): one for one in problems if one.code is SYN007}
-    elsewhere = {start_of(text, one): one for one in problems if one.code is SYN008}
+    elsewhere = {start_of(text, one): one for one in problems if one.code is SYN008 and one.weight is Severity.ERROR}
     tree = text.tree
     heads = [trimmedstart_of(text, block) for block in tree.preamble.blocks]
     if run := [(head, block.name) for head, block in zip(heads, tree.preamble.blocks, strict=True) if head in outside]:

@@ -26,8 +26,11 @@ _CALLED = {
     END_MARK: "end-of-file mark (Ctrl-Z)",
     "\ufeff": "byte-order mark inside the file",
 }
+_REMARK = re.compile(rb"C(?=[ \t])")
 _LONE_CR = re.compile(r"\r(?!\n)")
 _NOT_UTF8 = "{} is not UTF-8; the file is read as {}: save it as UTF-8"
+BINARY = "the file looks like binary data"
+"""How the refusal of such a file begins."""
 _BINARY_SHARE = 0.1
 _SAMPLE = 65536
 _CHUNK = 1 << 18
@@ -146,7 +149,7 @@ def _refusal(body: bytes) -> str:
     strange = len(sample) - len(sample.translate(None, bytes({*range(9), 11, *range(14, 26), *range(27, 32), 127})))
     if strange > max(_BINARY_SHARE * len(sample), _FEW):
         share = f"{strange} control characters in its first {len(sample)} bytes"
-        return f"the file looks like binary data ({share}): choose the keyword file, or save it as text"
+        return f"{BINARY} ({share}): choose the keyword file, or save it as text"
     return ""
 
 
@@ -167,7 +170,9 @@ def _decode(body: bytes) -> tuple[str, str, list[Problem]]:
         except UnicodeDecodeError:
             continue
         message = _NOT_UTF8.format(f"byte 0x{body[start]:02X}", shown)
-        return text, encoding, [Problem(SYN012, message, Span(start, start + 1))]
+        inside = all(_REMARK.match(line) for line in body.splitlines() if not line.isascii())
+        severity = Severity.INFO if inside else None
+        return text, encoding, [Problem(SYN012, message, Span(start, start + 1), severity)]
     raise AssertionError("Latin-1 decodes every byte")
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from bisect import bisect_right
 from collections.abc import Iterable, Iterator
 from itertools import groupby
@@ -35,7 +36,8 @@ def unused_curve(context: LintContext) -> Iterator[Problem]:
 
     It was measured or calculated for something, so perhaps the elements that it was meant for follow another law. Name
     it in a STIFFNESS= of *SEABED PROPERTIES, or remove it. Nothing is reported in a deck whose STIFFNESS= is an
-    equation, as its parameters choose the curve, or for a curve whose name reads as a number (SBD017).
+    equation, as its parameters choose the curve, or for a curve whose name reads as a number (SBD017). A low, best or
+    high estimate beside another one that is used is a note: such libraries are kept in decks.
 
     Example:
          $MODEL
@@ -71,9 +73,17 @@ def unused_curve(context: LintContext) -> Iterator[Problem]:
             unused[name] = [curve]
     places = [curve.where for curves in unused.values() for curve in curves]
     repairs = removals(context.text, places) if context.text else {}
-    for curve, *_ in unused.values():
+    estimates = {_ESTIMATE.sub("", name) for name in scene.laws.referenced}
+    for name, (curve, *_) in unused.items():
         message = f"curve {shown(curve.name)} is not used: name it in a STIFFNESS=, or remove it"
-        yield Problem(REF003, message, where=curve.title, repair=repairs.get(curve.where))
+        severity = Severity.INFO if _ESTIMATE.sub("", name) in estimates else None
+        yield Problem(REF003, message, None, severity, curve.title, repairs.get(curve.where))
+
+
+_ESTIMATE = re.compile(
+    r"[\W_]*(?<![^\W_])(?:lb|be|ub|hb|lower|low|best|upper|high|mean|min|max|estimate|bound|p\d\d?)(?![^\W_])"
+)
+"""The word of a name that says which estimate it is."""
 
 
 def _chosen_elsewhere(context: LintContext) -> bool:

@@ -22,9 +22,9 @@ from mudline.syntax.fields import Group, read_line, trimmed
 from mudline.syntax.rows import blank_separated, row_fields
 from mudline.syntax.tree import Kind, Leaf
 
-STY001 = Code("STY001", "tab-character", Severity.WARNING)
+STY001 = Code("STY001", "tab-character", Severity.INFO)
 STY003 = Code("STY003", "fortran-exponent", Severity.WARNING)
-STY004 = Code("STY004", "blank-separated", Severity.WARNING)
+STY004 = Code("STY004", "blank-separated", Severity.INFO)
 STY007 = Code("STY007", "trailing-blank", Severity.INFO)
 
 _TAB_WIDTH = 8
