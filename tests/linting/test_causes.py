@@ -174,6 +174,12 @@ def test_numbers_that_fit_another_keyword_of_the_deck_are_not_taken_for_its_line
     assert not any("seems to be missing" in one.message for one in found(text))
 
 
+def test_a_row_that_stays_wrong_is_no_cause() -> None:
+    codes = [one.code for one in found(changed((" 0.5, 20000.0\n", " 0,5, 20000,5\n")))]
+    assert "SYN015" in codes
+    assert "SYN003" in codes
+
+
 def test_a_severity_of_the_configuration_does_not_hide_what_follows() -> None:
     text = changed(("*NODE\n", "*NODS\n")).encode()
     mild = LintSettings(tuple(rules()), severities={"SYN009": Severity.INFO})

@@ -27,10 +27,6 @@ if TYPE_CHECKING:
     from mudline.keywords.library.units import Units
 
 
-_CERTAIN = ("PREPROCESSOR", "MODEL", "LOAD CASE")
-"""Sections of which it is certain which keywords do not belong there."""
-
-
 class Findings:
     """Adds to the problems of a deck; each method takes the place as a span of the text or as one among the values."""
 
@@ -66,7 +62,7 @@ class Findings:
             near = meant_in(keyword, section)
             message = f"*{keyword} does not belong in ${section}{hint(near)}: it belongs in {_belongs(keyword)}"
             repair = instead(f"*{near}", head) if head and near else None
-            certain = section in _CERTAIN and (near or catalogue.is_read(keyword))
+            certain = section in catalogue.CERTAIN_SECTIONS and (near or catalogue.has_certain_section(keyword))
             self.problems.append(Problem(SYN008, message, None, None if certain else Severity.INFO, where, repair))
 
     def _misspelt(self, code: Code, message: str, where: Where, meant: str, head: Span | None) -> None:

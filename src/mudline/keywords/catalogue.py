@@ -34,6 +34,9 @@ SECTIONS = (
     "POSTPROCESSING",
 )
 
+CERTAIN_SECTIONS = ("PREPROCESSOR", "MODEL", "LOAD CASE")
+"""Sections of which it is certain which keywords belong there."""
+
 _MODULES = {
     "UNITS": "units",
     "PARAMETERS": "parameters",
@@ -238,9 +241,9 @@ def facts_of(keyword: str) -> Facts:
     return found.facts if found else Block.facts
 
 
-def is_read(keyword: str) -> bool:
-    """Whether the lines of a keyword are read in some section, so that it is certain where it belongs."""
-    return keyword in _MODULES
+def has_certain_section(keyword: str) -> bool:
+    """Whether it is certain where a keyword belongs; of postprocessing that is inferred."""
+    return keyword in _MODULES or (sections_of(keyword) or _POST)[0] in CERTAIN_SECTIONS
 
 
 def is_extension(keyword: str) -> bool:

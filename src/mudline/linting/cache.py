@@ -148,13 +148,13 @@ def _row(one: Diagnostic) -> list[object]:
     return [one.code, one.slug, one.severity.value, one.message, *place, fix, one.blocks, following]
 
 
-def _finding(row: object, file: str) -> Diagnostic:
+def _finding(row: object, file: str, *, follows: bool = False) -> Diagnostic:
     code, slug, severity, message, line, column, end_line, end_column, fix, blocks, rows = _shaped(row, "ssssiiii*b*")
     place = (line, column, end_line, end_column)
     repair = None if fix is None else _fix(fix)
-    if not isinstance(rows, list):
-        raise ValueError("no list of findings")  # noqa: TRY004 - as above
-    following = tuple(_finding(each, file) for each in rows)
+    if not isinstance(rows, list) or (rows and follows):
+        raise ValueError("no list of findings")
+    following = tuple(_finding(each, file, follows=True) for each in rows)
     return Diagnostic(file, code, slug, Severity(severity), message, *place, repair, blocks, following)
 
 

@@ -130,6 +130,9 @@ class _Trials:
                 old[key] -= 1
             else:
                 fresh.append((key, problem))
+        code, region = correction.cause.code.code, correction.region
+        if any(key[0] == code and region.start <= key[1] < region.end for key, _ in fresh):
+            return None  # it is still there, a few letters further
         return _Outcome(correction, gone, fresh, found)
 
     def _following(self, outcome: _Outcome) -> list[Problem]:
