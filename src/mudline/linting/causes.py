@@ -29,6 +29,9 @@ Check = Callable[[bytes], tuple[LintContext, list[Problem]]]
 _Key = tuple[str, int]
 """Code of a finding and where it begins in the text as it is, -1 without a place."""
 
+_KINDS = ("SYN", "REF")
+"""How the codes of causes begin."""
+
 _STRENGTH = (Blocks.NEVER, Blocks.WITH_TENSION, Blocks.ALWAYS)
 
 
@@ -38,7 +41,7 @@ def under_causes(context: LintContext, problems: list[Problem], check: Check) ->
     A cause says how many findings follow from it, is as severe as the worst of them, and an error that keeps the deck
     from being evaluated if one of them does. A finding that is still there when the cause is corrected stays beside it.
     """
-    if context.text is None:
+    if context.text is None or not any(one.code.code.startswith(_KINDS) for one in problems):
         return problems
     text = context.text
     made = [*misspelt(text, problems), *missing_sections(text, problems), *line_corrections(text, problems)]
