@@ -10,6 +10,7 @@ from mudline.deck.loading import load_bytes
 from mudline.diagnostics import Diagnostic, Severity
 from mudline.linting.engine import LintSettings, lint_bytes, named_causes
 from mudline.linting.fixing import lint_one
+from mudline.linting.output import LintRun, form_module
 from mudline.linting.registry import rules, select
 from mudline.scene.model import resolve
 
@@ -260,3 +261,12 @@ def test_files_are_looked_for_once_more(tmp_path: Path) -> None:
     text = "$LOAD CASE\n*RESTRAT\n LAST=static\n*BOUNDARY\n TYPE=CONSTANT\n 1, 1\n*TIME\n STEP=FIXED\n 0, 10, 0.1\n"
     (one, *_) = lint_bytes(text.encode(), "dynamic.keyxm", rules(), folder=tmp_path)
     assert one.code == "SYN009"
+
+
+@pytest.mark.parametrize("form", ["concise", "json", "jsonl", "github", "gitlab", "junit", "sarif"])
+def test_what_follows_is_in_no_output(form: str) -> None:
+    text = changed(("*NODE\n", "*NODS\n"))
+    written = "".join(form_module(form).write(found(text), LintRun(["deck.keyxm"], "1.0")))
+    assert "SYN009" in written
+    assert "3 findings that follow from it are left out" in written
+    assert "REF006" not in written
