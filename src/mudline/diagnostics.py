@@ -100,7 +100,8 @@ class Problem:
     """Something noticed in a deck, at a span of its text or among its values.
 
     `severity` None means the severity of the code. Only a deck that was read from text has repairs. `blocks` None means
-    that the problem keeps the deck from being evaluated if it is an error.
+    that the problem keeps the deck from being evaluated if it is an error. `following` are the problems that would be
+    gone without this one.
     """
 
     code: Code
@@ -110,6 +111,7 @@ class Problem:
     where: Where | None = None
     repair: Repair | None = None
     blocks: Blocks | None = None
+    following: tuple[Problem, ...] = ()
 
     __repr__ = short_repr
 
@@ -149,6 +151,7 @@ class Diagnostic:
     """A finding with its place in the file; lines and columns count from 1, the end is exclusive.
 
     `blocks` says that the deck cannot be evaluated, unless its curves are cut where they pull and that is the reason.
+    `following` are the findings that follow from this one and are left out of every output; the message counts them.
     """
 
     file: str
@@ -162,6 +165,7 @@ class Diagnostic:
     end_column: int
     fix: Fix | None = None
     blocks: bool = False
+    following: tuple[Diagnostic, ...] = ()
 
     @property
     def sort_key(self) -> tuple[str, int, int, str, str]:

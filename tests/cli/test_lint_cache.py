@@ -13,7 +13,7 @@ import pytest
 
 from mudline import cache_folder
 from mudline.cli import lint_jobs
-from mudline.diagnostics import Diagnostic
+from mudline.diagnostics import Diagnostic, Severity
 from mudline.linting import cache
 from mudline.linting.cache import packed, unpacked
 from mudline.linting.engine import LintSettings
@@ -301,8 +301,11 @@ def test_entries_come_back_whole() -> None:
         "[" * 100_000,
         "[[],[]]",
         '[[],{"a":1}]',
-        '[[["a","b","error","m",0,1,1,1,null,true]],{}]',
-        '[[["a","b","error","m",1,1,1,1,null,1]],{}]',
+        '[[["a","b","error","m",0,1,1,1,null,true,[]]],{}]',
+        '[[["a","b","error","m",1,1,1,1,null,1,[]]],{}]',
+        '[[["a","b","error","m",1,1,1,1,null,true,{}]],{}]',
+        '[[["a","b","error","m",1,1,1,1,null,true,[["a"]]]],{}]',
+        '[[["a","b","error","m",1,1,1,1,null,true,[["a","b","info","m",1,1,1,1,null,true,[[]]]]]],{}]',
     ],
 )
 def test_entries_of_another_shape(text: str) -> None:
@@ -311,11 +314,17 @@ def test_entries_of_another_shape(text: str) -> None:
 
 
 def test_fix_of_another_kind() -> None:
-    text = '[[["a","b","error","m",1,1,1,1,["sure","x",[]],true]],{}]'
+    text = '[[["a","b","error","m",1,1,1,1,["sure","x",[]],true,[]]],{}]'
     with pytest.raises(ValueError, match="no fix"):
         unpacked(text, "a")
     assert unpacked(text.replace("sure", "safe"), "a").found[0].fix is not None
     assert isinstance(unpacked(text.replace("sure", "safe"), "a").found[0], Diagnostic)
+
+
+def test_what_follows_from_a_finding_is_kept() -> None:
+    follows = Diagnostic("a", "REF006", "undefined-node", Severity.WARNING, "m", 2, 1, 2, 2)
+    cause = Diagnostic("a", "SYN009", "unknown-keyword", Severity.ERROR, "m", 1, 1, 1, 2, None, True, (follows,))
+    assert unpacked(packed([cause], {}), "a").found == (cause,)
 
 
 def test_number_and_size_are_bounded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -68,9 +68,9 @@ def test_sets_of_a_misplaced_keyword_may_be_there(tmp_path: Path) -> None:
     text = f"{TABLE}*ELEMENT SET\n SET=Clay\n 1\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=Clay\n STIFFNESS=1.0E4\n"
     deck = tmp_path / "deck.keyxm"
     deck.write_text(text, encoding="utf-8")
-    found = {told.code: told.severity for told in mudline.lint(deck)}
-    assert found["SYN008"] is Severity.ERROR
-    assert found["REF001"] is Severity.WARNING
+    (cause,) = (one for one in mudline.lint(deck) if one.code == "SYN008")
+    assert cause.severity is Severity.ERROR
+    assert [(one.code, one.severity) for one in cause.following] == [("REF001", Severity.WARNING)]
 
 
 @pytest.mark.parametrize("number", ["85 000.0", "1 250", "-2'500.5", "1_000_000"])

@@ -96,7 +96,7 @@ def test_mesh_before_the_additional_sets() -> None:
     [
         (
             "*LINE SECTION GROUPS\n SECTION=a, 1\n",
-            "3:2 SYN001 expected NAME= before this line",
+            "3:2 SYN001 expected NAME= before this line: write NAME= and its value above it",
         ),
         (
             "*LINE SECTION GROUPS\n NAME=g\n SECTION=a\n",

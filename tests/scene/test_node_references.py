@@ -103,11 +103,17 @@ def test_what_could_not_be_read_is_told_by_the_reader_only() -> None:
     ]
 
 
-@pytest.mark.parametrize("keyword", ["*LINES\n LINE=a\n", "*CABLE\n 1\n"])
-def test_lines_and_cables_make_nodes_of_their_own(keyword: str) -> None:
-    rest = HELD + " 99, 1\n {Hang-off}, 1\n GEN=90, 99, 1\n"
-    assert reported(PIPE + keyword + rest) == [("W", "REF006", LINE + 2, 2)]
-    assert "may define it" in messages(PIPE + keyword + rest)[0]
+def test_lines_make_nodes_of_their_own() -> None:
+    text = PIPE + "*LINES\n LINE=a\n" + HELD + " 99, 1\n {Hang-off}, 1\n GEN=90, 99, 1\n"
+    assert reported(text) == [("W", "REF006", LINE + 2, 2)]
+    assert "may define it" in messages(text)[0]
+
+
+def test_what_cables_may_make_is_one_info() -> None:
+    text = PIPE + "*CABLE\n 1\n" + HELD + " 99, 1\n 98, 1\n {Hang-off}, 1\n GEN=90, 99, 1\n"
+    assert reported(text) == [("I", "REF006", LINE - 3, 1)]
+    expected = "*CABLE may define nodes that this deck does not show: 2 uses of such nodes (first: node 99)"
+    assert messages(text)[0].startswith(expected)
 
 
 def test_a_label_that_is_nearly_one_of_a_line() -> None:

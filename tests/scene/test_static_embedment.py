@@ -20,6 +20,7 @@ def test_linear_laws_and_curves() -> None:
     (row,) = rows(LINEAR_BED)
     assert row == {
         "set": "ALL",
+        "element": 1,
         "weight": pytest.approx(WEIGHT),
         "law": "linear",
         "ratio": pytest.approx(WEIGHT / 50000.0 / 0.25),

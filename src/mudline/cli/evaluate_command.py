@@ -20,6 +20,8 @@ from mudline.cli.inputs import GivenDeck, takes_deck
 from mudline.cli.streams import counted, emit, emit_json, notify, notify_missing, reason, writing
 from mudline.cli.view import Progress, View, tracked, wants_bar
 from mudline.contact import LawKind
+from mudline.deck.model import Deck
+from mudline.diagnostics import DeckError
 from mudline.linting.output import visible
 from mudline.results.against import Comparison, read_reference
 from mudline.results.columns import ElementTable, NodeTable
@@ -27,7 +29,7 @@ from mudline.results.evaluation import Evaluation, Part, Prepared, Tension, eval
 from mudline.results.forms import Output, ResultConsumer, Sink, Together, form_module, form_names, plan_rows, text_form
 from mudline.results.quantities import csv_lines
 from mudline.results.totals import PlotData, StepSummary
-from mudline.scene.csv_file import read_external
+from mudline.scene.csv_file import ExternalElements, read_external
 from mudline.scene.model import Scene, resolve
 from mudline.scene.positions import Positions, read_positions
 from mudline.short_repr import listed_numbers
@@ -99,7 +101,7 @@ def command(
             return FOUND
     loaded = deck.load()
     pull = cast("Tension", tension)
-    scene = resolve(loaded, _read(elements, read_external) if elements else None).require_evaluable(pull)
+    scene = _evaluable(loaded, _read(elements, read_external) if elements else None, pull)
     given = _positions(positions, scene, time_step) if positions else None
     if plan_only:
         _plan(prepare(scene, given, pull), output_format, view)
@@ -127,6 +129,17 @@ def command(
     if comparison is not None and output_format == "text":
         print_comparison(comparison, view)
     return DONE
+
+
+def _evaluable(deck: Deck, external: ExternalElements | None, pull: Tension) -> Scene:
+    """The scene of a deck; raises DeckError with the causes of what keeps it from being evaluated."""
+    try:
+        return resolve(deck, external).require_evaluable(pull)
+    except DeckError as error:
+        from mudline.linting.engine import named_causes  # noqa: PLC0415 - only where the deck is refused
+        from mudline.linting.registry import rules  # noqa: PLC0415 - as above
+
+        raise DeckError(named_causes(deck, error.diagnostics, rules())) from error
 
 
 def _plan(prepared: Prepared, form: str, view: View) -> None:

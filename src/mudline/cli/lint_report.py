@@ -72,7 +72,7 @@ class Report:
         self.fixed += fixed
         self.failing = self.failing or any(one.severity.rank >= limit.rank for one in found)
         if self._as_they_come and found:
-            self.view.printer().findings(found, Source.from_bytes(data, name))
+            self.view.printer().findings(found, Source.from_bytes(data, name), following=self.view.verbose)
         if self.view.verbose:
             notify(f"{name}: {counted(len(found), 'finding')}")
 

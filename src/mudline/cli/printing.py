@@ -94,9 +94,10 @@ class Printer:
         """The number of columns that a text takes."""
         return cell_len(text)
 
-    def findings(self, found: list[Diagnostic], source: Source) -> None:
-        """Print the findings of one file, each with its source line."""
-        self.lines(findings(found, source, Screen(min(self.width, EXCERPT_WIDTH), self.encoding)))
+    def findings(self, found: list[Diagnostic], source: Source, *, following: bool = False) -> None:
+        """Print the findings of one file, each with its source line, and with those that follow from it if wanted."""
+        screen = Screen(min(self.width, EXCERPT_WIDTH), self.encoding)
+        self.lines(findings(found, source, screen, following=following))
 
     def summary(self, found: list[Diagnostic], files: int) -> None:
         """Print how many findings there are in so many files."""

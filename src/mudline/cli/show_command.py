@@ -72,8 +72,10 @@ def _print_summary(summary: dict[str, Any], view: View) -> None:
 
 
 def _print_static(printer: Printer, rows: list[dict[str, Any]], names: UnitNames) -> None:
+    alike = len({(row["set"], row["law"]) for row in rows}) < len(rows)
     columns = {
         "set": "set",
+        **({"element": "first\nelement"} if alike else {}),
         "law": "law",
         "weight": headed("weight", names.line_force),
         "ratio": "ratio",

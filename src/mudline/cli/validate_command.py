@@ -17,7 +17,7 @@ from mudline.cli.streams import counted, emit, reason
 from mudline.cli.view import Progress, View, wants_bar
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Diagnostic, Severity
-from mudline.linting.engine import problems_in
+from mudline.linting.engine import grouped_problems
 from mudline.linting.output.json import as_object
 from mudline.linting.registry import rules
 from mudline.linting.rule import LintContext
@@ -146,7 +146,8 @@ def _judge(data: bytes, file: Input, units: str | None) -> tuple[Verdict, list[D
     except DeckError as error:
         return Verdict(file.name, 0, 0, 0, 0, len(error.diagnostics), "illegal"), list(error.diagnostics)
     context = LintContext(deck)
-    found = deck.diagnose([one for one in problems_in(context, rules()) if one.weight is Severity.ERROR])
+    problems = grouped_problems(context, rules(), suppress=False)
+    found = deck.diagnose([one for one in problems if one.weight is Severity.ERROR])
     keywords = sum(len(section.blocks) for section in deck.sections)
     curves, elements = len(context.scene.laws.curves), len(context.scene.element_ids)
     verdict = "illegal" if found else "legal" if deck.sections else "empty"
@@ -173,7 +174,7 @@ def _print_text(judged: Iterable[Judged], total: Total, view: View) -> None:
     for verdict, found, data in judged:
         verdicts.append(verdict)
         if found and not view.quiet:
-            view.printer().findings(found, Source.from_bytes(data, verdict.file))
+            view.printer().findings(found, Source.from_bytes(data, verdict.file), following=view.verbose)
     if verdicts:
         printer = view.printer()
         printer.write(_lines(verdicts, total, printer))

@@ -101,7 +101,8 @@ SYN008 = Code(
 
     The model is described once, in `$MODEL`, and a load case says what acts on it. A block in the wrong section is not
     read as what it looks like: a restraint in `$MODEL` restrains nothing, a seabed in `$LOAD CASE` carries nothing.
-    Move the block to a section that the message names; a missing `$LOAD CASE` line above it is the usual cause.
+    Move the block to a section that the message names; a missing `$LOAD CASE` line above it is the usual cause. It is
+    an error in `$PREPROCESSOR`, `$MODEL` and `$LOAD CASE` for a keyword whose section is certain, and a note elsewhere.
 
     Example:
          $MODEL

@@ -49,7 +49,7 @@ REF005 = Code(
 
     The set is smaller than it was meant to be, so elements miss their stiffness, diameter or curve. This happens when a
     mesh is made coarser and the sets stay as they were. Correct the number, or define the element. A range of which
-    only some elements exist is a warning.
+    only some elements exist is a warning. Elements that only *CABLE can define are one info for it.
 
     Example:
          $MODEL
@@ -79,7 +79,8 @@ REF006 = Code(
     The element has no place and no length, and nothing can be said of its contact. Correct the number, or define the
     node. The same holds for nodes that *BOUNDARY holds, of which a range may lack some as a warning, and of NODE= in
     *P-Y and *T-Z. A node that only *LINES or the deck before a *RESTART can define is a warning, and so is a label that
-    is spelt nearly as one that stands in *LINES or *LINE LOCATIONS.
+    is spelt nearly as one that stands in *LINES or *LINE LOCATIONS. Nodes that only *CABLE or *NODE,CURVILINEAR can
+    define, whose lines are not read, are one info for the keyword.
 
     Example:
          $MODEL

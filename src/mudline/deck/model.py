@@ -223,7 +223,11 @@ class Deck:
 
     def diagnose(self, problems: Sequence[Problem]) -> list[Diagnostic]:
         """Problems as diagnostics, each in the file that it belongs to, in the order of the file."""
-        return sorted((_diagnostic(*self._owned(problem)) for problem in problems), key=lambda found: found.sort_key)
+        return sorted(map(self._diagnosed, problems), key=lambda found: found.sort_key)
+
+    def _diagnosed(self, problem: Problem) -> Diagnostic:
+        found = _diagnostic(*self._owned(problem))
+        return replace(found, following=tuple(self.diagnose(problem.following))) if problem.following else found
 
     def require(self) -> Self:
         """The deck itself; raises DeckError when something in it could not be read."""

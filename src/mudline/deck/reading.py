@@ -76,7 +76,8 @@ class Findings:
             near = meant_in(keyword, section)
             message = f"*{keyword} does not belong in ${section}{hint(near)}: it belongs in {_belongs(keyword)}"
             repair = instead(f"*{near}", head) if head and near else None
-            self.problems.append(Problem(SYN008, message, None, None, where, repair))
+            certain = section in catalogue.CERTAIN_SECTIONS and (near or catalogue.has_certain_section(keyword))
+            self.problems.append(Problem(SYN008, message, None, None if certain else Severity.INFO, where, repair))
 
     def _misspelt(self, code: Code, message: str, where: Where, meant: str, head: Span | None) -> None:
         """A name that is not known, which is a warning where another one was meant."""

@@ -24,6 +24,7 @@ from mudline.keywords.text import (
     mixed_commas,
     read_value,
 )
+from mudline.keywords.values import Names
 from mudline.spelling import nearest
 from mudline.syntax.fields import Field, Group, read_line, split, trimmed
 from mudline.syntax.rows import blank_separated
@@ -181,7 +182,7 @@ class Builder:
             message = f"{slot.label} takes one value, found {len(fields)}"
             self.damage(path[:-1], Problem(SYN003, message, Span(fields[0].span.start, fields[-1].span.end)))
         if not fields[0].text:
-            self.damage(path[:-1], Problem(SYN003, f"{slot.label} has no value", group.span))
+            self.damage(path[:-1], Problem(SYN003, f"{slot.label} has no value{_value_of(slot)}", group.span))
             return
         self.places.spans[path] = fields[0].span
         if fields[0].span.end == self.end and cut_number(fields[0].text):
@@ -330,6 +331,14 @@ class Builder:
             self.places.spans[*path, len(values)] = given.span
             values.append(value)
         return values
+
+
+def _value_of(slot: FieldSpec) -> str:
+    """What to write as the value of a setting, as far as it names something."""
+    names = getattr(slot.about, "names", None)
+    if names is Names.SET:
+        return ": write the name of a set behind it (ALL is every element)"
+    return ": write the name of the set behind it" if slot.key == "SET" else ""
 
 
 def _alone(slot: FieldSpec, fields: list[Field]) -> bool:

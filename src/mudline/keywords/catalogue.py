@@ -34,6 +34,9 @@ SECTIONS = (
     "POSTPROCESSING",
 )
 
+CERTAIN_SECTIONS = ("PREPROCESSOR", "MODEL", "LOAD CASE")
+"""Sections of which it is certain which keywords belong there."""
+
 _MODULES = {
     "UNITS": "units",
     "PARAMETERS": "parameters",
@@ -236,6 +239,11 @@ def facts_of(keyword: str) -> Facts:
     """What the class of a keyword says of it besides its fields; nothing of a keyword whose lines are not read."""
     found = declared(keyword)
     return found.facts if found else Block.facts
+
+
+def has_certain_section(keyword: str) -> bool:
+    """Whether it is certain where a keyword belongs; of postprocessing that is inferred."""
+    return keyword in _MODULES or (sections_of(keyword) or _POST)[0] in CERTAIN_SECTIONS
 
 
 def is_extension(keyword: str) -> bool:

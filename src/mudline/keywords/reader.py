@@ -210,7 +210,8 @@ class _Reader:
         body = trimmed(self.text, *span)
         end = self.text.find("=", body.start, body.end)
         near = nearest(key, known)
-        message = f"*{self.raw.name} has no setting {key}={hint(near)}: it takes {allowed}"
+        advice = self.declared.facts.instead_of.get(key, "")
+        message = f"*{self.raw.name} has no setting {key}={hint(near)}: {advice or f'it takes {allowed}'}"
         repair = instead(near, trimmed(self.text, body.start, end))
         self.problems.append(Problem(SYN004, message, Span(body.start, end + 1), repair=repair))
         self.lost += 1
@@ -229,7 +230,10 @@ class _Reader:
             return
         span = trimmed(self.text, *mismatch.found.span)
         if mismatch.missing:
-            message = f"expected {self._describe(mismatch.missing)} before this line"
+            wanted = self._describe(mismatch.missing)
+            message = f"expected {wanted} before this line: write {wanted} and its value above it"
+            if mismatch.missing == ROW:
+                message = f"expected {wanted} before this line"
             self.problems.append(Problem(SYN001, message, span))
             return
         found = "a row" if mismatch.found.terminal == ROW else f"{first_key(self.text, mismatch.found.span)}="

@@ -11,14 +11,14 @@ from typing import Protocol
 import numpy as np
 
 from mudline.codes.fields import SYN002, SYN003, SYN015, SYN016
-from mudline.codes.lines import SYN005
+from mudline.codes.lines import SYN001, SYN004, SYN005
 from mudline.diagnostics import Problem, Repair, Severity, Span
 from mudline.keywords.model import FieldSpec, columns_of, record_schema, row_format
 from mudline.keywords.places import Path, Places
 from mudline.keywords.table import LARGEST_WHOLE, Column, Table, from_rows, not_whole
 from mudline.keywords.values import Equation, Kind, Label
 from mudline.spelling import Effort, nearest
-from mudline.syntax.fields import Field, split
+from mudline.syntax.fields import Field, split, trimmed
 from mudline.syntax.rows import Rows as RawRows
 from mudline.syntax.rows import read_number, read_rows, row_fields, row_starts, spells_number
 
@@ -217,7 +217,10 @@ def _choice(field: Field, slot: FieldSpec) -> str:
 
 _MARK = re.compile(r"(?<=[ \t])(?:!|(?:[#;]|//|--)[ \t])")
 _LETTER = re.compile(r"[^\W\d_]")
+_COMMENT = re.compile(r"[ \t]*(?:[#!;]|//|--(?![0-9.]))")
+"""The begin of a line that is a comment in other programs."""
 _OF_FIELDS = frozenset({SYN002, SYN003, SYN005, SYN015, SYN016})
+_OF_LINES = _OF_FIELDS | {SYN001, SYN004}
 _NO_LINE = Span(0, 0)
 _ADVICE = "a line cannot end with a comment; put it on a line of its own, behind C and a space"
 
@@ -239,6 +242,7 @@ def advice_on(name: str) -> str:
 
 def merge_per_line(text: str, problems: list[Problem]) -> list[Problem]:
     """The problems of a text, with one in the place of all those that the fields of a line have by a remark."""
+    problems = _comments_named(text, problems)
     if not any(problem.code in _OF_FIELDS for problem in problems):
         return problems
     remarks = _remarks(text, problems)
@@ -259,6 +263,30 @@ def merge_per_line(text: str, problems: list[Problem]) -> list[Problem]:
             reported.add(remark)
             message = f"{shown(text[slice(*remark)])} is read as data: {_ADVICE}"
             kept.append(replace(blamed[remark], message=message, span=remark, repair=None))
+    return kept
+
+
+def _comments_named(text: str, problems: list[Problem]) -> list[Problem]:
+    """The problems of a text, with one in the place of all those of a line that other programs take for a comment."""
+    if not problems:
+        return problems
+    kept: list[Problem] = []
+    last = _NO_LINE
+    for problem in problems:
+        span = problem.span
+        if span is None or problem.code not in _OF_LINES:
+            kept.append(problem)
+            continue
+        if span.start < last.end and span.start >= last.start:
+            continue
+        start, end = text.rfind("\n", 0, span.start) + 1, text.find("\n", span.start)
+        line = trimmed(text, start, len(text) if end < 0 else end)
+        if _COMMENT.match(text, start, line.end):
+            last = line
+            message = f"{shown(text[slice(*line)])} is read as data: begin a comment with C and a space"
+            kept.append(replace(problem, message=message, span=line, repair=None))
+        else:
+            kept.append(problem)
     return kept
 
 

@@ -133,6 +133,7 @@ class Facts:
     SET= holds it, and that record as a whole. `carried` are the fields that a block has from the block before it, where
     it does not give them. `seabed_type` is the type of seabed that a legacy surface is. `soil_springs` hold elements in
     the soil. What is computed from it is said under the heading `computed_in` of the page on the contact evaluator.
+    `instead_of` says what to write instead of a setting that other keywords have.
     """
 
     superseded_by: tuple[Successor, ...] = ()
@@ -147,6 +148,7 @@ class Facts:
     seabed_type: Literal["", "RIGID", "ELASTIC"] = ""
     soil_springs: bool = False
     computed_in: str = ""
+    instead_of: Mapping[str, str] = field(default_factory=dict)
 
 
 class Names(Enum):

@@ -37,7 +37,7 @@ LARGEST_READ = 50_000_000
 MOST_FILES = 40
 MOST_ENTRIES = 50_000
 MOST_BYTES = 64_000_000
-_MAGIC = b"mudline-lint-cache/2 "
+_MAGIC = b"mudline-lint-cache/3 "
 _COARSE = 0.02
 """Seconds by which the date of a file may lag behind the clock."""
 _METADATA = (".dist-info", ".egg-info")
@@ -144,14 +144,18 @@ def _row(one: Diagnostic) -> list[object]:
         [[*edit.start, *edit.end, edit.text] for edit in one.fix.edits],
     ]
     place = (one.line, one.column, one.end_line, one.end_column)
-    return [one.code, one.slug, one.severity.value, one.message, *place, fix, one.blocks]
+    following = [_row(each) for each in one.following]
+    return [one.code, one.slug, one.severity.value, one.message, *place, fix, one.blocks, following]
 
 
-def _finding(row: object, file: str) -> Diagnostic:
-    code, slug, severity, message, line, column, end_line, end_column, fix, blocks = _shaped(row, "ssssiiii*b")
+def _finding(row: object, file: str, *, follows: bool = False) -> Diagnostic:
+    code, slug, severity, message, line, column, end_line, end_column, fix, blocks, rows = _shaped(row, "ssssiiii*b*")
     place = (line, column, end_line, end_column)
     repair = None if fix is None else _fix(fix)
-    return Diagnostic(file, code, slug, Severity(severity), message, *place, repair, blocks)
+    if not isinstance(rows, list) or (rows and follows):
+        raise ValueError("no list of findings")
+    following = tuple(_finding(each, file, follows=True) for each in rows)
+    return Diagnostic(file, code, slug, Severity(severity), message, *place, repair, blocks, following)
 
 
 def _fix(value: object) -> Fix:

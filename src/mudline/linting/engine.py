@@ -10,9 +10,11 @@ from pathlib import Path
 
 from mudline.deck.loading import load_bytes
 from mudline.deck.model import BaseProblem, Deck
+from mudline.deck.reading import units_of
 from mudline.diagnostics import Blocks, DeckError, Diagnostic, Problem, Severity
 from mudline.keywords.model import Block
 from mudline.keywords.reader import ReadBlock, read_block, read_piece
+from mudline.linting.causes import under_causes
 from mudline.linting.rule import LintContext, Noticed, Rule
 from mudline.linting.suppression import suppressions
 from mudline.syntax.tree import RawBlock
@@ -48,8 +50,47 @@ class LintSettings:
 
 
 def lint_context(context: LintContext, chosen: Sequence[Rule]) -> list[Diagnostic]:
-    """All findings of the chosen rules in a deck, in the order of the file, without those that comments suppress."""
-    return context.deck.diagnose(unsuppressed(context, problems_in(context, chosen), chosen))
+    """All findings of the chosen rules in a deck, in the order of the file, without those that comments suppress.
+
+    Those that follow from another finding are under it.
+    """
+    return context.deck.diagnose(grouped_problems(context, chosen))
+
+
+def grouped_problems(context: LintContext, chosen: Sequence[Rule], *, suppress: bool = True) -> list[Problem]:
+    """What the chosen rules find in a deck, with what follows from a finding under it (`Problem.following`).
+
+    `suppress` False keeps what comments of the deck suppress.
+    """
+
+    def found_in(looked_at: LintContext) -> list[Problem]:
+        found = problems_in(looked_at, chosen)
+        return unsuppressed(looked_at, found, chosen) if suppress else found
+
+    def check(data: bytes) -> tuple[LintContext, list[Problem]]:
+        deck = context.deck
+        units = None if units_of(deck) == deck.units else deck.units
+        read = load_bytes(data, deck.file, units=units, folder=deck.folder, read=_MEMORY.read)
+        corrected = LintContext(read, dialect=context.dialect)
+        return corrected, found_in(corrected)
+
+    return under_causes(context, found_in(context), check)
+
+
+def named_causes(deck: Deck, refused: Sequence[Diagnostic], chosen: Sequence[Rule]) -> list[Diagnostic]:
+    """The findings for which a deck was refused, with the cause in the place of those that follow from it."""
+    waiting = {_place(one): one for one in refused}
+    named: list[Diagnostic] = []
+    for found in deck.diagnose(grouped_problems(LintContext(deck), chosen, suppress=False)):
+        if found.following and any(_place(one) in waiting for one in (found, *found.following)):
+            named.append(found)
+            for one in (found, *found.following):
+                waiting.pop(_place(one), None)
+    return sorted([*named, *waiting.values()], key=lambda one: one.sort_key)
+
+
+def _place(found: Diagnostic) -> tuple[str, str, int, int]:
+    return found.file, found.code, found.line, found.column
 
 
 def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from bisect import bisect_left, insort
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import islice
@@ -66,8 +66,16 @@ def lint_one(name: str, data: bytes, settings: LintSettings, folder: Path | None
 
 def _with_severities(found: Iterable[Diagnostic], settings: LintSettings) -> tuple[Diagnostic, ...]:
     """The findings with the severities that the settings give them."""
-    given = settings.severities
-    return tuple(replace(one, severity=given[one.code]) if one.code in given else one for one in found)
+    return tuple(_with_severity(one, settings.severities) for one in found)
+
+
+def _with_severity(found: Diagnostic, given: Mapping[str, Severity]) -> Diagnostic:
+    """A finding with its severity, which is never below that of what follows from it and is left out."""
+    severity = given.get(found.code, found.severity)
+    following = tuple(_with_severity(one, given) for one in found.following)
+    worst = max((severity, *(one.severity for one in following)), key=lambda one: one.rank)
+    changed = worst is not found.severity or following != found.following
+    return replace(found, severity=worst, following=following) if changed else found
 
 
 # -------------------------------------------------------------------------------------------------------------- fixes

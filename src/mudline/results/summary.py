@@ -188,6 +188,7 @@ class _Case(NamedTuple):
 def static_embedment(scene: Scene) -> list[dict[str, Any]]:
     """A row for each set, law, weight per length and diameter of elements whose weight is known, up to 100 rows.
 
+    `element` is the first of them; of a row for a node, the first that ends there.
     `penetration` is where the law, smoothed as it is evaluated, carries the weight, `stiffness` that of the law there.
     Of a curve that does so at several ratios it is the smallest that is not negative. For nodal laws there is a row for
     the node that carries least and one for the node that carries most; `stiffness` is then Kn, force per length.
@@ -240,16 +241,16 @@ def _of_element(scene: Scene, arrays: LawArrays, zones: _Zones, case: _Case) -> 
             law = stiffness, zones.half_width[case.element], zones.one_sided[case.element]
             depth = float(penetration_under(np.float64(case.weight), *law))
             slope = float(smoothed_reaction(depth, diameter, *law)[1])
-            return _row(case, float(np.divide(depth, diameter)), depth, slope, None)
+            return _row(scene, case, float(np.divide(depth, diameter)), depth, slope, None)
         curve_index = int(arrays.curve_index[case.element])
         found = arrays.curves[curve_index].ratios_at_force(case.weight) if curve_index >= 0 else ()
         ratio = next((each for each in found if each >= 0.0), None)
         if ratio is None:
-            return _row(case, np.nan, np.nan, np.nan, None)
+            return _row(scene, case, np.nan, np.nan, np.nan, None)
         curve = arrays.curves[curve_index]
         slope = float(curve.evaluate(ratio)[1])
         side = CURVE_SIDES[int(curve.extrapolated(ratio))]
-        return _row(case, ratio, ratio * diameter, float(np.divide(slope, diameter)), side)
+        return _row(scene, case, ratio, ratio * diameter, float(np.divide(slope, diameter)), side)
 
 
 def _of_nodes(scene: Scene, weight: Floats) -> list[dict[str, Any]]:
@@ -275,13 +276,16 @@ def _of_nodes(scene: Scene, weight: Floats) -> list[dict[str, Any]]:
             at = int(elements[(ends[elements] == node).any(axis=1)][0])
             case = _Case(scene.law_sets[at], "nodal", float(weight[at]), at)
             ratio = float(np.divide(depth[node], scene.diameter[at]))
-            rows.append(_row(case, ratio, float(depth[node]), float(slope[node]), None))
+            rows.append(_row(scene, case, ratio, float(depth[node]), float(slope[node]), None))
     return rows
 
 
-def _row(case: _Case, ratio: float, penetration: float, stiffness: float, side: str | None) -> dict[str, Any]:
+def _row(
+    scene: Scene, case: _Case, ratio: float, penetration: float, stiffness: float, side: str | None
+) -> dict[str, Any]:
     return {
         "set": case.set_name,
+        "element": int(scene.element_ids[case.element]),
         "weight": case.weight,
         "law": case.law,
         "ratio": finite(ratio),

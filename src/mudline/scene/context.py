@@ -23,13 +23,28 @@ from mudline.scene.deck_values import (
     definition_by,
     external_definers,
     is_read_definer,
+    makes_labels,
     opaque_labels,
     opaque_set_names,
 )
 from mudline.scene.numbering import LARGEST
-from mudline.short_repr import short_repr
+from mudline.short_repr import counted, short_repr
 from mudline.spelling import Effort, nearest
 from mudline.syntax.tree import canonical_name, mark_of
+
+_NUMBERED = {"NODE": "node", "ELEMENT": "element"}
+"""Keywords of what has numbers."""
+
+
+@dataclass(slots=True)
+class _Uses:
+    """How often a deck uses things of a kind that it does not show, number and place of the first, what that blocks."""
+
+    code: Code
+    first: int | None
+    where: Where
+    count: int = 0
+    blocks: Blocks = Blocks.NEVER
 
 
 @dataclass
@@ -47,6 +62,7 @@ class Context:
     doubtful: dict[str, list[tuple[int, int]]] = field(default_factory=dict)
     _reported: dict[str, int] = field(default_factory=dict)
     _placeless: set[tuple[int, int]] = field(default_factory=set)
+    _out_of_sight: dict[tuple[str, str], _Uses] = field(default_factory=dict)
     _effort: Effort = field(default_factory=Effort)
     _sound: range = range(0)
     """Sections of which every line could be used: all of its own, in a deck without problems."""
@@ -73,10 +89,46 @@ class Context:
         elif count == MOST_REPORTED + 1:
             self.problems.append(replace(problem, message=MORE))
 
-    def report_missing(self, code: Code, message: str, where: Where, keyword: str, number: int | None = None) -> None:
-        """Note a name or number that nothing defines."""
-        if self._reported.get(code.code, 0) <= MOST_REPORTED:
-            self.note(self.missing(code, message, where, keyword, number))
+    def report_missing(
+        self,
+        code: Code,
+        message: str,
+        where: Where,
+        keyword: str,
+        number: int | None = None,
+        *,
+        blocks: Blocks | None = None,
+    ) -> None:
+        """Note a name or number that nothing defines; nodes and elements out of sight are noted together at the end."""
+        if keyword in _NUMBERED and (definer := self._definer(keyword)):
+            use = self._out_of_sight.setdefault((definer, keyword), _Uses(code, number, where))
+            use.count += 1
+            use.blocks = blocks or use.blocks
+        elif self._reported.get(code.code, 0) <= MOST_REPORTED:
+            self.note(replace(self.missing(code, message, where, keyword, number), blocks=blocks))
+
+    def report_out_of_sight(self) -> None:
+        """Note once for each keyword whose lines are not read how often the deck uses what it may define."""
+        for (definer, keyword), use in self._out_of_sight.items():
+            thing = _NUMBERED[keyword]
+            first = "" if use.first is None else f" (first: {thing} {use.first})"
+            message = (
+                f"*{definer} may define {thing}s that this deck does not show: {counted(use.count, 'use')} of such "
+                f"{thing}s{first} cannot be checked"
+            )
+            where = self._own_block(definer) or use.where
+            self.note(Problem(use.code, message, None, Severity.INFO, where, None, use.blocks))
+
+    def _own_block(self, keyword: str) -> Where | None:
+        """The first block of a keyword in the model of the deck itself."""
+        models = ((i, section) for i, section in enumerate(self.deck.own_sections) if section.name == "MODEL")
+        places = (Where(i, j) for i, one in models for j, block in enumerate(one.blocks) if block.keyword == keyword)
+        return next(places, None)
+
+    def _definer(self, keyword: str) -> str:
+        """The keyword whose lines are not read and may define things with numbers of a kind, or ""."""
+        unread = (one for one in self.external_definers if not (is_read_definer(one) or makes_labels(one)))
+        return next((definer for definer in unread if definition_by(definer, keyword)), "")
 
     def missing(self, code: Code, message: str, where: Where, keyword: str, number: int | None = None) -> Problem:
         """A name or number that nothing defines: an error, or a warning where something unread could define it."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
@@ -197,7 +197,7 @@ def _check_labels(context: Context, table: Table, where: Where) -> None:
             context.cannot_place(place)
         else:
             message = f"node {shown(word)} is a label, and nothing in this deck makes labelled nodes: give a number"
-            context.note(replace(context.missing(REF006, message, place, "NODE"), blocks=Blocks.ALWAYS))
+            context.report_missing(REF006, message, place, "NODE", blocks=Blocks.ALWAYS)
 
 
 def _add_pattern(context: Context, gathered: Definitions, given: ElementPattern, where: Where) -> None:
@@ -257,8 +257,7 @@ def _join(context: Context, elements: Numbered, nodes: Numbered) -> Indices:
         message = f"element {elements.ids[index]} ends at node {number}, which is not defined: define it"
         generated = not elements.batches[elements.batches_of(int(elements.rows[index]))].table
         place = where if generated else where.inside(end + 1)
-        problem = context.missing(REF006, message, place, "NODE", number)
-        context.note(replace(problem, blocks=Blocks.ALWAYS))
+        context.report_missing(REF006, message, place, "NODE", number, blocks=Blocks.ALWAYS)
     return indices
 
 

@@ -161,4 +161,5 @@ def resolve(deck: Deck, external: ExternalElements | None = None) -> Scene:
     if external is None:  # a file of elements does not define every node and set
         check_soil(context, nodes)
         check_boundaries(context, nodes)
+    context.report_out_of_sight()
     return Scene(ready, nodes, elements, sets, sections, laws, resistance, extensions, seabed, context.problems)

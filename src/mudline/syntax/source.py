@@ -30,6 +30,8 @@ _LONE_CR = re.compile(r"\r(?!\n)")
 _FOREIGN_DATA = re.compile(r"(?m)^(?!C(?:[^A-Za-z\r\n]|$)).*[^\x00-\x7f]")
 """A letter beyond ASCII in a line that is no comment."""
 _NOT_UTF8 = "{} is not UTF-8; the file is read as {}: save it as UTF-8"
+BINARY = "the file looks like binary data"
+"""How the refusal of such a file begins."""
 _BINARY_SHARE = 0.1
 _SAMPLE = 65536
 _CHUNK = 1 << 18
@@ -152,7 +154,7 @@ def _refusal(body: bytes) -> str:
     strange = len(sample) - len(sample.translate(None, _STRANGE))
     if strange > max(_BINARY_SHARE * len(sample), _FEW):
         share = f"{strange} control characters in its first {len(sample)} bytes"
-        return f"the file looks like binary data ({share}): choose the keyword file, or save it as text"
+        return f"{BINARY} ({share}): choose the keyword file, or save it as text"
     return ""
 
 

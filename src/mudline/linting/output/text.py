@@ -16,6 +16,7 @@ STYLES = {Severity.ERROR: "bold red", Severity.WARNING: "bold yellow", Severity.
 _WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "info"}
 _CUT = "..."
 _NARROWEST = 20
+_FOLLOWS = "    follows: "
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,11 +27,18 @@ class Screen:
     encoding: str = "utf-8"
 
 
-def findings(diagnostics: Iterable[Diagnostic], source: Source, screen: Screen) -> Iterator[Text]:
-    """Every finding in one file, as styled plain text; deck text is never read as markup."""
+def findings(
+    diagnostics: Iterable[Diagnostic], source: Source, screen: Screen, *, following: bool = False
+) -> Iterator[Text]:
+    """Every finding in one file, as styled plain text; deck text is never read as markup.
+
+    With `following` those that follow from a finding are shown too, indented below it.
+    """
     for found in diagnostics:
         yield _headline(found, screen)
         yield from excerpt(found, source, screen)
+        for one in found.following if following else ():
+            yield Text(_FOLLOWS).append_text(_headline(one, screen))
 
 
 def _headline(found: Diagnostic, screen: Screen) -> Text:

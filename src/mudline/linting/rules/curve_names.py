@@ -81,14 +81,15 @@ def unused_curve(context: LintContext) -> Iterator[Problem]:
 
 
 _ESTIMATE = re.compile(
-    r"(?:^|[\s_.-]+)(?:low|lower|lb|le|best|be|mean|high|higher|upper|ub|he|min|max|p\d\d)(?:[\s_.-]+(?:estimate|bound))?$"
+    r"[\W_]*(?<![^\W_])(?:lb|le|be|ub|hb|he|low|lower|best|high|higher|upper|mean|min|max|p\d\d?)(?:[\W_]+(?:estimate|bound))?(?![^\W_])"
 )
+"""The words of a name that say which estimate it is."""
 
 
 def _soil(name: str) -> str:
     """The name of a curve without the words that say which estimate of its soil it is; "" where it has none."""
     soil, count = _ESTIMATE.subn("", folded(name))
-    return soil if count else ""
+    return soil.strip(" -_.") if count else ""
 
 
 def _chosen_elsewhere(context: LintContext) -> bool:

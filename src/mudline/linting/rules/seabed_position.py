@@ -21,6 +21,9 @@ from mudline.scene.seabed import SeabedKind, SeabedShape
 if TYPE_CHECKING:
     from mudline.keywords.library.boundary import Boundary, FixedNode, FixedRange
 
+_SAME_PLACE = 3
+"""Decimals in which the coordinates of the pipes of a pipe in a pipe agree."""
+
 SBD006 = Code("SBD006", "no-vertical-restraint", Severity.WARNING)
 SBD021 = Code("SBD021", "one-constrained-dof", Severity.WARNING)
 SBD022 = Code("SBD022", "deep-node", Severity.WARNING)
@@ -295,11 +298,20 @@ def _lying(context: LintContext, elements: Indices) -> Iterator[Problem]:
     lies = np.greater_equal if seabed else np.greater
     parts = (elements[block] for block in blocks_of(len(elements)))
     lying = np.concatenate([part[lies(_depths(scene, part), 0.0)] for part in parts])
+    if lying.size and ("PIP SECTION" in context.keywords or "PIP CONNECTION" in context.keywords):
+        lying = lying[~_inside_others(scene, lying)]
     if lying.size:
         where = "at or below" if seabed else "below"
         which = f"{first_of('element', scene.element_ids[lying[0]], lying.size)} lie{'s' * (lying.size == 1)}"
         message = f"{which} {where} the seabed (X = 0) and no seabed law applies: give STIFFNESS= to a set of them"
         yield Problem(SBD006, message, where=scene.table.numbered.where(int(lying[0])))
+
+
+def _inside_others(scene: Scene, elements: Indices) -> Mask:
+    """Elements whose middle is that of an element with a law: the inner pipes of pipes in pipes."""
+    middles = scene.coordinates[scene.element_nodes].mean(axis=1).round(_SAME_PLACE)
+    outer = set(map(tuple, middles[scene.law != LawKind.NONE].tolist()))
+    return np.array([tuple(middle) in outer for middle in middles[elements].tolist()], dtype=np.bool_)
 
 
 def _depths(scene: Scene, elements: Indices) -> Floats:

@@ -15,6 +15,7 @@ from mudline.scene.checks import check
 from mudline.scene.checks.fields import missing_file
 from mudline.scene.deck_values import file_name, number, surfaces
 from mudline.scene.seabed import COMPILED, SeabedKind
+from mudline.syntax.source import BINARY
 
 if TYPE_CHECKING:
     from mudline.keywords.library.seabed_planes import PlaneBounds, SeabedPlanes
@@ -108,8 +109,8 @@ def unreadable_profile(scene: ResolvedDeck) -> Iterator[Problem]:
     A compiled profile (.fcsbd) is binary, and its format is not public: the deck keeps it, and mudline knows nothing of
     the seabed that it describes, so the deck cannot be evaluated. A linear profile may be a text file instead, with a
     line `Y, elevation` for each point; in such a file the finding is a warning and names the first line that cannot be
-    read. Points that make no seabed, such as a single one or two elevations at one Y, are an error. A file that is
-    missing is reported as REF015 only.
+    read. Another binary file is an info, as a compiled one is. Points that make no seabed, such as a single one or two
+    elevations at one Y, are an error. A file that is missing is reported as REF015 only.
 
     Example:
          $MODEL
@@ -131,7 +132,7 @@ def unreadable_profile(scene: ResolvedDeck) -> Iterator[Problem]:
         used = bool(seabed.missing) and (where.section, where.block) == (seabed.where.section, seabed.where.block)
         profile = cast("SeabedProfile", scene.deck.sections[where.section].blocks[where.block])
         compiled = file_name(profile.file or "").lower().endswith(COMPILED)
-        severity = Severity.INFO if compiled else Severity.WARNING
+        severity = Severity.INFO if compiled or BINARY in message else Severity.WARNING
         yield Problem(SBD023, message, None, severity, where, blocks=Blocks.ALWAYS if used else Blocks.NEVER)
     known = seabed.kind is SeabedKind.PROFILE and not seabed.missing and not np.isnan(seabed.points).any()
     if known and (fault := _fault(scene)):

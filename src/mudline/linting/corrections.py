@@ -1,0 +1,169 @@
+"""What may correct a fault from which other findings follow: a name that was meant, a `$SECTION` line."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from mudline.codes.lines import SYN004, SYN005, SYN007, SYN008, SYN009, SYN010
+from mudline.deck.reading import TextOrigin
+from mudline.diagnostics import Problem, Severity, Span
+from mudline.keywords import catalogue
+from mudline.syntax.edits import TextEdit
+from mudline.syntax.tree import RawBlock
+
+_NAMES = (SYN004, SYN005, SYN008, SYN009, SYN010)
+
+
+@dataclass(frozen=True, slots=True)
+class Correction:
+    """Edits that may correct a finding, and the part of the text that is read differently then.
+
+    `message` is what the finding says where the correction holds; "" for its own message. New findings tell against a
+    correction that is `guessed`.
+    """
+
+    cause: Problem
+    edits: tuple[TextEdit, ...]
+    region: Span
+    message: str = ""
+    guessed: bool = False
+
+
+def start_of(text: TextOrigin, problem: Problem) -> int:
+    """Where a problem begins in the text, -1 where it has no place there."""
+    span = problem.span or (text.span(problem.where) if problem.where else None)
+    return -1 if span is None else span.start
+
+
+def line_at(text: TextOrigin, offset: int) -> Span:
+    """The line around an offset, without its end."""
+    unified = text.source.unified
+    end = unified.find("\n", offset)
+    end = len(unified) if end < 0 else end
+    return Span(unified.rfind("\n", 0, offset) + 1, end - (unified[end - 1 : end] == "\r"))
+
+
+def misspelt(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
+    """Names for which another one was meant."""
+    blocks = Blocks(text)
+    for problem in problems:
+        if problem.code not in _NAMES or problem.repair is None:
+            continue
+        edits = tuple(TextEdit(span, written) for span, written in problem.repair.edits)
+        first = edits[0].span
+        region = blocks.section_at(first.start) if problem.code is SYN010 else blocks.block_at(first.start)
+        yield Correction(problem, edits, region)
+
+
+class Blocks:
+    """The blocks of a text by their place."""
+
+    def __init__(self, text: TextOrigin) -> None:
+        self.end = len(text.source.unified)
+        tree = text.tree
+        self.heads = [section.head.span.start if section.head else 0 for section in (tree.preamble, *tree.sections)]
+        self.blocks = [(section.name, block) for section in (tree.preamble, *tree.sections) for block in section.blocks]
+        self.starts = sorted([*self.heads, *(block.head.span.start for _, block in self.blocks)])
+
+    def block_at(self, offset: int) -> Span:
+        """From the head of the block (or section) around an offset to the next one."""
+        return self._around(self.starts, offset)
+
+    def section_at(self, offset: int) -> Span:
+        """From the head of the section around an offset to the next one."""
+        return self._around(self.heads, offset)
+
+    def _around(self, starts: list[int], offset: int) -> Span:
+        at = bisect_right(starts, offset)
+        return Span(starts[at - 1] if at else 0, starts[at] if at < len(starts) else self.end)
+
+
+# ------------------------------------------------------------------------------------------- $SECTION lines
+
+
+def missing_sections(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
+    """Blocks that stand before their section, or in another one: a `$SECTION` line in front of each run of them."""
+    outside = {start_of(text, one): one for one in problems if one.code is SYN007}
+    elsewhere = {start_of(text, one): one for one in problems if one.code is SYN008 and one.weight is Severity.ERROR}
+    tree = text.tree
+    heads = [trimmedstart_of(text, block) for block in tree.preamble.blocks]
+    if run := [(head, block.name) for head, block in zip(heads, tree.preamble.blocks, strict=True) if head in outside]:
+        end = tree.sections[0].head.span.start if tree.sections and tree.sections[0].head else Blocks(text).end
+        first = outside[run[0][0]]
+        edits, words = _section_lines(run, "")
+        if len(run) > 1:
+            message = f"the line {words} is missing above this one: *{run[0][1]} stands before any $SECTION"
+        else:
+            message = ""
+        yield Correction(first, edits, Span(run[0][0], end), message)
+    for section in tree.sections:
+        placed = [(trimmedstart_of(text, block), block.name) for block in section.blocks]
+        for begin, behind in _runs(placed, elsewhere):
+            yield _moved(text, elsewhere[placed[begin][0]], section.name, placed[begin:behind], placed[behind:])
+
+
+def _runs(placed: list[tuple[int, str]], elsewhere: dict[int, Problem]) -> Iterator[tuple[int, int]]:
+    """Where runs of misplaced blocks that belong in one section begin and end, as indices in `placed`.
+
+    Keywords of which the section is not known do not end a run.
+    """
+    number = 0
+    while number < len(placed):
+        head, keyword = placed[number]
+        first = number
+        number += 1
+        if head not in elsewhere:
+            continue
+        behind = number
+        target = _section_of(keyword)
+        while number < len(placed):
+            head, keyword = placed[number]
+            if catalogue.sections_of(keyword) and not (head in elsewhere and _section_of(keyword) == target):
+                break
+            number += 1
+            behind = number if head in elsewhere else behind
+        yield first, behind if number < len(placed) else number
+
+
+def _section_of(keyword: str) -> str:
+    """The section where a keyword mostly stands."""
+    return (catalogue.sections_of(keyword) or ("MODEL",))[0]
+
+
+def trimmedstart_of(text: TextOrigin, block: RawBlock) -> int:
+    """Where the name of a block begins: behind the blanks of its line."""
+    line = text.source.unified[slice(*block.head.span)]
+    return block.head.span.start + len(line) - len(line.lstrip(" \t"))
+
+
+def _moved(
+    text: TextOrigin, first: Problem, section: str, run: list[tuple[int, str]], behind: list[tuple[int, str]]
+) -> Correction:
+    """A run of blocks in a section of their own; the section goes on behind them."""
+    edits, words = _section_lines(run, section)
+    end = Blocks(text).section_at(run[0][0]).end
+    if behind:
+        end = behind[0][0]
+        edits = (*edits, TextEdit(Span(end, end), f"${section}\n"))
+    others = len(run) - 1
+    message = ""
+    if others:
+        nor = "nor does the keyword" if others == 1 else f"nor do the {others} keywords"
+        message = (
+            f"*{run[0][1]} does not belong in ${section}, {nor} below it: "
+            f"the line {words} seems to be missing above this one"
+        )
+    return Correction(first, edits, Span(run[0][0], end), message)
+
+
+def _section_lines(run: list[tuple[int, str]], current: str) -> tuple[tuple[TextEdit, ...], str]:
+    """A line in front of each keyword of a run that does not belong in the section of the one before; the first."""
+    edits: list[TextEdit] = []
+    for head, keyword in run:
+        sections = catalogue.sections_of(keyword) or ((current,) if current else ("MODEL",))
+        if current not in sections:
+            current = sections[0]
+            edits.append(TextEdit(Span(head, head), f"${current}\n"))
+    return tuple(edits), edits[0].text.strip() if edits else ""

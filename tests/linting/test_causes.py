@@ -1,0 +1,272 @@
+"""One cause, one finding: what follows from a fault stands under it, and nothing else does."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from mudline.deck.loading import load_bytes
+from mudline.diagnostics import Diagnostic, Severity
+from mudline.linting.engine import LintSettings, lint_bytes, named_causes
+from mudline.linting.fixing import lint_one
+from mudline.linting.output import LintRun, form_module
+from mudline.linting.registry import rules, select
+from mudline.scene.model import resolve
+
+DECK = """\
+$MODEL
+*OCEAN
+ 500.0, 1025.0, 9.81
+*NODE
+ 1, -0.05, 0.0
+ 11, -0.05, 100.0
+ GEN=1, 11
+*ELEMENT
+ 1, 1, 2
+ GEN=1, 10
+*ELEMENT SETS
+ SET=Left
+ 1, 2, 3, 4, 5
+ SET=Right
+ 6, 7, 8, 9, 10
+*GEOMETRIC SETS
+ SET=ALL
+ 1.0E8, 1.0E8, 8.0E7, 3.5E9, 130.0, 0.0, 0.2889, 0.3239, 0.3239, 0.3239
+*SEABED STIFFNESS
+ CURVE=Clay
+ 0.0, 0.0
+ 0.5, 20000.0
+ CURVE=Sand
+ 0.0, 0.0
+ 0.5, 40000.0
+*SEABED PROPERTIES
+ TYPE=ELASTIC
+ SET=Left
+ STIFFNESS=Clay
+ FRICTION=0.3, 0.5
+ SET=Right
+ STIFFNESS=Sand
+ FRICTION=0.3, 0.5
+$LOAD CASE
+*ANALYSIS TYPE
+ TYPE=STATIC
+*BOUNDARY
+ TYPE=CONSTANT
+ 1, 1
+ 1, 2
+ 11, 3
+"""
+
+
+def changed(*changes: tuple[str, str]) -> str:
+    text = DECK
+    for old, new in changes:
+        assert text.count(old) >= 1, old
+        text = text.replace(old, new, 1)
+    return text
+
+
+def found(text: str, name: str = "deck.keyxm") -> list[Diagnostic]:
+    return lint_bytes(text.encode(), name, rules())
+
+
+def only(text: str) -> Diagnostic:
+    (one,) = found(text)
+    return one
+
+
+def test_the_deck_without_a_fault_is_clean() -> None:
+    assert found(DECK) == []
+
+
+CAUSES = {
+    "a misspelt *ELEMENT": (("*ELEMENT\n", "*ELEMNT\n"), "SYN009", 8, 10),
+    "a misspelt *NODE": (("*NODE\n", "*NODS\n"), "SYN009", 4, 3),
+    "a misspelt *ELEMENT SETS": (("*ELEMENT SETS\n", "*ELEMENT SET\n"), "SYN008", 11, 2),
+    "a misspelt *SEABED STIFFNESS": (("*SEABED STIFFNESS\n", "*SEABED STIFFNES\n"), "SYN009", 19, 2),
+    "a misspelt *GEOMETRIC SETS": (("*GEOMETRIC SETS\n", "*GEOMETRIC SET\n"), "SYN009", 16, 2),
+    "a misspelt GEN=": ((" GEN=1, 11\n", " GN=1, 11\n"), "SYN004", 7, 2),
+    "no $MODEL": (("$MODEL\n", ""), "SYN007", 1, 6),
+    "no $MODEL behind $PREPROCESSOR": (("$MODEL\n", "$PREPROCESSOR\n*PARAMETERS\n od, 0.3\n"), "SYN008", 4, 6),
+    "no $LOAD CASE": (("$LOAD CASE\n", ""), "SYN008", 34, 1),
+    "no *NODE": (("*NODE\n", ""), "SYN001", 4, 5),
+    "no *ELEMENT": (("*ELEMENT\n", ""), "REF007", 8, 11),
+    "no *ELEMENT SETS": (("*ELEMENT SETS\n", ""), "SYN004", 11, 5),
+    "no *SEABED STIFFNESS": (("*SEABED STIFFNESS\n", ""), "SYN004", 19, 11),
+    "no *SEABED PROPERTIES": (("*SEABED PROPERTIES\n", ""), "SYN004", 26, 9),
+    "a broken number of a node": ((" 1, -0.05, 0.0\n", " 1x, -0.05, 0.0\n"), "SYN002", 5, 4),
+    "a broken GEN= of nodes": ((" GEN=1, 11\n", " GEN=1, l1\n"), "SYN002", 7, 2),
+    "points before their CURVE=": ((" CURVE=Clay\n", ""), "SYN001", 20, 1),
+    "an empty SET=": ((" SET=Left\n 1,", " SET=\n 1,"), "SYN003", 12, 1),
+}
+
+
+@pytest.mark.parametrize(("change", "code", "line", "count"), CAUSES.values(), ids=CAUSES)
+def test_a_fault_gives_the_one_finding_that_names_it(change: tuple[str, str], code: str, line: int, count: int) -> None:
+    one = only(changed(change))
+    assert (one.code, one.line, len(one.following)) == (code, line, count)
+    if count == 1:
+        assert one.message.endswith("; 1 finding that follows from it is left out")
+    else:
+        assert one.message.endswith(f"; {count} findings that follow from it are left out")
+
+
+@pytest.mark.parametrize(("change", "code", "line", "count"), CAUSES.values(), ids=CAUSES)
+def test_a_cause_is_as_bad_as_what_follows_from_it(change: tuple[str, str], code: str, line: int, count: int) -> None:
+    text = changed(change)
+    one = only(text)
+    assert (one.code, one.line, len(one.following)) == (code, line, count)
+    assert one.severity.rank >= max(each.severity.rank for each in one.following)
+    assert one.blocks >= any(each.blocks for each in one.following)
+    refused = bool(resolve(load_bytes(text.encode(), "deck.keyxm")).blocking())
+    assert refused == one.blocks
+    assert not refused or one.severity is Severity.ERROR
+
+
+SECOND = {
+    "an element in a set": ((" 6, 7, 8, 9, 10\n", " 6, 7, 8, 9, 99\n"), ("REF005", 15)),
+    "a curve that is not defined": (("STIFFNESS=Clay", "STIFFNESS=Mud"), ("REF002", 29)),
+    "a set that is not defined": ((" SET=Right\n STIFF", " SET=Wrong\n STIFF"), ("REF001", 31)),
+    "a diameter": (("0.3239, 0.3239, 0.3239", "0.3239, 0.3239, 0.1239"), ("GEO001", 18)),
+    "a number": ((" 0.5, 40000.0\n", " 0.5, 4OOOO.0\n"), ("SYN002", 25)),
+}
+FIRST = ["a misspelt *ELEMENT", "a misspelt *NODE", "no *NODE", "no *ELEMENT", "a broken number of a node"]
+
+
+@pytest.mark.parametrize("first", FIRST)
+@pytest.mark.parametrize("second", SECOND)
+def test_a_second_fault_stays_beside_the_first(first: str, second: str) -> None:
+    change, code, line, _ = CAUSES[first]
+    other, (wanted, at) = SECOND[second]
+    places = {(one.code, one.line) for one in found(changed(change, other))}
+    at -= first in ("no *NODE", "no *ELEMENT")
+    assert {(code, line), (wanted, at)} <= places
+
+
+def test_a_finding_that_sums_up_more_than_what_follows_stays() -> None:
+    fewer = (" 1, 2, 3, 4, 5\n", " 1, 2, 3, 4\n")
+    assert [(one.code, one.line) for one in found(changed(fewer))] == [("SBD006", 10)]
+    both = found(changed(fewer, ("*SEABED PROPERTIES\n", "")))
+    assert [(one.code, one.line) for one in both if one.code == "SBD006"] == [("SBD006", 9)]
+    assert [len(one.following) for one in both if one.code == "SYN004"] == [8]
+
+
+def test_two_causes_have_what_follows_from_each() -> None:
+    both = found(changed(("*ELEMENT\n", "*ELEMNT\n"), ("*SEABED STIFFNESS\n", "*SEABED STIFFNES\n")))
+    assert [(one.code, one.line, len(one.following)) for one in both] == [("SYN009", 8, 10), ("SYN009", 19, 2)]
+
+
+def test_what_follows_is_not_left_out_where_its_cause_is_not_reported() -> None:
+    text = changed(("*NODE\n", "*NODS\n"))
+    chosen = select(["REF006"])
+    assert [one.line for one in lint_bytes(text.encode(), "deck.keyxm", chosen)] == [9, 9, 10]
+    suppressed = text.replace("*NODS\n", "C mudline: ignore SYN009\n*NODS\n")
+    assert {one.code for one in found(suppressed)} >= {"REF006"}
+
+
+def test_a_suppressed_finding_is_not_counted() -> None:
+    text = changed(("*NODE\n", "*NODS\n"), ("*ELEMENT\n", "*ELEMENT\nC mudline: ignore REF006\n"))
+    assert [len(one.following) for one in found(text) if one.code == "SYN009"] == [1]
+
+
+def test_numbers_that_fit_another_keyword_of_the_deck_are_not_taken_for_its_lines() -> None:
+    text = changed((" 0.5, 20000.0\n", " 1, 20000.0, 5\n 2, 30000.0, 6\n"))
+    assert not any("seems to be missing" in one.message for one in found(text))
+
+
+def test_a_row_that_stays_wrong_is_no_cause() -> None:
+    codes = [one.code for one in found(changed((" 0.5, 20000.0\n", " 0,5, 20000,5\n")))]
+    assert "SYN015" in codes
+    assert "SYN003" in codes
+
+
+def test_a_severity_of_the_configuration_does_not_hide_what_follows() -> None:
+    text = changed(("*NODE\n", "*NODS\n")).encode()
+    mild = LintSettings(tuple(rules()), severities={"SYN009": Severity.INFO})
+    (one,) = lint_one("deck.keyxm", text, mild).found
+    assert (one.code, one.severity) == ("SYN009", Severity.WARNING)
+    strict = LintSettings(tuple(rules()), severities={"SYN009": Severity.INFO, "REF006": Severity.ERROR})
+    (one,) = lint_one("deck.keyxm", text, strict).found
+    assert one.severity is Severity.ERROR
+    assert {each.severity for each in one.following} == {Severity.ERROR}
+
+
+def test_a_refused_deck_is_refused_with_the_cause() -> None:
+    deck = load_bytes(changed(("*NODE\n", "*NODS\n")).encode(), "deck.keyxm")
+    refused = deck.diagnose(resolve(deck).blocking())
+    assert [one.code for one in refused] == ["REF006"] * 3
+    assert [(one.code, one.line) for one in named_causes(deck, refused, rules())] == [("SYN009", 4)]
+
+
+def test_a_missing_line_is_named() -> None:
+    assert only(changed(("*NODE\n", ""))).message.startswith("this line and those below it read as *NODE: ")
+    assert only(changed(("$MODEL\n", ""))).message.startswith("the line $MODEL is missing above this one: ")
+
+
+@pytest.mark.parametrize("name", ["deck.keyxm", "deck.keyx"])
+@pytest.mark.parametrize("end", ["\r\n", "\r"])
+def test_line_ends_and_units_change_nothing(name: str, end: str) -> None:
+    for change, code, line, count in CAUSES.values():
+        text = changed(change).replace("\n", end)
+        one = found(text, name)[-1] if name == "deck.keyxm" else next(one for one in found(text, name) if one.following)
+        assert (one.code, one.line, len(one.following)) == (code, line, count)
+
+
+def test_a_fix_is_made_as_before() -> None:
+    text = changed(("*NODE\n", "*NODS\n"))
+    from mudline.linting.engine import Fixing  # noqa: PLC0415
+
+    result = lint_one("deck.keyxm", text.encode(), LintSettings(tuple(rules()), fixing=Fixing.UNSAFE))
+    assert result.changed == DECK.encode()
+    assert result.found == ()
+
+
+# ---------------------------------------------------------------------------------------------- what to write instead
+
+
+@pytest.mark.parametrize("mark", ["#", "//", "!", ";", "--"])
+def test_a_comment_of_another_program_is_named(mark: str) -> None:
+    one = only(changed(("*NODE\n", f"*NODE\n{mark} the nodes, as laid\n")))
+    assert one.message == f"'{mark} the nodes, as laid' is read as data: begin a comment with C and a space"
+    assert (one.line, one.column) == (5, 1)
+
+
+def test_the_table_of_an_interface_is_named() -> None:
+    table = "*EMBEDMENT\n Left, 0.1, 1000\n Left, 0.2, 2000\n Right, 0.1, 1500\n Right, 0.2, 2500\n"
+    curves = DECK[DECK.index("*SEABED STIFFNESS") : DECK.index("$LOAD CASE")]
+    text = changed((curves, "*ELASTIC SURFACE\n 50000.0, 0.3, 0.5\n" + table))
+    (one,) = (each for each in found(text) if each.severity is Severity.ERROR)
+    assert (one.code, one.line, len(one.following)) == ("SYN003", 22, 4)
+    assert "write SET=Left on a line of its own, and 0.1, 1000 below it; 4 findings" in one.message
+
+
+def test_hints_of_a_setting_say_what_to_write() -> None:
+    (empty,) = found(changed((" SET=Left\n STIFF", " SET=\n STIFF")))
+    assert empty.message == "SET= has no value: write the name of a set behind it (ALL is every element)"
+    by_set = found(changed((" CURVE=Clay\n", " SET=Left\n")))
+    assert "name the curve by CURVE= here, and give it to the set in STIFFNESS=" in by_set[0].message
+
+
+@pytest.mark.parametrize("keyword", ["NODE,CURVILINEAR", "CABLE"])
+def test_nodes_out_of_sight_are_one_info(keyword: str) -> None:
+    nodes = DECK[DECK.index("*NODE") : DECK.index("*ELEMENT\n")]
+    one = only(changed((nodes, f"*{keyword}\n 1, 0.0\n 11, 100.0\n")))
+    assert (one.code, one.severity, one.line, one.blocks) == ("REF006", Severity.INFO, 4, True)
+    assert f"*{keyword} may define nodes that this deck does not show" in one.message
+
+
+def test_files_are_looked_for_once_more(tmp_path: Path) -> None:
+    (tmp_path / "static.keyxm").write_text(DECK, encoding="utf-8")
+    text = "$LOAD CASE\n*RESTRAT\n LAST=static\n*BOUNDARY\n TYPE=CONSTANT\n 1, 1\n*TIME\n STEP=FIXED\n 0, 10, 0.1\n"
+    (one, *_) = lint_bytes(text.encode(), "dynamic.keyxm", rules(), folder=tmp_path)
+    assert one.code == "SYN009"
+
+
+@pytest.mark.parametrize("form", ["concise", "json", "jsonl", "github", "gitlab", "junit", "sarif"])
+def test_what_follows_is_in_no_output(form: str) -> None:
+    text = changed(("*NODE\n", "*NODS\n"))
+    written = "".join(form_module(form).write(found(text), LintRun(["deck.keyxm"], "1.0")))
+    assert "SYN009" in written
+    assert "3 findings that follow from it are left out" in written
+    assert "REF006" not in written
