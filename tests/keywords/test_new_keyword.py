@@ -156,6 +156,5 @@ def test_diff() -> None:
         for spacing in (12.0, 13.0)
     )
     assert [(each.where, each.before, each.after) for each in compare(before, after)] == [
-        ("elements 1-10/seabed anchor/spacing", 12.0, 13.0),
         (f"*{NAME}/ALL/spacing", 12.0, 13.0),
     ]

@@ -73,10 +73,11 @@ def unused_curve(context: LintContext) -> Iterator[Problem]:
             unused[name] = [curve]
     places = [curve.where for curves in unused.values() for curve in curves]
     repairs = removals(context.text, places) if context.text else {}
-    soils = {_soil(name) for name in scene.laws.referenced} - {""}
+    soils = {_soil(name) for name in scene.laws.referenced}
     for curve, *_ in unused.values():
         message = f"curve {shown(curve.name)} is not used: name it in a STIFFNESS=, or remove it"
-        severity = Severity.INFO if _soil(curve.name) in soils else None
+        estimate = _soil(curve.name) != folded(curve.name) and _soil(curve.name) in soils
+        severity = Severity.INFO if estimate else None
         yield Problem(REF003, message, None, severity, curve.title, repairs.get(curve.where))
 
 
@@ -87,9 +88,8 @@ _ESTIMATE = re.compile(
 
 
 def _soil(name: str) -> str:
-    """The name of a curve without the words that say which estimate of its soil it is; "" where it has none."""
-    soil, count = _ESTIMATE.subn("", folded(name))
-    return soil.strip(" -_.") if count else ""
+    """The name of a curve without the words that say which estimate of its soil it is."""
+    return _ESTIMATE.sub("", folded(name)).strip(" -_.")
 
 
 def _chosen_elsewhere(context: LintContext) -> bool:
