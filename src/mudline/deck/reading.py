@@ -253,7 +253,7 @@ class _Reader:
         empty = last and not raw.leaves and not read.problems and head.end == len(self.text)
         if empty and set(declared.model_fields) - _OF_EVERY_BLOCK:
             message = f"the file ends behind *{raw.name}: it seems to be cut off, add what is missing"
-            self.problems.append(Problem(SYN014, message, head))
+            self.problems.append(Problem(SYN014, message, head, Severity.WARNING))
         if read.unpublished:
             self._opaque(section, Where(index, number), raw)
             return
