@@ -100,7 +100,8 @@ class Problem:
     """Something noticed in a deck, at a span of its text or among its values.
 
     `severity` None means the severity of the code. Only a deck that was read from text has repairs. `blocks` None means
-    that the problem keeps the deck from being evaluated if it is an error.
+    that the problem keeps the deck from being evaluated if it is an error. `maybe_defined_by` is the keyword that may
+    define what is missing, where it is misspelt or misplaced and the error therefore a warning.
     """
 
     code: Code
@@ -110,6 +111,7 @@ class Problem:
     where: Where | None = None
     repair: Repair | None = None
     blocks: Blocks | None = None
+    maybe_defined_by: str = ""
 
     __repr__ = short_repr
 

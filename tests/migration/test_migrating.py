@@ -222,7 +222,8 @@ def test_points_before_any_set_mean_all() -> None:
     found = migrated(PIPE_WITH_SETS + "*ELASTIC SURFACE\n 1e4\n*EMBEDMENT\n0, 0\n 1, 5\n SET=West\n 0, 0\n 1, 7\n")
     text = found.content.decode()
     assert " CURVE=ALL\n0, 0\n" in text
-    assert text.index("STIFFNESS=1e4") < text.index("STIFFNESS=ALL") < text.index("STIFFNESS=West")
+    assert "C stiffness 1e4 left out, as every element is on a curve\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=ALL\n" in text
+    assert text.index("STIFFNESS=ALL") < text.index("STIFFNESS=West")
     assert verify(found).differences == ()
 
 

@@ -104,10 +104,12 @@ class _Run:
             count = counted(len(verdict.differences), "difference")
             notify(f"{self.file.name}: left unchanged: {count} between the old deck and the new one")
         else:
+            count = verdict.representatives
+            more = f", and {count} representative elements for its sets" if count else ""
             self._note(
-                f"verified: {counted(verdict.elements, 'element')} of {counted(verdict.kinds, 'kind')}, and "
-                f"{verdict.representatives} representative elements for its sets, at {verdict.positions} positions: "
-                "forces, stiffnesses, friction, lateral resistance, suction and seabed are bitwise equal"
+                f"verified: {counted(verdict.elements, 'element')} of {counted(verdict.kinds, 'kind')}{more}, at "
+                f"{verdict.positions} positions: forces, stiffnesses, friction, lateral resistance, suction and seabed "
+                "are bitwise equal"
             )
         return not verdict.differences
 

@@ -17,7 +17,8 @@ from mudline.deck.model import Deck, comment_texts
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import DeckError, Problem
 from mudline.keywords.catalogue import is_superseded, supersedes
-from mudline.migration.rewriting import Rewriting, refusals, rewrite, superseded_blocks
+from mudline.migration.refusals import refusals, superseded_blocks
+from mudline.migration.rewriting import Rewriting, rewrite
 from mudline.scene.model import Scene, resolve
 from mudline.scene.restart import decks_before
 from mudline.syntax.edits import edited_bytes
@@ -89,10 +90,10 @@ def migrate(deck: Deck, continued_by: Sequence[str] = ()) -> Migration:
     with errors, and (MIG001) for what the new family cannot say.
     """
     before = resolve(deck).require()
-    if problems := list(refusals(deck, continued_by)):
+    if problems := list(refusals(deck, before, continued_by)):
         raise DeckError(deck.diagnose(problems))
     text = as_text(deck)
-    made = rewrite(text)
+    made = rewrite(text, before)
     origin = text.origin
     assert isinstance(origin, TextOrigin)  # noqa: S101 - `as_text` gives no other
     content = edited_bytes(origin.source, made.edits)
