@@ -46,9 +46,13 @@ def without_spelling(before: Scene, after: Scene, found: Sequence[Difference], t
         return Comparison(list(found), [])
     pair = Pair(Side(before), Side(after), Tolerance(tolerance))
     groups = _groups(pair)
-    spelling = [one for one in found if one.group in groups or _is_whole_curve(one, pair)]
-    dropped = set(map(id, spelling))
-    return Comparison([*(one for one in found if id(one) not in dropped), *_meaning(pair, groups)], spelling)
+    others: list[Difference] = []
+    replaced: list[Difference] = []
+    for one in found:
+        (replaced if one.group in groups or _is_whole_curve(one, pair) else others).append(one)
+    meant = list(_meaning(pair, groups))
+    places = {one.where for one in meant}
+    return Comparison([*others, *meant], [one for one in replaced if one.where not in places])
 
 
 def _rewritten(old: Scene, new: Scene) -> bool:

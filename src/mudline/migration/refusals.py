@@ -6,9 +6,9 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from mudline.codes import MIG001
-from mudline.deck.model import Deck
+from mudline.deck.model import Deck, Opaque
 from mudline.diagnostics import Problem, Where
-from mudline.keywords.catalogue import in_order, is_superseded, supersedes
+from mudline.keywords.catalogue import in_order, is_superseded, sections_of, suggest_keyword, supersedes
 from mudline.keywords.common import Surface
 from mudline.keywords.model import Block
 from mudline.keywords.values import Equation
@@ -17,6 +17,7 @@ from mudline.scene.model import Scene
 from mudline.syntax.tree import canonical_name
 
 DIRECTIONS = ("longitudinal", "transverse")
+_MISSPELT = "{} may be meant as *{}{}: correct or remove it first"
 
 
 def superseded_blocks(deck: Deck) -> list[tuple[Where, Block]]:
@@ -28,6 +29,15 @@ def superseded_blocks(deck: Deck) -> list[tuple[Where, Block]]:
 def surfaces(deck: Deck) -> list[tuple[Where, Surface]]:
     """The legacy surfaces of a deck, in the order of the file."""
     return list(deck.blocks_that(lambda declared: declared.facts.seabed_type))
+
+
+def misspelt(deck: Deck) -> Iterator[Problem]:
+    """Keywords of the model that are not known and spelt nearly as a legacy one; for a deck that has no other."""
+    for i, section in enumerate(deck.sections):
+        for j, block in enumerate(section.blocks if section.name == "MODEL" else ()):
+            unknown = isinstance(block, Opaque) and sections_of(block.keyword) is None
+            if unknown and is_superseded(meant := suggest_keyword(block.keyword)):
+                yield _refusal(_MISSPELT.format(f"*{block.keyword}, which is not known,", meant, ""), Where(i, j))
 
 
 def refusals(deck: Deck, scene: Scene, continued_by: Sequence[str] = ()) -> Iterator[Problem]:
@@ -62,7 +72,7 @@ def misplaced_keywords(scene: Scene) -> Iterator[Problem]:
         if depend or is_superseded(keyword) or supersedes(keyword):
             words, where = scene.context.misplaced_place(keyword)
             codes = f" ({', '.join(depend)})" if depend else ""
-            yield _refusal(f"{words} may be meant as *{keyword}{codes}: correct or remove it first", where)
+            yield _refusal(_MISSPELT.format(words, keyword, codes), where)
 
 
 def _mixed_families(deck: Deck) -> Iterator[Problem]:

@@ -38,28 +38,30 @@ class Rewriting(NamedTuple):
     files: dict[str, str]
 
 
-def rewrite(deck: Deck, scene: Scene) -> Rewriting:
-    """The edits for a deck that was read from text and that has no refusals; `scene` is the resolved deck."""
-    return _Rewriter(deck, unused_definitions(scene)).rewrite()
+def rewrite(deck: Deck, unused: Container[Where]) -> Rewriting:
+    """The edits for a deck that was read from text and that has no refusals; `unused` is left out."""
+    return _Rewriter(deck, unused).rewrite()
 
 
-def unused_definitions(scene: Scene) -> set[Where]:
+def unused_definitions(scene: Scene, *, extended: bool = False) -> set[Where]:
     """Where the surface and the curves stand that no element follows.
 
     One of a set that a later curve is for, or that stands before a curve for ALL, has no element in any case; others
-    are known not to have one only where the deck shows all its elements.
+    are known not to have one only where the deck shows all its elements, and no deck that continues it has more
+    (`extended`).
     """
+    shown = shows_elements(scene) and not extended
     later: set[str] = set()
     unused: set[Where] = set()
     legacy = [(i, law) for i, law in enumerate(scene.laws.set_laws) if law.family == "legacy" and law.curve >= 0]
     followed = set(np.unique(scene.laws.of_element).tolist())
     for index, law in reversed(legacy):
         key = set_key(law.set_.name)
-        unheld = shows_elements(scene) and not law.set_.open and index not in followed
+        unheld = shown and not law.set_.open and index not in followed
         if key in later or ALL in later or unheld:
             unused.add(law.where)
         later.add(key)
-    on_curves = shows_elements(scene) and followed <= {index for index, _ in legacy}
+    on_curves = shown and followed <= {index for index, _ in legacy}
     if ALL in later or on_curves:
         unused.update(Where(where.section, where.block) for where, _ in surfaces(scene.deck))
     return unused
@@ -130,8 +132,8 @@ class _Rewriter:
         return self.text.rfind("\n", 0, offset) + 1
 
     def _indent(self, offset: int) -> str:
-        """The blanks before the first character of a line; one at least, as a key may begin with C."""
-        return self.text[self._line_start(offset) : offset] or " "
+        """As many blanks as stand before the first character of a line; one at least, as a key may begin with C."""
+        return " " * max(offset - self._line_start(offset), 1)
 
     def _row(self, row: Span, lines: str) -> None:
         """Settings in the place of a row, indented as it is or by a blank."""

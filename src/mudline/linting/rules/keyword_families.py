@@ -61,11 +61,11 @@ def _migration(context: LintContext) -> Repair | None:
     if text is None or context.scene.errors():
         return None
     from mudline.migration.refusals import refusals, surfaces  # noqa: PLC0415 - few decks need it
-    from mudline.migration.rewriting import rewrite  # noqa: PLC0415 - as above
+    from mudline.migration.rewriting import rewrite, unused_definitions  # noqa: PLC0415 - as above
 
     if any(refusals(deck, context.scene)) or any(surface.profile is not None for _, surface in surfaces(deck)):
         return None
-    edits = with_line_ends(text.source, rewrite(deck, context.scene).edits)
+    edits = with_line_ends(text.source, rewrite(deck, unused_definitions(context.scene)).edits)
     return Repair("unsafe", "write the newer keywords", tuple((edit.span, edit.text) for edit in edits))
 
 
