@@ -28,7 +28,8 @@ CONSTANTS = frozenset({"KEYWORD", "_KEYWORD"})
 EXCEPTIONS = {
     "comparison/comparing.py": "asks for the labels in the blocks of nodes and of elements",
     "migration/migrating.py": "the blocks whose laws a migrated surface would meet",
-    "migration/rewriting.py": "writes these blocks, and names what a seabed or a deck before has instead",
+    "migration/refusals.py": "names what a seabed or a deck before has instead",
+    "migration/rewriting.py": "writes these blocks",
     "results/summary.py": "says which of two blocks a curve came from",
     "scene/checks/fields.py": "leaves the geometry of a trench to EXT003, which has words of its own for it",
     "scene/context.py": "a lost line of lines defines a set, as it names one",

@@ -19,14 +19,11 @@ from mudline.comparison.comparing import (
 from mudline.comparison.model import Difference, Pair, Side, Tolerance, plain
 from mudline.contact.input import LawKind
 from mudline.deck.parameters import folded
-from mudline.keywords.catalogue import is_superseded
+from mudline.keywords.catalogue import is_superseded, supersedes
 from mudline.scene.deck_values import LARGEST_MOBILISATION
 from mudline.scene.laws import ResistanceValues, SetLaw
 from mudline.scene.model import Scene, resolve
 from mudline.scene.representatives import representatives, shows_elements
-
-_PROPERTIES = "SEABED PROPERTIES"
-_PROFILE = "SEABED PROFILE"
 
 
 class Comparison(NamedTuple):
@@ -58,16 +55,15 @@ def without_spelling(before: Scene, after: Scene, found: Sequence[Difference], t
 def _rewritten(old: Scene, new: Scene) -> bool:
     """Whether a deck has newer keywords in the place of superseded ones of another."""
     before, after = ({keyword for keyword in scene.deck.keywords() if is_superseded(keyword)} for scene in (old, new))
-    return after < before and _PROPERTIES in new.deck.keywords()
+    return after < before and any(law.family == "new" for law in new.laws.set_laws)
 
 
 def _groups(pair: Pair) -> set[str]:
     """The groups of differences that the meaning of the elements and of the seabed replaces."""
     keywords = [side.scene.deck.keywords() for side in (pair.one, pair.other)]
-    groups = {f"*{keyword}" for found in keywords for keyword in found if is_superseded(keyword)}
-    groups |= {f"*{_PROPERTIES}", "laws of elements", "bed of elements"}
-    both = all(_PROFILE in found for found in keywords)
-    return groups if both else groups | {f"*{_PROFILE}", "seabed"}
+    groups = {f"*{name}" for found in keywords for name in found if is_superseded(name) or supersedes(name)}
+    groups |= {"laws of elements", "bed of elements", "seabed"}
+    return groups - {"*SEABED PROFILE", "seabed"} if all("SEABED PROFILE" in found for found in keywords) else groups
 
 
 def _is_whole_curve(one: Difference, pair: Pair) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -72,6 +73,20 @@ class Continuations:
         if keywords & _NEWER or any(map(is_superseded, keywords)):
             for base in bases:
                 self._by_base.setdefault(base, set()).add(file.as_posix())
+
+
+def continuations_beside(deck: Deck) -> tuple[list[str], bool]:
+    """What `Continuations.of` and `extend` give for a deck and its folder; the decks of a folder are read once."""
+    if deck.folder is None or not deck.folder.is_dir():
+        return [], False
+    found, file = _continuations_in(deck.folder), deck.folder / Path(deck.file).name
+    return found.of(file), found.extend(file)
+
+
+@lru_cache(maxsize=1)
+def _continuations_in(_: Path) -> Continuations:
+    """Those of a folder, whose decks are read when they are asked for."""
+    return Continuations(())
 
 
 @dataclass(frozen=True, slots=True)
