@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
 
 from mudline.comparison.comparing import compare
 from mudline.comparison.superseded import Comparison, without_spelling
@@ -10,6 +14,7 @@ from mudline.migration.migrating import migrate
 from mudline.scene.model import resolve
 from tests.builders.decks import PIPE_WITH_SETS
 from tests.builders.scenes import deck_of, scene_of
+from tests.migration.test_migrating import legacy_decks
 
 BED = """\
 *ELASTIC SURFACE
@@ -99,6 +104,17 @@ def test_which_block_wins_counts_for_elements_that_the_deck_does_not_show() -> N
     ]
 
 
+def test_elements_that_the_deck_shows_are_reported_once_beside_those_of_lines() -> None:
+    lines = "*LINES\n LINE=Riser\n SECTION=A, 10\n"
+    old = PIPE_WITH_SETS + lines + "*ELASTIC SURFACE\n 5e4\n*EMBEDMENT\n SET=A\n 0, 0\n 1, 5\n"
+    new = migrate(deck_of(old)).content.decode()
+    assert compared(old, new).differences == []
+    assert shown(compared(old, new.replace("STIFFNESS=5e4", "STIFFNESS=6e4"))) == [
+        "elements 1-12/laws/stiffness: 50000.0 -> 60000.0",
+        "an element of no set but ALL/laws/stiffness: 50000.0 -> 60000.0",
+    ]
+
+
 def test_a_deck_rewritten_by_hand() -> None:
     """Other names, other orders, and a set of all elements in the place of ALL."""
     old = PIPE_WITH_SETS + "*ELASTIC SURFACE\n 5e4, 0.3, 0.4\n*EMBEDMENT\n SET=West\n 0, 0\n 0.5, 4000\n"
@@ -146,3 +162,26 @@ def test_a_lost_law_is_no_spelling() -> None:
     old = new + "*EMBEDMENT\n SET=West\n 0, 0\n 0.5, 4000\n"
     assert shown(compared(old, new))[0] == "elements 1-6/laws: curve -> linear"
     assert shown(compared(old.replace("SET=West\n 0", "SET=ALL\n 0"), new))[0] == "elements 1-12/laws: curve -> linear"
+
+
+NUMBER = re.compile(r"(?<![\w.+-])\d+(?:\.\d+)?(?:[eE][-+]?\d+)?(?![\w.])")
+
+
+@settings(max_examples=60, deadline=None)
+@given(legacy_decks(), st.data())
+def test_any_other_number_in_a_migrated_deck_is_reported(text: str, data: st.DataObject) -> None:
+    found = migrate(deck_of(text))
+    lines = found.content.decode().splitlines()
+    values = [
+        (index, number)
+        for index, line in enumerate(lines[PIPE_WITH_SETS.count("\n") :], PIPE_WITH_SETS.count("\n"))
+        if not line.startswith(("C", "$")) and not re.search("(SET|CURVE|SECTION|FILE)=", line)
+        for number in NUMBER.finditer(line)
+    ]
+    assume(values and not found.files)
+    index, number = data.draw(st.sampled_from(values))
+    line = lines[index]
+    lines[index] = line[: number.start()] + repr(float(number[0]) * 1.5 + 1.25) + line[number.end() :]
+    before, after = resolve(deck_of(text)), scene_of("\n".join(lines) + "\n")
+    assume(not after.errors())
+    assert without_spelling(before, after, compare(before, after)).differences

@@ -290,10 +290,13 @@ def follow_differently(
 ) -> Iterator[Difference]:
     """What elements that both decks have follow in one and not in the other.
 
-    `descriptions` are of elements by their number, where they are not those of the decks.
+    `descriptions` are of the elements to compare, by their number, where they are not those of the decks.
     """
     one, other = pair.one, pair.other
     here, there = _common(one.scene.table.numbered, other.scene.table.numbered)
+    if descriptions is not None:
+        chosen = np.isin(one.scene.element_ids[here], list(descriptions))
+        here, there = here[chosen], there[chosen]
     if not len(here):
         return
     first, second = read(one), read(other)
