@@ -10,6 +10,10 @@ from tests.builders.decks import BAD_NUMBER, CLEAN, LINEAR
 from tests.cli.conftest import Place
 from tests.cli.runner import assert_fits, run
 
+BARE = CLEAN.partition("*SEABED")[0]
+OLD = BARE + "*ELASTIC SURFACE\n 20000.0, 0.3, 0.6\n"
+NEW = BARE + "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=20000.0\n FRICTION=0.3, 0.6\n"
+
 
 def test_equal_decks(place: Place) -> None:
     ran = run("diff", place(), place(CLEAN.replace("0.1, 1000.0", "1e-1, 1.0E3"), "b.keyxm"))
@@ -36,6 +40,53 @@ def test_no_change_in_json(place: Place) -> None:
     ran = run("diff", place(), "deck.keyxm", "--output-format", "json")
     assert_fits(ran.json(), "diff")
     assert (ran.code, ran.json()["differences"]) == (0, [])
+
+
+def test_a_migrated_pair(place: Place) -> None:
+    old, new = place(OLD, "old.keyxm"), place(NEW, "new.keyxm")
+    ran = run("diff", old, new)
+    assert (ran.code, ran.out) == (0, "equivalent: 10 differences of spelling in superseded keywords\n")
+    assert run("diff", "-q", old, new).out == ""
+    ran = run("diff", old, new, "--output-format", "json")
+    assert_fits(ran.json(), "diff")
+    assert (ran.code, ran.json()["equivalent"], ran.json()["spelling_differences"]) == (0, True, 10)
+    assert ran.json()["differences"] == []
+
+
+def test_a_migrated_pair_strictly(place: Place) -> None:
+    old, new = place(OLD, "old.keyxm"), place(NEW, "new.keyxm")
+    ran = run("diff", "--strict", old, new)
+    assert ran.code == 1
+    assert ran.out == (
+        "--- old.keyxm\n+++ new.keyxm\n"
+        "*ELASTIC SURFACE\n"
+        "  - *ELASTIC SURFACE  (line -18)\n"
+        "  - properties/stiffness: 20000.0  (line -19)\n"
+        "  - properties/longitudinal: 0.3  (line -19)\n"
+        "  - properties/transverse: 0.6  (line -19)\n"
+        "*SEABED PROPERTIES\n"
+        "  + *SEABED PROPERTIES  (line +18)\n"
+        "  + ALL  (line +20)\n"
+        "  + ALL/type: ELASTIC  (line +19)\n"
+        "  + ALL/stiffness: 20000.0  (line +21)\n"
+        "  + ALL/friction/longitudinal: 0.3  (line +22)\n"
+        "  + ALL/friction/transverse: 0.6  (line +22)\n"
+        "10 differences\n"
+    )
+    found = run("diff", "--strict", old, new, "--output-format", "json").json()
+    assert (found["equivalent"], found["spelling_differences"], len(found["differences"])) == (False, 0, 10)
+
+
+def test_a_difference_beside_the_spelling(place: Place) -> None:
+    old, new = place(OLD, "old.keyxm"), place(NEW.replace("0.3, 0.6", "0.3, 0.7"), "new.keyxm")
+    ran = run("diff", old, new)
+    assert ran.code == 1
+    assert ran.out == (
+        "--- old.keyxm\n+++ new.keyxm\n"
+        "bed of elements\n"
+        "  ~ elements 1-2/bed/transverse friction: 0.6 -> 0.7  (line -19 +20)\n"
+        "1 difference, and 10 differences of spelling in superseded keywords (--strict lists them)\n"
+    )
 
 
 def test_one_deck_from_standard_input(place: Place) -> None:

@@ -135,6 +135,27 @@ def test_a_deck_that_another_one_only_continues_is_migrated(place: Place) -> Non
     assert Path("base.keyxm").read_text(encoding="utf-8") == MIGRATED
 
 
+def test_elements_of_a_deck_that_continues_one_keep_its_stiffness(place: Place) -> None:
+    bed = "*ELASTIC SURFACE\n 1e4\n*EMBEDMENT\n SET=Pipe\n 0, 0\n 1, 5\n"
+    text = CLEAN.partition("*SEABED")[0] + bed
+    place(text, "base.keyxm")
+    assert run("migrate", "base.keyxm", "-o", "alone.keyxm").code == 0
+    assert " STIFFNESS=1e4\n" not in Path("alone.keyxm").read_text(encoding="utf-8")
+    place("$MODEL\n*NODE\n 9, 0.3, 30.0\n*ELEMENT\n 9, 3, 9\n$LOAD CASE\n*RESTART\n LAST=base\n", "child.keyxm")
+    assert run("migrate", "base.keyxm", "-o", "more.keyxm").code == 0
+    assert " SET=ALL\n STIFFNESS=1e4\n SET=Pipe\n" in Path("more.keyxm").read_text(encoding="utf-8")
+
+
+def test_a_deck_whose_only_surface_is_misspelt(place: Place) -> None:
+    outcome = run("migrate", place(PROFILE.replace("*RIGID SURFACE", "*RIGID SURFACES")))
+    line = PROFILE[: PROFILE.index("*RIGID")].count("\n") + 1
+    assert outcome.code == 1
+    assert outcome.err == (
+        f"deck.keyxm:{line}:1: error: MIG001 *RIGID SURFACES, which is not known, may be meant as *RIGID SURFACE: "
+        "correct or remove it first\n"
+    )
+
+
 def test_one_output_takes_one_deck(place: Place) -> None:
     outcome = run("migrate", place(SAMPLE, "a.keyxm"), place(SAMPLE, "b.keyxm"), "-o", "c.keyxm")
     assert outcome.code == 2

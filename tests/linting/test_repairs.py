@@ -232,6 +232,21 @@ def test_a_deck_that_cannot_be_migrated_within_itself_has_no_fix(text: str) -> N
     assert not any(one.fix for one in found)
 
 
+CHILD = "$MODEL\n*EMBEDMENT\n SET=ALL\n 0, 0\n 1, 300\n$LOAD CASE\n*RESTART\n LAST=base\n"
+MORE = "$MODEL\n*ELEMENT\n 99, 1, 2\n$LOAD CASE\n*RESTART\n LAST=base\n"
+
+
+@pytest.mark.parametrize(("child", "kept"), [(CHILD, True), (MORE, False), ("", False)])
+def test_the_fix_knows_the_decks_that_continue_this_one(child: str, kept: bool, tmp_path: Path) -> None:
+    text = f"{PIPE}{EMBEDMENT}{SURFACE}"
+    (tmp_path / "base.keyxm").write_text(text, encoding="utf-8")
+    (tmp_path / "child.keyxm").write_text(child, encoding="utf-8")
+    settings = LintSettings(tuple(select(["LEG001"])), fixing=Fixing.UNSAFE)
+    changed = fix_bytes(text.encode(), "base.keyxm", settings, tmp_path).changed
+    made = migrate(load_bytes(text.encode(), "base.keyxm", folder=tmp_path), extended=child == MORE)
+    assert changed == (None if kept else made.content)
+
+
 def migrated(path: Path) -> Migration | None:
     deck = load_bytes(path.read_bytes(), path.name, folder=path.parent)
     try:

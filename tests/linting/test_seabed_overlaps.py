@@ -43,6 +43,15 @@ def test_definitions_of_which_one_is_lost(lines: str, expected: int) -> None:
     assert len(found(MODEL + lines, "SBD008")) == expected
 
 
+@pytest.mark.parametrize(("force", "expected"), [(100, 0), (200, 1)])
+def test_curves_of_the_same_points_give_the_same(force: int, expected: int) -> None:
+    curves = "".join(f" CURVE={name}\n 0, 0\n 1, {force}\n" for name, force in (("one", 100), ("other", force)))
+    text = PIPE + SETS + "*SEABED STIFFNESS\n" + curves + "*SEABED PROPERTIES\n TYPE=ELASTIC\n"
+    text += " SET=A\n STIFFNESS=one\n SET=B\n STIFFNESS=other\n"
+    assert len(found(text, "SBD008")) == expected
+    assert len(found(text.replace("STIFFNESS=other", "STIFFNESS=5000"), "SBD008")) == 1
+
+
 def test_a_lost_definition_is_told_at_the_later_set() -> None:
     text = MODEL + soil("Nowhere") + soil("A", 6000) + soil("ALL")
     assert found(text, "SBD008") == [("SBD008", text.count("\n") - 1, 6)]

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from mudline.comparison.comparing import compare
+from mudline.comparison.superseded import without_spelling
 from mudline.deck.forms.json import to_json
 from mudline.deck.forms.yaml import to_yaml
 from mudline.deck.loading import load_bytes
@@ -17,6 +21,7 @@ from mudline.linting.registry import rules
 from mudline.linting.rule import LintContext
 from mudline.migration.migrating import Migration, legacy_blocks, migrate
 from mudline.migration.verification import verify
+from mudline.scene.model import resolve
 from tests.builders.decks import PIPE_WITH_SETS
 from tests.builders.scenes import deck_of
 
@@ -162,7 +167,8 @@ def legacy_decks(draw: st.DrawFn) -> str:
         blocks = draw(st.permutations(blocks))
     else:
         blocks = [draw(rigid())]
-    existing = draw(st.sampled_from(["", "*SEABED STIFFNESS\n CURVE=WEST\n 0, 0\n 1, 1\n"]))
+    hidden = draw(st.sampled_from(["", "", "*LINES\n LINE=Riser\n SECTION=West, 10\n"]))
+    existing = hidden + draw(st.sampled_from(["", "*SEABED STIFFNESS\n CURVE=WEST\n 0, 0\n 1, 1\n"]))
     indent = draw(st.sampled_from([" ", "", "    "]))
     seabed = "".join(draw(comments) + block for block in blocks)
     text = PIPE_WITH_SETS + existing + seabed.replace("\n ", f"\n{indent}")
@@ -222,7 +228,8 @@ def test_points_before_any_set_mean_all() -> None:
     found = migrated(PIPE_WITH_SETS + "*ELASTIC SURFACE\n 1e4\n*EMBEDMENT\n0, 0\n 1, 5\n SET=West\n 0, 0\n 1, 7\n")
     text = found.content.decode()
     assert " CURVE=ALL\n0, 0\n" in text
-    assert text.index("STIFFNESS=1e4") < text.index("STIFFNESS=ALL") < text.index("STIFFNESS=West")
+    assert "C stiffness 1e4 left out, as every element is on a curve\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=ALL\n" in text
+    assert text.index("STIFFNESS=ALL") < text.index("STIFFNESS=West")
     assert verify(found).differences == ()
 
 
@@ -270,6 +277,29 @@ def test_any_legacy_deck_means_the_same_afterwards(text: str) -> None:
         if comment in left:
             left.remove(comment)
     assert left == []
+
+
+def codes_of(deck: Deck) -> set[str]:
+    return {one.code for one in lint_context(LintContext(deck), rules())}
+
+
+@settings(max_examples=60, deadline=None)
+@given(legacy_decks(), st.sampled_from(["keyword", "json", "yaml"]))
+def test_any_migrated_deck_lints_as_before_and_is_equivalent(text: str, form: str) -> None:
+    deck = deck_of(text)
+    if form != "keyword":
+        deck = deck_of((to_json if form == "json" else to_yaml)(deck), f"deck.{form}")
+    with TemporaryDirectory() as name:
+        deck.folder = Path(name)
+        found = migrate(deck)
+        for file, data in found.files.items():
+            (deck.folder / file).write_bytes(data)
+        again = deck_of(found.content, deck.file, folder=deck.folder)
+        assert codes_of(again) <= codes_of(deck) - {"LEG001"}
+        before, after = resolve(deck), resolve(again)
+        comparison = without_spelling(before, after, compare(before, after))
+    assert comparison.differences == []
+    assert comparison.spelling
 
 
 @settings(max_examples=50, deadline=None)

@@ -5,6 +5,9 @@ from __future__ import annotations
 import pytest
 
 from mudline.diagnostics import DeckError
+from mudline.linting.engine import lint_context
+from mudline.linting.registry import rules
+from mudline.linting.rule import LintContext
 from mudline.migration.migrating import migrate
 from mudline.migration.rewriting import curve_names
 from tests.builders.decks import PIPE_WITH_SETS
@@ -34,6 +37,52 @@ def test_the_reason_and_its_place(text: str, line: int, column: int, words: str)
         migrate(deck_of(PIPE_WITH_SETS + text))
     (found,) = [one for one in caught.value.diagnostics if words in one.message]
     assert (found.code, found.line, found.column) == ("MIG001", LINES + line, column)
+
+
+LINES_DECK = "$MODEL\n*LINES\n LINE=Riser\n 1, 2\n"
+CURVE = "*EMBEDMENT\n SET=West\n 0, 0\n 1, 5\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "message"),
+    [
+        (
+            f"{LINES_DECK}*ELASTIC SURFAC\n 1e4, 0.3\n{CURVE}",
+            5,
+            "*ELASTIC SURFAC, which is not known, may be meant as *ELASTIC SURFACE (SBD005)",
+        ),
+        (
+            f"{PIPE_WITH_SETS}*ELASTIC SURFACE\n ,0.3\n*EMBEDMNT\n SET=West\n 0, 0\n 1, 5\n",
+            LINES + 3,
+            "*EMBEDMNT, which is not known, may be meant as *EMBEDMENT (SBD004)",
+        ),
+        (
+            f"{PIPE_WITH_SETS}{SURFACE}\n*SEABED PROPERTYES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=5\n",
+            LINES + 3,
+            "*SEABED PROPERTYES, which is not known, may be meant as *SEABED PROPERTIES",
+        ),
+        (
+            PIPE_WITH_SETS.replace("*ELEMENT SETS", "*ELEMENT SETSX").replace("=West\n 2", "=ALL\n 2")
+            + f"{SURFACE}\n{CURVE}",
+            9,
+            "*ELEMENT SETSX, which is not known, may be meant as *ELEMENT SETS (REF001)",
+        ),
+    ],
+    ids=["surface", "embedment", "properties", "sets"],
+)
+def test_a_misspelt_keyword_does_not_soften_a_refusal(text: str, line: int, message: str) -> None:
+    with pytest.raises(DeckError) as caught:
+        migrate(deck_of(text))
+    found = [(one.code, one.line, one.message) for one in caught.value.diagnostics]
+    assert found == [("MIG001", line, f"{message}: correct or remove it first")]
+    lint = lint_context(LintContext(deck_of(text)), rules())
+    assert not any(one.fix for one in lint if one.code == "LEG001")
+
+
+def test_what_lines_may_define_is_no_obstacle() -> None:
+    """A set that only the lines may make is a warning, and its name stays."""
+    found = migrate(deck_of(f"{LINES_DECK}*ELASTIC SURFACE\n 1e4\n{CURVE}"))
+    assert found.content.endswith(b" SET=West\n STIFFNESS=West\n*SEABED STIFFNESS\n CURVE=West\n 0, 0\n 1, 5\n")
 
 
 VARIED = "$PREPROCESSOR\n*VARIATION\n NAME=Soil\n ACTION={}, KEYWORD={}\n"

@@ -17,6 +17,7 @@ from mudline.cli.streams import counted, emit
 from mudline.cli.view import View
 from mudline.comparison.comparing import compare
 from mudline.comparison.model import Difference, Value, spans_of, text_of
+from mudline.comparison.superseded import Comparison, without_spelling
 from mudline.linting.output import visible
 from mudline.scene.model import resolve
 
@@ -40,43 +41,63 @@ _MARKS = {"added": ("+", "green"), "removed": ("-", "red"), "changed": ("~", "ye
     metavar="REL",
     help="Largest difference of equal numbers, relative to the larger one.",
 )
+@click.option("--strict", is_flag=True, help="List differences of spelling in superseded keywords too: exit code 1.")
 @options.output_format("text", "json")
 @options.stdin_name
 @options.units
 @options.common
 @refuses_bad_decks
 def command(
-    *, before: str, after: str, tolerance: float, output_format: str, stdin_name: str, units: str | None, view: View
+    *,
+    before: str,
+    after: str,
+    tolerance: float,
+    strict: bool,
+    output_format: str,
+    stdin_name: str,
+    units: str | None,
+    view: View,
 ) -> int:
     """Compare two decks semantically, whatever their formats, layout and order.
 
     A and B are decks in keyword text, JSON or YAML; one of them may be - for standard input. The exit code is 0 when
-    they mean the same, and 1 when they differ or one of them cannot be read.
+    they mean the same, as a deck and its migrated form do, and 1 when they differ or one of them cannot be read.
     """
     if before == after == STDIN:
         raise click.UsageError("only one of the decks can come from standard input")
     if not math.isfinite(tolerance):
         raise click.UsageError("--tolerance: expected a number from 0 to 1")
     first, second = (resolve(GivenDeck(given, stdin_name, units).load()) for given in (before, after))
-    found = compare(first, second, tolerance)
+    comparison = Comparison(compare(first, second, tolerance), [])
+    if not strict:
+        comparison = without_spelling(first, second, comparison.differences, tolerance)
     if output_format == "json":
-        emit(_json(first.deck.file, second.deck.file, tolerance, found))
+        emit(_json(first.deck.file, second.deck.file, tolerance, comparison))
     else:
-        view.printer().lines(_lines(first.deck.file, second.deck.file, found, view))
-    return FOUND if found else DONE
+        view.printer().lines(_lines(first.deck.file, second.deck.file, comparison, view))
+    return FOUND if comparison.differences else DONE
 
 
-def _json(before: str, after: str, tolerance: float, found: list[Difference]) -> list[str]:
+def _json(before: str, after: str, tolerance: float, comparison: Comparison) -> list[str]:
     """A difference on a line."""
-    head = {"format": FORMAT, "before": before, "after": after, "tolerance": tolerance}
+    found = comparison.differences
+    head = {
+        "format": FORMAT,
+        "before": before,
+        "after": after,
+        "tolerance": tolerance,
+        "equivalent": not found,
+        "spelling_differences": len(comparison.spelling),
+    }
     start = json.dumps(head, indent=1, ensure_ascii=False).removesuffix("\n}")
     lines = (json.dumps(asdict(one), ensure_ascii=False, allow_nan=False) for one in found)
     body = "".join(f"{',' if i else ''}\n  {line}" for i, line in enumerate(lines))
     return [start, ',\n "differences": [', body, "\n ]\n}\n" if found else "]\n}\n"]
 
 
-def _lines(before: str, after: str, found: Sequence[Difference], view: View) -> Iterator[str | tuple[str, str]]:
+def _lines(before: str, after: str, comparison: Comparison, view: View) -> Iterator[str | tuple[str, str]]:
     """The differences by group, then how many there are: lines, with their styles if they have any."""
+    found = comparison.differences
     if found and not view.quiet:
         yield visible(f"--- {before}"), "bold"
         yield visible(f"+++ {after}"), "bold"
@@ -93,7 +114,16 @@ def _lines(before: str, after: str, found: Sequence[Difference], view: View) -> 
         if len(differences) > most:
             yield f"  and {len(differences) - most} more (-v shows all)"
     if not view.quiet:
-        yield counted(len(found), "difference") if found else "no difference"
+        yield _summary(comparison)
+
+
+def _summary(comparison: Comparison) -> str:
+    """How many differences there are, and how many of spelling."""
+    found, spelling = (len(part) for part in comparison)
+    if not spelling:
+        return counted(found, "difference") if found else "no difference"
+    beside = f"{counted(spelling, 'difference')} of spelling in superseded keywords"
+    return f"{counted(found, 'difference')}, and {beside} (--strict lists them)" if found else f"equivalent: {beside}"
 
 
 def _runs(group: str, differences: Sequence[Difference]) -> tuple[list[tuple[str, str]], list[Difference]]:

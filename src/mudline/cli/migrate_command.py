@@ -15,6 +15,7 @@ from mudline.deck.forms import form_of
 from mudline.deck.loading import dump, load_bytes
 from mudline.diagnostics import DeckError
 from mudline.migration.migrating import Continuations, Migration, legacy_blocks, migrate
+from mudline.migration.refusals import misspelt
 from mudline.migration.verification import Verdict, verify
 
 _MOST_REPORTED = 20
@@ -77,11 +78,15 @@ class _Run:
         """Migrate the deck; returns the exit code. Raises DeckError for one that is left unchanged."""
         deck = load_bytes(self.data, self.file.name, units=units, folder=self.file.folder)
         if not legacy_blocks(deck):
+            if problems := list(misspelt(deck)):
+                raise DeckError(deck.diagnose(problems))
             self._note("no legacy seabed keyword")
             if not diff and (self.target is None or self.target != Path(self.file.path or "")):
                 self._write(self.data, {})
             return DONE
-        migration = migrate(deck, continuations.of(Path(self.file.path)) if self.file.path else ())
+        path = Path(self.file.path) if self.file.path else None
+        continued_by = continuations.of(path) if path else []
+        migration = migrate(deck, continued_by, extended=path is not None and continuations.extend(path))
         if proved and not self._proved(verify(migration)):
             return FOUND
         content = self._content(migration)
@@ -104,10 +109,12 @@ class _Run:
             count = counted(len(verdict.differences), "difference")
             notify(f"{self.file.name}: left unchanged: {count} between the old deck and the new one")
         else:
+            given = verdict.representatives
+            more = f", and {given} representative elements for its sets" if given else ""
             self._note(
-                f"verified: {counted(verdict.elements, 'element')} of {counted(verdict.kinds, 'kind')}, and "
-                f"{verdict.representatives} representative elements for its sets, at {verdict.positions} positions: "
-                "forces, stiffnesses, friction, lateral resistance, suction and seabed are bitwise equal"
+                f"verified: {counted(verdict.elements, 'element')} of {counted(verdict.kinds, 'kind')}{more}, at "
+                f"{verdict.positions} positions: forces, stiffnesses, friction, lateral resistance, suction and seabed "
+                "are bitwise equal"
             )
         return not verdict.differences
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, cast
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mudline.comparison.blocks import blocks, record_values
 from mudline.comparison.model import Difference, Members, Pair, Side, Tolerance, Value, plain, spans_of, text_of
@@ -46,9 +47,15 @@ def _units(pair: Pair) -> Iterator[Difference]:
 
 def _floor(pair: Pair) -> Iterator[Difference]:
     """The points of the bed that files hold; what the deck itself says of it is among its blocks."""
+    if pair.one.scene.seabed.file or pair.other.scene.seabed.file:
+        yield from seabed_points(pair)
+
+
+def seabed_points(pair: Pair) -> Iterator[Difference]:
+    """The points of a profile or a surface, in whatever order, if they differ."""
     old, new = pair.one.scene.seabed, pair.other.scene.seabed
     same = old.points.shape == new.points.shape and bool(pair.tolerance.arrays(_sorted(old), _sorted(new)).all())
-    if not same and (old.file or new.file):
+    if not same:
         held = ((f"{len(floor.points)} points", floor.where) for floor in (old, new))
         yield pair.difference("seabed", "seabed/points", *held)
 
@@ -204,9 +211,9 @@ def _curves(pair: Pair) -> Iterator[Difference]:
         if old and new:
             yield from _points_differ(_title(old), old, new, pair)
         elif old:
-            yield pair.difference("curves", _title(old), (_shown(_points(old)), old.where), None)
+            yield pair.difference("curves", _title(old), (shown_points(old), old.where), None)
         elif new:
-            yield pair.difference("curves", _title(new), None, (_shown(_points(new)), new.where))
+            yield pair.difference("curves", _title(new), None, (shown_points(new), new.where))
 
 
 def _points_differ(name: str, old: SceneCurve, new: SceneCurve, pair: Pair) -> Iterator[Difference]:
@@ -241,8 +248,9 @@ def _points(curve: SceneCurve) -> Floats:
     return np.unique(curve.points, axis=0) if len(curve.points) else curve.points
 
 
-def _shown(points: Floats) -> Value:
-    return [[plain(value) for value in row] for row in points.tolist()]
+def shown_points(curve: SceneCurve) -> Value:
+    """The points of a curve in ascending order, as a difference shows them."""
+    return [[plain(value) for value in row] for row in _points(curve).tolist()]
 
 
 def _force(curve: SceneCurve, point: Floats) -> tuple[Value, Where]:
@@ -253,14 +261,14 @@ def _force(curve: SceneCurve, point: Floats) -> tuple[Value, Where]:
 
 # ------------------------------------------------------------------------------------------------- what elements follow
 
-_Values = dict[str, object]
+Values = dict[str, object]
 
 
 @dataclass(frozen=True, slots=True)
-class _Followed:
+class Followed:
     """The entries of one kind, the one that each element follows (-1 for none), and where they stand."""
 
-    entries: Sequence[_Values]
+    entries: Sequence[Values]
     places: Sequence[Where]
     of_element: Indices
 
@@ -270,16 +278,25 @@ def _by_element(pair: Pair) -> Iterator[Difference]:
 
     Of elements that follow one record in both, or one that only one deck has, the record says what differs.
     """
-    yield from _differ("laws", _laws, pair)
-    yield from _differ("sections", _sections, pair)
-    yield from _differ("bed", _bed, pair)
+    yield from follow_differently("laws", _laws, pair)
+    yield from follow_differently("sections", _sections, pair)
+    yield from follow_differently("bed", _bed, pair)
     for keyword in dict.fromkeys([*pair.one.scene.extensions, *pair.other.scene.extensions]):
-        yield from _differ(keyword.lower(), partial(_extension, keyword=keyword), pair)
+        yield from follow_differently(keyword.lower(), partial(_extension, keyword=keyword), pair)
 
 
-def _differ(group: str, read: Callable[[Side], _Followed], pair: Pair) -> Iterator[Difference]:
+def follow_differently(
+    group: str, read: Callable[[Side], Followed], pair: Pair, descriptions: Mapping[int, str] | None = None
+) -> Iterator[Difference]:
+    """What elements that both decks have follow in one and not in the other.
+
+    `descriptions` are of the elements to compare, by their number, where they are not those of the decks.
+    """
     one, other = pair.one, pair.other
     here, there = _common(one.scene.table.numbered, other.scene.table.numbered)
+    if descriptions is not None:
+        chosen = np.isin(one.scene.element_ids[here], list(descriptions))
+        here, there = here[chosen], there[chosen]
     if not len(here):
         return
     first, second = read(one), read(other)
@@ -297,36 +314,42 @@ def _differ(group: str, read: Callable[[Side], _Followed], pair: Pair) -> Iterat
         ]
         if not names:
             continue
-        elements = text_of(spans_of(one.scene.element_ids[here[followed == both]]))
+        elements = _called(one.scene.element_ids[here[followed == both]], descriptions)
         lines = one.line(places[0]), other.line(places[1])
         for name in names:
-            where = f"elements {elements}/{group}" + (f"/{name}" if name else "")
+            where = f"{elements}/{group}" + (f"/{name}" if name else "")
             values = cast("Value", old.get(name)), cast("Value", new.get(name))
             yield Difference("changed", f"{group} of elements", where, *values, *lines)
 
 
-def _entry(found: _Followed, index: int) -> _Values:
+def _called(ids: NDArray[np.int64], descriptions: Mapping[int, str] | None) -> str:
+    if descriptions is None:
+        return f"elements {text_of(spans_of(ids))}"
+    return "; ".join(dict.fromkeys(descriptions[number] for number in ids.tolist()))
+
+
+def _entry(found: Followed, index: int) -> Values:
     return found.entries[index] if index >= 0 else {}
 
 
-def _laws(side: Side) -> _Followed:
+def _laws(side: Side) -> Followed:
     laws = side.scene.laws
-    return _Followed(
+    return Followed(
         [_law(side.scene, grant) for grant in laws.set_laws], [g.where for g in laws.set_laws], laws.of_element
     )
 
 
-def _law(scene: Scene, grant: SetLaw) -> _Values:
+def _law(scene: Scene, grant: SetLaw) -> Values:
     if grant.kind is LawKind.LINEAR:
         return {"": "linear", "stiffness": plain(grant.stiffness)}
     return {} if grant.kind is LawKind.NONE else {"": scene.law_name(grant)}
 
 
-def _record(side: Side, record: Record, where: Where) -> _Values:
+def _record(side: Side, record: Record, where: Where) -> Values:
     return {path: entry.shown for path, entry in record_values(side, record, where).items()}
 
 
-def _sections(side: Side) -> _Followed:
+def _sections(side: Side) -> Followed:
     table = side.scene.section_table
     places = [section.where for section in table.sections]
     entries = []
@@ -335,26 +358,26 @@ def _sections(side: Side) -> _Followed:
         values = _record(side, block.sets[where.path[1]], where)
         values.pop("option", None)  # the property line has the name of its format
         entries.append(values)
-    return _Followed(entries, places, table.of_element)
+    return Followed(entries, places, table.of_element)
 
 
-def _bed(side: Side) -> _Followed:
+def _bed(side: Side) -> Followed:
     bed = side.scene.resistance
-    return _Followed([_numbers(entry._asdict()) for entry in bed.values], bed.places, bed.of_element)
+    return Followed([numbers_given(entry._asdict()) for entry in bed.values], bed.places, bed.of_element)
 
 
-def _numbers(given: dict[str, Any]) -> _Values:
-    """Values that are given; of pairs, longitudinal and transverse apart."""
-    found: _Values = {}
+def numbers_given(given: Mapping[str, Any]) -> Values:
+    """Values that are given, without NaN; of pairs, longitudinal and transverse apart."""
+    found: Values = {}
     for name, value in given.items():
         pair = zip(("longitudinal ", "transverse "), value, strict=True) if isinstance(value, tuple) else [("", value)]
         found |= {axis + name: plain(number) for axis, number in pair if not np.isnan(number)}
     return found
 
 
-def _extension(side: Side, keyword: str) -> _Followed:
+def _extension(side: Side, keyword: str) -> Followed:
     found = side.scene.extensions.get(keyword)
     if found is None:
-        return _Followed([], [], np.full(len(side.scene.element_ids), -1, dtype=np.intp))
+        return Followed([], [], np.full(len(side.scene.element_ids), -1, dtype=np.intp))
     pairs = zip(found.entries, found.places, strict=True)
-    return _Followed([_record(side, entry, place) for entry, place in pairs], found.places, found.of_element)
+    return Followed([_record(side, entry, place) for entry, place in pairs], found.places, found.of_element)

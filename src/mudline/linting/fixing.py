@@ -277,7 +277,7 @@ class Reader:
         source = Source.from_bytes(data, self.name)
         deck = read_source(source, units=self.settings.units)
         deck.folder = self.folder
-        context = LintContext(deck, dialect=self.settings.dialect)
+        context = LintContext(deck, dialect=self.settings.dialect, fixing=True)
         problems = problems_in(context, self.settings.rules)
         everything = [*deck.problems, *context.scene.problems, *problems]
         errors = Counter(problem.code.code for problem in everything if problem.weight is Severity.ERROR)

@@ -40,10 +40,12 @@ class LintContext:
     """A deck as it is written (equations and all) and its scene (evaluated and resolved, as far as that goes).
 
     `dialect` is the deck language that the deck must keep to: "mudline", or "flexcom" without extension keywords.
+    `fixing` says that repairs are made: those that another deck beside this one forbids must not be among them.
     """
 
     deck: Deck
     dialect: str = "mudline"
+    fixing: bool = False
     _made: dict[object, Any] = field(default_factory=dict, repr=False)
 
     @property

@@ -1,143 +1,34 @@
-"""The edits that turn the legacy keywords of a text into the new family, and what stops a migration.
-
-Every other byte stays. What the new keywords cannot say, or would say differently, is refused.
-"""
+"""The edits that turn the legacy keywords of a text into the new family; every other byte stays."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from itertools import count
 from pathlib import PurePath
-from typing import Any, NamedTuple, cast
+from typing import NamedTuple, cast
 
-from mudline.codes import MIG001
+import numpy as np
+
 from mudline.deck.model import Deck
 from mudline.deck.parameters import folded
 from mudline.deck.reading import TextOrigin
-from mudline.diagnostics import Problem, Span, Where
-from mudline.keywords.catalogue import in_order, is_superseded, supersedes
+from mudline.diagnostics import Span, Where
 from mudline.keywords.library.embedment import Embedment
-from mudline.keywords.model import Block, record_schema
+from mudline.keywords.model import record_schema
 from mudline.keywords.surfaces import Surface
 from mudline.keywords.text import reads_as_name
-from mudline.keywords.values import Equation
+from mudline.migration.refusals import DIRECTIONS, surfaces
+from mudline.scene.model import Scene
+from mudline.scene.representatives import shows_elements
+from mudline.scene.sets import ALL, set_key
 from mudline.syntax.edits import TextEdit
 from mudline.syntax.fields import trimmed
 from mudline.syntax.rows import line_spans
-from mudline.syntax.tree import Kind, RawBlock, canonical_name
+from mudline.syntax.tree import Kind, RawBlock
 
-DIRECTIONS = ("longitudinal", "transverse")
-_DEFAULT_LENGTH = {"metric": 3.048, "imperial": 10.0}
 _UNSAFE = re.compile(r"[^\w.-]+")
 _FRICTION = ("longitudinal", "transverse", "longitudinal_mobilisation", "transverse_mobilisation", "constant")
-
-
-def superseded_blocks(deck: Deck) -> list[tuple[Where, Block]]:
-    """The blocks of superseded keywords: surfaces first, then curves by set."""
-    present = filter(is_superseded, in_order(deck.keywords()))
-    return [found for keyword in present for found in deck.blocks(keyword)]
-
-
-def surfaces(deck: Deck) -> list[tuple[Where, Surface]]:
-    """The legacy surfaces of a deck, in the order of the file."""
-    return list(deck.blocks_that(lambda declared: declared.facts.seabed_type))
-
-
-def refusals(deck: Deck, continued_by: Sequence[str] = ()) -> Iterator[Problem]:
-    """The reasons why a deck cannot be migrated; `deck` has its equations as written.
-
-    `continued_by` names decks that continue this one with seabed keywords of their own.
-    """
-    yield from _mixed_families(deck)
-    yield from _restarts(deck)
-    yield from _continued(deck, continued_by)
-    yield from _varied_keywords(deck)
-    found = surfaces(deck)
-    for where, block in found[1:]:
-        yield _refusal(f"a second surface: remove all but one, then migrate *{block.keyword}", where)
-    for where, block in found[:1]:
-        yield from _lengths(block, where, deck.units)
-        yield from _shapes(deck, block, where)
-
-
-def _refusal(message: str, where: Where) -> Problem:
-    return Problem(MIG001, message, where=where)
-
-
-def _mixed_families(deck: Deck) -> Iterator[Problem]:
-    """Which of the two families applies to an element cannot be decided by rewriting."""
-    for where, _ in deck.blocks("SEABED PROPERTIES"):
-        message = "*SEABED PROPERTIES is used beside legacy keywords: decide which applies and remove the other"
-        yield _refusal(message, where)
-
-
-def _restarts(deck: Deck) -> Iterator[Problem]:
-    """A deck that continues another one, whose seabed applies as well."""
-    for section, found in enumerate(deck.sections):
-        for block, restart in enumerate(found.blocks):
-            if found.name == "LOAD CASE" and restart.keyword == "RESTART":
-                message = "*RESTART continues another deck, whose seabed applies as well: put the model in one deck"
-                yield _refusal(message, Where(section, block))
-
-
-def _continued(deck: Deck, continued_by: Sequence[str]) -> Iterator[Problem]:
-    """The keywords of a deck that continues this one would be combined with others than before."""
-    where, _ = superseded_blocks(deck)[0]
-    for name in continued_by:
-        message = (
-            f"{name} continues this deck and has seabed keywords of its own, which would apply differently: "
-            "leave both decks unchanged"
-        )
-        yield _refusal(message, where)
-
-
-def _varied_keywords(deck: Deck) -> Iterator[Problem]:
-    """Actions of `*VARIATION` on keywords that a migration removes or adds."""
-    for where, block in deck.blocks("VARIATION", "PREPROCESSOR"):
-        for i, variation in enumerate(block.variations):
-            for j, item in enumerate(variation.blocks):
-                keyword = canonical_name("*" + ",".join(item.keyword))
-                if is_superseded(keyword) or supersedes(keyword):
-                    message = f"a variation adds or removes *{keyword}, which migration changes: remove the action"
-                    yield _refusal(message, where.inside("variations", i, "blocks", j))
-
-
-def _lengths(block: Surface, where: Where, units: str) -> Iterator[Problem]:
-    """Largest characteristic lengths that bound the mobilisation length and are not the default.
-
-    One has no effect where the mobilisation length is given or the friction coefficient is 0. The value of an equation
-    may change: it is taken neither as 0 nor as the default.
-    """
-    values: Any = block.properties
-    for direction in DIRECTIONS:
-        name = f"{direction}_length"
-        length = getattr(values, name)
-        if length is None or getattr(values, f"{direction}_mobilisation") is not None:
-            continue
-        if getattr(values, direction) not in (None, 0.0) and length != _DEFAULT_LENGTH.get(units):
-            message = (
-                f"the largest {direction} characteristic length bounds the mobilisation length of each element, "
-                "and the new family has no field for it: give the mobilisation length instead"
-            )
-            yield _refusal(message, where.inside("properties", name))
-
-
-def _shapes(deck: Deck, block: Surface, where: Where) -> Iterator[Problem]:
-    """A slope or profile that `*SEABED PROFILE` cannot take over."""
-    shaped = block.slope is not None or block.profile is not None
-    if block.slope is not None and block.profile is not None:
-        yield _refusal("a slope and a profile: remove one of them", where.inside("slope"))
-    for keyword in ("SEABED PROFILE", "SEABED PLANES") if shaped else ():
-        for other, _ in deck.blocks(keyword):
-            yield _refusal(f"*{keyword} and the slope or profile of *{block.keyword}: remove one of them", other)
-    for (row, column), word in (block.profile.words if block.profile is not None else {}).items():
-        if isinstance(word, Equation):
-            message = "an equation in a profile, whose points go to a text file: write the number"
-            yield _refusal(message, where.inside("profile", row, column))
-
-
-# ------------------------------------------------------------------------------------------------------------- edits
 
 
 class Rewriting(NamedTuple):
@@ -147,30 +38,57 @@ class Rewriting(NamedTuple):
     files: dict[str, str]
 
 
-def rewrite(deck: Deck) -> Rewriting:
-    """The edits for a deck that was read from text and that has no refusals."""
-    return _Rewriter(deck).rewrite()
+def rewrite(deck: Deck, unused: Container[Where]) -> Rewriting:
+    """The edits for a deck that was read from text and that has no refusals; `unused` is left out."""
+    return _Rewriter(deck, unused).rewrite()
+
+
+def unused_definitions(scene: Scene, *, extended: bool = False) -> set[Where]:
+    """Where the surface and the curves stand that no element follows.
+
+    One of a set that a later curve is for, or that stands before a curve for ALL, has no element in any case; others
+    are known not to have one only where the deck shows all its elements, and no deck that continues it has more
+    (`extended`).
+    """
+    shown = shows_elements(scene) and not extended
+    later: set[str] = set()
+    unused: set[Where] = set()
+    legacy = [(i, law) for i, law in enumerate(scene.laws.set_laws) if law.family == "legacy" and law.curve >= 0]
+    followed = set(np.unique(scene.laws.of_element).tolist())
+    for index, law in reversed(legacy):
+        key = set_key(law.set_.name)
+        unheld = shown and not law.set_.open and index not in followed
+        if key in later or ALL in later or unheld:
+            unused.add(law.where)
+        later.add(key)
+    on_curves = shown and followed <= {index for index, _ in legacy}
+    if ALL in later or on_curves:
+        unused.update(Where(where.section, where.block) for where, _ in surfaces(scene.deck))
+    return unused
 
 
 class _Rewriter:
-    def __init__(self, deck: Deck) -> None:
+    def __init__(self, deck: Deck, unused: Container[Where]) -> None:
         self.deck = deck
+        self.unused = unused
         self.origin = cast("TextOrigin", deck.origin)
         self.text = self.origin.source.unified
         self.edits: list[TextEdit] = []
         self.files: dict[str, str] = {}
 
     def rewrite(self) -> Rewriting:
-        curves = [
-            (where, index, curve.set_name or "ALL")
-            for where, block in self.deck.blocks("EMBEDMENT")
-            for index, curve in enumerate(cast("Embedment", block).curves)
-        ]
+        curves: list[tuple[Where, int, str]] = []
+        for where, block in self.deck.blocks("EMBEDMENT"):
+            given = [(where, i, one.set_name or "ALL") for i, one in enumerate(cast("Embedment", block).curves)]
+            used = [one for one in given if where.inside("curves", one[1]) not in self.unused]
+            self._head(where, "SEABED STIFFNESS" if used else "")
+            for _, index, _ in given:
+                if where.inside("curves", index) in self.unused:
+                    self._leave_out(where, index)
+            curves += used
         taken = [curve.name for _, block in self.deck.blocks("SEABED STIFFNESS") for curve in block.curves]
         sets = [set_name for _, _, set_name in curves]
         names = curve_names(sets, taken)
-        for where, _ in self.deck.blocks("EMBEDMENT"):
-            self._head(where, "SEABED STIFFNESS")
         for (where, index, _), name in zip(curves, names, strict=True):
             self._curve(where, index, name)
         for where, block in surfaces(self.deck):
@@ -187,14 +105,35 @@ class _Rewriter:
         return self.origin.tree.sections[where.section].blocks[where.block]
 
     def _head(self, where: Where, keyword: str) -> None:
-        self._edit(trimmed(self.text, *self._raw(where).head.span), f"*{keyword}")
+        """Write a keyword in the place of that of a block; "" makes the line a comment."""
+        head = trimmed(self.text, *self._raw(where).head.span)
+        if keyword:
+            self._edit(head, f"*{keyword}")
+        else:
+            self._insert(self._line_start(head.start), "C ")
+
+    def _rows(self, where: Where) -> list[Span]:
+        """The lines of a block without comments and blank lines, and without the blanks at their ends."""
+        leaves = (leaf for leaf in self._raw(where).leaves if leaf.kind is not Kind.COMMENT)
+        rows = (trimmed(self.text, *line) for leaf in leaves for line in line_spans(self.text, leaf.span))
+        return [row for row in rows if row.start < row.end]
+
+    def _leave_out(self, where: Where, index: int) -> None:
+        """Make comments of the lines of a curve that no element follows."""
+        spans = self.origin.read[where.section, where.block].places.spans
+        first, following = spans["curves", index], spans.get(("curves", index + 1))
+        comment = "C left out, as no element is on this curve:\n"
+        for row in self._rows(where):
+            if first.start <= row.start and (following is None or row.start < following.start):
+                self._insert(self._line_start(row.start), f"{comment}C ")
+                comment = ""
 
     def _line_start(self, offset: int) -> int:
         return self.text.rfind("\n", 0, offset) + 1
 
     def _indent(self, offset: int) -> str:
-        """The blanks before the first character of a line; one at least, as a key may begin with C."""
-        return self.text[self._line_start(offset) : offset] or " "
+        """As many blanks as stand before the first character of a line; one at least, as a key may begin with C."""
+        return " " * max(offset - self._line_start(offset), 1)
 
     def _row(self, row: Span, lines: str) -> None:
         """Settings in the place of a row, indented as it is or by a blank."""
@@ -212,21 +151,20 @@ class _Rewriter:
     def _surface(self, where: Where, block: Surface, curves: Sequence[tuple[str, str]]) -> None:
         """Replace a surface by a block for ALL with its linear law, then one for each curve, so that curves win.
 
-        Every block gives all values, as it inherits none. On a rigid seabed the block for ALL is needed in any case: it
-        says that the elements lie on that seabed.
+        Every block gives all values, as it inherits none. That for ALL is left out where every element is on a curve.
+        On a rigid seabed it is needed in any case: it says that the elements lie on that seabed.
         """
         self._head(where, "SEABED PROPERTIES")
-        rows = [
-            trimmed(self.text, *line)
-            for leaf in self._raw(where).leaves
-            if leaf.kind in (Kind.RUN, Kind.TEXT)
-            for line in line_spans(self.text, leaf.span)
-        ]
+        rows = self._rows(where)
         fields = self._fields(where, block)
         stiffness, others = fields.get("stiffness", ""), _other_lines(fields)
         type_ = block.facts.seabed_type
         lines = [f"TYPE={type_}"]
-        if type_ == "RIGID" or stiffness or others:
+        if Where(where.section, where.block) in self.unused:
+            if stiffness:
+                comment = f"C stiffness {stiffness} left out, as every element is on a curve\n"
+                self._insert(self._line_start(rows[0].start), comment)
+        elif type_ == "RIGID" or stiffness or others:
             lines += ["SET=ALL", *([f"STIFFNESS={stiffness}"] if stiffness else []), *others]
         for set_name, curve in curves:
             lines += [f"SET={set_name}", f"STIFFNESS={curve}", *others]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import combinations, pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -12,12 +11,11 @@ import numpy as np
 from mudline.contact.input import ContactInput, LawAssignment, LawKind
 from mudline.contact.model import ContactModel
 from mudline.curves import ForceCurve
-from mudline.deck.parameters import folded
 from mudline.migration.migrating import Migration
-from mudline.scene.csv_file import ExternalElements
 from mudline.scene.laws import ResistanceValues
 from mudline.scene.model import Scene, resolve
 from mudline.scene.numbering import Floats, Indices
+from mudline.scene.representatives import representatives, shows_elements
 from mudline.scene.seabed import SeabedShape, parse_profile
 
 
@@ -33,7 +31,7 @@ class Verdict:
     """What was compared and what differs.
 
     `elements` of the deck are of `kinds`; one of each kind and `representatives` for its sets were evaluated, at
-    `positions` in all.
+    `positions` in all. There are none for a deck that shows all its elements.
     """
 
     elements: int
@@ -56,19 +54,11 @@ def verify(migration: Migration) -> Verdict:
     differences = [*_seabed_shapes(before.seabed, after.seabed, migration.files)]
     kinds, positions, found = _compare(before, after, {})
     differences += found
-    external, names = _representatives(_sets(before))
+    if shows_elements(before):
+        return Verdict(len(before.element_ids), kinds, positions, 0, tuple(differences))
+    external, names = representatives(before)
     _, more, found = _compare(resolve(before.deck, external), resolve(after.deck, external), names)
     return Verdict(len(before.element_ids), kinds, positions + more, len(external.ids), (*differences, *found))
-
-
-def _sets(scene: Scene) -> list[str]:
-    """The sets that laws name, each once, in the order of the last block that names it."""
-    last: dict[str, str] = {}
-    for grant in scene.laws.set_laws:
-        if grant.set_ is not scene.set_table.everything:
-            last.pop(folded(grant.set_.name), None)
-            last[folded(grant.set_.name)] = grant.set_.name
-    return list(last.values())
 
 
 def _seabed_shapes(before: SeabedShape, after: SeabedShape, files: Mapping[str, bytes]) -> Iterator[Difference]:
@@ -203,40 +193,3 @@ def _ratios(curve: ForceCurve) -> Floats:
     beside = [np.nextafter(points, -np.inf), points, np.nextafter(points, np.inf)]
     found: Floats = np.concatenate([*beside, *inside, beyond])
     return found[np.isfinite(found)]
-
-
-# --------------------------------------------------------------------------------------------- representative elements
-
-_ALL_PAIRS = 40
-_DIAMETERS = (0.2731, 0.5)
-_FIRST = 2**40
-
-
-def _representatives(sets: Sequence[str]) -> tuple[ExternalElements, dict[int, str]]:
-    """Elements of two diameters in no set, each set, and two sets; of many sets only those that follow each other.
-
-    The last block that holds an element wins. That is an order of the blocks; it is the same in two decks when it is
-    the same for every two blocks that follow each other. Each element has two nodes of its own; the second result is
-    what it is called, by its number.
-    """
-    pairs = combinations(sets, 2) if len(sets) <= _ALL_PAIRS else pairwise(sets)
-    given: list[tuple[str, ...]] = [(), *((name,) for name in sets), *pairs]
-    memberships = dict(enumerate((membership for membership in given for _ in _DIAMETERS), _FIRST))
-    members: dict[str, list[int]] = {name: [] for name in sets}
-    for number, membership in memberships.items():
-        for name in membership:
-            members[name].append(number)
-    count = len(memberships)
-    elements = ExternalElements(
-        "representative elements",
-        _FIRST + np.arange(count),
-        _FIRST + np.arange(2 * count).reshape(count, 2),
-        np.resize(_DIAMETERS, count),
-        np.ones(count),
-        {name: np.array(ids, dtype=np.int64) for name, ids in members.items()},
-    )
-    names = {
-        number: f"an element of {' and '.join(membership)}" if membership else "an element of no set but ALL"
-        for number, membership in memberships.items()
-    }
-    return elements, names

@@ -133,7 +133,9 @@ class Context:
     def missing(self, code: Code, message: str, where: Where, keyword: str, number: int | None = None) -> Problem:
         """A name or number that nothing defines: an error, or a warning where something unread could define it."""
         if source := self.possible_definition(keyword, number):
-            return Problem(code, f"{message}; {source}", None, Severity.WARNING, where)
+            cause = keyword if source == self._misplaced_definition(keyword) else ""
+            message = f"{message}; {source}"
+            return Problem(code, message, None, Severity.WARNING, where, maybe_defined_by=cause)
         return Problem(code, message, where=where)
 
     def possible_definition(self, keyword: str, number: int | None = None) -> str:
@@ -148,12 +150,19 @@ class Context:
             return f"a line of *{keyword} that could not be used may define it"
         if any(number is None or low <= number <= high for low, high in self.doubtful.get(keyword, ())):
             return f"a GEN= of *{keyword} that could not be used may define it"
+        return self._misplaced_definition(keyword)
+
+    def _misplaced_definition(self, keyword: str) -> str:
         place = self.misplaced(keyword)
         return f"{place} may define it" if place else ""
 
     def misplaced(self, keyword: str) -> str:
         """A keyword in a place where it is not read, or is misspelt, in words; "" when there is none."""
-        return self._misplaced.get(keyword, "")
+        return self.misplaced_place(keyword)[0]
+
+    def misplaced_place(self, keyword: str) -> tuple[str, Where]:
+        """A keyword in a place where it is not read, or is misspelt: in words, and the place; "" when there is none."""
+        return self._misplaced.get(keyword, ("", Where()))
 
     @property
     def misplaced_keywords(self) -> list[str]:
@@ -278,20 +287,22 @@ class Context:
         return {self._position(problem) for problem in self.deck.problems if problem.code is SYN016}
 
     @cached_property
-    def _misplaced(self) -> dict[str, str]:
+    def _misplaced(self) -> dict[str, tuple[str, Where]]:
         """Keywords that stand where they are not read: outside any section, in a wrong one, or misspelt.
 
-        Each with the first of its places, in words.
+        Each with the first of its places, and that in words.
         """
         outside = [canonical_name(line) for line in self.deck.preamble if mark_of(line) == "*"]
-        found = {name: f"the *{name} before the first section" for name in outside}
-        opaque = (
-            (one.name, block.keyword) for one in self.deck.sections for block in one.blocks if isinstance(block, Opaque)
-        )
+        found = {name: (f"the *{name} before the first section", Where()) for name in outside}
+        places: dict[tuple[str, str], Where] = {}
+        for i, section in enumerate(self.deck.sections):
+            for j, block in enumerate(section.blocks):
+                if isinstance(block, Opaque):
+                    places.setdefault((section.name, block.keyword), Where(i, j))
         effort = Effort()
-        for section, keyword in dict.fromkeys(opaque):
-            for name, place in self._meant(section, keyword, effort):
-                found.setdefault(name, place)
+        for (name, keyword), where in places.items():
+            for meant, words in self._meant(name, keyword, effort):
+                found.setdefault(meant, (words, where))
         return found
 
     def _meant(self, section: str, keyword: str, effort: Effort) -> Iterator[tuple[str, str]]:

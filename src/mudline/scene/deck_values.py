@@ -155,7 +155,7 @@ def _sets(block: Block | Opaque) -> Iterator[str]:
 
 
 def _given_in_lines(lines: Iterable[str], keys: Mapping[str, Names]) -> Iterator[str]:
-    for line in _data(lines):
+    for line in data_lines(lines):
         if "=" not in line:
             continue
         for key, values in _groups(line):
@@ -181,7 +181,7 @@ def _texts(block: Block | Opaque) -> Iterator[str]:
     kept = catalogue.opaque_keyword("MODEL", block.keyword)
     if not isinstance(block, Opaque) or kept is None or not kept.labels:
         return
-    for line in _data(block.lines):
+    for line in data_lines(block.lines):
         if _WORD.search(line):
             for _, values in _groups(line):
                 yield from (text for text in values if read_number(text) is None and not text.startswith("=["))
@@ -204,6 +204,6 @@ def _groups(line: str) -> Iterator[tuple[str, list[str]]]:
     yield key, values
 
 
-def _data(lines: Iterable[str]) -> Iterator[str]:
+def data_lines(lines: Iterable[str]) -> Iterator[str]:
     """The lines that are no comments. One with C and a letter in column 1 is one: no key that counts here begins so."""
     return (line for line in lines if not _COMMENT.match(line))

@@ -56,15 +56,23 @@ def superseded_keyword(context: LintContext) -> Iterator[Problem]:
 
 
 def _migration(context: LintContext) -> Repair | None:
-    """What `mudline migrate` does, to all blocks at once; None where it refuses, or a second file is needed."""
+    """What `mudline migrate` does, to all blocks at once; None where it refuses, or a second file is needed.
+
+    Only when repairs are made, the decks of the folder are searched for those that continue this one.
+    """
     deck, text = context.deck, context.text
     if text is None or context.scene.errors():
         return None
-    from mudline.migration.rewriting import refusals, rewrite, surfaces  # noqa: PLC0415 - few decks need it
+    from mudline.migration.migrating import continuations_beside  # noqa: PLC0415 - few decks need it
+    from mudline.migration.refusals import refusals, surfaces  # noqa: PLC0415 - as above
+    from mudline.migration.rewriting import rewrite, unused_definitions  # noqa: PLC0415 - as above
 
-    if any(refusals(deck)) or any(surface.profile is not None for _, surface in surfaces(deck)):
+    continued_by, extended = continuations_beside(deck) if context.fixing else ([], False)
+    profile = any(surface.profile is not None for _, surface in surfaces(deck))
+    if profile or any(refusals(deck, context.scene, continued_by)):
         return None
-    edits = with_line_ends(text.source, rewrite(deck).edits)
+    unused = unused_definitions(context.scene, extended=extended)
+    edits = with_line_ends(text.source, rewrite(deck, unused).edits)
     return Repair("unsafe", "write the newer keywords", tuple((edit.span, edit.text) for edit in edits))
 
 

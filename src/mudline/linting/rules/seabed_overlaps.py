@@ -9,6 +9,7 @@ from typing import NamedTuple, cast
 import numpy as np
 
 from mudline.codes.references import REF010
+from mudline.contact.input import LawKind
 from mudline.deck.parameters import folded
 from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity
 from mudline.keywords.model import Record
@@ -18,7 +19,7 @@ from mudline.linting.rules.seabed_friction import surfaces_of
 from mudline.linting.rules.seabed_position import first_of
 from mudline.scene.laws import SetLaw
 from mudline.scene.model import Scene
-from mudline.scene.numbering import Indices, one_index
+from mudline.scene.numbering import Floats, Indices, one_index
 from mudline.scene.sets import NamedSet
 
 SBD008 = Code("SBD008", "overlapping-sets", Severity.INFO)
@@ -231,10 +232,16 @@ def _counted(scene: Scene, elements: Indices) -> str:
 
 
 def _alike(scene: Scene, one: SetLaw, other: SetLaw) -> bool:
-    """Whether two sets of *SEABED PROPERTIES give the same."""
+    """Whether two sets of *SEABED PROPERTIES give the same, curves of the same points included."""
     first, second = (_entry(scene, grant) for grant in (one, other))
-    given = [name for name in type(first).model_fields if name != "set_name"]
+    same = one.kind is other.kind is LawKind.CURVE and np.array_equal(_points(scene, one), _points(scene, other))
+    given = [name for name in type(first).model_fields if name != "set_name" and not (same and name == "stiffness")]
     return all(getattr(first, name) == getattr(second, name) for name in given)
+
+
+def _points(scene: Scene, grant: SetLaw) -> Floats:
+    """The points of the curve of a set; a NaN, which equals nothing, where there is no such curve."""
+    return scene.laws.curves[grant.curve].points if grant.curve >= 0 else np.array([np.nan])
 
 
 def _entry(scene: Scene, grant: SetLaw) -> Record:
