@@ -24,7 +24,7 @@ EVERY = [
 NAMES = [command[0] for command in EVERY]
 
 BINARY = b"".join(sha256(str(n).encode()).digest() for n in range(600))
-LONG = 2_000_000
+LONG = 500_000
 
 
 def lint(place: Place, text: str | bytes, name: str = "deck.keyxm") -> list[dict[str, object]]:

@@ -95,19 +95,19 @@ def test_minus_zero_is_not_zero_and_nan_is_nan() -> None:
 
 @pytest.mark.untraced
 @pytest.mark.parametrize("number", range(len(SUBSETS)))
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("seed", range(10))
 def test_scenes_with_some_laws(number: int, seed: int) -> None:
     names, flat = SUBSETS[number]
     assert compare(random_scene(1000 * number + seed, names, flat=flat)) == []
 
 
-@settings(max_examples=80)
+@settings(max_examples=40)
 @given(seeds)
 def test_any_scene_through_loops_that_are_not_compiled(seed: int) -> None:
     assert compare(random_scene(seed), plain=True) == []
 
 
-@settings(max_examples=20)
+@settings(max_examples=30)
 @given(seeds)
 def test_any_scene_with_everything(seed: int) -> None:
     assert compare(random_scene(seed, frozenset(LAWS), flat=seed % 2 == 0)) == []
@@ -135,7 +135,7 @@ def test_a_long_run_names_the_first_scene_that_differs(
 # ------------------------------------------------------------------------------------------------ everything, and parts
 
 
-@settings(max_examples=60)
+@settings(max_examples=30)
 @given(st.integers(1, 9), st.integers(0, 9999), st.sampled_from(SEABEDS), st.booleans(), st.booleans())
 def test_everything_at_once(elements: int, seed: int, seabed: Seabed, timed: bool, gaps: bool) -> None:
     positions, velocities, times = journey(elements, 20, seed)
@@ -145,7 +145,7 @@ def test_everything_at_once(elements: int, seed: int, seabed: Seabed, timed: boo
     assert compare(given_scene, plain=True) == []
 
 
-@settings(max_examples=30)
+@settings(max_examples=15)
 @given(st.integers(2, 8), st.integers(0, 9999))
 def test_elements_and_nodes_in_any_order(elements: int, seed: int) -> None:
     rng = np.random.default_rng(seed)
@@ -155,7 +155,7 @@ def test_elements_and_nodes_in_any_order(elements: int, seed: int) -> None:
     assert compare(scene(renumbered(inputs, order), positions[:, order], velocities[:, order]), plain=True) == []
 
 
-@settings(max_examples=40)
+@settings(max_examples=20)
 @given(st.integers(0, 9999), st.sets(st.sampled_from(LAWS), min_size=1), st.sampled_from(TENSIONS))
 def test_any_choice_of_laws(seed: int, names: set[str], tension: Tension) -> None:
     inputs = only(everything(8, seed), *names)
@@ -166,7 +166,7 @@ def test_any_choice_of_laws(seed: int, names: set[str], tension: Tension) -> Non
 sizes = st.sampled_from([0.0, 5e-324, 1e-300, 1e-160, 1e-12, 1.0, 1e3, 1e12, 1e150, 1e300, LARGEST])
 
 
-@settings(max_examples=50)
+@settings(max_examples=30)
 @given(st.integers(1, 4), st.integers(0, 999), st.tuples(sizes, sizes, sizes), sizes, st.sampled_from(SEABEDS[:4]))
 def test_sizes_beyond_reason_are_refused_alike(
     elements: int, seed: int, scale: tuple[float, float, float], speed: float, seabed: Seabed
