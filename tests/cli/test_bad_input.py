@@ -6,7 +6,7 @@ import tracemalloc
 from hashlib import sha256
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.builders.decks import CLEAN
@@ -24,7 +24,7 @@ EVERY = [
 NAMES = [command[0] for command in EVERY]
 
 BINARY = b"".join(sha256(str(n).encode()).digest() for n in range(600))
-LONG = 2_000_000
+LONG = 500_000
 
 
 def lint(place: Place, text: str | bytes, name: str = "deck.keyxm") -> list[dict[str, object]]:
@@ -181,6 +181,7 @@ def test_document_that_is_not_utf_8(place: Place) -> None:
 SOURCE = (SAMPLES / "broken.keyxm").read_bytes()
 
 
+@settings(max_examples=60)
 @given(st.data())
 def test_damaged_deck_never_breaks_a_command(data: st.DataObject) -> None:
     body = bytearray(SOURCE)

@@ -130,8 +130,9 @@ def test_both_drivers_give_the_same_bits(elements: int, seed: int, slopes: bool)
     positions, velocities, _ = journey(elements, 12, seed)
     inputs = everything_beside(elements, SlopingSeabed(0.2, 30.0) if slopes else None)
     scene = Scene(inputs, positions, velocities, None, None, Sizes(8, 3, 5, 2))
-    assert compare(scene) == []
     assert compare(scene, plain=True) == []
+    if slopes:  # a flat seabed has loops of its own, which take seconds to compile
+        assert compare(scene) == []
 
 
 @pytest.mark.untraced

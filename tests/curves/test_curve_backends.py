@@ -9,7 +9,7 @@ from collections.abc import Callable
 import numba
 import numpy as np
 import pytest
-from hypothesis import given, reject
+from hypothesis import given, reject, settings
 from hypothesis import strategies as st
 
 from mudline.curves import CurveError, ForceCurve, QueryError, compiled
@@ -38,6 +38,7 @@ def curves(draw: st.DrawFn) -> ForceCurve:
         reject()
 
 
+@settings(max_examples=50)
 @given(curves(), st.lists(st.floats(-1e300, 1e300), max_size=20))
 def test_both_backends_follow_the_law_to_the_last_bit(curve: ForceCurve, more: list[float]) -> None:
     query = near(curve.ratios, more)

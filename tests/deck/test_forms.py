@@ -67,7 +67,7 @@ def test_samples(path: Path) -> None:
 
 
 @given(deck_texts())
-@settings(max_examples=100)
+@settings(max_examples=50)
 def test_decks(text: str) -> None:
     deck = deck_of(text)
     assert [str(found) for found in deck.diagnose(deck.problems) if found.severity is Severity.ERROR] == []
@@ -75,7 +75,7 @@ def test_decks(text: str) -> None:
 
 
 @given(deck_texts())
-@settings(max_examples=60)
+@settings(max_examples=40)
 def test_no_comment_is_lost(text: str) -> None:
     lines = iter(range(10**6))
     numbered = re.sub(
@@ -87,7 +87,7 @@ def test_no_comment_is_lost(text: str) -> None:
 
 
 @given(mutated(deck_texts().map(str.encode)))
-@settings(max_examples=120)
+@settings(max_examples=60)
 def test_what_reads_without_an_error_is_the_same_in_every_form(data: bytes) -> None:
     deck = load_bytes(data, NAME)
     assume(all(problem.weight is not Severity.ERROR for problem in deck.problems))

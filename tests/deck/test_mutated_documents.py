@@ -94,7 +94,7 @@ def read(text: str, form: str) -> Deck | tuple[Diagnostic, ...]:
 
 
 @given(mutants())
-@settings(max_examples=300)
+@settings(max_examples=150)
 def test_schema_and_reader_agree(mutant: tuple[Values, DocumentPath]) -> None:
     made, _ = mutant
     allowed = validator().is_valid(made)

@@ -63,7 +63,7 @@ def held_in_text(deck: Deck) -> None:
 
 @pytest.mark.parametrize("keyword", KEYWORDS, ids=lambda keyword: f"{keyword[0]}-{keyword[1]}".replace(" ", "-"))
 @given(data=st.data())
-@settings(max_examples=15)
+@settings(max_examples=8)
 def test_every_keyword(keyword: Keyword, data: st.DataObject) -> None:
     deck = of(alone(keyword, data.draw(block(keyword))))
     (found,) = deck.sections[0].blocks
@@ -73,7 +73,7 @@ def test_every_keyword(keyword: Keyword, data: st.DataObject) -> None:
 
 
 @given(document())
-@settings(max_examples=60)
+@settings(max_examples=40)
 def test_whole_decks(made: Values) -> None:
     deck = of(made)
     held_in_documents(deck)

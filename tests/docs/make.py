@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Mapping
+from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -25,8 +27,9 @@ BY_HAND = frozenset({"DOC001", "DOC002", "DAT001", "EXP001", "MIG001", "RUN001",
 """Codes that are no rules; their pages are written by hand."""
 
 
-def pages() -> dict[str, str]:
-    """The text of every page by its path in the repository."""
+@cache
+def pages() -> Mapping[str, str]:
+    """The text of every page by its path in the repository; what it is made of does not change while this runs."""
     indexes = {"docs/keywords.md": keyword_index(), "docs/rules/README.md": rule_index(rules())}
     of_rules = {f"docs/rules/{rule.code.code}.md": rule_page(rule) for rule in rules()}
     single = {"docs/laws.md": law_page(), "docs/architecture.svg": layer_picture()}

@@ -7,7 +7,7 @@ import math
 import operator
 from collections.abc import Callable
 
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mudline.expression import EvaluationError, evaluate, parse
@@ -90,6 +90,7 @@ EQUATIONS = st.recursive(
 )
 
 
+@settings(max_examples=60)
 @given(st.one_of(arithmetic(EQUATIONS), logical(arithmetic(EQUATIONS))))
 def test_parts_belong_together_as_in_python(text: str) -> None:
     tree = ast.parse(text, mode="eval").body

@@ -36,7 +36,7 @@ _lines = st.lists(
 
 
 @given(_lines.map("".join), st.booleans())
-@settings(max_examples=250)
+@settings(max_examples=125)
 def test_both_ways_give_the_same(text: str, cut: bool) -> None:
     text = text.rstrip("\r\n") if cut else text
     plain = PlainRows.read(text, 4)

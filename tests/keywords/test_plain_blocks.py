@@ -132,7 +132,7 @@ def compare(text: str) -> bool:
     return late
 
 
-@settings(max_examples=100)
+@settings(max_examples=50)
 @given(st.one_of(deck_texts().map(str.encode), mutated(deck_texts().map(str.encode))))
 def test_blocks_of_any_deck(data: bytes) -> None:
     same(data)

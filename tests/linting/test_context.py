@@ -43,7 +43,7 @@ def curves(draw: st.DrawFn) -> Points:
 
 @given(curves())
 @example([(5e-324, 0.0), *CLAY])
-@settings(max_examples=300)
+@settings(max_examples=150)
 def test_nothing_is_missed(points: Points) -> None:
     every = context(points)
     every.__dict__["odd_curves"] = list(enumerate(every.scene.laws.curves))

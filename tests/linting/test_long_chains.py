@@ -11,7 +11,7 @@ import mudline
 from tests.growth import TWOFOLD, call_growth
 
 MODEL = "$MODEL\n*NODE\n 1, 0.0, 0.0\n 2, 0.0, 1.0\n*ELEMENT\n 1, 1, 2\n"
-SHORT, LONG = 1500, 3000
+SHORT, LONG = 750, 1500
 
 
 def sets(count: int, step: int) -> str:

@@ -265,7 +265,7 @@ def test_largest_characteristic_lengths_without_effect_are_left_in_a_comment() -
     assert b" FRICTION=0.3, 0.5, , 0.1\n" in found.content
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=75, deadline=None)
 @given(legacy_decks())
 def test_any_legacy_deck_means_the_same_afterwards(text: str) -> None:
     deck = deck_of(text)

@@ -16,6 +16,7 @@ from mudline.diagnostics import Span
 from mudline.keywords.values import LINE_SETS, Names
 from mudline.scene.deck_values import bare, definition_by, external_definers, opaque_labels, opaque_set_names
 from mudline.scene.model import resolve
+from mudline.syntax import fields
 from mudline.syntax.fields import read_line
 from tests.builders.decks import PIPE
 from tests.builders.scenes import messages, reported
@@ -80,7 +81,7 @@ _CASES = st.sampled_from([str.upper, str.lower, str.title])
 
 
 @given(_KEYWORDS, names, names, st.lists(names, min_size=1, max_size=4), st.data())
-@settings(max_examples=150)
+@settings(max_examples=80)
 def test_any_name_is_found(keyword: str, line: str, section: str, more: list[str], data: st.DataObject) -> None:
     key = "NAME" if keyword == "LINE SECTION GROUPS" else "LINE"
     listed = ",".join(data.draw(pads) + name + data.draw(pads) for name in more)
@@ -128,7 +129,7 @@ def test_a_line_of_very_many_names() -> None:
 
 @pytest.mark.untraced
 @pytest.mark.slow
-def test_a_hundred_thousand_lines() -> None:
+def test_very_many_lines() -> None:
     section = " SECTION=Joint {0}, 12.2, ADDITIONAL=Riser, Joints {0}\n"
 
     def lines(count: int) -> Deck:
@@ -136,12 +137,12 @@ def test_a_hundred_thousand_lines() -> None:
 
     assert call_growth(opaque_set_names, lines(1_000), lines(2_000)) < TWOFOLD
     assert growth(opaque_set_names, lines(2_500), lines(10_000)) < FOURFOLD
-    assert len(opaque_set_names(lines(100_000))) == 200_002
+    assert len(opaque_set_names(lines(10_000))) == 20_002
 
 
 @pytest.mark.untraced
 @pytest.mark.parametrize("unit", ["a=", "a ", '"', "{", '{"', "= ", "LINE=", "[=", "=[", "a,"])
-def test_no_line_takes_long(unit: str) -> None:
+def test_no_line_takes_long(unit: str, monkeypatch: pytest.MonkeyPatch) -> None:
     def line(count: int) -> Deck:
         return deck_of(f"*LINES\n LINE={unit * count}\n LINE=SCR\n")
 
@@ -150,8 +151,9 @@ def test_no_line_takes_long(unit: str) -> None:
 
     assert call_growth(opaque_sets, line(2_500), line(5_000)) < TWOFOLD
     assert growth(opaque_sets, line(5_000), line(20_000)) < FOURFOLD
-    assert growth(opaque_sets, line(100_000), line(400_000)) < FOURFOLD  # too many for the reader of fields
-    assert ["scr" in found for found in opaque_sets(line(200_000))] == [True, True]
+    monkeypatch.setattr(fields, "MOST_FIELDS", 10_000)
+    assert growth(opaque_sets, line(10_000), line(40_000)) < FOURFOLD  # too many for the reader of fields
+    assert ["scr" in found for found in opaque_sets(line(20_000))] == [True, True]
 
 
 # -------------------------------------------------------------------------------------------------- sets that are named

@@ -10,23 +10,11 @@ from unittest.mock import Mock
 import pytest
 
 from mudline.scene.model import Scene
-from mudline.study import precision, sample_scene
-from mudline.study.precision import curves as curve_study
-from mudline.study.precision import integration
+from mudline.study import precision
 from mudline.study.report import Column, StudyError, StudyOptions, StudyReport, StudyTable
 from tests.cli.runner import run
 
 SAMPLES = Path(__file__).parents[2] / "samples"
-
-
-@pytest.fixture(scope="module")
-def sample_report() -> StudyReport:
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(integration, "LADDER", (1.0,))
-        patch.setattr(curve_study, "_TIMED", 1000)
-        patch.setattr(curve_study, "_CHECKED", 50)
-        report = precision.run(sample_scene(), StudyOptions())
-    return replace(report, pictures=report.pictures[:1])
 
 
 @pytest.fixture
@@ -35,7 +23,7 @@ def made(monkeypatch: pytest.MonkeyPatch, sample_report: StudyReport) -> None:
 
     def study(found: Scene, options: StudyOptions) -> StudyReport:
         options.progress("smoothing")
-        return replace(sample_report, title=f"Precision: {found.deck.file}")
+        return replace(sample_report, title=f"Precision: {found.deck.file}", pictures=sample_report.pictures[:1])
 
     monkeypatch.setattr(precision, "run", study)
 

@@ -80,7 +80,7 @@ _sample_bytes = st.sampled_from([path.read_bytes()[:6000] for path in FILES])
 
 
 @given(mutated(st.one_of(deck_texts().map(str.encode), _sample_bytes)))
-@settings(max_examples=120)
+@settings(max_examples=60)
 def test_mutated_decks(data: bytes) -> None:
     read_back(data)
 

@@ -55,6 +55,7 @@ SPELLINGS: dict[str, tuple[NDArray[np.generic], Callable[..., str]]] = {
 }
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("name", SPELLINGS)
 @pytest.mark.parametrize("comma", [", ", " "], ids=["commas", "blanks"])
 def test_a_million_numbers_and_more(name: str, comma: str) -> None:

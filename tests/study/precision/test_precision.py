@@ -8,27 +8,18 @@ from pathlib import Path
 import pytest
 
 from mudline.scene.sections import surroundings
-from mudline.study import SAMPLE_TEXT, precision, sample_scene
-from mudline.study.precision import curves as curve_study
-from mudline.study.precision import integration
-from mudline.study.report import StudyOptions
+from mudline.study import SAMPLE_TEXT, precision
+from mudline.study.report import StudyOptions, StudyReport
 from tests.builders.scenes import legal_scene
 
 SAMPLES = Path(__file__).parents[3] / "samples"
 
 
-@pytest.fixture(autouse=True)
-def short(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(integration, "LADDER", (0.5, 10.0))
-    monkeypatch.setattr(integration, "FINE_LADDER", (0.3,))
-    monkeypatch.setattr(curve_study, "POINTS", (3, 10))
-    monkeypatch.setattr(curve_study, "_TIMED", 1000)
-    monkeypatch.setattr(curve_study, "_CHECKED", 50)
+pytestmark = pytest.mark.usefixtures("short")
 
 
-def test_report_of_the_sample(tmp_path: Path) -> None:
-    progress: list[str] = []
-    report = precision.run(sample_scene(), StudyOptions(progress=progress.append))
+def test_report_of_the_sample(sample_report: StudyReport, sample_progress: list[str], tmp_path: Path) -> None:
+    report = sample_report
     assert [table.name for table in report.tables] == [
         "curves",
         "backbones",
@@ -42,7 +33,7 @@ def test_report_of_the_sample(tmp_path: Path) -> None:
     assert len(report.tables[4].rows) == 5 * 9 * 2
     assert all(len(row) == len(table.columns) for table in report.tables for row in table.rows)
     assert any("omega dt 10" in omission.what for omission in report.omissions)
-    assert any("time integration" in words for words in progress)
+    assert any("time integration" in words for words in sample_progress)
     files = {path.name for path in report.write(tmp_path)}
     pictures = {
         f"precision-{name}.png" for name in ("curves", "backbones", "drop", "pull-drag", "run-time", "smoothing")

@@ -14,8 +14,8 @@ from mudline.scene.model import Scene
 from mudline.study import SAMPLE_TEXT, sample_scene
 from mudline.study.schemes import SCHEMES
 from mudline.study.stability import critical
-from mudline.study.stability.critical import BOUNDED, GROWS, SHARES, can_oscillate, find_contacts, measure
-from mudline.study.stability.judging import judge
+from mudline.study.stability.critical import BOUNDED, GROWS, SHARES, Measured, can_oscillate, find_contacts, measure
+from mudline.study.stability.judging import Judgement
 from mudline.study.stability.ladder import all_cells
 from tests.builders.scenes import legal_scene
 
@@ -120,10 +120,9 @@ def test_a_restart_is_reported_the_step_that_does_on_the_bed_of_its_static_deck(
 
 
 @pytest.mark.parametrize("name", ["central-difference", "rk4", "newmark", "backward-euler", "rk2", "forward-euler"])
-def test_schemes_do_on_contacts_what_is_predicted(name: str) -> None:
-    scene = sample_scene()
-    for contact in find_contacts(scene)[0]:
-        found = measure(scene, contact, SCHEMES[name])
+def test_schemes_do_on_contacts_what_is_predicted(name: str, measured: dict[tuple[str, str], Measured]) -> None:
+    for contact in find_contacts(sample_scene())[0]:
+        found = measured[contact.name, name]
         assert found.as_predicted
         if 0.0 < found.predicted < np.inf:
             assert found.predicted == pytest.approx(CRITICAL_OMEGA_DT[name] / contact.omega)
@@ -138,10 +137,12 @@ def test_the_schemes_and_the_rules_have_the_same_limits() -> None:
 
 @pytest.mark.untraced
 @pytest.mark.parametrize("family", ["segment width", "tiny linear stiffness", "huge curve ratios"])
-def test_contacts_of_extreme_decks_are_stepped_as_predicted_or_left_out(family: str) -> None:
+def test_contacts_of_extreme_decks_are_stepped_as_predicted_or_left_out(
+    family: str, judged: dict[tuple[str, str], Judgement]
+) -> None:
     stepped = 0
     for cell in all_cells():
-        if cell.family != family or not judge(cell).results:
+        if cell.family != family or not judged[cell.family, cell.value].results:
             continue
         scene = legal_scene(cell.text)
         for contact in filter(can_oscillate, find_contacts(scene)[0]):

@@ -35,13 +35,14 @@ def cell(family: str, value: str) -> Cell:
 
 
 @pytest.mark.parametrize("family", FAMILIES)
-def test_every_cell_is_right_within_its_bound_or_refused_with_a_line(family: str) -> None:
-    for one in CELLS:
+def test_every_cell_is_right_within_its_bound_or_refused_with_a_line(
+    family: str, judged: dict[tuple[str, str], Judgement]
+) -> None:
+    for one in judged.values():
         if one.family == family:
-            judged = judge(one)
-            assert judged.verdict.acceptable, judged
-            assert judged.error <= BOUND
-            assert (judged.results > 0) is (judged.verdict is not Verdict.REFUSED)
+            assert one.verdict.acceptable, one
+            assert one.error <= BOUND
+            assert (one.results > 0) is (one.verdict is not Verdict.REFUSED)
 
 
 def test_the_ladder_reaches_what_it_should() -> None:

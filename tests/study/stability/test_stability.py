@@ -3,16 +3,24 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 
 import pytest
 
+from mudline.scene.model import Scene
 from mudline.study import SAMPLE_TEXT, sample_scene
+from mudline.study.motion import Scheme
 from mudline.study.report import StudyOptions, StudyReport
 from mudline.study.schemes import SCHEMES
-from mudline.study.stability import critical, ladder, run
-from mudline.study.stability.judging import Judgement, Verdict, judge
+from mudline.study.stability import critical, ladder, landings, run, statics
+from mudline.study.stability.critical import Contact, Measured
+from mudline.study.stability.judging import Cell, Judgement, Verdict, judge
 from mudline.study.stability.ladder import all_cells
+from mudline.study.stability.landings import Landing
+from mudline.study.stability.statics import CycleCount
 from tests.builders.scenes import legal_scene
+
+pytestmark = pytest.mark.usefixtures("_shared")
 
 TABLES = ["contacts", "critical-steps", "landings", "newton-cycles", "release", "ladder", "ladder-cells"]
 
@@ -23,8 +31,30 @@ def progress() -> list[str]:
 
 
 @pytest.fixture(scope="module")
-def report(progress: list[str]) -> StudyReport:
-    return run(sample_scene(), StudyOptions(progress=progress.append))
+def _shared(landed: list[Landing], cycles: list[CycleCount]) -> Iterator[None]:
+    """What does not depend on the deck is not computed again."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(landings, "landings", lambda: landed)
+        patch.setattr(statics, "cycle_counts", lambda: cycles)
+        yield
+
+
+@pytest.fixture(scope="module")
+def report(
+    progress: list[str], measured: dict[tuple[str, str], Measured], judged: dict[tuple[str, str], Judgement]
+) -> StudyReport:
+    """The study of the sample; what the tests of its parts need too is not computed again."""
+
+    def measure(_scene: Scene, contact: Contact, scheme: Scheme) -> Measured:
+        return measured[contact.name, scheme.name]
+
+    def verdict(cell: Cell) -> Judgement:
+        return judged[cell.family, cell.value]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(critical, "measure", measure)
+        patch.setattr(ladder, "judge", verdict)
+        return run(sample_scene(), StudyOptions(progress=progress.append))
 
 
 def test_the_sample_is_studied(report: StudyReport, progress: list[str]) -> None:

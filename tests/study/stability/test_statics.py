@@ -13,9 +13,9 @@ from mudline.study.schemes import Newton
 from mudline.study.stability.statics import (
     EXAMPLE,
     STARTS,
+    CycleCount,
     FrictionProblem,
     bracketed,
-    cycle_counts,
     equilibria,
     newton_failures,
     newton_path,
@@ -68,8 +68,8 @@ def test_the_friction_of_the_evaluator_is_the_one_of_the_formula() -> None:
     assert slope == pytest.approx(np.where(np.abs(99.0 * u) > 10.0, 1.0, 100.0))
 
 
-def test_a_bracket_cures_every_cycle() -> None:
-    for one in cycle_counts():
+def test_a_bracket_cures_every_cycle(cycles: list[CycleCount]) -> None:
+    for one in cycles:
         assert one.bracketed == 0
         assert one.plain == 0 or (one.ratio > 1.0 and one.share < 1.0)
         assert one.halved == 0 or one.ratio >= 1e4

@@ -1,0 +1,44 @@
+"""What the studies of stability find, computed once: the study of the sample and the tests of its parts share it."""
+
+from __future__ import annotations
+
+import pytest
+
+from mudline.study import sample_scene
+from mudline.study.schemes import SCHEMES
+from mudline.study.stability import critical, landings, statics
+from mudline.study.stability.critical import Measured, find_contacts
+from mudline.study.stability.judging import Judgement, judge
+from mudline.study.stability.ladder import all_cells
+from mudline.study.stability.landings import Landing
+from mudline.study.stability.statics import CycleCount
+
+
+@pytest.fixture(scope="session")
+def measured() -> dict[tuple[str, str], Measured]:
+    """Every scheme on every contact of the sample, by the names of both."""
+    scene = sample_scene()
+    contacts, _ = find_contacts(scene)
+    return {
+        (contact.name, name): critical.measure(scene, contact, scheme)
+        for contact in contacts
+        for name, scheme in SCHEMES.items()
+    }
+
+
+@pytest.fixture(scope="session")
+def judged() -> dict[tuple[str, str], Judgement]:
+    """The verdict on every cell of the ladder, by family and value."""
+    return {(cell.family, cell.value): judge(cell) for cell in all_cells()}
+
+
+@pytest.fixture(scope="session")
+def landed() -> list[Landing]:
+    """Every scheme that lands at every step."""
+    return landings.landings()
+
+
+@pytest.fixture(scope="session")
+def cycles() -> list[CycleCount]:
+    """How often Newton's method does not end on friction."""
+    return statics.cycle_counts()
