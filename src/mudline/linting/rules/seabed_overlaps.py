@@ -20,7 +20,7 @@ from mudline.linting.rules.seabed_position import first_of
 from mudline.scene.laws import SetLaw
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices, one_index
-from mudline.scene.sets import NamedSet
+from mudline.scene.sets import ALL, NamedSet
 
 SBD008 = Code("SBD008", "overlapping-sets", Severity.INFO)
 SBD025 = Code("SBD025", "law-without-effect", Severity.WARNING)
@@ -211,7 +211,7 @@ def _properties(scene: Scene, grants: list[SetLaw]) -> Iterator[tuple[int, Probl
 
 def _within(part: NamedSet, whole: NamedSet, count: int) -> bool:
     """Whether the elements of one set are all in another one, as far as they are known."""
-    if folded(part.name) == folded(whole.name):
+    if folded(whole.name) in (folded(part.name), folded(ALL)):
         return True
     if part.open or whole.open:
         return False
