@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from mudline.codes.contact import GEO005
 from mudline.contact.input import LawKind
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.text import shown
@@ -23,7 +24,6 @@ if TYPE_CHECKING:
 
 GEO002 = Code("GEO002", "number-and-curve", Severity.WARNING)
 GEO003 = Code("GEO003", "drag-diameter-assumed", Severity.INFO)
-GEO005 = Code("GEO005", "not-on-the-seabed", Severity.WARNING)
 GEO006 = Code("GEO006", "repeated-section", Severity.WARNING)
 
 HIGHEST = 100.0

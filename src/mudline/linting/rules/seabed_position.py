@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
+from mudline.codes.contact import SBD006
 from mudline.contact.input import LawKind
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.keywords.catalogue import is_superseded
@@ -19,7 +20,6 @@ from mudline.scene.seabed import SeabedKind, SeabedShape
 if TYPE_CHECKING:
     from mudline.keywords.library.boundary import Boundary, FixedNode, FixedRange
 
-SBD006 = Code("SBD006", "no-vertical-restraint", Severity.WARNING)
 SBD021 = Code("SBD021", "one-constrained-dof", Severity.WARNING)
 SBD022 = Code("SBD022", "deep-node", Severity.WARNING)
 

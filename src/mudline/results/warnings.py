@@ -1,0 +1,333 @@
+"""What an engineer should know before using the results of a deck: zeros for want of a law, no contact, no equilibrium.
+
+The warnings of an evaluated deck follow from its scene and its results. Of a long series only what they need is kept:
+a flag for each element, and the smallest clearance.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from mudline.codes.contact import GEO005, RUN003, RUN004, SBD006
+from mudline.codes.lines import SYN009
+from mudline.contact import ContactResult, LawKind
+from mudline.deck.model import Opaque
+from mudline.diagnostics import Code, Diagnostic, Problem, Severity, Where
+from mudline.keywords.catalogue import (
+    holds_in_soil,
+    is_extension,
+    is_superseded,
+    sections_of,
+    suggest_keyword,
+    supersedes,
+)
+from mudline.results.evaluation import Evaluation, Part
+from mudline.results.quantities import shown, unit_names
+from mudline.results.unused_curves import unused_curves
+from mudline.results.vertical_axis import height_along_z
+from mudline.scene.model import Scene
+from mudline.scene.numbering import Floats, Indices, Mask
+from mudline.short_repr import counted, cut
+
+BALANCED = (0.5, 2.0)
+"""Total reaction over submerged weight of the deck's own positions, beyond which they are no equilibrium by far."""
+
+_PIPE_IN_PIPE = ("PIP SECTION", "PIP CONNECTION")
+_LONGEST_CAPTION = 120
+
+
+@dataclass(frozen=True, slots=True)
+class ContactWarning:
+    """What is doubtful in the results of a deck.
+
+    Attributes:
+        diagnostic: code, message and place, as those of lint.
+        elements: how many elements it is about; 0 for what is about none, as a curve that nothing uses.
+        first: the number of the first of them, or None.
+        brief: the message in a few words, for the caption of a plot.
+    """
+
+    diagnostic: Diagnostic
+    elements: int
+    first: int | None
+    brief: str
+
+    def __str__(self) -> str:
+        found = self.diagnostic
+        return f"{found.file}:{found.line}: {found.code} {found.message}"
+
+    def row(self) -> dict[str, object]:
+        """The warning as JSON has it."""
+        found = self.diagnostic
+        return {
+            "code": found.code,
+            "message": found.message,
+            "line": found.line,
+            "elements": self.elements,
+            "first": self.first,
+        }
+
+
+def contact_warnings(scene: Scene, result: ContactResult, positions: Floats | None = None) -> list[ContactWarning]:
+    """Return what is doubtful in a result of `scene.contact().evaluate(positions)`, in the order of the deck.
+
+    `positions` are those that were evaluated, (nodes, 3) or (steps, nodes, 3); None stands for the deck's own
+    coordinates, whose reaction is compared with the submerged weight.
+    """
+    places = np.asarray(scene.coordinates if positions is None else positions)
+    watch = ContactWatch(scene, result.evaluated, places.reshape(-1, *places.shape[-2:])[0], own=positions is None)
+    watch.look(0, result)
+    return watch.warnings()
+
+
+def caption(warnings: Sequence[ContactWarning]) -> str:
+    """The line of a plot that says what is doubtful, "" where nothing is."""
+    if not warnings:
+        return ""
+    return cut(f"{counted(len(warnings), 'warning')}: {'; '.join(one.brief for one in warnings)}", _LONGEST_CAPTION)
+
+
+class _Clearance(NamedTuple):
+    """The smallest distance of a node above the seabed, the index of the node, and the step."""
+
+    gap: float
+    node: int
+    step: int
+
+
+class _Balance(NamedTuple):
+    """Total reaction and submerged weight (NaN where it is not known) of the elements (indices) in contact by a law."""
+
+    reaction: float
+    weight: float
+    elements: Indices
+
+    @property
+    def ratio(self) -> float:
+        """Reaction over weight; NaN where there is no weight to be carried."""
+        return self.reaction / self.weight if self.weight > 0.0 else math.nan
+
+
+class ContactWatch:
+    """Takes the results of a few steps at a time, and keeps what the warnings need.
+
+    `evaluated` (m,) are the elements with positions, `places` (n, 3) the first positions; `own` says that these are the
+    deck's coordinates.
+    """
+
+    def __init__(
+        self, scene: Scene, evaluated: Mask, places: Floats, *, own: bool, times: Floats | None = None
+    ) -> None:
+        self._scene, self._places, self._own, self._times = scene, places, own, times
+        self._elements = np.flatnonzero(evaluated)
+        self._nodes = np.unique(scene.element_nodes[self._elements])
+        free = evaluated & (scene.law == LawKind.NONE)
+        self._watched = np.flatnonzero(free | (evaluated & (scene.submerged_weight < 0.0)))
+        self._touched = np.zeros(len(evaluated), dtype=np.bool_)
+        self._acts = False
+        self._clearance = _Clearance(math.inf, -1, 0)
+        self.balance: _Balance | None = None
+
+    @classmethod
+    def of(cls, evaluation: Evaluation) -> ContactWatch:
+        """What watches an evaluation."""
+        evaluated = np.zeros(len(evaluation.scene.element_ids), dtype=np.bool_)
+        evaluated[evaluation.elements] = True
+        places = np.asarray(evaluation.positions[0], dtype=np.float64)
+        own = evaluation.own_positions
+        return cls(evaluation.scene, evaluated, places, own=own, times=evaluation.time)
+
+    def take(self, part: Part) -> None:
+        """Look at some steps."""
+        self.look(part.start, part.result)
+
+    def look(self, start: int, result: ContactResult) -> None:
+        """Look at the steps `start` and on, or at a single state."""
+        contact = np.atleast_2d(result.contact)
+        if self._watched.size:
+            self._touched[self._watched] |= contact[:, self._watched].any(axis=0)
+        if not self._acts:
+            self._acts = bool(contact[:, self._elements].any()) or self._is_held(result)
+            if not self._acts:
+                self._measure(start, np.atleast_2d(result.gap))
+        if self._own and start == 0:
+            self.balance = self._weigh(contact[0], np.atleast_2d(result.normal_force)[0])
+
+    def _is_held(self, result: ContactResult) -> bool:
+        """Whether the seabed acts on a node without an element in contact, as a rigid one or a spring of it does."""
+        if np.atleast_2d(result.normal_force)[:, self._nodes].any():
+            return True
+        return result.restrained is not None and bool(result.restrained.any())
+
+    def _measure(self, start: int, gap: Floats) -> None:
+        near = gap[:, self._nodes]
+        least = float(np.fmin.reduce(near, axis=None, initial=np.inf))
+        if least < self._clearance.gap:
+            step, column = np.argwhere(near == least)[0].tolist()
+            self._clearance = _Clearance(least, int(self._nodes[column]), start + step)
+
+    def _weigh(self, contact: Mask, normal_force: Floats) -> _Balance:
+        scene = self._scene
+        law = scene.law[self._elements]
+        held = self._elements[contact[self._elements] & (law != LawKind.NONE) & (law != LawKind.RIGID)]
+        with np.errstate(over="ignore", invalid="ignore"):
+            weight = float((scene.submerged_weight[held] * scene.length[held]).sum())
+            return _Balance(float(normal_force[self._nodes].sum()), weight, held)
+
+    # ----------------------------------------------------------------------------------------------- what it found
+
+    def warnings(self) -> list[ContactWarning]:
+        """What is doubtful, in the order of the deck; ask when all steps are taken."""
+        found = [*self._without_law(), *self._apart(), *self._unbalanced(), *self._floating(), *self._curves()]
+        return sorted(found, key=lambda one: one.diagnostic.sort_key)
+
+    def note(self) -> str:
+        """That the positions are the deck's own, and what they carry; "" for those of a file, and after RUN003."""
+        balance = self.balance
+        if not self._own or (balance and self._is_unbalanced(balance)):
+            return ""
+        note = "the positions are the deck's own coordinates, not a solved shape"
+        return f"{note}: {self._balanced(balance)}" if balance and balance.elements.size else note
+
+    def _warning(
+        self, code: Code, message: str, where: Where | None, elements: Indices, brief: str
+    ) -> ContactWarning:
+        problem = Problem(code, message, None, Severity.WARNING, where)
+        first = int(self._scene.element_ids[elements[0]]) if elements.size else None
+        return ContactWarning(self._scene.deck.diagnose([problem])[0], len(elements), first, brief)
+
+    def _without_law(self) -> Iterator[ContactWarning]:
+        """Elements in contact without a law, by what gives them none; unknown keywords that look like one for seabeds."""
+        scene = self._scene
+        free = np.flatnonzero(self._touched & (scene.law == LawKind.NONE))
+        covered = scene.laws.covered[free]
+        for block in np.unique(covered[covered >= 0]).tolist():
+            elements = free[covered == block]
+            message = (
+                f"{self._touching(elements)} stiffness: this block gives none, and overrides earlier ones as a whole; "
+                "give STIFFNESS= here too"
+            )
+            yield self._warning(SBD006, message, scene.laws.set_laws[block].where, elements, _without(elements))
+        bare = free[covered < 0]
+        unknown = list(self._unknown())
+        for where, keyword, near in unknown:
+            meant = f" (did you mean *{near}?)" if near else ""
+            lack = f"{self._touching(bare)} a seabed law" if bare.size else "its lines have no effect"
+            message = f"keyword *{keyword} is not known{meant}, and {lack}: correct the name"
+            brief = _without(bare) if bare.size else f"*{cut(keyword, 40)} is not known"
+            yield self._warning(SYN009, message, where, bare, brief)
+        keywords = scene.deck.keywords()
+        elsewhere = any(map(holds_in_soil, keywords)) or any(name in keywords for name in _PIPE_IN_PIPE)
+        if bare.size and not unknown and not (elsewhere and bare.size < len(self._elements)):
+            yield self._bare(bare)
+
+    def _bare(self, elements: Indices) -> ContactWarning:
+        scene = self._scene
+        surfaces = [where for where, _ in scene.deck.blocks("ELASTIC SURFACE")]
+        if surfaces:
+            message = (
+                f"{self._touching(elements)} a curve of *EMBEDMENT, and there is no stiffness here: give one in the "
+                "first field"
+            )
+            return self._warning(SBD006, message, surfaces[-1], elements, _without(elements))
+        message = f"{self._touching(elements)} a seabed law: give STIFFNESS= to a set of them"
+        where = scene.table.numbered.where(int(elements[0]))
+        return self._warning(SBD006, message, where, elements, _without(elements))
+
+    def _touching(self, elements: Indices) -> str:
+        return self._scene.describe(elements, "is in contact without", "are in contact without")
+
+    def _unknown(self) -> Iterator[tuple[Where, str, str]]:
+        """Blocks of the model that look like one of a seabed: their place, their keyword, and the one meant, or ""."""
+        for i, section in enumerate(self._scene.deck.sections):
+            for j, block in enumerate(section.blocks if section.name == "MODEL" else ()):
+                if type(block) is not Opaque or sections_of(block.keyword) is not None:
+                    continue
+                near = suggest_keyword(block.keyword)
+                of_seabed = bool(near) and (supersedes(near) or is_superseded(near) or is_extension(near))
+                if of_seabed or (not near and block.keyword.split()[:1] == ["SEABED"]):
+                    yield Where(i, j), block.keyword, near
+
+    def _apart(self) -> Iterator[ContactWarning]:
+        """Nothing in contact at any step."""
+        scene, (gap, node, step) = self._scene, self._clearance
+        if self._acts or not self._elements.size:
+            return
+        if node < 0:
+            message = "nothing is in contact: there is no seabed under the line; correct its bounds or the coordinates"
+            yield self._warning(GEO005, message, None, self._elements, "no seabed under the line")
+            return
+        unit = unit_names(scene.units).length
+        clearance = f"{shown(gap)}{' ' if unit else ''}{unit}"
+        times = self._times
+        at = "" if times is None else f" at time {shown(float(times[step]))}"
+        message = f"nothing is in contact: the smallest clearance is {clearance}, of node {scene.node_ids[node]}{at}"
+        solved = ", or give a solved shape with --positions" if self._own else ""
+        advice = self._turned() or f"; correct the datum of X, which is 0 at the mudline{solved}"
+        where = scene.nodes.where(node)
+        yield self._warning(GEO005, message + advice, where, self._elements, "nothing in contact")
+
+    def _turned(self) -> str:
+        """Words for positions whose last coordinate seems to be the height, or ""."""
+        hint = height_along_z(self._scene, self._elements, self._places)
+        return f"; {hint}: X is up here, the height is the first coordinate" if hint else ""
+
+    def _unbalanced(self) -> Iterator[ContactWarning]:
+        """The deck's own positions where they are no equilibrium by far."""
+        balance = self.balance
+        if balance is None or not self._is_unbalanced(balance):
+            return
+        message = f"the positions are the deck's own, far from equilibrium: {self._balanced(balance)}"
+        advice = self._turned() or "; give a solved shape with --positions"
+        brief = f"reaction / submerged weight {shown(balance.ratio, 3)}"
+        yield self._warning(RUN003, message + advice, None, balance.elements, brief)
+
+    @staticmethod
+    def _is_unbalanced(balance: _Balance) -> bool:
+        return balance.ratio < BALANCED[0] or balance.ratio > BALANCED[1]
+
+    def _balanced(self, balance: _Balance) -> str:
+        unit = unit_names(self._scene.units).force
+        behind = f" {unit}" if unit else ""
+        elements = counted(len(balance.elements), "element")
+        carried = f"total reaction {shown(balance.reaction)}{behind} on {elements} in contact"
+        if math.isnan(balance.weight):
+            return f"{carried}, whose submerged weight is not known"
+        ratio = "" if math.isnan(balance.ratio) else f", ratio {shown(balance.ratio, 3)}"
+        return f"{carried}, their submerged weight {shown(balance.weight)}{behind}{ratio}"
+
+    def _floating(self) -> Iterator[ContactWarning]:
+        """Elements in contact that float; where nothing is in contact, all of them if they do."""
+        scene = self._scene
+        floats = scene.submerged_weight[self._elements] < 0.0
+        light = self._elements[floats & (self._touched[self._elements] | (not self._acts and bool(floats.all())))]
+        if not light.size:
+            return
+        unit = unit_names(scene.units).line_force
+        behind = f" {unit}" if unit else " per length"
+        message = (
+            f"{scene.describe(light, 'floats', 'float')}: submerged weight {shown(self._least(light))}{behind}, contents "
+            "left out; check diameters and densities"
+        )
+        where = scene.section_table.sections[int(scene.section_table.of_element[light[0]])].where
+        yield self._warning(RUN004, message, where, light, f"{counted(len(light), 'element')} floating")
+
+    def _least(self, elements: Indices) -> float:
+        return float(self._scene.submerged_weight[elements].min())
+
+    def _curves(self) -> Iterator[ContactWarning]:
+        """Curves that no element follows; not those that an unknown keyword may use, which is the cause then."""
+        if any(self._unknown()):
+            return
+        none = np.zeros(0, dtype=np.intp)
+        for problem in unused_curves(self._scene):
+            yield self._warning(problem.code, problem.message, problem.where, none, "a curve without effect")
+
+
+def _without(elements: Indices) -> str:
+    return f"{counted(len(elements), 'element')} in contact without a seabed law"
