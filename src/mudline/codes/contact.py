@@ -1,6 +1,7 @@
 """Codes that lint's rules and the warnings of an evaluated deck share, and those that such warnings alone have.
 
-The pages of the shared ones are the docstrings of their rules. RUN003 and RUN004 depend on positions: they are no rules.
+The pages of the shared ones are the docstrings of their rules.
+RUN003 and RUN004 are no rules: they depend on positions.
 """
 
 from __future__ import annotations

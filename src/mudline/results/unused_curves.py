@@ -41,12 +41,14 @@ def unused_curves(scene: ResolvedDeck) -> Iterator[Problem]:
             continue
         if grants := by_curve.get(number):
             if not any(grant.set_.open for grant in grants):
-                yield Problem(SBD025, f"{_called(curve)} has no effect: {_reason(scene, grants[-1])}", where=curve.title)
+                yield Problem(
+                    SBD025, f"{_called(curve)} has no effect: {_reason(scene, grants[-1])}", where=curve.title
+                )
         elif later := _namesake(scene, number):
-            message = f"{_called(curve)} has no effect: the one in line {later} has the same name; rename one of them"
+            message = f"{_called(curve)} has no effect: line {later} has one of the same name; rename it"
             yield Problem(SBD025, message, where=curve.title)
         elif reader := _read_as_number(scene, curve):
-            message = f"{_called(curve)} has no effect: STIFFNESS= in line {reader} is the number {curve.name}; rename it"
+            message = f"{_called(curve)} has no effect: STIFFNESS= in line {reader} is a number; rename the curve"
             yield Problem(SBD017, message, where=curve.title)
         else:
             unnamed.append(curve)

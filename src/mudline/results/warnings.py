@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -17,7 +18,7 @@ from mudline.codes.contact import GEO005, RUN003, RUN004, SBD006
 from mudline.codes.lines import SYN009
 from mudline.contact import ContactResult, LawKind
 from mudline.deck.model import Opaque
-from mudline.diagnostics import Code, Diagnostic, Problem, Severity, Where
+from mudline.diagnostics import Code, DeckError, Diagnostic, Problem, Severity, Where
 from mudline.keywords.catalogue import (
     holds_in_soil,
     is_extension,
@@ -26,17 +27,19 @@ from mudline.keywords.catalogue import (
     suggest_keyword,
     supersedes,
 )
-from mudline.results.evaluation import Evaluation, Part
+from mudline.results.evaluation import Evaluation, Part, evaluate_scene
 from mudline.results.quantities import shown, unit_names
 from mudline.results.unused_curves import unused_curves
-from mudline.results.vertical_axis import height_along_z
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices, Mask
+from mudline.scene.vertical_axis import height_along_z
 from mudline.short_repr import counted, cut
 
-BALANCED = (0.5, 2.0)
+BALANCED = (1.0 / 3.0, 3.0)
 """Total reaction over submerged weight of the deck's own positions, beyond which they are no equilibrium by far."""
 
+_MORE_WEIGHT = ("COATINGS", "INTERNAL FLUID", "DRILLING MUD", "MASS", "POINT BUOY")
+"""Keywords that are not read, and make the weight another one than that of the sections."""
 _PIPE_IN_PIPE = ("PIP SECTION", "PIP CONNECTION")
 _LONGEST_CAPTION = 120
 
@@ -83,6 +86,29 @@ def contact_warnings(scene: Scene, result: ContactResult, positions: Floats | No
     watch = ContactWatch(scene, result.evaluated, places.reshape(-1, *places.shape[-2:])[0], own=positions is None)
     watch.look(0, result)
     return watch.warnings()
+
+
+def seabed_warnings(scene: Scene) -> list[ContactWarning]:
+    """Return what is doubtful about the seabed under the deck's own coordinates, whatever solved shape it will have.
+
+    That is elements in contact without a law, and Z as the height of a line that touches nothing. A deck that cannot be
+    evaluated has none.
+    """
+    if (scene.element_nodes < 0).any():
+        return []
+    wanted = {SBD006.code, SYN009.code}
+    if height_along_z(scene, np.arange(len(scene.element_ids)), scene.coordinates):
+        wanted.add(GEO005.code)
+    elif not (scene.law == LawKind.NONE).any():
+        return []
+    try:
+        evaluation = evaluate_scene(scene)
+        watch = ContactWatch.of(evaluation)
+        for part in evaluation.parts():
+            watch.take(part)
+    except DeckError:
+        return []
+    return [one for one in watch.warnings() if one.diagnostic.code in wanted]
 
 
 def caption(warnings: Sequence[ContactWarning]) -> str:
@@ -194,15 +220,13 @@ class ContactWatch:
         note = "the positions are the deck's own coordinates, not a solved shape"
         return f"{note}: {self._balanced(balance)}" if balance and balance.elements.size else note
 
-    def _warning(
-        self, code: Code, message: str, where: Where | None, elements: Indices, brief: str
-    ) -> ContactWarning:
+    def _warning(self, code: Code, message: str, where: Where | None, elements: Indices, brief: str) -> ContactWarning:
         problem = Problem(code, message, None, Severity.WARNING, where)
         first = int(self._scene.element_ids[elements[0]]) if elements.size else None
         return ContactWarning(self._scene.deck.diagnose([problem])[0], len(elements), first, brief)
 
     def _without_law(self) -> Iterator[ContactWarning]:
-        """Elements in contact without a law, by what gives them none; unknown keywords that look like one for seabeds."""
+        """Elements in contact without a law, by what gives them none; unknown keywords that look like a seabed's."""
         scene = self._scene
         free = np.flatnonzero(self._touched & (scene.law == LawKind.NONE))
         covered = scene.laws.covered[free]
@@ -222,8 +246,8 @@ class ContactWatch:
             brief = _without(bare) if bare.size else f"*{cut(keyword, 40)} is not known"
             yield self._warning(SYN009, message, where, bare, brief)
         keywords = scene.deck.keywords()
-        elsewhere = any(map(holds_in_soil, keywords)) or any(name in keywords for name in _PIPE_IN_PIPE)
-        if bare.size and not unknown and not (elsewhere and bare.size < len(self._elements)):
+        inside = not keywords.isdisjoint(_PIPE_IN_PIPE) and bare.size < len(self._elements)
+        if bare.size and not unknown and not inside and not any(map(holds_in_soil, keywords)):
             yield self._bare(bare)
 
     def _bare(self, elements: Indices) -> ContactWarning:
@@ -287,9 +311,14 @@ class ContactWatch:
         brief = f"reaction / submerged weight {shown(balance.ratio, 3)}"
         yield self._warning(RUN003, message + advice, None, balance.elements, brief)
 
-    @staticmethod
-    def _is_unbalanced(balance: _Balance) -> bool:
-        return balance.ratio < BALANCED[0] or balance.ratio > BALANCED[1]
+    def _is_unbalanced(self, balance: _Balance) -> bool:
+        return not self._weighs_more and (balance.ratio < BALANCED[0] or balance.ratio > BALANCED[1])
+
+    @cached_property
+    def _weighs_more(self) -> bool:
+        """Whether contents or coatings, which are not read, belong to the weight."""
+        deck = self._scene.deck
+        return not {*deck.keywords(), *deck.keywords("LOAD CASE")}.isdisjoint(_MORE_WEIGHT)
 
     def _balanced(self, balance: _Balance) -> str:
         unit = unit_names(self._scene.units).force
@@ -298,21 +327,22 @@ class ContactWatch:
         carried = f"total reaction {shown(balance.reaction)}{behind} on {elements} in contact"
         if math.isnan(balance.weight):
             return f"{carried}, whose submerged weight is not known"
+        more = " without coatings and contents" if self._weighs_more else ""
         ratio = "" if math.isnan(balance.ratio) else f", ratio {shown(balance.ratio, 3)}"
-        return f"{carried}, their submerged weight {shown(balance.weight)}{behind}{ratio}"
+        return f"{carried}, their submerged weight {shown(balance.weight)}{behind}{more}{ratio}"
 
     def _floating(self) -> Iterator[ContactWarning]:
         """Elements in contact that float; where nothing is in contact, all of them if they do."""
         scene = self._scene
         floats = scene.submerged_weight[self._elements] < 0.0
         light = self._elements[floats & (self._touched[self._elements] | (not self._acts and bool(floats.all())))]
-        if not light.size:
+        if not light.size or self._weighs_more:
             return
         unit = unit_names(scene.units).line_force
         behind = f" {unit}" if unit else " per length"
         message = (
-            f"{scene.describe(light, 'floats', 'float')}: submerged weight {shown(self._least(light))}{behind}, contents "
-            "left out; check diameters and densities"
+            f"{scene.describe(light, 'floats', 'float')}: submerged weight {shown(self._least(light))}{behind} without "
+            "contents; check diameters and densities"
         )
         where = scene.section_table.sections[int(scene.section_table.of_element[light[0]])].where
         yield self._warning(RUN004, message, where, light, f"{counted(len(light), 'element')} floating")

@@ -18,6 +18,7 @@ from mudline.scene.deck_values import number
 from mudline.scene.numbering import Floats, Mask, blocks_of
 from mudline.scene.sections import Section, format_of
 from mudline.scene.sets import set_key
+from mudline.scene.vertical_axis import FLAT, NEAR
 
 if TYPE_CHECKING:
     from mudline.keywords.library.geometric_sets import GeometricSet, GeometricSets
@@ -30,10 +31,6 @@ HIGHEST = 100.0
 """Diameters above the seabed: a line that lies level does not hang there."""
 LEVEL = 0.1
 """Rise to length, along the ground, of a line that lies level."""
-FLAT = 0.01
-"""Share of the water depth by which the heights of nodes on a level seabed may differ."""
-NEAR = 0.05
-"""Share of the water depth by which a riser ends beside the seabed or the sea surface."""
 
 _BENDING = ("eiyy", "eizz")
 _CURVES = {

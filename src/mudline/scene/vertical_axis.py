@@ -9,9 +9,9 @@ from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices
 
 FLAT = 0.01
-"""Span of X over that of Z of a line that is upright along Z."""
+"""Share of the water depth by which the X of nodes may differ in a line that is upright along Z."""
 NEAR = 0.05
-"""Share of the water depth by which such a line ends beside the seabed or the sea surface."""
+"""Share of the water depth by which a riser ends beside the seabed or the sea surface."""
 DEEPEST = 5.0
 """Diameters below 0 at which Z may still be the height of a pipe that lies on the seabed."""
 LEVEL = 0.005
@@ -24,6 +24,11 @@ def height_along_z(scene: Scene, elements: Indices, places: Floats) -> str:
     Either the line has one X and Z goes through the water depth; or elements run along X, and lie just below Z = 0 as a
     pipe on the seabed does. A vertical riser at Z = 0 does neither, unless it is longer than the water is deep.
     """
+    with np.errstate(over="ignore", invalid="ignore"):
+        return _reason(scene, elements, places)
+
+
+def _reason(scene: Scene, elements: Indices, places: Floats) -> str:
     ends = scene.element_nodes[elements]
     used = places[np.unique(ends)]
     if not used.size or not np.isfinite(used).all():
@@ -33,7 +38,7 @@ def height_along_z(scene: Scene, elements: Indices, places: Floats) -> str:
     depth = number(oceans[-1], "depth") if oceans else np.nan
     rise = high_z - low_z
     near = NEAR * depth
-    if abs(rise - depth) <= near and min(abs(low_z), abs(high_z)) <= near and high_x - low_x <= FLAT * rise:
+    if abs(rise - depth) <= near and min(abs(low_z), abs(high_z)) <= near and high_x - low_x <= FLAT * depth:
         return f"X is the same at all nodes and Z goes from {low_z:.5g} to {high_z:.5g}"
     first, second = places[ends[:, 0]], places[ends[:, 1]]
     run = np.abs(second - first)
