@@ -171,7 +171,7 @@ def _judge(data: bytes, file: Input, units: str | None, *, verbose: bool) -> tup
     return Verdict(deck.file, *counts, verdict), found
 
 
-def _warnings(context: LintContext, problems: Sequence[Problem], *, legal: bool) -> list[Diagnostic]:
+def _warnings(context: LintContext, problems: list[Problem], *, legal: bool) -> list[Diagnostic]:
     """What lint warns of, and of a legal deck what evaluating it at its own coordinates adds to that."""
     codes = _default_codes()
     kept = unsuppressed(context, problems, rules())

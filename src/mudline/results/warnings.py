@@ -41,7 +41,7 @@ BALANCED = (1.0 / 3.0, 3.0)
 _MORE_WEIGHT = ("COATINGS", "INTERNAL FLUID", "DRILLING MUD", "MASS", "POINT BUOY")
 """Keywords that are not read, and make the weight another one than that of the sections."""
 _PIPE_IN_PIPE = ("PIP SECTION", "PIP CONNECTION")
-_LONGEST_CAPTION = 120
+_LONGEST_CAPTION = 90
 
 
 @dataclass(frozen=True, slots=True)
