@@ -91,7 +91,15 @@ def test_total_counts_all(decks: str) -> None:
     assert outcome.out.splitlines()[-1] == TOTAL
     found = run("validate", decks, "--output-format", "json").json()
     assert_fits(found, "validate")
-    assert found["total"] == {"decks": 7, "legal": 3, "illegal": 2, "empty": 2, "errors": 2, "warnings": 0, "unreadable": 1}
+    assert found["total"] == {
+        "decks": 7,
+        "legal": 3,
+        "illegal": 2,
+        "empty": 2,
+        "errors": 2,
+        "warnings": 0,
+        "unreadable": 1,
+    }
 
 
 @pytest.mark.parametrize("number", [0, 1, 2])

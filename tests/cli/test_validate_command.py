@@ -55,7 +55,15 @@ def test_json(place: Place) -> None:
     assert_fits(found, "validate")
     assert_fits(found["decks"][1]["findings"], "lint")
     assert outcome.code == 1
-    assert found["total"] == {"decks": 2, "legal": 1, "illegal": 1, "empty": 0, "errors": 1, "warnings": 0, "unreadable": 0}
+    assert found["total"] == {
+        "decks": 2,
+        "legal": 1,
+        "illegal": 1,
+        "empty": 0,
+        "errors": 1,
+        "warnings": 0,
+        "unreadable": 0,
+    }
     good, bad = found["decks"]
     assert good == dict(zip(COLUMNS, ["good.keyxm", 1, 7, 1, 2, 0, 0, "legal"], strict=True)) | {"findings": []}
     assert [each["code"] for each in bad["findings"]] == ["REF001"]

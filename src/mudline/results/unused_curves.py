@@ -76,7 +76,7 @@ def _reason(scene: ResolvedDeck, grant: SetLaw) -> str:
     winners = np.unique(scene.laws.of_element[elements]).tolist()
     lines = sorted({line_of(scene, scene.laws.set_laws[index].where) for index in winners})
     if len(winners) > 1:
-        return f"the lines {', '.join(map(str, lines))} give all elements of {name} another law"
+        return f"lines {', '.join(map(str, lines))} override it for all elements of {name}"
     winner = scene.laws.set_laws[winners[0]]
     return f"line {lines[0]} gives all elements of {name} {_law(scene, winner)}"
 
@@ -86,7 +86,7 @@ def _law(scene: ResolvedDeck, winner: SetLaw) -> str:
         return f"a number, {winner.stiffness:.6g}"
     if winner.kind is LawKind.CURVE:
         return _called(scene.laws.curves[winner.curve])
-    return "a rigid seabed"
+    return "a rigid seabed" if winner.kind is LawKind.RIGID else "no stiffness"
 
 
 def _namesake(scene: ResolvedDeck, number: int) -> int:
