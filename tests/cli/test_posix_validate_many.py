@@ -21,7 +21,7 @@ from tests.cli.conftest import Place
 from tests.cli.runner import Outcome, Stream, assert_fits, run
 from tests.cli.screens import screen
 
-TOTAL = "3 of 7 decks legal: 2 illegal, 2 empty, 2 errors, 1 file unreadable"
+TOTAL = "3 of 7 decks legal: 2 illegal, 2 empty, 2 errors, 2 warnings, 1 file unreadable"
 
 
 @pytest.fixture
@@ -97,7 +97,7 @@ def test_total_counts_all(decks: str) -> None:
         "illegal": 2,
         "empty": 2,
         "errors": 2,
-        "warnings": 0,
+        "warnings": 2,
         "unreadable": 1,
     }
 
@@ -240,7 +240,7 @@ def test_long_names_lack_their_middle_on_a_terminal(place: Place, monkeypatch: p
     monkeypatch.setenv("COLUMNS", "80")
     name = place(CLEAN, "fields/north/case-17/static/flowline-as-laid-0017.keyxm")
     lines = run("validate", name, "--color", "never", terminal=True).out.splitlines()
-    assert lines[3] == "legal         0         0         1         7       1         2  fields\u2026-0017.keyxm"
+    assert lines[3] == "legal         0         0         7       1         2  fields/nor\u2026laid-0017.keyxm"
     assert max(map(len, lines)) <= 80
     assert run("validate", name).out.splitlines()[3].endswith(name)
 

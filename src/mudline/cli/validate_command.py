@@ -32,6 +32,8 @@ if TYPE_CHECKING:
     from mudline.cli.printing import Printer
 
 _COUNTS = ("errors", "warnings", "sections", "keywords", "curves", "elements")
+_OPTIONAL = ("sections", "keywords", "curves")
+"""Counts that a narrow terminal does not show, in the order in which they are left out."""
 _GAP = "  "
 _SHORTEST = 20
 """Columns that a file name gets on the narrowest terminal."""
@@ -217,27 +219,35 @@ def _print_text(judged: Iterable[Judged], total: Total, view: View) -> None:
 
 
 def _lines(verdicts: Sequence[Verdict], total: Total, printer: Printer) -> Iterator[str]:
-    """A row for each deck, the file last as it may be long, and the total; on a terminal long names are shortened.
+    """A row for each deck, the file last as it may be long, and the total.
 
-    Ten thousand rows are printed at once, so lines are put together by hand.
+    On a narrow terminal the columns that a verdict needs least are left out, and long names are shortened. Ten thousand
+    rows are printed at once, so lines are put together by hand.
     """
-    cells = [[str(getattr(verdict, name)) for name in _COUNTS] for verdict in verdicts]
-    widths = [max(map(len, column)) for column in zip(_COUNTS, *cells, strict=True)]
     verdict_width = max(map(len, ("verdict", *(verdict.verdict for verdict in verdicts))))
-    before = verdict_width + sum(widths) + len(_GAP) * (len(widths) + 1)
+    widths = {name: max(len(name), *(len(str(getattr(each, name))) for each in verdicts)) for name in _COUNTS}
+    for name in _OPTIONAL:
+        if _before(verdict_width, widths) + _SHORTEST > printer.width:
+            del widths[name]
+    before = _before(verdict_width, widths)
     files = [printer.elided(verdict.file, max(printer.width - before, _SHORTEST)) for verdict in verdicts]
     yield click.style("Decks", bold=True) if printer.colored else "Decks"
-    yield _row("verdict".ljust(verdict_width), _COUNTS, widths, "file")
+    yield _row("verdict".ljust(verdict_width), widths, widths, "file")
     yield printer.rule * (before + max(map(printer.columns, [*files, "file"])))
-    for verdict, counts, file in zip(verdicts, cells, files, strict=True):
+    for verdict, file in zip(verdicts, files, strict=True):
         state = _colored(verdict.verdict.ljust(verdict_width), printer, good=verdict.legal)
-        yield _row(state, counts, widths, file)
+        yield _row(state, (str(getattr(verdict, name)) for name in widths), widths, file)
     yield ""
     yield _colored(str(total), printer, good=total.legal == total.decks and not total.unreadable)
 
 
-def _row(verdict: str, counts: Sequence[str], widths: Sequence[int], file: str) -> str:
-    numbers = _GAP.join(count.rjust(width) for count, width in zip(counts, widths, strict=True))
+def _before(verdict_width: int, widths: dict[str, int]) -> int:
+    """Columns of a line before the file."""
+    return verdict_width + sum(widths.values()) + len(_GAP) * (len(widths) + 1)
+
+
+def _row(verdict: str, counts: Iterable[str], widths: dict[str, int], file: str) -> str:
+    numbers = _GAP.join(count.rjust(width) for count, width in zip(counts, widths.values(), strict=True))
     return f"{verdict}{_GAP}{numbers}{_GAP}{file}"
 
 

@@ -17,17 +17,9 @@ import numpy as np
 from mudline.codes.contact import GEO005, RUN003, RUN004, SBD006
 from mudline.codes.lines import SYN009
 from mudline.contact import ContactResult, LawKind
-from mudline.deck.model import Opaque
 from mudline.diagnostics import Code, DeckError, Diagnostic, Problem, Severity, Where
-from mudline.keywords.catalogue import (
-    holds_in_soil,
-    is_extension,
-    is_superseded,
-    sections_of,
-    suggest_keyword,
-    supersedes,
-)
 from mudline.results.evaluation import Evaluation, Part, evaluate_scene
+from mudline.results.missing_laws import UnknownKeyword, missing_laws, unknown_keywords
 from mudline.results.quantities import shown, unit_names
 from mudline.results.unused_curves import unused_curves
 from mudline.scene.model import Scene
@@ -40,7 +32,6 @@ BALANCED = (1.0 / 3.0, 3.0)
 
 _MORE_WEIGHT = ("COATINGS", "INTERNAL FLUID", "DRILLING MUD", "MASS", "POINT BUOY")
 """Keywords that are not read, and make the weight another one than that of the sections."""
-_PIPE_IN_PIPE = ("PIP SECTION", "PIP CONNECTION")
 _LONGEST_CAPTION = 90
 
 
@@ -152,9 +143,12 @@ class ContactWatch:
         self._scene, self._places, self._own, self._times = scene, places, own, times
         self._elements = np.flatnonzero(evaluated)
         self._nodes = np.unique(scene.element_nodes[self._elements])
+        self._columns: Indices | slice = self._nodes if len(self._nodes) < len(scene.nodes) else slice(None)
         free = evaluated & (scene.law == LawKind.NONE)
-        self._watched = np.flatnonzero(free | (evaluated & (scene.submerged_weight < 0.0)))
+        self._waiting = np.flatnonzero(free | (evaluated & (scene.submerged_weight < 0.0)))
         self._touched = np.zeros(len(evaluated), dtype=np.bool_)
+        self._sprung = bool(scene.nodal.any()) or "SEABED SUCTION" in scene.extensions
+        self._sprung |= bool((scene.resistance.column("suction") > 0.0).any())
         self._acts = False
         self._clearance = _Clearance(math.inf, -1, 0)
         self.balance: _Balance | None = None
@@ -175,26 +169,31 @@ class ContactWatch:
     def look(self, start: int, result: ContactResult) -> None:
         """Look at the steps `start` and on, or at a single state."""
         contact = np.atleast_2d(result.contact)
-        if self._watched.size:
-            self._touched[self._watched] |= contact[:, self._watched].any(axis=0)
+        touches = (bool(self._waiting.size) or not self._acts) and bool(contact.any())
+        if touches and self._waiting.size:
+            touched = np.logical_or.reduce(contact, axis=0)[self._waiting]
+            self._touched[self._waiting[touched]] = True
+            self._waiting = self._waiting[~touched]
         if not self._acts:
-            self._acts = bool(contact[:, self._elements].any()) or self._is_held(result)
+            self._acts = touches or self._is_held(result)
             if not self._acts:
-                self._measure(start, np.atleast_2d(result.gap))
+                self._measure(start, np.atleast_2d(result.gap)[:, self._columns])
         if self._own and start == 0:
             self.balance = self._weigh(contact[0], np.atleast_2d(result.normal_force)[0])
 
     def _is_held(self, result: ContactResult) -> bool:
         """Whether the seabed acts on a node without an element in contact, as a rigid one or a spring of it does."""
-        if np.atleast_2d(result.normal_force)[:, self._nodes].any():
+        if self._sprung and np.atleast_2d(result.normal_force)[:, self._columns].any():
             return True
         return result.restrained is not None and bool(result.restrained.any())
 
     def _measure(self, start: int, gap: Floats) -> None:
-        near = gap[:, self._nodes]
-        least = float(np.fmin.reduce(near, axis=None, initial=np.inf))
+        """Keep the smallest distance of the nodes above the seabed; NaN is where there is none."""
+        least = float(gap.min(initial=np.inf))
+        if math.isnan(least):
+            least = float(np.fmin.reduce(gap, axis=None, initial=np.inf))
         if least < self._clearance.gap:
-            step, column = np.argwhere(near == least)[0].tolist()
+            step, column = np.argwhere(gap == least)[0].tolist()
             self._clearance = _Clearance(least, int(self._nodes[column]), start + step)
 
     def _weigh(self, contact: Mask, normal_force: Floats) -> _Balance:
@@ -226,56 +225,15 @@ class ContactWatch:
         return ContactWarning(self._scene.deck.diagnose([problem])[0], len(elements), first, brief)
 
     def _without_law(self) -> Iterator[ContactWarning]:
-        """Elements in contact without a law, by what gives them none; unknown keywords that look like a seabed's."""
-        scene = self._scene
-        free = np.flatnonzero(self._touched & (scene.law == LawKind.NONE))
-        covered = scene.laws.covered[free]
-        for block in np.unique(covered[covered >= 0]).tolist():
-            elements = free[covered == block]
-            message = (
-                f"{self._touching(elements)} stiffness: this block gives none, and overrides earlier ones as a whole; "
-                "give STIFFNESS= here too"
-            )
-            yield self._warning(SBD006, message, scene.laws.set_laws[block].where, elements, _without(elements))
-        bare = free[covered < 0]
-        unknown = list(self._unknown())
-        for where, keyword, near in unknown:
-            meant = f" (did you mean *{near}?)" if near else ""
-            lack = f"{self._touching(bare)} a seabed law" if bare.size else "its lines have no effect"
-            message = f"keyword *{keyword} is not known{meant}, and {lack}: correct the name"
-            brief = _without(bare) if bare.size else f"*{cut(keyword, 40)} is not known"
-            yield self._warning(SYN009, message, where, bare, brief)
-        keywords = scene.deck.keywords()
-        inside = not keywords.isdisjoint(_PIPE_IN_PIPE) and bare.size < len(self._elements)
-        if bare.size and not unknown and not inside and not any(map(holds_in_soil, keywords)):
-            yield self._bare(bare)
+        """Elements in contact without a law, and unknown keywords that look like those of a seabed."""
+        free = np.flatnonzero(self._touched & (self._scene.law == LawKind.NONE))
+        some = len(free) < len(self._elements)
+        for missing in missing_laws(self._scene, free, self._unknown, some=some):
+            yield self._warning(*missing)
 
-    def _bare(self, elements: Indices) -> ContactWarning:
-        scene = self._scene
-        surfaces = [where for where, _ in scene.deck.blocks("ELASTIC SURFACE")]
-        if surfaces:
-            message = (
-                f"{self._touching(elements)} a curve of *EMBEDMENT, and there is no stiffness here: give one in the "
-                "first field"
-            )
-            return self._warning(SBD006, message, surfaces[-1], elements, _without(elements))
-        message = f"{self._touching(elements)} a seabed law: give STIFFNESS= to a set of them"
-        where = scene.table.numbered.where(int(elements[0]))
-        return self._warning(SBD006, message, where, elements, _without(elements))
-
-    def _touching(self, elements: Indices) -> str:
-        return self._scene.describe(elements, "is in contact without", "are in contact without")
-
-    def _unknown(self) -> Iterator[tuple[Where, str, str]]:
-        """Blocks of the model that look like one of a seabed: their place, their keyword, and the one meant, or ""."""
-        for i, section in enumerate(self._scene.deck.sections):
-            for j, block in enumerate(section.blocks if section.name == "MODEL" else ()):
-                if type(block) is not Opaque or sections_of(block.keyword) is not None:
-                    continue
-                near = suggest_keyword(block.keyword)
-                of_seabed = bool(near) and (supersedes(near) or is_superseded(near) or is_extension(near))
-                if of_seabed or (not near and block.keyword.split()[:1] == ["SEABED"]):
-                    yield Where(i, j), block.keyword, near
+    @cached_property
+    def _unknown(self) -> list[UnknownKeyword]:
+        return unknown_keywords(self._scene)
 
     def _apart(self) -> Iterator[ContactWarning]:
         """Nothing in contact at any step."""
@@ -352,12 +310,8 @@ class ContactWatch:
 
     def _curves(self) -> Iterator[ContactWarning]:
         """Curves that no element follows; not those that an unknown keyword may use, which is the cause then."""
-        if any(self._unknown()):
+        if self._unknown:
             return
         none = np.zeros(0, dtype=np.intp)
         for problem in unused_curves(self._scene):
             yield self._warning(problem.code, problem.message, problem.where, none, "a curve without effect")
-
-
-def _without(elements: Indices) -> str:
-    return f"{counted(len(elements), 'element')} in contact without a seabed law"
