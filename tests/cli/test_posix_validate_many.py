@@ -240,7 +240,7 @@ def test_long_names_lack_their_middle_on_a_terminal(place: Place, monkeypatch: p
     monkeypatch.setenv("COLUMNS", "80")
     name = place(CLEAN, "fields/north/case-17/static/flowline-as-laid-0017.keyxm")
     lines = run("validate", name, "--color", "never", terminal=True).out.splitlines()
-    assert lines[3] == "legal         0         0         7       1         2  fields/nor\u2026laid-0017.keyxm"
+    assert lines[3] == "legal         0         0         7       1         2  fields/n\u2026-laid-0017.keyxm"
     assert max(map(len, lines)) <= 80
     assert run("validate", name).out.splitlines()[3].endswith(name)
 

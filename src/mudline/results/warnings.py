@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -222,7 +222,11 @@ class ContactWatch:
     def _warning(self, code: Code, message: str, where: Where | None, elements: Indices, brief: str) -> ContactWarning:
         problem = Problem(code, message, None, Severity.WARNING, where)
         first = int(self._scene.element_ids[elements[0]]) if elements.size else None
-        return ContactWarning(self._scene.deck.diagnose([problem])[0], len(elements), first, brief)
+        deck = self._scene.deck
+        found = deck.diagnose([problem])[0]
+        if found.file != deck.file:  # of a deck that this one continues, whose line would be looked for here
+            found = replace(found, message=f"{found.message} (in {found.file})")
+        return ContactWarning(found, len(elements), first, brief)
 
     def _without_law(self) -> Iterator[ContactWarning]:
         """Elements in contact without a law, and unknown keywords that look like those of a seabed."""
