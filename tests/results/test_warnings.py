@@ -168,6 +168,11 @@ def test_own_coordinates_above_the_seabed() -> None:
     )
 
 
+def test_node_in_the_seabed_whose_elements_are_not() -> None:
+    found = message(pipe(LAW, "-0.1, 0.0, 0.0", "10.0, 0.0, 100.0"), "GEO005")
+    assert found.startswith("no element is in contact in the mean of its nodes, though node 1 lies 0.1 m deep; correct")
+
+
 @pytest.mark.parametrize(
     ("first", "last", "hint"),
     [

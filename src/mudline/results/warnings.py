@@ -249,10 +249,15 @@ class ContactWatch:
             yield self._warning(GEO005, message, None, self._elements, "no seabed under the line")
             return
         unit = unit_names(scene.units).length
-        clearance = f"{shown(gap)}{' ' if unit else ''}{unit}"
+        distance = f"{shown(abs(gap))}{' ' if unit else ''}{unit}"
         times = self._times
         at = "" if times is None else f" at time {shown(float(times[step]))}"
-        message = f"nothing is in contact: the smallest clearance is {clearance}, of node {scene.node_ids[node]}{at}"
+        number = scene.node_ids[node]
+        message = f"nothing is in contact: the smallest clearance is {distance}, of node {number}{at}"
+        if gap < 0.0:
+            message = (
+                f"no element is in contact in the mean of its nodes, though node {number} lies {distance} deep{at}"
+            )
         solved = ", or give a solved shape with --positions" if self._own else ""
         advice = self._turned() or f"; correct the datum of X, which is 0 at the mudline{solved}"
         where = scene.nodes.where(node)
