@@ -17,7 +17,6 @@ from mudline.cli.inputs import Input, Inputs, collect_any_form
 from mudline.cli.streams import counted, emit, reason
 from mudline.cli.view import Progress, View, wants_bar
 from mudline.codes.contact import SBD006
-from mudline.codes.lines import SYN009
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Diagnostic, Problem, Severity
 from mudline.linting.engine import problems_in, unsuppressed
@@ -178,12 +177,9 @@ def _warnings(context: LintContext, problems: list[Problem], *, legal: bool) -> 
     codes = _default_codes()
     kept = unsuppressed(context, problems, rules())
     found = [one for one in kept if one.weight is Severity.WARNING and one.code.code in codes]
-    more = seabed_warnings(context.scene) if legal else []
-    reported = {one.code for one in problems if one.weight is Severity.WARNING}
-    if SBD006 in reported:  # the keyword that is not known is the reason of that
-        reported.add(SYN009)
-    known = {code.code for code in reported}
-    return [*context.deck.diagnose(found), *(one.diagnostic for one in more if one.diagnostic.code not in known)]
+    reported = {one.code.code for one in problems if one.weight is Severity.WARNING}
+    more = seabed_warnings(context.scene) if legal and SBD006.code not in reported else []
+    return [*context.deck.diagnose(found), *(one.diagnostic for one in more if one.diagnostic.code not in reported)]
 
 
 @cache

@@ -30,7 +30,7 @@ def height_along_z(scene: Scene, elements: Indices, places: Floats) -> str:
 
 def _reason(scene: Scene, elements: Indices, places: Floats) -> str:
     ends = scene.element_nodes[elements]
-    used = places[np.unique(ends)]
+    used = places[ends.ravel()]
     if not used.size or not np.isfinite(used).all():
         return ""
     (low_x, _, low_z), (high_x, _, high_z) = used.min(axis=0), used.max(axis=0)
