@@ -198,7 +198,7 @@ def test_rigid_seabed_touches_at_no_depth() -> None:
 
 def test_nothing_under_the_line() -> None:
     planes = "*SEABED PLANES\n PLANE=Far\n POINT=0, 0, 0\n SLOPE=0\n DIRECTION=0\n BOUNDS=-1, 1, 500, 600\n"
-    assert "there is no seabed under the line" in message(pipe(planes + LAW), "GEO005")
+    assert "the line lies outside the seabed" in message(pipe(planes + LAW), "GEO005")
 
 
 # --------------------------------------------------------------------------------------------------------- equilibrium

@@ -93,7 +93,7 @@ def _bare(scene: ResolvedDeck, elements: Indices) -> Missing:
     surfaces = [where for where, _ in scene.deck.blocks("ELASTIC SURFACE")]
     if surfaces:
         message = (
-            f"{_touching(scene, elements)} a curve of *EMBEDMENT, and there is no stiffness here: give one in the "
+            f"{_touching(scene, elements)} a curve of *EMBEDMENT, and this surface has no stiffness: give one in the "
             "first field"
         )
         return Missing(SBD006, message, surfaces[-1], elements, _brief(elements))

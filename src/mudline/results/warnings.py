@@ -126,7 +126,7 @@ class _Balance(NamedTuple):
 
     @property
     def ratio(self) -> float:
-        """Reaction over weight; NaN where there is no weight to be carried."""
+        """Reaction over weight; NaN where the weight is not above 0."""
         return self.reaction / self.weight if self.weight > 0.0 else math.nan
 
 
@@ -245,8 +245,8 @@ class ContactWatch:
         if self._acts or not self._elements.size:
             return
         if node < 0:
-            message = "nothing is in contact: there is no seabed under the line; correct its bounds or the coordinates"
-            yield self._warning(GEO005, message, None, self._elements, "no seabed under the line")
+            message = "nothing is in contact: the line lies outside the seabed; correct its bounds or the coordinates"
+            yield self._warning(GEO005, message, None, self._elements, "line outside the seabed")
             return
         unit = unit_names(scene.units).length
         distance = f"{shown(abs(gap))}{' ' if unit else ''}{unit}"
