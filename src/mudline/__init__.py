@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from mudline.contact import ContactModel, ContactResult, ContactState, Plan, PositionError
     from mudline.curves import CurveError, ForceCurve
     from mudline.diagnostics import DeckError, Diagnostic, Severity
+    from mudline.results.warnings import ContactWarning, contact_warnings
     from mudline.scene.model import Scene
 
 __version__ = "0.1.0"
@@ -24,6 +25,7 @@ __all__ = [
     "ContactModel",
     "ContactResult",
     "ContactState",
+    "ContactWarning",
     "CurveError",
     "Deck",
     "DeckError",
@@ -34,6 +36,7 @@ __all__ = [
     "Scene",
     "Severity",
     "__version__",
+    "contact_warnings",
     "from_json",
     "from_keyword",
     "from_yaml",
@@ -45,6 +48,7 @@ _HOMES = {
     "ContactModel": "contact",
     "ContactResult": "contact",
     "ContactState": "contact",
+    "ContactWarning": "results.warnings",
     "CurveError": "curves",
     "Deck": "api",
     "DeckError": "diagnostics",
@@ -54,6 +58,7 @@ _HOMES = {
     "PositionError": "contact",
     "Scene": "scene.model",
     "Severity": "diagnostics",
+    "contact_warnings": "results.warnings",
     "from_json": "api",
     "from_keyword": "api",
     "from_yaml": "api",

@@ -37,6 +37,13 @@ $MODEL
 """
 """Element 1 lies 0.1 deep: ratio 0.2, force 1500 per length over 10; element 2 is 0.1 above the bed."""
 
+CLEAN_WARNING = (
+    "mudline: warning: deck.keyxm:1: RUN003 the positions are the deck's own, far from equilibrium: total reaction "
+    "15000 N on 1 element in contact, their submerged weight 3481.78 N, ratio 4.31; give a solved shape with "
+    "--positions\n"
+)
+"""What evaluating it as deck.keyxm warns of: the steel weighs 2322.52 N/m and displaces water of 1974.34 N/m."""
+
 BAD_NUMBER = CLEAN.replace(" 2, -0.1, 10.0\n", " 2, -0.1, ten\n")
 """A SYN002 at 6:11, and nothing else."""
 

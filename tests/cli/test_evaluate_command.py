@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.builders.decks import BAD_NUMBER, CLEAN, LINEAR, PULLING
+from tests.builders.decks import BAD_NUMBER, CLEAN, CLEAN_WARNING, LINEAR, PULLING
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, Json, assert_fits, run
 
@@ -118,7 +118,7 @@ def test_samples_keep_to_the_schema(name: str) -> None:
 
 def test_text(place: Place) -> None:
     outcome = run("evaluate", place())
-    assert (outcome.code, outcome.err) == (0, "")
+    assert (outcome.code, outcome.err) == (0, CLEAN_WARNING)
     assert outcome.out == (
         "Contact of deck.keyxm (metric units)\n"
         "                                     largest     total\n"
@@ -294,7 +294,7 @@ def test_length_that_overflows_names_the_line_of_the_element(place: Place) -> No
 
 def test_npz_holds_the_same_numbers(place: Place, folder: Path) -> None:
     name = place()
-    assert run("evaluate", name, "-o", "out.npz").err == "mudline: deck.keyxm -> out.npz\n"
+    assert run("evaluate", name, "-o", "out.npz").err == f"{CLEAN_WARNING}mudline: deck.keyxm -> out.npz\n"
     found = run("evaluate", name, "--output-format", "json").json()
     with np.load(folder / "out.npz", allow_pickle=False) as archive:
         arrays = dict(archive)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from mudline.results.plots import along, thinned
-from tests.builders.decks import CLEAN, LINEAR
+from tests.builders.decks import CLEAN, CLEAN_WARNING, LINEAR
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, run
 from tests.cli.test_evaluate_files import STEPS
@@ -24,7 +24,7 @@ def words(folder: Path) -> str:
 
 def test_one_state(place: Place, folder: Path) -> None:
     outcome = run("evaluate", place(), "--plot", "p.svg")
-    assert (outcome.code, outcome.err) == (0, "mudline: plot -> p.svg\n")
+    assert (outcome.code, outcome.err) == (0, f"mudline: plot -> p.svg\n{CLEAN_WARNING}")
     assert "Elements in contact" in outcome.out
     text = words(folder)
     for label in ("height X [m]", "embedment [m]", "distance along Y [m]", "per unit length [N/m2]", "Clay"):

@@ -21,7 +21,7 @@ from tests.cli.conftest import Place
 from tests.cli.runner import Outcome, Stream, assert_fits, run
 from tests.cli.screens import screen
 
-TOTAL = "3 of 7 decks legal: 2 illegal, 2 empty, 2 errors, 1 file unreadable"
+TOTAL = "3 of 7 decks legal: 2 illegal, 2 empty, 2 errors, 2 warnings, 1 file unreadable"
 
 
 @pytest.fixture
@@ -91,7 +91,15 @@ def test_total_counts_all(decks: str) -> None:
     assert outcome.out.splitlines()[-1] == TOTAL
     found = run("validate", decks, "--output-format", "json").json()
     assert_fits(found, "validate")
-    assert found["total"] == {"decks": 7, "legal": 3, "illegal": 2, "empty": 2, "errors": 2, "unreadable": 1}
+    assert found["total"] == {
+        "decks": 7,
+        "legal": 3,
+        "illegal": 2,
+        "empty": 2,
+        "errors": 2,
+        "warnings": 2,
+        "unreadable": 1,
+    }
 
 
 @pytest.mark.parametrize("number", [0, 1, 2])
@@ -232,7 +240,7 @@ def test_long_names_lack_their_middle_on_a_terminal(place: Place, monkeypatch: p
     monkeypatch.setenv("COLUMNS", "80")
     name = place(CLEAN, "fields/north/case-17/static/flowline-as-laid-0017.keyxm")
     lines = run("validate", name, "--color", "never", terminal=True).out.splitlines()
-    assert lines[3] == "legal         0         1         7       1         2  fields/n\u2026-laid-0017.keyxm"
+    assert lines[3] == "legal         0         0         7       1         2  fields/n\u2026-laid-0017.keyxm"
     assert max(map(len, lines)) <= 80
     assert run("validate", name).out.splitlines()[3].endswith(name)
 
@@ -260,8 +268,10 @@ def test_colours_are_those_of_the_verdicts(place: Place) -> None:
 def test_total_in_words() -> None:
     total = Total()
     assert str(total) == "0 of 0 decks legal"
-    total.add(Verdict("a", 1, 1, 0, 0, 0, "legal"))
+    total.add(Verdict("a", 1, 1, 0, 0, 0, 0, "legal"))
     assert str(total) == "1 of 1 deck legal"
-    total.add(Verdict("b", 1, 1, 0, 0, 2, "illegal"))
+    total.add(Verdict("b", 1, 1, 0, 0, 2, 0, "illegal"))
     total.unreadable = 2
     assert str(total) == "1 of 2 decks legal: 1 illegal, 2 errors, 2 files unreadable"
+    total.add(Verdict("c", 1, 1, 0, 0, 0, 3, "legal, 3 warnings"))
+    assert str(total) == "2 of 3 decks legal: 1 illegal, 2 errors, 3 warnings, 2 files unreadable"

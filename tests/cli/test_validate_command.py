@@ -10,7 +10,7 @@ from tests.builders.decks import BAD_NUMBER, CLEAN, ILLEGAL, UNUSED
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, assert_fits, run
 
-COLUMNS = ["file", "sections", "keywords", "curves", "elements", "errors", "verdict"]
+COLUMNS = ["file", "sections", "keywords", "curves", "elements", "errors", "warnings", "verdict"]
 
 
 def test_legal_deck(place: Place) -> None:
@@ -18,9 +18,9 @@ def test_legal_deck(place: Place) -> None:
     assert (outcome.code, outcome.err) == (0, "")
     assert outcome.out.splitlines() == [
         "Decks",
-        "verdict  errors  sections  keywords  curves  elements  file",
-        "─────────────────────────────────────────────────────────────────",
-        "legal         0         1         7       1         2  deck.keyxm",
+        "verdict  errors  warnings  sections  keywords  curves  elements  file",
+        "───────────────────────────────────────────────────────────────────────────",
+        "legal         0         0         1         7       1         2  deck.keyxm",
         "",
         "1 of 1 deck legal",
     ]
@@ -55,9 +55,17 @@ def test_json(place: Place) -> None:
     assert_fits(found, "validate")
     assert_fits(found["decks"][1]["findings"], "lint")
     assert outcome.code == 1
-    assert found["total"] == {"decks": 2, "legal": 1, "illegal": 1, "empty": 0, "errors": 1, "unreadable": 0}
+    assert found["total"] == {
+        "decks": 2,
+        "legal": 1,
+        "illegal": 1,
+        "empty": 0,
+        "errors": 1,
+        "warnings": 0,
+        "unreadable": 0,
+    }
     good, bad = found["decks"]
-    assert good == dict(zip(COLUMNS, ["good.keyxm", 1, 7, 1, 2, 0, "legal"], strict=True)) | {"findings": []}
+    assert good == dict(zip(COLUMNS, ["good.keyxm", 1, 7, 1, 2, 0, 0, "legal"], strict=True)) | {"findings": []}
     assert [each["code"] for each in bad["findings"]] == ["REF001"]
     assert (bad["errors"], bad["verdict"]) == (1, "illegal")
 
@@ -67,8 +75,8 @@ def test_csv(place: Place) -> None:
     rows = list(csv.reader(run("validate", *names, "--output-format", "csv").out.splitlines()))
     assert rows == [
         COLUMNS,
-        ["good.keyxm", "1", "7", "1", "2", "0", "legal"],
-        ['b"a,d.keyxm', "1", "7", "1", "2", "1", "illegal"],
+        ["good.keyxm", "1", "7", "1", "2", "0", "0", "legal"],
+        ['b"a,d.keyxm', "1", "7", "1", "2", "1", "0", "illegal"],
     ]
 
 
@@ -90,7 +98,7 @@ def test_document_that_is_none(place: Place) -> None:
     outcome = run("validate", place("{", "deck.json"))
     assert outcome.code == 1
     assert outcome.out.startswith("deck.json:1:2: error DOC001 ")
-    assert "illegal       1         0         0       0         0  deck.json" in outcome.out
+    assert "illegal       1         0         0         0       0         0  deck.json" in outcome.out
 
 
 def test_path_that_is_missing_beats_a_deck_that_is_illegal(place: Place) -> None:

@@ -25,7 +25,8 @@ made by `--fix`, an *unsafe* one by `--fix --unsafe-fixes`, as the finding in th
 | --- | --- | --- | --- | --- |
 {rows}
 
-Seven more codes are no rules and cannot be left out; they say why a file could not be used, changed or checked:
+Nine more codes are no rules and cannot be left out; they say why a file could not be used, changed or checked, or what
+is doubtful in the results of one:
 
 | code | slug | severity | says |
 | --- | --- | --- | --- |
@@ -36,6 +37,8 @@ Seven more codes are no rules and cannot be left out; they say why a file could 
 | [MIG001](MIG001.md) | `cannot-migrate` | error | The new family of seabed keywords cannot say what the deck says. |
 | [RUN001](RUN001.md) | `cannot-evaluate` | error | The deck cannot be evaluated. |
 | [RUN002](RUN002.md) | `rule-failed` | error | A rule of a plugin failed on the deck. |
+| [RUN003](RUN003.md) | `no-equilibrium` | warning | The deck's own coordinates are far from an equilibrium. |
+| [RUN004](RUN004.md) | `floating-pipe` | warning | Elements in contact float: their submerged weight is negative. |
 """
 
 _PAGE = """{made}

@@ -17,7 +17,7 @@ import numpy as np
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.evaluate_text import print_comparison, print_evaluation, print_plan
 from mudline.cli.inputs import GivenDeck, takes_deck
-from mudline.cli.streams import counted, emit, emit_json, notify, notify_missing, reason, writing
+from mudline.cli.streams import MOST_REPORTED, counted, emit, emit_json, notify, notify_missing, reason, writing
 from mudline.cli.view import Progress, View, tracked, wants_bar
 from mudline.contact import LawKind
 from mudline.deck.model import Deck
@@ -29,6 +29,7 @@ from mudline.results.evaluation import Evaluation, Part, Prepared, Tension, eval
 from mudline.results.forms import Output, ResultConsumer, Sink, Together, form_module, form_names, plan_rows, text_form
 from mudline.results.quantities import csv_lines
 from mudline.results.totals import PlotData, StepSummary
+from mudline.results.warnings import ContactWarning, ContactWatch, caption
 from mudline.scene.csv_file import ExternalElements, read_external
 from mudline.scene.model import Scene, resolve
 from mudline.scene.positions import Positions, read_positions
@@ -72,6 +73,13 @@ _Read = TypeVar("_Read")
     help="Which rows text and CSV on standard output show, of one state or of time steps.",
 )
 @options.spreadsheet
+@click.option(
+    "--fail-on",
+    type=click.Choice(["error", "warning"]),
+    default="error",
+    show_default=True,
+    help="Exit with 1 for warnings about the results too.",
+)
 @options.output_format("text", "json", "csv")
 @takes_deck
 def command(
@@ -87,6 +95,7 @@ def command(
     plan_only: bool,
     table: str,
     spreadsheet: bool,
+    fail_on: str,
     output_format: str,
     view: View,
 ) -> int:
@@ -115,20 +124,33 @@ def command(
     shown = "" if output else output_format
     most = None if view.verbose else MOST_ROWS
     digest = StepSummary(evaluation, most, table == "nodes") if shown == "text" else None
-    slow = _SlowSuction()
-    consumers: list[ResultConsumer] = [one for one in (comparison, drawing, digest, slow) if one is not None]
+    slow, watch = _SlowSuction(), ContactWatch.of(evaluation)
+    consumers: list[ResultConsumer] = [one for one in (comparison, drawing, digest, slow, watch) if one is not None]
     with _sink(evaluation, comparison, output, (shown, table), view, as_text=spreadsheet) as sink:
         _run(evaluation, [*consumers, sink], view, bar=shown in {"", "text"})
-        sink.finish({} if comparison is None else {"against": comparison.summary()})
+        warnings = watch.warnings()
+        sink.finish(_behind(evaluation, warnings, comparison))
     if picture and drawing is not None:
-        _draw(drawing, Path(picture), view)
+        _draw(drawing, Path(picture), caption(warnings), view)
     if not view.quiet:
-        _notify_after(evaluation, slow, Path(output) if output else None)
+        _notify_warnings(warnings)
+        _notify_after(evaluation, slow, watch.note(), Path(output) if output else None)
     if digest is not None:
         print_evaluation(digest, table, view)
     if comparison is not None and output_format == "text":
         print_comparison(comparison, view)
-    return DONE
+    return FOUND if warnings and fail_on == "warning" else DONE
+
+
+def _behind(
+    evaluation: Evaluation, warnings: Sequence[ContactWarning], comparison: Comparison | None
+) -> dict[str, object]:
+    """What JSON has behind the results."""
+    found: dict[str, object] = {
+        "positions": "deck" if evaluation.own_positions else "file",
+        "warnings": [one.row() for one in warnings],
+    }
+    return found if comparison is None else {**found, "against": comparison.summary()}
 
 
 def _evaluable(deck: Deck, external: ExternalElements | None, pull: Tension) -> Scene:
@@ -246,10 +268,10 @@ def _run(evaluation: Evaluation, consumers: Sequence[ResultConsumer], view: View
                 progress.advance()
 
 
-def _draw(data: PlotData, path: Path, view: View) -> None:
-    """Draw the results that were collected."""
+def _draw(data: PlotData, path: Path, doubt: str, view: View) -> None:
+    """Draw the results that were collected, and what is doubtful in them."""
     with writing(path) as stream:
-        import_module(_PLOTS).draw_evaluation(data, _suffix(path), stream, visible)
+        import_module(_PLOTS).draw_evaluation(data, _suffix(path), stream, visible, doubt)
     if not view.quiet:
         notify(f"plot -> {path.as_posix()}")
 
@@ -289,8 +311,18 @@ class _SlowSuction:
             self.element = int(np.argwhere(slow)[0, 1])
 
 
-def _notify_after(evaluation: Evaluation, slow: _SlowSuction, written: Path | None) -> None:
-    """Report where suction is less than its power law gives, and which files were written."""
+def _notify_warnings(warnings: Sequence[ContactWarning]) -> None:
+    """Report what is doubtful in the results."""
+    for one in warnings[:MOST_REPORTED]:
+        notify(f"warning: {one}")
+    if len(warnings) > MOST_REPORTED:
+        notify(f"{len(warnings) - MOST_REPORTED} more warnings: JSON has all")
+
+
+def _notify_after(evaluation: Evaluation, slow: _SlowSuction, note: str, written: Path | None) -> None:
+    """Report which positions these are, where suction is less than its power law gives, and the files written."""
+    if note:
+        notify(note)
     if slow.element is not None:
         number = int(evaluation.scene.element_ids[slow.element])
         when = f"at {slow.steps} of {counted(evaluation.steps, 'step')}, element {number} first"

@@ -1,4 +1,4 @@
-"""`mudline validate`: which decks are legal and complete, in a table, JSON or CSV. No text of a deck is kept."""
+"""`mudline validate`: which decks are legal, with how many warnings, in a table, JSON or CSV. No text is kept."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import json
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass, fields
+from functools import cache
 from textwrap import indent
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -15,20 +16,23 @@ from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import Input, Inputs, collect_any_form
 from mudline.cli.streams import counted, emit, reason
 from mudline.cli.view import Progress, View, wants_bar
+from mudline.codes.contact import SBD006
 from mudline.deck.loading import load_bytes
-from mudline.diagnostics import DeckError, Diagnostic, Severity
-from mudline.linting.engine import grouped_problems
+from mudline.diagnostics import DeckError, Diagnostic, Problem, Severity
+from mudline.linting.engine import grouped_problems, unsuppressed
 from mudline.linting.output.json import as_object
-from mudline.linting.registry import rules
+from mudline.linting.registry import rules, select
 from mudline.linting.rule import LintContext
 from mudline.results.quantities import csv_lines
+from mudline.results.warnings import seabed_warnings
 from mudline.syntax.source import Source
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer
 
-_COUNTS = ("errors", "sections", "keywords", "curves", "elements")
-_VERDICT = len("verdict")
+_COUNTS = ("errors", "warnings", "sections", "keywords", "curves", "elements")
+_OPTIONAL = ("sections", "keywords", "curves")
+"""Counts that a narrow terminal does not show, in the order in which they are left out."""
 _GAP = "  "
 _SHORTEST = 20
 """Columns that a file name gets on the narrowest terminal."""
@@ -46,7 +50,8 @@ def command(
 ) -> int:
     """Validate decks: print the errors of each, then a table with a row per deck.
 
-    A deck is legal when no rule of severity error finds anything, and when it has a section at all.
+    A deck is legal when no rule of severity error finds anything, and when it has a section at all. Warnings are
+    counted in its verdict, those about a pipe without a seabed under it among them; -v prints them too.
 
     PATHS are decks, directories (searched for *.keyx, *.keyxm, *.keyxi, *.das, and for JSON and YAML files that begin
     as decks do) or - for standard input. Of many decks -q shows the table without the errors.
@@ -54,7 +59,7 @@ def command(
     inputs = collect_any_form(paths, stdin_name, gitignore=not every_file)
     total = Total()
     shown = wants_bar(view) and (output_format == "text" or not sys.stdout.isatty())
-    judged = _judged(inputs, units, total, Progress(len(inputs.files), view, shown=shown))
+    judged = _judged(inputs, units, total, view, Progress(len(inputs.files), view, shown=shown))
     if output_format == "json":
         _print_json(judged, total)
     elif output_format == "csv":
@@ -71,7 +76,7 @@ def command(
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """Counts of a deck, and "legal", "illegal" or, for a file without any section, "empty"."""
+    """Counts of a deck, and "legal", "legal, 3 warnings", "illegal" or, for a file without any section, "empty"."""
 
     file: str
     sections: int
@@ -79,27 +84,35 @@ class Verdict:
     curves: int
     elements: int
     errors: int
+    warnings: int
     verdict: str
+
+    @property
+    def legal(self) -> bool:
+        """Whether the deck is legal, with warnings or without."""
+        return self.verdict.startswith("legal")
 
 
 @dataclass(slots=True)
 class Total:
-    """Decks by verdict, the errors in all of them, and the files that could not be read, which are not counted."""
+    """Decks by verdict, their errors and warnings, and the files that could not be read, which are not counted."""
 
     decks: int = 0
     legal: int = 0
     illegal: int = 0
     empty: int = 0
     errors: int = 0
+    warnings: int = 0
     unreadable: int = 0
 
     def add(self, verdict: Verdict) -> None:
         """Count one more deck."""
         self.decks += 1
-        self.legal += verdict.verdict == "legal"
+        self.legal += verdict.legal
         self.illegal += verdict.verdict == "illegal"
         self.empty += verdict.verdict == "empty"
         self.errors += verdict.errors
+        self.warnings += verdict.warnings
 
     def __str__(self) -> str:
         """The total for a reader, without counts of zero."""
@@ -107,6 +120,7 @@ class Total:
             f"{self.illegal} illegal" if self.illegal else "",
             f"{self.empty} empty" if self.empty else "",
             counted(self.errors, "error") if self.errors else "",
+            counted(self.warnings, "warning") if self.warnings else "",
             f"{counted(self.unreadable, 'file')} unreadable" if self.unreadable else "",
         ]
         rest = ", ".join(filter(None, others))
@@ -114,14 +128,14 @@ class Total:
 
 
 class Judged(NamedTuple):
-    """A deck with its errors and its content, which is not kept."""
+    """A deck with its errors, the warnings too where they are asked for, and its content, which is not kept."""
 
     verdict: Verdict
     found: list[Diagnostic]
     data: bytes
 
 
-def _judged(inputs: Inputs, units: str | None, total: Total, progress: Progress) -> Iterator[Judged]:
+def _judged(inputs: Inputs, units: str | None, total: Total, view: View, progress: Progress) -> Iterator[Judged]:
     """Each deck that can be read; all are counted. The bar is hidden while a deck with errors is printed."""
     with progress:
         for file in inputs.files:
@@ -132,7 +146,7 @@ def _judged(inputs: Inputs, units: str | None, total: Total, progress: Progress)
                 progress.hide()
                 inputs.fail(f"{file.name}: {reason(error)}")
             else:
-                verdict, found = _judge(data, file, units)
+                verdict, found = _judge(data, file, units, verbose=view.verbose)
                 total.add(verdict)
                 if found:
                     progress.hide()
@@ -140,18 +154,38 @@ def _judged(inputs: Inputs, units: str | None, total: Total, progress: Progress)
             progress.advance()
 
 
-def _judge(data: bytes, file: Input, units: str | None) -> tuple[Verdict, list[Diagnostic]]:
+def _judge(data: bytes, file: Input, units: str | None, *, verbose: bool) -> tuple[Verdict, list[Diagnostic]]:
     try:
         deck = load_bytes(data, file.name, units=units, folder=file.folder)
     except DeckError as error:
-        return Verdict(file.name, 0, 0, 0, 0, len(error.diagnostics), "illegal"), list(error.diagnostics)
+        return Verdict(file.name, 0, 0, 0, 0, len(error.diagnostics), 0, "illegal"), list(error.diagnostics)
     context = LintContext(deck)
     problems = grouped_problems(context, rules(), suppress=False)
-    found = deck.diagnose([one for one in problems if one.weight is Severity.ERROR])
+    errors = deck.diagnose([one for one in problems if one.weight is Severity.ERROR])
+    warnings = _warnings(context, problems, legal=not errors)
     keywords = sum(len(section.blocks) for section in deck.sections)
     curves, elements = len(context.scene.laws.curves), len(context.scene.element_ids)
-    verdict = "illegal" if found else "legal" if deck.sections else "empty"
-    return Verdict(deck.file, len(deck.sections), keywords, curves, elements, len(found), verdict), found
+    behind = f", {counted(len(warnings), 'warning')}" if warnings else ""
+    verdict = "illegal" if errors else f"legal{behind}" if deck.sections else "empty"
+    counts = (len(deck.sections), keywords, curves, elements, len(errors), len(warnings))
+    found = sorted([*errors, *warnings], key=lambda one: one.sort_key) if verbose else errors
+    return Verdict(deck.file, *counts, verdict), found
+
+
+def _warnings(context: LintContext, problems: list[Problem], *, legal: bool) -> list[Diagnostic]:
+    """What lint warns of, and of a legal deck what evaluating it at its own coordinates adds to that."""
+    codes = _default_codes()
+    kept = unsuppressed(context, problems, rules())
+    found = [one for one in kept if one.weight is Severity.WARNING and one.code.code in codes]
+    reported = {one.code.code for one in problems if one.weight is Severity.WARNING}
+    more = seabed_warnings(context.scene) if legal and SBD006.code not in reported else []
+    return [*context.deck.diagnose(found), *(one.diagnostic for one in more if one.diagnostic.code not in reported)]
+
+
+@cache
+def _default_codes() -> frozenset[str]:
+    """The codes of the rules that lint runs unless it is asked for others."""
+    return frozenset(rule.code.code for rule in select())
 
 
 # ---------------------------------------------------------------------------------------------------------- output
@@ -181,26 +215,35 @@ def _print_text(judged: Iterable[Judged], total: Total, view: View) -> None:
 
 
 def _lines(verdicts: Sequence[Verdict], total: Total, printer: Printer) -> Iterator[str]:
-    """A row for each deck, the file last as it may be long, and the total; on a terminal long names are shortened.
+    """A row for each deck, the file last as it may be long, and the total.
 
-    Ten thousand rows are printed at once, so lines are put together by hand.
+    On a narrow terminal the columns that a verdict needs least are left out, and long names are shortened. Ten thousand
+    rows are printed at once, so lines are put together by hand.
     """
-    cells = [[str(getattr(verdict, name)) for name in _COUNTS] for verdict in verdicts]
-    widths = [max(map(len, column)) for column in zip(_COUNTS, *cells, strict=True)]
-    before = _VERDICT + sum(widths) + len(_GAP) * (len(widths) + 1)
+    verdict_width = max(map(len, ("verdict", *(verdict.verdict for verdict in verdicts))))
+    widths = {name: max(len(name), *(len(str(getattr(each, name))) for each in verdicts)) for name in _COUNTS}
+    for name in _OPTIONAL:
+        if _before(verdict_width, widths) + _SHORTEST > printer.width:
+            del widths[name]
+    before = _before(verdict_width, widths)
     files = [printer.elided(verdict.file, max(printer.width - before, _SHORTEST)) for verdict in verdicts]
     yield click.style("Decks", bold=True) if printer.colored else "Decks"
-    yield _row("verdict", _COUNTS, widths, "file")
+    yield _row("verdict".ljust(verdict_width), widths, widths, "file")
     yield printer.rule * (before + max(map(printer.columns, [*files, "file"])))
-    for verdict, counts, file in zip(verdicts, cells, files, strict=True):
-        state = _colored(verdict.verdict.ljust(_VERDICT), printer, good=verdict.verdict == "legal")
-        yield _row(state, counts, widths, file)
+    for verdict, file in zip(verdicts, files, strict=True):
+        state = _colored(verdict.verdict.ljust(verdict_width), printer, good=verdict.legal)
+        yield _row(state, (str(getattr(verdict, name)) for name in widths), widths, file)
     yield ""
     yield _colored(str(total), printer, good=total.legal == total.decks and not total.unreadable)
 
 
-def _row(verdict: str, counts: Sequence[str], widths: Sequence[int], file: str) -> str:
-    numbers = _GAP.join(count.rjust(width) for count, width in zip(counts, widths, strict=True))
+def _before(verdict_width: int, widths: dict[str, int]) -> int:
+    """Columns of a line before the file."""
+    return verdict_width + sum(widths.values()) + len(_GAP) * (len(widths) + 1)
+
+
+def _row(verdict: str, counts: Iterable[str], widths: dict[str, int], file: str) -> str:
+    numbers = _GAP.join(count.rjust(width) for count, width in zip(counts, widths.values(), strict=True))
     return f"{verdict}{_GAP}{numbers}{_GAP}{file}"
 
 

@@ -68,6 +68,8 @@ class Evaluation:
     time: Floats | None = None
     velocities: NDArray[np.floating] | None = None
     lengths_from_positions: int = 0
+    own_positions: bool = False
+    """Whether the positions are the deck's own coordinates, which are no solved shape."""
 
     def __repr__(self) -> str:
         elements, nodes = counted(len(self.elements), "element"), counted(len(self.nodes), "node")
@@ -131,6 +133,7 @@ def evaluate_scene(scene: Scene, positions: Positions | None = None, tension: Te
         given.time,
         given.velocities,
         ready.lengths_from_positions,
+        own_positions=positions is None,
     )
 
 

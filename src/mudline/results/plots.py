@@ -126,16 +126,16 @@ COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#00
 _SEABED = "#8c6d46"
 
 
-def draw_evaluation(data: PlotData, form: str, stream: BinaryIO, spelled: _Spelled) -> None:
+def draw_evaluation(data: PlotData, form: str, stream: BinaryIO, spelled: _Spelled, caption: str = "") -> None:
     """Write a picture ("png" or "svg") with the panels that the evaluation has data for.
 
-    `spelled` makes names of the deck fit to be shown.
+    `spelled` makes names of the deck fit to be shown; `caption` is a line under the title.
     """
     with mpl.rc_context({"font.size": 9.0}):
-        _write(lambda: _figure(data, spelled), form, stream)
+        _write(lambda: _figure(data, spelled, caption), form, stream)
 
 
-def _figure(data: PlotData, spelled: _Spelled) -> Figure:
+def _figure(data: PlotData, spelled: _Spelled, caption: str) -> Figure:
     left, right = _left(data), _right(data, spelled)
     height = max(sum(size for _, size in column) for column in (left, right))
     figure = Figure(figsize=(13.0 if right else 8.0, 1.0 + height), layout="constrained", dpi=120)
@@ -146,7 +146,8 @@ def _figure(data: PlotData, spelled: _Spelled) -> Figure:
         rows = grid[0, column].subgridspec(len(panels), 1, height_ratios=[size for _, size in panels])
         for row, (panel, _) in enumerate(panels):
             panel(figure.add_subplot(rows[row, 0]))
-    figure.suptitle(_title(data, spelled)).set_parse_math(False)
+    title = _title(data, spelled)
+    figure.suptitle(f"{title}\n{spelled(caption)}" if caption else title).set_parse_math(False)
     return figure
 
 

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator
 from itertools import groupby
 from typing import TYPE_CHECKING, cast
 
+from mudline.codes.contact import REF003, SBD017
 from mudline.contact.input import LawKind
 from mudline.deck.parameters import folded
 from mudline.deck.reading import TextOrigin
@@ -25,9 +26,7 @@ if TYPE_CHECKING:
     from mudline.keywords.library.variation import Variation
     from mudline.scene.force_curves import SceneCurve
 
-REF003 = Code("REF003", "unused-curve", Severity.WARNING)
 REF004 = Code("REF004", "duplicate-curve", Severity.WARNING)
-SBD017 = Code("SBD017", "curve-named-as-number", Severity.WARNING)
 
 
 @rule(REF003)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from mudline.codes.contact import GEO005
 from mudline.contact.input import LawKind
 from mudline.deck.model import Opaque
 from mudline.deck.parameters import folded
@@ -19,6 +20,7 @@ from mudline.scene.deck_values import number
 from mudline.scene.numbering import Floats, Mask, blocks_of
 from mudline.scene.sections import Section, format_of
 from mudline.scene.sets import set_key
+from mudline.scene.vertical_axis import FLAT, NEAR
 
 if TYPE_CHECKING:
     from mudline.keywords.library.geometric_sets import GeometricSet, GeometricSets
@@ -26,17 +28,12 @@ if TYPE_CHECKING:
 
 GEO002 = Code("GEO002", "number-and-curve", Severity.WARNING)
 GEO003 = Code("GEO003", "drag-diameter-assumed", Severity.INFO)
-GEO005 = Code("GEO005", "not-on-the-seabed", Severity.WARNING)
 GEO006 = Code("GEO006", "repeated-section", Severity.WARNING)
 
 HIGHEST = 100.0
 """Diameters above the seabed: a line that lies level does not hang there."""
 LEVEL = 0.1
 """Rise to length, along the ground, of a line that lies level."""
-FLAT = 0.01
-"""Share of the water depth by which the heights of nodes on a level seabed may differ."""
-NEAR = 0.05
-"""Share of the water depth by which a riser ends beside the seabed or the sea surface."""
 
 _BENDING = ("eiyy", "eizz")
 _CURVES = {

@@ -8,6 +8,7 @@ from typing import NamedTuple, cast
 
 import numpy as np
 
+from mudline.codes.contact import SBD025
 from mudline.codes.references import REF010
 from mudline.contact.input import LawKind
 from mudline.deck.parameters import folded
@@ -23,7 +24,6 @@ from mudline.scene.numbering import Floats, Indices, one_index
 from mudline.scene.sets import ALL, NamedSet
 
 SBD008 = Code("SBD008", "overlapping-sets", Severity.INFO)
-SBD025 = Code("SBD025", "law-without-effect", Severity.WARNING)
 
 
 @rule(SBD008)

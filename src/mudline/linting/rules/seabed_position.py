@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
+from mudline.codes.contact import SBD006
 from mudline.contact.input import LawKind
 from mudline.deck.model import Opaque
 from mudline.diagnostics import Code, Problem, Severity, Span, Where
@@ -24,7 +25,6 @@ if TYPE_CHECKING:
 _SAME_PLACE = 3
 """Decimals in which the coordinates of the pipes of a pipe in a pipe agree."""
 
-SBD006 = Code("SBD006", "no-vertical-restraint", Severity.WARNING)
 SBD021 = Code("SBD021", "one-constrained-dof", Severity.WARNING)
 SBD022 = Code("SBD022", "deep-node", Severity.WARNING)
 
