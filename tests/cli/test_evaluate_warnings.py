@@ -70,7 +70,7 @@ def test_positions_of_a_file_have_no_note(place: Place) -> None:
 def test_refused_deck_has_no_warnings(place: Place) -> None:
     outcome = run("evaluate", place(CLEAN.replace("*SEABED STIFFNESS", "*SEABED STIFNES")))
     assert outcome.code == 1
-    assert "REF002" in outcome.err
+    assert "SYN009" in outcome.err
     assert "warning: deck" not in outcome.err
 
 
