@@ -64,6 +64,12 @@ def test_wheel_holds_the_grammar_and_the_marker_of_types(wheel_names: set[str]) 
     assert "mudline/py.typed" in wheel_names
 
 
+def test_wheel_holds_the_pages_of_rules(wheel_names: set[str]) -> None:
+    pages = {f"mudline/docs/rules/{path.name}" for path in (ROOT / "docs/rules").glob("*.md")}
+    assert len(pages) > 100
+    assert pages <= wheel_names
+
+
 def test_dependencies_have_lower_bounds_only() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     extras = project["optional-dependencies"].values()

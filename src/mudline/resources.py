@@ -1,4 +1,4 @@
-"""What mudline consists of: the grammar files, and the modules of a package that says all it has by what is in it."""
+"""What mudline consists of: the grammar files, the pages of rules, the modules of a package that says what it has."""
 
 from __future__ import annotations
 
@@ -11,8 +11,17 @@ from types import ModuleType
 
 def grammar_file(name: str) -> Path:
     """Path of the grammar file `name`: the package's own copy first, the checkout's second."""
-    packaged = Path(__file__).parent / "grammar" / name
-    return packaged if packaged.exists() else Path(__file__).parents[2] / "grammar" / name
+    return _own_file(f"grammar/{name}")
+
+
+def rule_file(code: str) -> Path:
+    """Path of the page of a rule, in the package or the checkout."""
+    return _own_file(f"docs/rules/{code}.md")
+
+
+def _own_file(path: str) -> Path:
+    packaged = Path(__file__).parent / path
+    return packaged if packaged.exists() else Path(__file__).parents[2] / path
 
 
 def modules_of(package: str) -> list[ModuleType]:

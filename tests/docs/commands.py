@@ -7,6 +7,10 @@ import shlex
 from contextlib import redirect_stderr, redirect_stdout
 
 from mudline.__main__ import main
+from mudline.linting.registry import page
+
+_INSTALLED = str(page("SYN001")).removesuffix("docs/rules/SYN001.md")
+"""Where the pages of rules are installed, which the pages show as a place on another machine."""
 
 
 def run(words: str) -> tuple[int, list[str]]:
@@ -39,4 +43,4 @@ def _stream() -> io.TextIOWrapper:
 
 def _text(stream: io.TextIOWrapper) -> str:
     stream.seek(0)
-    return stream.read().replace("\r\n", "\n")
+    return stream.read().replace("\r\n", "\n").replace(_INSTALLED, "file:///opt/mudline/")

@@ -184,7 +184,7 @@ def test_every_rule_is_told_with_its_help_and_level(examples: tuple[Path, Json])
         assert "Good:" in rule["help"]["markdown"]
         assert rule["defaultConfiguration"]["level"] in {"error", "warning", "note"}
         assert re.fullmatch(r"[A-Z][A-Za-z0-9]+", rule["name"])
-        assert "helpUri" not in rule  # a page in a repository has no address of its own
+        assert rule["helpUri"].endswith(f"/docs/rules/{rule['id']}.md")
 
 
 def test_every_result_points_at_its_rule_and_into_its_file(examples: tuple[Path, Json]) -> None:

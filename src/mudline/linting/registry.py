@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 from mudline.codes import all_codes
 from mudline.diagnostics import Code, PluginError, Problem, Severity, Where
 from mudline.linting.rule import RULES, Check, LintContext, Noticed, Rule, add, described_by
-from mudline.resources import modules_of
+from mudline.resources import modules_of, rule_file
 from mudline.scene.checks import all_checks
 from mudline.spelling import nearest
 
@@ -225,27 +225,27 @@ def origin(code: str) -> str:
     return _ORIGINS.get(code, "mudline")
 
 
+@cache
 def page(code: str) -> str | None:
-    """The page of a code of mudline, in its repository; the documentation of the package of a plugin, if it gives one.
+    """The address of the page of a code, None where it has none.
 
-    The first is a path, the second an address on the web.
+    Mudline's own are on the site that its package names as its documentation, else among the installed files; of the
+    code of a plugin, it is the documentation of its package.
     """
     package = origin(code)
-    return f"docs/rules/{code}.md" if package == "mudline" else _documentation(package)
-
-
-def address(code: str) -> str | None:
-    """The same, where it is an address on the web."""
-    found = page(code)
-    return found if found and found.startswith(("https://", "http://")) else None
+    if package != "mudline":
+        return _documentation(package.rpartition(" ")[0])
+    if site := _documentation(package):
+        return f"{site.rstrip('/')}/rules/{code}/"
+    file = rule_file(code)
+    return file.as_uri() if file.exists() else None
 
 
 @cache
-def _documentation(package: str) -> str | None:
-    """The address of the documentation of an installed package, given as "name version"."""
+def _documentation(name: str) -> str | None:
+    """The address of the documentation of an installed package."""
     from importlib.metadata import PackageNotFoundError, metadata  # noqa: PLC0415 - only plugins need it
 
-    name, _, _ = package.rpartition(" ")
     try:
         given = metadata(name).get_all("Project-URL") or []
     except (PackageNotFoundError, ValueError):  # a plugin that is no installed package has no name

@@ -11,7 +11,7 @@ from urllib.parse import quote
 
 from mudline.diagnostics import Diagnostic, Edit, Severity
 from mudline.linting.output import Fingerprints, LintRun, visible
-from mudline.linting.registry import address, rules
+from mudline.linting.registry import page, rules
 from mudline.linting.rule import Rule
 
 SUMMARY = "SARIF 2.1.0: rules with help, levels, regions in code points, fixes and fingerprints"
@@ -100,7 +100,7 @@ def _descriptor(found: Diagnostic) -> dict[str, Any]:
     title = rule.title if rule else f"{found.slug.replace('-', ' ').capitalize()}."
     why = rule.why if rule else _NO_RULE
     severity = rule.code.severity if rule else found.severity
-    help_uri = address(found.code)  # SARIF wants a whole address, not the path of a page
+    help_uri = page(found.code)
     return {
         "id": found.code,
         "name": "".join(word.capitalize() for word in found.slug.split("-")),
