@@ -101,7 +101,7 @@ class Problem:
 
     `severity` None means the severity of the code. Only a deck that was read from text has repairs. `blocks` None means
     that the problem keeps the deck from being evaluated if it is an error. `following` are the problems that would be
-    gone without this one.
+    gone without this one. `lacks` is the name or number that the deck uses and nothing defines, "" for other problems.
     """
 
     code: Code
@@ -112,6 +112,7 @@ class Problem:
     repair: Repair | None = None
     blocks: Blocks | None = None
     following: tuple[Problem, ...] = ()
+    lacks: str = ""
 
     __repr__ = short_repr
 

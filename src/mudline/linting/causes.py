@@ -10,10 +10,12 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 
-from mudline.diagnostics import Blocks, Problem, Severity, Span
+from mudline.diagnostics import Problem, Severity, Span
 from mudline.linting.corrections import Correction, missing_sections, misspelt
 from mudline.linting.line_corrections import line_corrections
+from mudline.linting.repeats import joined, without_repeats
 from mudline.linting.rule import LintContext
+from mudline.linting.value_corrections import value_corrections
 from mudline.short_repr import counted
 from mudline.syntax.edits import OverlapError, TextEdit, edited_bytes, with_line_ends
 
@@ -29,10 +31,8 @@ Check = Callable[[bytes], tuple[LintContext, list[Problem]]]
 _Key = tuple[str, int]
 """Code of a finding and where it begins in the text as it is, -1 without a place."""
 
-_KINDS = ("SYN", "REF")
+_KINDS = ("SYN", "REF", "CRV", "UNT", "EXT", "SBD006")
 """How the codes of causes begin."""
-
-_STRENGTH = (Blocks.NEVER, Blocks.WITH_TENSION, Blocks.ALWAYS)
 
 
 def under_causes(context: LintContext, problems: list[Problem], check: Check) -> list[Problem]:
@@ -44,14 +44,19 @@ def under_causes(context: LintContext, problems: list[Problem], check: Check) ->
     if context.text is None or not any(one.code.code.startswith(_KINDS) for one in problems):
         return problems
     text = context.text
-    made = [*misspelt(text, problems), *missing_sections(text, problems), *line_corrections(text, problems)]
+    made = [
+        *misspelt(text, problems),
+        *missing_sections(text, problems),
+        *line_corrections(text, problems),
+        *value_corrections(text, problems),
+    ]
     if not made:
-        return problems
+        return without_repeats(text, problems)
     by_cause: dict[int, list[Correction]] = {}
     for correction in sorted(made, key=lambda one: one.edits[0].span):
         by_cause.setdefault(id(correction.cause), []).append(correction)
     tried = [alternatives[:MOST_ALTERNATIVES] for alternatives in by_cause.values()]
-    return _Trials(context, problems, check).grouped(tried)
+    return without_repeats(text, _Trials(context, problems, check).grouped(tried))
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,21 +165,12 @@ class _Trials:
 def _cause(correction: Correction, following: Sequence[Problem]) -> Problem:
     """The finding of a cause with those that follow from it."""
     cause = correction.cause
+    cause = replace(cause, message=correction.message or cause.message, span=correction.place or cause.span)
     if not following:
-        return replace(cause, message=correction.message)
-    everything = (cause, *following)
-    blocks = max((one.blocking for one in everything), key=_STRENGTH.index)
-    severity = max((one.weight for one in everything), key=lambda severity: severity.rank)
+        return cause
     are = "is" if len(following) == 1 else "are"
     follow = "follows" if len(following) == 1 else "follow"
-    left_out = f"{counted(len(following), 'finding')} that {follow} from it {are} left out"
-    return replace(
-        cause,
-        message=f"{correction.message or cause.message}; {left_out}",
-        severity=Severity.ERROR if blocks is Blocks.ALWAYS else severity,
-        blocks=blocks,
-        following=tuple(following),
-    )
+    return joined(cause, following, f"{counted(len(following), 'finding')} that {follow} from it {are} left out")
 
 
 def _key(context: LintContext, problem: Problem, edits: Iterable[TextEdit]) -> _Key:

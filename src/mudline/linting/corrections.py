@@ -20,8 +20,8 @@ _NAMES = (SYN004, SYN005, SYN008, SYN009, SYN010)
 class Correction:
     """Edits that may correct a finding, and the part of the text that is read differently then.
 
-    `message` is what the finding says where the correction holds; "" for its own message. New findings tell against a
-    correction that is `guessed`.
+    `message` is what the finding says where the correction holds, "" for its own message, and `place` where it is then,
+    None for its own place. New findings tell against a correction that is `guessed`.
     """
 
     cause: Problem
@@ -29,6 +29,7 @@ class Correction:
     region: Span
     message: str = ""
     guessed: bool = False
+    place: Span | None = None
 
 
 def start_of(text: TextOrigin, problem: Problem) -> int:
@@ -47,9 +48,10 @@ def line_at(text: TextOrigin, offset: int) -> Span:
 
 def misspelt(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Names for which another one was meant."""
-    blocks = Blocks(text)
-    for problem in problems:
-        if problem.code not in _NAMES or problem.repair is None:
+    wrong = [problem for problem in problems if problem.code in _NAMES and problem.repair is not None]
+    blocks = Blocks(text) if wrong else None
+    for problem in wrong:
+        if problem.repair is None or blocks is None:
             continue
         edits = tuple(TextEdit(span, written) for span, written in problem.repair.edits)
         first = edits[0].span
@@ -66,10 +68,17 @@ class Blocks:
         self.heads = [section.head.span.start if section.head else 0 for section in (tree.preamble, *tree.sections)]
         self.blocks = [(section.name, block) for section in (tree.preamble, *tree.sections) for block in section.blocks]
         self.starts = sorted([*self.heads, *(block.head.span.start for _, block in self.blocks)])
+        self.block_starts = [block.head.span.start for _, block in self.blocks]
 
     def block_at(self, offset: int) -> Span:
         """From the head of the block (or section) around an offset to the next one."""
         return self._around(self.starts, offset)
+
+    def raw_at(self, offset: int) -> RawBlock | None:
+        """The block whose lines are around an offset, None above the first one and below the last line of one."""
+        at = bisect_right(self.block_starts, offset)
+        block = self.blocks[at - 1][1] if at else None
+        return block if block is not None and offset < whole(block).end else None
 
     def section_at(self, offset: int) -> Span:
         """From the head of the section around an offset to the next one."""
@@ -78,6 +87,11 @@ class Blocks:
     def _around(self, starts: list[int], offset: int) -> Span:
         at = bisect_right(starts, offset)
         return Span(starts[at - 1] if at else 0, starts[at] if at < len(starts) else self.end)
+
+
+def whole(block: RawBlock) -> Span:
+    """From the head of a block to the end of its last line."""
+    return Span(block.head.span.start, (block.leaves or [block.head])[-1].span.end)
 
 
 # ------------------------------------------------------------------------------------------- $SECTION lines

@@ -97,6 +97,7 @@ class Context:
         keyword: str,
         number: int | None = None,
         *,
+        name: str = "",
         blocks: Blocks | None = None,
     ) -> None:
         """Note a name or number that nothing defines; nodes and elements out of sight are noted together at the end."""
@@ -105,7 +106,7 @@ class Context:
             use.count += 1
             use.blocks = blocks or use.blocks
         elif self._reported.get(code.code, 0) <= MOST_REPORTED:
-            self.note(replace(self.missing(code, message, where, keyword, number), blocks=blocks))
+            self.note(replace(self.missing(code, message, where, keyword, number, name=name), blocks=blocks))
 
     def report_out_of_sight(self) -> None:
         """Note once for each keyword whose lines are not read how often the deck uses what it may define."""
@@ -130,11 +131,14 @@ class Context:
         unread = (one for one in self.external_definers if not (is_read_definer(one) or makes_labels(one)))
         return next((definer for definer in unread if definition_by(definer, keyword)), "")
 
-    def missing(self, code: Code, message: str, where: Where, keyword: str, number: int | None = None) -> Problem:
+    def missing(
+        self, code: Code, message: str, where: Where, keyword: str, number: int | None = None, *, name: str = ""
+    ) -> Problem:
         """A name or number that nothing defines: an error, or a warning where something unread could define it."""
+        lacks = name if number is None else str(number)
         if source := self.possible_definition(keyword, number):
-            return Problem(code, f"{message}; {source}", None, Severity.WARNING, where)
-        return Problem(code, message, where=where)
+            return Problem(code, f"{message}; {source}", None, Severity.WARNING, where, lacks=lacks)
+        return Problem(code, message, where=where, lacks=lacks)
 
     def possible_definition(self, keyword: str, number: int | None = None) -> str:
         """What could define a thing of a keyword that is missing, in words, or ""; `number` None stands for any."""
@@ -297,7 +301,7 @@ class Context:
     def _meant(self, section: str, keyword: str, effort: Effort) -> Iterator[tuple[str, str]]:
         sections = catalogue.sections_of(keyword)
         if sections is None and section == "MODEL":
-            yield suggest_keyword(keyword, effort), f"*{keyword}, which is not known,"
+            yield suggest_keyword(keyword, effort=effort), f"*{keyword}, which is not known,"
         elif sections and section not in sections:
             for name in (keyword, meant_in(keyword, section)):
                 yield name, f"the *{keyword} in ${section}, where it does not belong,"

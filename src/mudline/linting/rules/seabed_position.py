@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
+from mudline.codes.lines import SYN014
 from mudline.contact.input import LawKind
 from mudline.deck.model import Opaque
-from mudline.diagnostics import Code, Problem, Severity, Span, Where
+from mudline.diagnostics import Code, Problem, Repair, Severity, Span, Where
 from mudline.keywords.catalogue import is_superseded, sections_of
 from mudline.linting.rule import LintContext, limited, rule
 from mudline.scene.checks.laws import SBD004
@@ -203,6 +204,8 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
         return
     if any(map(is_superseded, reading.unread)) or "SEABED CONTACT" in context.keywords:
         return  # a law that was not read may hold
+    if context.problems_of(SYN014):
+        return  # the law may be in the part that was cut off
     if context.problems_of(SBD004):
         return  # that there is no stiffness is reported there
     yield from _zeros(scene)
@@ -231,7 +234,10 @@ def _stray_laws(context: LintContext) -> Iterator[Problem]:
             message = (
                 f"*{block.keyword} has no such line: begin *SEABED PROPERTIES above it, else no seabed law applies"
             )
-            yield Problem(SBD006, message, Span(*found.span()) if found else head)
+            place = Span(*found.span()) if found else head
+            line = (Span(place.start, place.start), "*SEABED PROPERTIES\n")
+            repair = Repair("unsafe", "begin *SEABED PROPERTIES above this line", (line,)) if found else None
+            yield Problem(SBD006, message, place, repair=repair)
 
 
 def _zeros(scene: Scene) -> Iterator[Problem]:

@@ -1,0 +1,166 @@
+"""What may correct values that were read and from which other findings follow: numbers, points, copies, units."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from itertools import chain
+
+from mudline.codes.references import REF007
+from mudline.deck.reading import TextOrigin
+from mudline.diagnostics import Problem, Span, Where
+from mudline.linting.corrections import Blocks, Correction, line_at, start_of, whole
+from mudline.syntax.edits import TextEdit
+from mudline.syntax.tree import RawBlock
+
+MOST_POINTS = 64
+"""Points of a curve that are put in order."""
+
+_NUMBER = re.compile(r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[EeDd][-+]?[0-9]+)?")
+_RIGID = re.compile(r"[ \t]*TYPE[ \t]*=[ \t]*(RIGID)[ \t\r\n]*", re.IGNORECASE)
+_USER_UNITS = (".keyx", ".keyxu")
+_OF_DENSITIES = ("UNT004", "UNT005", "UNT006")
+"""Codes of rules that compare with the density of the water."""
+_MASSES = (0.001, 1000.0)
+"""Factors between units of mass that are exchanged: kilograms and tonnes."""
+
+
+def value_corrections(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
+    """Return corrections of what was read as it stands and is at odds with the rest of the deck."""
+    parts = (_numbers, _copies, _points, _law_lines, _rigid, _water)
+    return chain.from_iterable(part(text, problems) for part in parts)
+
+
+def _numbers(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
+    """A number that is given twice: one of those that nothing has."""
+    missing = list(dict.fromkeys(one.lacks for one in problems if one.code.code in ("REF005", "REF006") and one.lacks))
+    for problem in problems if missing else ():
+        if problem.code is not REF007:
+            continue
+        start = start_of(text, problem)
+        found = _NUMBER.match(text.source.unified, start)
+        for number in missing if found else ():
+            if found and number.isdecimal():
+                message = f"number {found[0]} is given twice, and {number} is not defined: is this one {number}?"
+                yield Correction(
+                    problem, (TextEdit(Span(*found.span()), number),), line_at(text, start), message, guessed=True
+                )
+
+
+def _copies(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
+    """Blocks of the model that stand there once more, word for word: without the copies."""
+    repeats = [one for one in problems if one.code.code in ("REF007", "REF016")]
+    if not repeats:
+        return
+    unified = text.source.unified
+    known: dict[str, RawBlock] = {}
+    runs: list[list[tuple[RawBlock, RawBlock]]] = [[]]
+    for name, block in Blocks(text).blocks:
+        written = unified[slice(*whole(block))].strip() if name == "MODEL" else ""
+        if written and written in known:
+            runs[-1].append((block, known[written]))
+        elif runs[-1]:
+            runs.append([])
+        known.setdefault(written, block)
+    for run in filter(None, runs):
+        first, last = whole(run[0][0]), whole(run[-1][0])
+        cause = next((one for one in repeats if first.start <= start_of(text, one) < last.end), None)
+        if cause is None:
+            continue
+        begin, end = (text.source.position(at)[0] for at in (first.start, last.end - 1))
+        original = text.source.position(run[0][1].head.span.start)[0]
+        message = f"lines {begin} to {end} repeat what stands from line {original} on, word for word: remove them"
+        edits = tuple(TextEdit(whole(block), "") for block, _ in run)
+        yield Correction(cause, edits, Span(first.start, last.end), message)
+
+
+# --------------------------------------------------------------------------------------------------------- curves
+
+
+def _points(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
+    """Several findings about the shape of one curve: without the point of a large ratio, or with rising forces."""
+    of_curve: dict[Where, list[Problem]] = {}
+    for problem in problems:
+        where = problem.where
+        if problem.code.code.startswith("CRV") and where is not None and "points" in where.path:
+            curve = where._replace(path=where.path[: where.path.index("points")])
+            of_curve.setdefault(curve, []).append(problem)
+    for curve, found in of_curve.items():
+        for problem in found if len(found) > 1 else ():
+            if problem.code.code == "CRV010":
+                line = line_at(text, start_of(text, problem))
+                yield Correction(problem, (TextEdit(Span(line.start, line.end + 1), ""),), line)
+        falling = next((one for one in found if one.code.code == "CRV005"), None)
+        if falling is not None and len(found) > 1 and (edits := _rising(text, curve)):
+            region = Span(edits[0].span.start, edits[-1].span.end)
+            yield Correction(falling, edits, region, guessed=True)
+
+
+def _rising(text: TextOrigin, curve: Where) -> tuple[TextEdit, ...]:
+    """The points of a curve in their order, with its forces in rising order."""
+    rows: list[tuple[Span, float, float]] = []
+    for number in range(MOST_POINTS + 1):
+        span = text.span(curve.inside("points", number))
+        if span is None or (rows and span.start <= rows[-1][0].start):
+            break
+        values = _NUMBER.findall(text.source.unified[slice(*span)])
+        if len(values) != 2:
+            return ()
+        rows.append((span, *(float(value.upper().replace("D", "E")) for value in values)))
+    if not 1 < len(rows) <= MOST_POINTS:
+        return ()
+    forces = sorted(force for _, _, force in rows)
+    ratios = sorted(ratio for _, ratio, _ in rows)
+    return tuple(
+        TextEdit(span, f"{ratio!r}, {force!r}") for (span, _, _), ratio, force in zip(rows, ratios, forces, strict=True)
+    )
+
+
+# ----------------------------------------------------------------------------------------------------------- laws
+
+
+def _law_lines(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
+    """Lines of *SEABED PROPERTIES under another keyword: its line above them."""
+    for problem in problems:
+        if problem.code.code == "SBD006" and problem.repair is not None:
+            edits = tuple(TextEdit(span, written) for span, written in problem.repair.edits)
+            yield Correction(problem, edits, line_at(text, edits[0].span.start))
+
+
+def _rigid(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
+    """A rigid seabed under extensions that need an elastic one: an elastic one."""
+    cause = next((one for one in problems if one.code.code == "EXT001"), None)
+    if cause is None:
+        return
+    edits: list[TextEdit] = []
+    for _, block in Blocks(text).blocks:
+        if block.name == "SEABED PROPERTIES":
+            found = (_RIGID.fullmatch(text.source.unified, *leaf.span) for leaf in block.leaves)
+            edits += [TextEdit(Span(*one.span(1)), "ELASTIC") for one in found if one]
+    if edits:
+        yield Correction(cause, tuple(edits), line_at(text, start_of(text, cause)), place=edits[0].span)
+
+
+# ---------------------------------------------------------------------------------------------------------- units
+
+
+def _water(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
+    """In user units, values that do not fit the density of the water: that density in the other unit of mass."""
+    wrong = [one for one in problems if one.code.code.startswith("UNT")]
+    cause = next((one for one in wrong if one.code.code in _OF_DENSITIES), None)
+    if cause is None or len(wrong) < 2 or not text.source.name.lower().endswith(_USER_UNITS):
+        return
+    ocean = next((block for name, block in Blocks(text).blocks if (name, block.name) == ("MODEL", "OCEAN")), None)
+    values = list(_NUMBER.finditer(text.source.unified, *whole(ocean))) if ocean else []
+    if len(values) != 3:
+        return
+    density = values[1]
+    place = Span(*density.span())
+    for factor in _MASSES:
+        other = f"{float(density[0]) * factor:.6g}"
+        message = (
+            f"the density {density[0]} of the water does not fit the rest of the deck, in which {other} would: "
+            "write it in the deck's unit of mass"
+        )
+        edits = (TextEdit(place, other),)
+        yield Correction(cause, edits, line_at(text, place.start), message, guessed=True, place=place)
