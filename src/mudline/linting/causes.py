@@ -13,10 +13,9 @@ from dataclasses import dataclass, replace
 from mudline.diagnostics import Problem, Severity, Span
 from mudline.linting.corrections import Correction, missing_sections, misspelt
 from mudline.linting.line_corrections import line_corrections
-from mudline.linting.repeats import joined, without_repeats
+from mudline.linting.rows import by_row, joined, left_out
 from mudline.linting.rule import LintContext
 from mudline.linting.value_corrections import value_corrections
-from mudline.short_repr import counted
 from mudline.syntax.edits import OverlapError, TextEdit, edited_bytes, with_line_ends
 
 MOST_TRIALS = 24
@@ -51,12 +50,12 @@ def under_causes(context: LintContext, problems: list[Problem], check: Check) ->
         *value_corrections(text, problems),
     ]
     if not made:
-        return without_repeats(text, problems)
+        return by_row(text, problems)
     by_cause: dict[int, list[Correction]] = {}
     for correction in sorted(made, key=lambda one: one.edits[0].span):
         by_cause.setdefault(id(correction.cause), []).append(correction)
     tried = [alternatives[:MOST_ALTERNATIVES] for alternatives in by_cause.values()]
-    return without_repeats(text, _Trials(context, problems, check).grouped(tried))
+    return by_row(text, _Trials(context, problems, check).grouped(tried))
 
 
 @dataclass(frozen=True, slots=True)
@@ -168,9 +167,7 @@ def _cause(correction: Correction, following: Sequence[Problem]) -> Problem:
     cause = replace(cause, message=correction.message or cause.message, span=correction.place or cause.span)
     if not following:
         return cause
-    are = "is" if len(following) == 1 else "are"
-    follow = "follows" if len(following) == 1 else "follow"
-    return joined(cause, following, f"{counted(len(following), 'finding')} that {follow} from it {are} left out")
+    return joined(cause, following, left_out(len(following)))
 
 
 def _key(context: LintContext, problem: Problem, edits: Iterable[TextEdit]) -> _Key:

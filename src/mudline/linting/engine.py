@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import OrderedDict
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from pathlib import Path
@@ -93,10 +93,6 @@ def _place(found: Diagnostic) -> tuple[str, str, int, int]:
     return found.file, found.code, found.line, found.column
 
 
-_OF_SIZES = ("UNT", "GEO")
-"""How the codes of rules begin that judge values: what they say of a row that was not read as it was meant is void."""
-
-
 def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
     """What the chosen rules find in a deck itself; what lies in a deck that it continues is reported for that one.
 
@@ -111,15 +107,7 @@ def problems_in(context: LintContext, chosen: Sequence[Rule]) -> list[Problem]:
         else:
             for problem in rule.check(context):
                 found.append(_advice(problem))
-    found = [problem for problem in found if not _of_base(context.deck, problem)]
-    misread = context.misread_lines
-    return [problem for problem in found if not _judges(context, problem, misread)] if misread else found
-
-
-def _judges(context: LintContext, problem: Problem, lines: Collection[int]) -> bool:
-    """Whether a problem is about the size of a value in one of some lines."""
-    text = context.text
-    return problem.code.code.startswith(_OF_SIZES) and text is not None and text.place(problem).line in lines
+    return [problem for problem in found if not _of_base(context.deck, problem)]
 
 
 def _of_base(deck: Deck, problem: Problem) -> bool:

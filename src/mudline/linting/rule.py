@@ -10,11 +10,9 @@ from itertools import chain, islice, pairwise
 from textwrap import dedent
 from typing import Any, TypeVar
 
-from mudline.codes.fields import SYN002, SYN003
-from mudline.codes.lines import SYN001
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.reading import TextOrigin
-from mudline.diagnostics import MORE, MOST_REPORTED, Blocks, Code, Problem, Severity, Where
+from mudline.diagnostics import MORE, MOST_REPORTED, Blocks, Code, Problem, Where
 from mudline.keywords.catalogue import holds_in_soil, is_superseded
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene, resolve
@@ -105,13 +103,6 @@ class LintContext:
         for problem in chain(self.scene.findings, _of_variations(self.deck)):
             found.setdefault(problem.code.code, []).append(problem)
         return found
-
-    @cached_property
-    def misread_lines(self) -> set[int]:
-        """Lines of the text with a field that could not be read, or with too many or too few fields."""
-        text = self.text
-        found = (one for code in (SYN001, SYN002, SYN003) for one in self.problems_of(code))
-        return {text.place(one).line for one in found if one.weight is Severity.ERROR} if text else set()
 
     def once(self, make: Callable[[LintContext], T]) -> T:
         """What a function makes of this deck, made once for all rules that ask."""

@@ -90,10 +90,10 @@ def _points(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correctio
             if problem.code.code == "CRV010":
                 line = line_at(text, start_of(text, problem))
                 yield Correction(problem, (TextEdit(Span(line.start, line.end + 1), ""),), line)
-        falling = next((one for one in found if one.code.code == "CRV005"), None)
-        if falling is not None and len(found) > 1 and (edits := _rising(text, curve)):
+        falling = [one for one in found if one.code.code == "CRV005"]
+        if len(falling) == 1 < len(found) and (edits := _rising(text, curve)):
             region = Span(edits[0].span.start, edits[-1].span.end)
-            yield Correction(falling, edits, region, guessed=True)
+            yield Correction(falling[0], edits, region, guessed=True)
 
 
 def _rising(text: TextOrigin, curve: Where) -> tuple[TextEdit, ...]:

@@ -95,18 +95,22 @@ class Context:
         message: str,
         where: Where,
         keyword: str,
-        number: int | None = None,
+        lacks: int | str | None = None,
         *,
-        name: str = "",
         blocks: Blocks | None = None,
     ) -> None:
-        """Note a name or number that nothing defines; nodes and elements out of sight are noted together at the end."""
+        """Note a name or number that nothing defines; nodes and elements out of sight are noted together at the end.
+
+        `lacks` is what is missing, None where it is not one thing.
+        """
         if keyword in _NUMBERED and (definer := self._definer(keyword)):
-            use = self._out_of_sight.setdefault((definer, keyword), _Uses(code, number, where))
+            use = self._out_of_sight.setdefault(
+                (definer, keyword), _Uses(code, lacks if isinstance(lacks, int) else None, where)
+            )
             use.count += 1
             use.blocks = blocks or use.blocks
         elif self._reported.get(code.code, 0) <= MOST_REPORTED:
-            self.note(replace(self.missing(code, message, where, keyword, number, name=name), blocks=blocks))
+            self.note(replace(self.missing(code, message, where, keyword, lacks), blocks=blocks))
 
     def report_out_of_sight(self) -> None:
         """Note once for each keyword whose lines are not read how often the deck uses what it may define."""
@@ -131,14 +135,12 @@ class Context:
         unread = (one for one in self.external_definers if not (is_read_definer(one) or makes_labels(one)))
         return next((definer for definer in unread if definition_by(definer, keyword)), "")
 
-    def missing(
-        self, code: Code, message: str, where: Where, keyword: str, number: int | None = None, *, name: str = ""
-    ) -> Problem:
+    def missing(self, code: Code, message: str, where: Where, keyword: str, lacks: int | str | None = None) -> Problem:
         """A name or number that nothing defines: an error, or a warning where something unread could define it."""
-        lacks = name if number is None else str(number)
-        if source := self.possible_definition(keyword, number):
-            return Problem(code, f"{message}; {source}", None, Severity.WARNING, where, lacks=lacks)
-        return Problem(code, message, where=where, lacks=lacks)
+        name = "" if lacks is None else str(lacks)
+        if source := self.possible_definition(keyword, lacks if isinstance(lacks, int) else None):
+            return Problem(code, f"{message}; {source}", None, Severity.WARNING, where, lacks=name)
+        return Problem(code, message, where=where, lacks=name)
 
     def possible_definition(self, keyword: str, number: int | None = None) -> str:
         """What could define a thing of a keyword that is missing, in words, or ""; `number` None stands for any."""

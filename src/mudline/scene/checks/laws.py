@@ -311,7 +311,7 @@ def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
         hint = scene.context.hint(name, names)
         advice = advice_on(name) or "*SEABED STIFFNESS has no such curve"
         message = f"curve {shown(name)} is not defined{hint}: {advice}"
-        problem = scene.context.missing(REF002, message, where, "SEABED STIFFNESS", name=name)
+        problem = scene.context.missing(REF002, message, where, "SEABED STIFFNESS", name)
         followed = _followed(scene) if followed is None else followed
         yield replace(problem, blocks=Blocks.ALWAYS) if where in followed else problem
 
