@@ -95,7 +95,7 @@ class Findings:
     ) -> None:
         """Data lines of a place under no keyword, the first of which is given: one finding for all of them.
 
-        `title` says that they are words above the first section: a note.
+        `title` says that they are words above the first section, or under one that is passed through: a note.
         """
         if self._reports(SYN011, span, where):
             lines = counted(count, "line")
@@ -227,7 +227,7 @@ class _Reader:
             self.origin.heads[Where(index)] = trimmed(self.text, *raw.head.span)
         if raw.name not in catalogue.SECTIONS:
             self.findings.unknown_section(raw.name, Where(index), self.origin.heads.get(Where(index)))
-        self._stray(raw.leaves, f"of ${raw.name}")
+        self._stray(raw.leaves, f"of ${raw.name}", title=raw.name not in catalogue.SECTIONS)
         for leaf in raw.leaves:
             line = self._lines(leaf.span)
             if leaf.kind is Kind.COMMENT:

@@ -98,7 +98,7 @@ def _points(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correctio
 
 def _rising(text: TextOrigin, curve: Where) -> tuple[TextEdit, ...]:
     """The points of a curve in their order, with its forces in rising order."""
-    rows: list[tuple[Span, float, float]] = []
+    rows: list[tuple[Span, list[float]]] = []
     for number in range(MOST_POINTS + 1):
         span = text.span(curve.inside("points", number))
         if span is None or (rows and span.start <= rows[-1][0].start):
@@ -106,13 +106,13 @@ def _rising(text: TextOrigin, curve: Where) -> tuple[TextEdit, ...]:
         values = _NUMBER.findall(text.source.unified[slice(*span)])
         if len(values) != 2:
             return ()
-        rows.append((span, *(float(value.upper().replace("D", "E")) for value in values)))
+        rows.append((span, [float(value.upper().replace("D", "E")) for value in values]))
     if not 1 < len(rows) <= MOST_POINTS:
         return ()
-    forces = sorted(force for _, _, force in rows)
-    ratios = sorted(ratio for _, ratio, _ in rows)
+    forces = sorted(force for _, (_, force) in rows)
+    ratios = sorted(ratio for _, (ratio, _) in rows)
     return tuple(
-        TextEdit(span, f"{ratio!r}, {force!r}") for (span, _, _), ratio, force in zip(rows, ratios, forces, strict=True)
+        TextEdit(span, f"{ratio!r}, {force!r}") for (span, _), ratio, force in zip(rows, ratios, forces, strict=True)
     )
 
 

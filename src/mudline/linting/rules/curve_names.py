@@ -73,10 +73,11 @@ def unused_curve(context: LintContext) -> Iterator[Problem]:
             unused[name] = [curve]
     places = [curve.where for curves in unused.values() for curve in curves]
     repairs = removals(context.text, places) if context.text else {}
-    soils = {_soil(name) for name in scene.laws.referenced} - {""}
+    soils = {_without_estimate(name) for name in scene.laws.referenced} - {""}
     for curve, *_ in unused.values():
         message = f"curve {shown(curve.name)} is not used: name it in a STIFFNESS=, or remove it"
-        severity = Severity.INFO if _soil(curve.name) in soils else None
+        soil = _without_estimate(curve.name)
+        severity = Severity.INFO if soil != folded(curve.name) and soil in soils else None
         yield Problem(REF003, message, None, severity, curve.title, repairs.get(curve.where))
 
 
@@ -86,10 +87,9 @@ _ESTIMATE = re.compile(
 """The words of a name that say which estimate it is."""
 
 
-def _soil(name: str) -> str:
-    """The name of a curve without the words that say which estimate of its soil it is; "" where it has none."""
-    soil, count = _ESTIMATE.subn("", folded(name))
-    return soil.strip(" -_.") if count else ""
+def _without_estimate(name: str) -> str:
+    """The name of a curve without the words that say which estimate of its soil it is."""
+    return _ESTIMATE.sub("", folded(name)).strip(" -_.")
 
 
 def _chosen_elsewhere(context: LintContext) -> bool:
