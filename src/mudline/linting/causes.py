@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from mudline.diagnostics import Problem, Severity, Span
-from mudline.linting.corrections import Correction, missing_sections, misspelt
+from mudline.linting.corrections import Blocks, Correction, missing_sections, misspelt
 from mudline.linting.line_corrections import line_corrections
 from mudline.linting.rows import by_row, joined, left_out
 from mudline.linting.rule import LintContext
@@ -20,6 +20,9 @@ from mudline.syntax.edits import OverlapError, TextEdit, edited_bytes, with_line
 
 MOST_TRIALS = 24
 """Times that a deck is checked again: causes behind them keep what follows from them beside them."""
+
+FEWEST_TRIALS, MOST_WORK = 2, 20_000
+"""Times that any deck is checked again; the findings, blocks and thousands of characters that all trials look at."""
 
 MOST_ALTERNATIVES = 4
 """Corrections of one finding that are tried."""
@@ -43,11 +46,12 @@ def under_causes(context: LintContext, problems: list[Problem], check: Check) ->
     if context.text is None or not any(one.code.code.startswith(_KINDS) for one in problems):
         return problems
     text = context.text
+    blocks = Blocks(text)
     made = [
-        *misspelt(text, problems),
-        *missing_sections(text, problems),
-        *line_corrections(text, problems),
-        *value_corrections(text, problems),
+        *misspelt(blocks, problems),
+        *missing_sections(blocks, problems),
+        *line_corrections(blocks, problems),
+        *value_corrections(blocks, problems),
     ]
     if not made:
         return by_row(text, problems)
@@ -55,7 +59,9 @@ def under_causes(context: LintContext, problems: list[Problem], check: Check) ->
     for correction in sorted(made, key=lambda one: one.edits[0].span):
         by_cause.setdefault(id(correction.cause), []).append(correction)
     tried = [alternatives[:MOST_ALTERNATIVES] for alternatives in by_cause.values()]
-    return by_row(text, _Trials(context, problems, check).grouped(tried))
+    size = len(problems) + len(blocks.blocks) + blocks.end // 1000
+    trials = min(MOST_TRIALS, max(FEWEST_TRIALS, MOST_WORK // size))
+    return by_row(text, _Trials(context, problems, check, trials).grouped(tried))
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +83,7 @@ class _Outcome:
 class _Trials:
     """The corrections of a deck, made one after the other; each is kept if it explains something."""
 
-    def __init__(self, context: LintContext, problems: list[Problem], check: Check) -> None:
+    def __init__(self, context: LintContext, problems: list[Problem], check: Check, trials: int) -> None:
         self.context = context
         self.check = check
         self.problems = problems
@@ -85,14 +91,16 @@ class _Trials:
         self.left = [(_key(context, problem, ()), problem) for problem in problems]
         self.known = Counter(key for key, _ in self.left)
         self.under: dict[int, Problem] = {}
-        self.trials = 0
+        self.trials = trials
 
     def grouped(self, tried: Sequence[Sequence[Correction]]) -> list[Problem]:
         """Return the findings by cause; `tried` has for each cause the corrections that it may need."""
         hidden: set[int] = set()
         for alternatives in tried:
             cause = alternatives[0].cause
-            if all(one is not cause for _, one in self.left):
+            if self.trials <= 0:
+                break
+            if id(cause) in hidden:
                 continue
             outcomes = [outcome for one in alternatives if (outcome := self._outcome(one)) is not None]
             best = max(outcomes, key=lambda outcome: outcome.gain, default=None)
@@ -111,9 +119,9 @@ class _Trials:
     def _outcome(self, correction: Correction) -> _Outcome | None:
         """What a correction does; None where it cannot be made, leaves its own finding, or too much was tried."""
         text = self.context.text
-        if text is None or self.trials >= MOST_TRIALS:
+        if text is None or self.trials <= 0:
             return None
-        self.trials += 1
+        self.trials -= 1
         edits = with_line_ends(text.source, [*self.made, *correction.edits])
         try:
             context, problems = self.check(edited_bytes(text.source, edits))

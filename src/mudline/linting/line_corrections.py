@@ -24,7 +24,7 @@ MOST_KEYWORDS = 4
 MOST_SETTINGS = 8
 """Settings of a block that may be the values of one row."""
 
-LONGEST_PIECE = 20_000
+LONGEST_PIECE = 600
 """Characters of a block that are read to see which keyword its lines belong to."""
 
 _OF_FOREIGN_LINES = (SYN001, SYN002, SYN003, SYN004, REF007, REF009)
@@ -37,21 +37,21 @@ _NAMED_POINT = re.compile(r"[ \t]*([^-+.,=0-9 \t][^,=\n]*?)[ \t]*,[ \t]*([-+.0-9
 _LACKS_NAME = re.compile(r"expected (CURVE|SET)= before this line|(SET|CURVE)= has no value")
 
 
-def line_corrections(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
+def line_corrections(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Return corrections of lines that cannot be read as they stand."""
     if not any(one.code in (*_OF_FOREIGN_LINES, SYN013, SYN014) for one in problems):
         return iter(())
     parts = (_stars, _tables, _keyword_lines, _names, _settings, _cut_off, _rows)
-    return chain.from_iterable(part(text, problems) for part in parts)
+    return chain.from_iterable(part(blocks, problems) for part in parts)
 
 
 # ------------------------------------------------------------------------------------------- *KEYWORD lines
 
 
-def _stars(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
+def _stars(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Lines that hold a keyword without its star."""
+    text = blocks.text
     known: frozenset[str] | None = None
-    blocks: Blocks | None = None
     for problem in problems:
         if problem.code not in _OF_FOREIGN_LINES or problem.weight is not Severity.ERROR:
             continue
@@ -60,15 +60,15 @@ def _stars(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction
         if not written[:1].isalpha() or "=" in written:
             continue
         known = known or frozenset(catalogue.keywords())
-        blocks = blocks or Blocks(text)
         if written.upper() in known:
             message = f"{written} without its star is read as data: write *{written.upper()}"
             region = Span(line.start, blocks.block_at(line.start).end)
             yield Correction(problem, (TextEdit(Span(line.start, line.start), "*"),), region, message)
 
 
-def _keyword_lines(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
+def _keyword_lines(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Lines in a block that read well as lines of another keyword: that keyword in front of them."""
+    text = blocks.text
     wanted = sorted(
         (start_of(text, one), number) for number, one in enumerate(problems) if one.code in _OF_FOREIGN_LINES
     )
@@ -125,8 +125,9 @@ def _reads_as(text: TextOrigin, section: str, own: str, lines: str) -> Iterator[
 # ------------------------------------------------------------------------------------------- names and rows
 
 
-def _tables(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
+def _tables(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Points with the name of their set or curve in front, as a graphical interface shows them."""
+    text = blocks.text
     wrong = {
         line_at(text, start_of(text, one)).start: one for one in reversed(problems) if one.code in (SYN002, SYN003)
     }
@@ -159,8 +160,9 @@ def _lines(text: TextOrigin, block: RawBlock) -> Iterator[Span]:
         at = text.source.unified.find("\n", at) + 1 or end
 
 
-def _names(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
+def _names(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """A setting without its name, or points in front of it: the names that nothing defines."""
+    text = blocks.text
     missing = {"SET": _undefined(problems, "REF001"), "CURVE": _undefined(problems, "REF002")}
     for problem in problems:
         found = _LACKS_NAME.match(problem.message) if problem.code in (SYN001, SYN003) else None
@@ -171,16 +173,16 @@ def _names(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction
             at, written = problem.span.end, name
             if found[1]:
                 at, written = line_at(text, problem.span.start).start, f" {key}={name}\n"
-            yield Correction(problem, (TextEdit(Span(at, at), written),), Blocks(text).block_at(at))
+            yield Correction(problem, (TextEdit(Span(at, at), written),), blocks.block_at(at))
 
 
-def _settings(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
+def _settings(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Settings that were meant otherwise: CURVE= for SET=, data read as a comment, KEY= where a row belongs."""
+    text = blocks.text
     wrong = [one for one in problems if one.code in (SYN004, SYN013)]
-    blocks = Blocks(text) if wrong else None
     for problem in wrong:
         at = start_of(text, problem)
-        block = blocks.raw_at(at) if blocks else None
+        block = blocks.raw_at(at)
         if block is None:
             continue
         line = line_at(text, at)
@@ -203,12 +205,13 @@ def _as_row(text: TextOrigin, block: RawBlock) -> str:
     return ", ".join(line.partition("=")[2].strip() for line in written)
 
 
-def _cut_off(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
+def _cut_off(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """A file that ends behind *SEABED STIFFNESS: the curves that nothing defines."""
+    text = blocks.text
     missing = _undefined(problems, "REF002")
     for problem in problems if missing else ():
         at = start_of(text, problem)
-        block = Blocks(text).raw_at(at) if problem.code is SYN014 else None
+        block = blocks.raw_at(at) if problem.code is SYN014 else None
         if block is not None and block.name == "SEABED STIFFNESS":
             end = len(text.source.unified)
             curves = "".join(f"\n CURVE={name}\n 0.0, 0.0\n 1.0, 100000.0" for name in missing)
@@ -220,8 +223,9 @@ def _undefined(problems: Sequence[Problem], code: str) -> list[str]:
     return list(dict.fromkeys(one.lacks for one in problems if one.lacks and one.code.code == code))
 
 
-def _rows(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
+def _rows(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Numbers and rows with a slip of the pen: what they were to be, as far as that can be seen."""
+    text = blocks.text
     missing = [*_undefined(problems, "REF005"), *_undefined(problems, "REF006")]
     for problem in problems:
         make: Callable[[str], list[str]]

@@ -13,8 +13,8 @@ from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import MORE, Blocks, Problem, Severity
 from mudline.short_repr import counted
 
-FEWEST_ROWS = 3
-"""Rows in a run; two rows may each have a fault of their own."""
+FEWEST = 3
+"""Rows below each other, or fields of a row, that have one fault; two may each have a fault of their own."""
 
 _OF_ROWS = frozenset({SYN001, SYN002, SYN003, SYN004, SYN014, SYN015, REF007})
 """Codes of faults of a row, which one slip gives to many rows."""
@@ -74,11 +74,12 @@ def _repeated(rows: _Rows) -> Iterator[tuple[Problem, list[Problem], str]]:
         run = [found]
         while (more := rows.get((code, line + len(run)))) and _said(more[0]) == _said(found[0]):
             run.append(more)
-        below = run[1:] if len(run) >= FEWEST_ROWS else []
+        below = run[1:] if len(run) >= FEWEST else []
         seen.update((code, line + number) for number in range(1, len(below) + 1))
-        fields = f"{counted(len(found) - 1, 'more field')} of this row" if len(found) > 1 else ""
+        same = found[1:] if len(found) >= FEWEST or found[0].code is SYN014 else []
+        fields = f"{counted(len(same), 'more field')} of this row" if same else ""
         lines = f"{len(below)} more rows of this block, the last in line {line + len(below)}" if below else ""
-        if others := [*found[1:], *(one for row in below for one in row)]:
+        if others := [*same, *(one for row in below for one in row)]:
             yield found[0], others, f"and {' and '.join(filter(None, (fields, lines)))}"
 
 

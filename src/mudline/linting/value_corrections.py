@@ -25,14 +25,15 @@ _MASSES = (0.001, 1000.0)
 """Factors between units of mass that are exchanged: kilograms and tonnes."""
 
 
-def value_corrections(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
+def value_corrections(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Return corrections of what was read as it stands and is at odds with the rest of the deck."""
     parts = (_numbers, _copies, _points, _law_lines, _rigid, _water)
-    return chain.from_iterable(part(text, problems) for part in parts)
+    return chain.from_iterable(part(blocks, problems) for part in parts)
 
 
-def _numbers(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
+def _numbers(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """A number that is given twice: one of those that nothing has."""
+    text = blocks.text
     missing = list(dict.fromkeys(one.lacks for one in problems if one.code.code in ("REF005", "REF006") and one.lacks))
     for problem in problems if missing else ():
         if problem.code is not REF007:
@@ -47,15 +48,16 @@ def _numbers(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correcti
                 )
 
 
-def _copies(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
+def _copies(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Blocks of the model that stand there once more, word for word: without the copies."""
+    text = blocks.text
     repeats = [one for one in problems if one.code.code in ("REF007", "REF016")]
     if not repeats:
         return
     unified = text.source.unified
     known: dict[str, RawBlock] = {}
     runs: list[list[tuple[RawBlock, RawBlock]]] = [[]]
-    for name, block in Blocks(text).blocks:
+    for name, block in blocks.blocks:
         written = unified[slice(*whole(block))].strip() if name == "MODEL" else ""
         if written and written in known:
             runs[-1].append((block, known[written]))
@@ -77,8 +79,9 @@ def _copies(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correctio
 # --------------------------------------------------------------------------------------------------------- curves
 
 
-def _points(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
+def _points(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Several findings about the shape of one curve: without the point of a large ratio, or with rising forces."""
+    text = blocks.text
     of_curve: dict[Where, list[Problem]] = {}
     for problem in problems:
         where = problem.where
@@ -119,21 +122,23 @@ def _rising(text: TextOrigin, curve: Where) -> tuple[TextEdit, ...]:
 # ----------------------------------------------------------------------------------------------------------- laws
 
 
-def _law_lines(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
+def _law_lines(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Lines of *SEABED PROPERTIES under another keyword: its line above them."""
+    text = blocks.text
     for problem in problems:
         if problem.code.code == "SBD006" and problem.repair is not None:
             edits = tuple(TextEdit(span, written) for span, written in problem.repair.edits)
             yield Correction(problem, edits, line_at(text, edits[0].span.start))
 
 
-def _rigid(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
+def _rigid(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """A rigid seabed under extensions that need an elastic one: an elastic one."""
+    text = blocks.text
     cause = next((one for one in problems if one.code.code == "EXT001"), None)
     if cause is None:
         return
     edits: list[TextEdit] = []
-    for _, block in Blocks(text).blocks:
+    for _, block in blocks.blocks:
         if block.name == "SEABED PROPERTIES":
             found = (_RIGID.fullmatch(text.source.unified, *leaf.span) for leaf in block.leaves)
             edits += [TextEdit(Span(*one.span(1)), "ELASTIC") for one in found if one]
@@ -144,13 +149,14 @@ def _rigid(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction
 # ---------------------------------------------------------------------------------------------------------- units
 
 
-def _water(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
+def _water(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """In user units, values that do not fit the density of the water: that density in the other unit of mass."""
+    text = blocks.text
     wrong = [one for one in problems if one.code.code.startswith("UNT")]
     cause = next((one for one in wrong if one.code.code in _OF_DENSITIES), None)
     if cause is None or len(wrong) < 2 or not text.source.name.lower().endswith(_USER_UNITS):
         return
-    ocean = next((block for name, block in Blocks(text).blocks if (name, block.name) == ("MODEL", "OCEAN")), None)
+    ocean = next((block for name, block in blocks.blocks if (name, block.name) == ("MODEL", "OCEAN")), None)
     values = list(_NUMBER.finditer(text.source.unified, *whole(ocean))) if ocean else []
     if len(values) != 3:
         return

@@ -242,8 +242,6 @@ def missing_ocean(context: LintContext) -> Iterator[Problem]:
     for i, section in enumerate(context.deck.own_sections):
         for j, block in enumerate(section.blocks):
             if section.name == "LOAD CASE" and _WATER.fullmatch(block.keyword):
-                message = (
-                    f"*{block.keyword} needs the depth of the water, and no *OCEAN gives it: write *OCEAN in $MODEL"
-                )
+                message = f"*{block.keyword} needs the depth of the water: give *OCEAN in $MODEL"
                 yield Problem(REF018, message, where=Where(i, j))
                 return
