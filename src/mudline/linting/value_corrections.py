@@ -17,6 +17,7 @@ MOST_POINTS = 64
 """Points of a curve that are put in order."""
 
 _NUMBER = re.compile(r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[EeDd][-+]?[0-9]+)?")
+_ROW_NUMBER = re.compile(r"[ \t]*([0-9]{1,10})[ \t]*(?=,)")
 _RIGID = re.compile(r"[ \t]*TYPE[ \t]*=[ \t]*(RIGID)[ \t\r\n]*", re.IGNORECASE)
 _USER_UNITS = (".keyx", ".keyxu")
 _OF_DENSITIES = ("UNT004", "UNT005", "UNT006")
@@ -38,14 +39,21 @@ def _numbers(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction
     for problem in problems if missing else ():
         if problem.code is not REF007:
             continue
-        start = start_of(text, problem)
-        found = _NUMBER.match(text.source.unified, start)
+        line = line_at(text, start_of(text, problem))
+        found = _ROW_NUMBER.match(text.source.unified, *line)
         for number in missing if found else ():
-            if found and number.isdecimal():
-                message = f"number {found[0]} is given twice, and {number} is not defined: is this one {number}?"
-                yield Correction(
-                    problem, (TextEdit(Span(*found.span()), number),), line_at(text, start), message, guessed=True
-                )
+            if found and number in _between(text, line):
+                message = f"number {found[1]} is given twice, and {number} is not defined: is this one {number}?"
+                yield Correction(problem, (TextEdit(Span(*found.span(1)), number),), line, message, guessed=True)
+
+
+def _between(text: TextOrigin, line: Span) -> set[str]:
+    """The numbers that a row would have if it followed the row above it, or came before the one below it."""
+    unified = text.source.unified
+    above = _ROW_NUMBER.match(unified, *line_at(text, max(line.start - 1, 0)))
+    below = _ROW_NUMBER.match(unified, *line_at(text, min(line.end + 1, len(unified))))
+    after, before = (int(row[1]) if row else None for row in (above, below))
+    return {str(each) for each in (after and after + 1, before and before - 1) if each}
 
 
 def _copies(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
@@ -89,12 +97,12 @@ def _points(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]
             curve = where._replace(path=where.path[: where.path.index("points")])
             of_curve.setdefault(curve, []).append(problem)
     for curve, found in of_curve.items():
-        for problem in found if len(found) > 1 else ():
-            if problem.code.code == "CRV010":
-                line = line_at(text, start_of(text, problem))
-                yield Correction(problem, (TextEdit(Span(line.start, line.end + 1), ""),), line)
+        far = [one for one in found if one.code.code == "CRV010"]
+        for problem in far if len(found) > 1 else ():
+            line = line_at(text, start_of(text, problem))
+            yield Correction(problem, (TextEdit(Span(line.start, line.end + 1), ""),), line)
         falling = [one for one in found if one.code.code == "CRV005"]
-        if len(falling) == 1 < len(found) and (edits := _rising(text, curve)):
+        if not far and len(falling) == 1 < len(found) and (edits := _rising(text, curve)):
             region = Span(edits[0].span.start, edits[-1].span.end)
             yield Correction(falling[0], edits, region, guessed=True)
 
