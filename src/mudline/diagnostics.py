@@ -102,7 +102,8 @@ class Problem:
     `severity` None means the severity of the code. Only a deck that was read from text has repairs. `blocks` None means
     that the problem keeps the deck from being evaluated if it is an error. `following` are the problems that would be
     gone without this one. `maybe_defined_by` is the keyword that may define what is missing, where it is misspelt or
-    misplaced and the error therefore a warning.
+    misplaced and the error therefore a warning. `lacks` is the name or number that the deck uses and nothing defines,
+    "" for other problems.
     """
 
     code: Code
@@ -114,6 +115,7 @@ class Problem:
     blocks: Blocks | None = None
     following: tuple[Problem, ...] = ()
     maybe_defined_by: str = ""
+    lacks: str = ""
 
     __repr__ = short_repr
 

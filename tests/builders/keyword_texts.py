@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from hypothesis import strategies as st
 
+from mudline.keywords.text import cut_number
 from tests.builders.spellings import (
     cased,
     comments,
@@ -271,7 +272,8 @@ def deck_texts(draw: st.DrawFn) -> str:
         lines.append(" x")
     ends = draw(st.sampled_from([["\n"], ["\r\n"], ["\r"], ["\n", "\r\n", "\r"]]))
     text = "".join(line + (ends[index % len(ends)]) for index, line in enumerate(lines))
-    return text if draw(st.booleans()) else text.removesuffix("\n").removesuffix("\r")
+    whole = bool(lines) and cut_number(lines[-1].rpartition("=")[2].strip())  # without its line end it would be cut off
+    return text if draw(st.booleans()) or whole else text.removesuffix("\n").removesuffix("\r")
 
 
 @st.composite

@@ -74,6 +74,15 @@ def test_decks(text: str) -> None:
     held(deck)
 
 
+@pytest.mark.parametrize("value", ["-", "+", "1E", "-2e-"])
+def test_a_curve_named_like_the_beginning_of_a_number(value: str) -> None:
+    text = f"$MODEL\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS={value}"
+    assert [found.code.code for found in load_bytes(text.encode(), NAME).problems] == ["SYN014"]
+    deck = deck_of(f"{text}\n")
+    assert deck.problems == []
+    held(deck)
+
+
 @given(deck_texts())
 @settings(max_examples=40)
 def test_no_comment_is_lost(text: str) -> None:

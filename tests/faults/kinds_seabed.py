@@ -507,7 +507,7 @@ def trench_widths_exchanged(draft: Draft) -> None:
     draft.exchange(draft.setting("*SEABED TRENCH", "GEOMETRY"), 1, 2)
 
 
-@kind("SYN003", "SYN001", "SBD006", "REF002", "GEO005")
+@kind("SYN003", "SYN001", "SBD006", "REF002", "REF018", "GEO005")
 def ocean_deleted(draft: Draft) -> None:
     """`*OCEAN` deleted from a deck with waves or currents. Seen at the first line, or at the wave or current."""
     waves = [row for row in draft.rows if row.text.startswith(("*WAVE", "*CURRENT"))]

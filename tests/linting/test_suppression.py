@@ -197,6 +197,7 @@ def test_comments_only_take_away(lines: list[str], data: st.DataObject) -> None:
 
 
 def told_lines(lines: list[str]) -> Counter[tuple[str, str]]:
-    """The codes found, each with the text of its line."""
+    """The codes found and those of what follows from them, each with the text of its line."""
     told = lint_bytes("\n".join(lines).encode(), "deck.keyxm", [rule for rule in rules() if rule.code.code != "STY010"])
-    return Counter((one.code, lines[one.line - 1] if lines else "") for one in told)
+    everything = [each for one in told for each in (one, *one.following)]
+    return Counter((one.code, lines[one.line - 1] if lines else "") for one in everything)

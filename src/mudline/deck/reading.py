@@ -60,7 +60,7 @@ class Findings:
         sections = catalogue.sections_of(keyword)
         if sections is None:
             if self._reports(SYN009, None, where):
-                near = suggest_keyword(keyword)
+                near = suggest_keyword(keyword, section)
                 message = f"keyword *{keyword} is not known{_meant(keyword, near)}: it is passed through unchanged"
                 meant = f"*{near}" if near else ""
                 if keyword.startswith("*"):

@@ -292,12 +292,14 @@ def meant_section(name: str) -> str:
     return nearest(name, SECTIONS) or _begun(name, SECTIONS) or _before(name, SECTIONS)
 
 
-def suggest_keyword(keyword: str, effort: Effort | None = None) -> str:
-    """The keyword that an unknown one was to be, or ""."""
+def suggest_keyword(keyword: str, section: str = "", effort: Effort | None = None) -> str:
+    """The keyword that an unknown one was to be, or ""; one that belongs in the section of a block before others."""
     known = keywords()
+    own = [name for name in known if section in (sections_of(name) or ())] if section else []
     singular = keyword[:-3] + "Y" if keyword.endswith("IES") else keyword
     return (
-        nearest(keyword, known, effort)
+        nearest(keyword, own, effort)
+        or nearest(keyword, known, effort)
         or (singular if singular in known and singular != keyword else "")
         or _begun(keyword, known)
         or _before(keyword, read_keywords())

@@ -10,15 +10,19 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 
-from mudline.diagnostics import Blocks, Problem, Severity, Span
-from mudline.linting.corrections import Correction, missing_sections, misspelt
+from mudline.diagnostics import Problem, Severity, Span
+from mudline.linting.corrections import Blocks, Correction, missing_sections, misspelt
 from mudline.linting.line_corrections import line_corrections
+from mudline.linting.rows import by_row, joined, left_out
 from mudline.linting.rule import LintContext
-from mudline.short_repr import counted
+from mudline.linting.value_corrections import value_corrections
 from mudline.syntax.edits import OverlapError, TextEdit, edited_bytes, with_line_ends
 
 MOST_TRIALS = 24
 """Times that a deck is checked again: causes behind them keep what follows from them beside them."""
+
+FEWEST_TRIALS, MOST_WORK = 2, 20_000
+"""Times that any deck is checked again; the findings, blocks and thousands of characters that all trials look at."""
 
 MOST_ALTERNATIVES = 4
 """Corrections of one finding that are tried."""
@@ -29,10 +33,8 @@ Check = Callable[[bytes], tuple[LintContext, list[Problem]]]
 _Key = tuple[str, int]
 """Code of a finding and where it begins in the text as it is, -1 without a place."""
 
-_KINDS = ("SYN", "REF")
+_KINDS = ("SYN", "REF", "CRV", "UNT", "EXT", "SBD006")
 """How the codes of causes begin."""
-
-_STRENGTH = (Blocks.NEVER, Blocks.WITH_TENSION, Blocks.ALWAYS)
 
 
 def under_causes(context: LintContext, problems: list[Problem], check: Check) -> list[Problem]:
@@ -44,14 +46,22 @@ def under_causes(context: LintContext, problems: list[Problem], check: Check) ->
     if context.text is None or not any(one.code.code.startswith(_KINDS) for one in problems):
         return problems
     text = context.text
-    made = [*misspelt(text, problems), *missing_sections(text, problems), *line_corrections(text, problems)]
+    blocks = Blocks(text)
+    made = [
+        *misspelt(blocks, problems),
+        *missing_sections(blocks, problems),
+        *line_corrections(blocks, problems),
+        *value_corrections(blocks, problems),
+    ]
     if not made:
-        return problems
+        return by_row(text, problems)
     by_cause: dict[int, list[Correction]] = {}
     for correction in sorted(made, key=lambda one: one.edits[0].span):
         by_cause.setdefault(id(correction.cause), []).append(correction)
     tried = [alternatives[:MOST_ALTERNATIVES] for alternatives in by_cause.values()]
-    return _Trials(context, problems, check).grouped(tried)
+    size = len(problems) + len(blocks.blocks) + blocks.end // 1000
+    trials = min(MOST_TRIALS, max(FEWEST_TRIALS, MOST_WORK // size))
+    return by_row(text, _Trials(context, problems, check, trials).grouped(tried))
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +83,7 @@ class _Outcome:
 class _Trials:
     """The corrections of a deck, made one after the other; each is kept if it explains something."""
 
-    def __init__(self, context: LintContext, problems: list[Problem], check: Check) -> None:
+    def __init__(self, context: LintContext, problems: list[Problem], check: Check, trials: int) -> None:
         self.context = context
         self.check = check
         self.problems = problems
@@ -81,14 +91,16 @@ class _Trials:
         self.left = [(_key(context, problem, ()), problem) for problem in problems]
         self.known = Counter(key for key, _ in self.left)
         self.under: dict[int, Problem] = {}
-        self.trials = 0
+        self.trials = trials
 
     def grouped(self, tried: Sequence[Sequence[Correction]]) -> list[Problem]:
         """Return the findings by cause; `tried` has for each cause the corrections that it may need."""
         hidden: set[int] = set()
         for alternatives in tried:
             cause = alternatives[0].cause
-            if all(one is not cause for _, one in self.left):
+            if self.trials <= 0:
+                break
+            if id(cause) in hidden:
                 continue
             outcomes = [outcome for one in alternatives if (outcome := self._outcome(one)) is not None]
             best = max(outcomes, key=lambda outcome: outcome.gain, default=None)
@@ -107,9 +119,9 @@ class _Trials:
     def _outcome(self, correction: Correction) -> _Outcome | None:
         """What a correction does; None where it cannot be made, leaves its own finding, or too much was tried."""
         text = self.context.text
-        if text is None or self.trials >= MOST_TRIALS:
+        if text is None or self.trials <= 0:
             return None
-        self.trials += 1
+        self.trials -= 1
         edits = with_line_ends(text.source, [*self.made, *correction.edits])
         try:
             context, problems = self.check(edited_bytes(text.source, edits))
@@ -160,21 +172,10 @@ class _Trials:
 def _cause(correction: Correction, following: Sequence[Problem]) -> Problem:
     """The finding of a cause with those that follow from it."""
     cause = correction.cause
+    cause = replace(cause, message=correction.message or cause.message, span=correction.place or cause.span)
     if not following:
-        return replace(cause, message=correction.message)
-    everything = (cause, *following)
-    blocks = max((one.blocking for one in everything), key=_STRENGTH.index)
-    severity = max((one.weight for one in everything), key=lambda severity: severity.rank)
-    are = "is" if len(following) == 1 else "are"
-    follow = "follows" if len(following) == 1 else "follow"
-    left_out = f"{counted(len(following), 'finding')} that {follow} from it {are} left out"
-    return replace(
-        cause,
-        message=f"{correction.message or cause.message}; {left_out}",
-        severity=Severity.ERROR if blocks is Blocks.ALWAYS else severity,
-        blocks=blocks,
-        following=tuple(following),
-    )
+        return cause
+    return joined(cause, following, left_out(len(following)))
 
 
 def _key(context: LintContext, problem: Problem, edits: Iterable[TextEdit]) -> _Key:

@@ -5,13 +5,14 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 from mudline.codes.lines import SYN004, SYN005, SYN007, SYN008, SYN009, SYN010
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Problem, Severity, Span
 from mudline.keywords import catalogue
 from mudline.syntax.edits import TextEdit
-from mudline.syntax.tree import RawBlock
+from mudline.syntax.tree import RawBlock, RawSection
 
 _NAMES = (SYN004, SYN005, SYN008, SYN009, SYN010)
 
@@ -20,8 +21,8 @@ _NAMES = (SYN004, SYN005, SYN008, SYN009, SYN010)
 class Correction:
     """Edits that may correct a finding, and the part of the text that is read differently then.
 
-    `message` is what the finding says where the correction holds; "" for its own message. New findings tell against a
-    correction that is `guessed`.
+    `message` is what the finding says where the correction holds, "" for its own message, and `place` where it is then,
+    None for its own place. New findings tell against a correction that is `guessed`.
     """
 
     cause: Problem
@@ -29,6 +30,7 @@ class Correction:
     region: Span
     message: str = ""
     guessed: bool = False
+    place: Span | None = None
 
 
 def start_of(text: TextOrigin, problem: Problem) -> int:
@@ -45,9 +47,8 @@ def line_at(text: TextOrigin, offset: int) -> Span:
     return Span(unified.rfind("\n", 0, offset) + 1, end - (unified[end - 1 : end] == "\r"))
 
 
-def misspelt(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
+def misspelt(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Names for which another one was meant."""
-    blocks = Blocks(text)
     for problem in problems:
         if problem.code not in _NAMES or problem.repair is None:
             continue
@@ -58,39 +59,69 @@ def misspelt(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correcti
 
 
 class Blocks:
-    """The blocks of a text by their place."""
+    """The blocks of a text by their place, sorted out when somebody asks."""
 
     def __init__(self, text: TextOrigin) -> None:
+        self.text = text
         self.end = len(text.source.unified)
-        tree = text.tree
-        self.heads = [section.head.span.start if section.head else 0 for section in (tree.preamble, *tree.sections)]
-        self.blocks = [(section.name, block) for section in (tree.preamble, *tree.sections) for block in section.blocks]
-        self.starts = sorted([*self.heads, *(block.head.span.start for _, block in self.blocks)])
+
+    @cached_property
+    def _sections(self) -> tuple[RawSection, ...]:
+        return (self.text.tree.preamble, *self.text.tree.sections)
+
+    @cached_property
+    def blocks(self) -> list[tuple[str, RawBlock]]:
+        """All of them, each with the name of its section."""
+        return [(section.name, block) for section in self._sections for block in section.blocks]
+
+    @cached_property
+    def _heads(self) -> list[int]:
+        return [section.head.span.start if section.head else 0 for section in self._sections]
+
+    @cached_property
+    def _block_starts(self) -> list[int]:
+        return [block.head.span.start for _, block in self.blocks]
+
+    @cached_property
+    def _starts(self) -> list[int]:
+        return sorted([*self._heads, *self._block_starts])
 
     def block_at(self, offset: int) -> Span:
         """From the head of the block (or section) around an offset to the next one."""
-        return self._around(self.starts, offset)
+        return self._around(self._starts, offset)
+
+    def raw_at(self, offset: int) -> RawBlock | None:
+        """The block whose lines are around an offset, None above the first one and below the last line of one."""
+        at = bisect_right(self._block_starts, offset)
+        block = self.blocks[at - 1][1] if at else None
+        return block if block is not None and offset < whole(block).end else None
 
     def section_at(self, offset: int) -> Span:
         """From the head of the section around an offset to the next one."""
-        return self._around(self.heads, offset)
+        return self._around(self._heads, offset)
 
     def _around(self, starts: list[int], offset: int) -> Span:
         at = bisect_right(starts, offset)
         return Span(starts[at - 1] if at else 0, starts[at] if at < len(starts) else self.end)
 
 
+def whole(block: RawBlock) -> Span:
+    """From the head of a block to the end of its last line."""
+    return Span(block.head.span.start, (block.leaves or [block.head])[-1].span.end)
+
+
 # ------------------------------------------------------------------------------------------- $SECTION lines
 
 
-def missing_sections(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
+def missing_sections(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Blocks that stand before their section, or in another one: a `$SECTION` line in front of each run of them."""
+    text = blocks.text
     outside = {start_of(text, one): one for one in problems if one.code is SYN007}
     elsewhere = {start_of(text, one): one for one in problems if one.code is SYN008 and one.weight is Severity.ERROR}
     tree = text.tree
     heads = [trimmedstart_of(text, block) for block in tree.preamble.blocks]
     if run := [(head, block.name) for head, block in zip(heads, tree.preamble.blocks, strict=True) if head in outside]:
-        end = tree.sections[0].head.span.start if tree.sections and tree.sections[0].head else Blocks(text).end
+        end = tree.sections[0].head.span.start if tree.sections and tree.sections[0].head else blocks.end
         first = outside[run[0][0]]
         edits, words = _section_lines(run, "")
         if len(run) > 1:
@@ -101,7 +132,7 @@ def missing_sections(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[
     for section in tree.sections:
         placed = [(trimmedstart_of(text, block), block.name) for block in section.blocks]
         for begin, behind in _runs(placed, elsewhere):
-            yield _moved(text, elsewhere[placed[begin][0]], section.name, placed[begin:behind], placed[behind:])
+            yield _moved(blocks, elsewhere[placed[begin][0]], section.name, placed[begin:behind], placed[behind:])
 
 
 def _runs(placed: list[tuple[int, str]], elsewhere: dict[int, Problem]) -> Iterator[tuple[int, int]]:
@@ -139,11 +170,11 @@ def trimmedstart_of(text: TextOrigin, block: RawBlock) -> int:
 
 
 def _moved(
-    text: TextOrigin, first: Problem, section: str, run: list[tuple[int, str]], behind: list[tuple[int, str]]
+    blocks: Blocks, first: Problem, section: str, run: list[tuple[int, str]], behind: list[tuple[int, str]]
 ) -> Correction:
     """A run of blocks in a section of their own; the section goes on behind them."""
     edits, words = _section_lines(run, section)
-    end = Blocks(text).section_at(run[0][0]).end
+    end = blocks.section_at(run[0][0]).end
     if behind:
         end = behind[0][0]
         edits = (*edits, TextEdit(Span(end, end), f"${section}\n"))

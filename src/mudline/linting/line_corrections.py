@@ -7,13 +7,13 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import chain, islice
 
 from mudline.codes.fields import SYN002, SYN003
-from mudline.codes.lines import SYN001, SYN004
+from mudline.codes.lines import SYN001, SYN004, SYN013, SYN014
 from mudline.codes.references import REF007, REF009
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Problem, Severity, Span
 from mudline.keywords import catalogue
 from mudline.keywords.reader import read_block
-from mudline.linting.corrections import Blocks, Correction, line_at, start_of
+from mudline.linting.corrections import Blocks, Correction, line_at, start_of, whole
 from mudline.syntax.edits import TextEdit
 from mudline.syntax.source import Source
 from mudline.syntax.tree import Kind, RawBlock, parse
@@ -21,7 +21,10 @@ from mudline.syntax.tree import Kind, RawBlock, parse
 MOST_KEYWORDS = 4
 """Keywords that are tried for the lines of a block."""
 
-LONGEST_PIECE = 20_000
+MOST_SETTINGS = 8
+"""Settings of a block that may be the values of one row."""
+
+LONGEST_PIECE = 600
 """Characters of a block that are read to see which keyword its lines belong to."""
 
 _OF_FOREIGN_LINES = (SYN001, SYN002, SYN003, SYN004, REF007, REF009)
@@ -32,23 +35,40 @@ _CURVE_NAMES = {"EMBEDMENT": "SET", "SEABED STIFFNESS": "CURVE"}
 """Keywords of points, and the setting that names the curve."""
 _NAMED_POINT = re.compile(r"[ \t]*([^-+.,=0-9 \t][^,=\n]*?)[ \t]*,[ \t]*([-+.0-9][^\n\r]*?)[ \t\r]*")
 _LACKS_NAME = re.compile(r"expected (CURVE|SET)= before this line|(SET|CURVE)= has no value")
-_UNDEFINED = re.compile(r"'([^']+)' is not defined")
-_MISSING = re.compile(r"(?:node|element) ([0-9]+)\b[^;]* is not defined")
 
 
-def line_corrections(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
+def line_corrections(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Return corrections of lines that cannot be read as they stand."""
-    if not any(one.code in _OF_FOREIGN_LINES for one in problems):
+    if not any(one.code in (*_OF_FOREIGN_LINES, SYN013, SYN014) for one in problems):
         return iter(())
-    parts = (_tables, _keyword_lines, _names, _rows)
-    return chain.from_iterable(part(text, problems) for part in parts)
+    parts = (_stars, _tables, _keyword_lines, _names, _settings, _cut_off, _rows)
+    return chain.from_iterable(part(blocks, problems) for part in parts)
 
 
 # ------------------------------------------------------------------------------------------- *KEYWORD lines
 
 
-def _keyword_lines(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
+def _stars(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
+    """Lines that hold a keyword without its star."""
+    text = blocks.text
+    known: frozenset[str] | None = None
+    for problem in problems:
+        if problem.code not in _OF_FOREIGN_LINES or problem.weight is not Severity.ERROR:
+            continue
+        line = line_at(text, start_of(text, problem))
+        written = text.source.unified[slice(*line)].strip()
+        if not written[:1].isalpha() or "=" in written:
+            continue
+        known = known or frozenset(catalogue.keywords())
+        if written.upper() in known:
+            message = f"{written} without its star is read as data: write *{written.upper()}"
+            region = Span(line.start, blocks.block_at(line.start).end)
+            yield Correction(problem, (TextEdit(Span(line.start, line.start), "*"),), region, message)
+
+
+def _keyword_lines(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Lines in a block that read well as lines of another keyword: that keyword in front of them."""
+    text = blocks.text
     wanted = sorted(
         (start_of(text, one), number) for number, one in enumerate(problems) if one.code in _OF_FOREIGN_LINES
     )
@@ -105,8 +125,9 @@ def _reads_as(text: TextOrigin, section: str, own: str, lines: str) -> Iterator[
 # ------------------------------------------------------------------------------------------- names and rows
 
 
-def _tables(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
+def _tables(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Points with the name of their set or curve in front, as a graphical interface shows them."""
+    text = blocks.text
     wrong = {
         line_at(text, start_of(text, one)).start: one for one in reversed(problems) if one.code in (SYN002, SYN003)
     }
@@ -139,8 +160,9 @@ def _lines(text: TextOrigin, block: RawBlock) -> Iterator[Span]:
         at = text.source.unified.find("\n", at) + 1 or end
 
 
-def _names(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
+def _names(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """A setting without its name, or points in front of it: the names that nothing defines."""
+    text = blocks.text
     missing = {"SET": _undefined(problems, "REF001"), "CURVE": _undefined(problems, "REF002")}
     for problem in problems:
         found = _LACKS_NAME.match(problem.message) if problem.code in (SYN001, SYN003) else None
@@ -151,20 +173,60 @@ def _names(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction
             at, written = problem.span.end, name
             if found[1]:
                 at, written = line_at(text, problem.span.start).start, f" {key}={name}\n"
-            yield Correction(problem, (TextEdit(Span(at, at), written),), Blocks(text).block_at(at))
+            yield Correction(problem, (TextEdit(Span(at, at), written),), blocks.block_at(at))
+
+
+def _settings(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
+    """Settings that were meant otherwise: CURVE= for SET=, data read as a comment, KEY= where a row belongs."""
+    text = blocks.text
+    wrong = [one for one in problems if one.code in (SYN004, SYN013)]
+    for problem in wrong:
+        at = start_of(text, problem)
+        block = blocks.raw_at(at)
+        if block is None:
+            continue
+        line = line_at(text, at)
+        key, _, value = text.source.unified[slice(*line)].strip().partition("=")
+        name = _CURVE_NAMES.get(block.name)
+        if name and key.strip().upper() in _CURVE_NAMES.values():
+            yield Correction(problem, (TextEdit(line, f" {name}={value.strip()}"),), whole(block))
+        elif problem.code is SYN004 and (row := _as_row(text, block)):
+            edits = (TextEdit(Span(block.leaves[0].span.start, whole(block).end), f" {row}\n"),)
+            message = f"*{block.name} takes no KEY= at all: write the values as a row, {row}"
+            yield Correction(problem, edits, whole(block), message)
+
+
+def _as_row(text: TextOrigin, block: RawBlock) -> str:
+    """The values of a block of settings alone, as a row; "" for other blocks."""
+    lines = [leaf for leaf in block.leaves if leaf.kind not in (Kind.COMMENT, Kind.BLANK)]
+    if len(lines) > MOST_SETTINGS or any(leaf.kind is not Kind.SETTING for leaf in lines):
+        return ""
+    written = (text.source.unified[slice(*leaf.span)] for leaf in lines)
+    return ", ".join(line.partition("=")[2].strip() for line in written)
+
+
+def _cut_off(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
+    """A file that ends behind *SEABED STIFFNESS: the curves that nothing defines."""
+    text = blocks.text
+    missing = _undefined(problems, "REF002")
+    for problem in problems if missing else ():
+        at = start_of(text, problem)
+        block = blocks.raw_at(at) if problem.code is SYN014 else None
+        if block is not None and block.name == "SEABED STIFFNESS":
+            end = len(text.source.unified)
+            curves = "".join(f"\n CURVE={name}\n 0.0, 0.0\n 1.0, 100000.0" for name in missing)
+            yield Correction(problem, (TextEdit(Span(end, end), f"{curves}\n"),), whole(block))
 
 
 def _undefined(problems: Sequence[Problem], code: str) -> list[str]:
     """The names that findings of a code say are not defined."""
-    found = (_UNDEFINED.search(one.message) for one in problems if one.code.code == code)
-    return list(dict.fromkeys(name[1] for name in found if name))
+    return list(dict.fromkeys(one.lacks for one in problems if one.lacks and one.code.code == code))
 
 
-def _rows(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]:
+def _rows(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Numbers and rows with a slip of the pen: what they were to be, as far as that can be seen."""
-    missing = list(dict.fromkeys(found for one in problems if (found := _missing_number(one))))
-    if not any(one.code.code.startswith("REF") for one in problems):
-        return
+    text = blocks.text
+    missing = [*_undefined(problems, "REF005"), *_undefined(problems, "REF006")]
     for problem in problems:
         make: Callable[[str], list[str]]
         span = problem.span
@@ -182,11 +244,6 @@ def _rows(text: TextOrigin, problems: Sequence[Problem]) -> Iterator[Correction]
         for other in dict.fromkeys([*make(written), *(missing if alone else ())]):
             if other != written:
                 yield Correction(problem, (TextEdit(span, other),), line_at(text, span.start))
-
-
-def _missing_number(problem: Problem) -> str:
-    found = _MISSING.search(problem.message) if problem.code.code in ("REF005", "REF006") else None
-    return found[1] if found else ""
 
 
 def _numbers(written: str) -> list[str]:

@@ -56,7 +56,7 @@ def unknown_keywords(scene: ResolvedDeck) -> list[UnknownKeyword]:
     for keyword, where in places.items():
         if sections_of(keyword) is not None:
             continue
-        near = suggest_keyword(keyword, effort)
+        near = suggest_keyword(keyword, "MODEL", effort)
         of_seabed = bool(near) and (supersedes(near) or is_superseded(near) or is_extension(near))
         if of_seabed or (not near and keyword.split()[:1] == ["SEABED"]):
             found.append(UnknownKeyword(where, keyword, near))

@@ -95,17 +95,22 @@ class Context:
         message: str,
         where: Where,
         keyword: str,
-        number: int | None = None,
+        lacks: int | str | None = None,
         *,
         blocks: Blocks | None = None,
     ) -> None:
-        """Note a name or number that nothing defines; nodes and elements out of sight are noted together at the end."""
+        """Note a name or number that nothing defines; nodes and elements out of sight are noted together at the end.
+
+        `lacks` is what is missing, None where it is not one thing.
+        """
         if keyword in _NUMBERED and (definer := self._definer(keyword)):
-            use = self._out_of_sight.setdefault((definer, keyword), _Uses(code, number, where))
+            use = self._out_of_sight.setdefault(
+                (definer, keyword), _Uses(code, lacks if isinstance(lacks, int) else None, where)
+            )
             use.count += 1
             use.blocks = blocks or use.blocks
         elif self._reported.get(code.code, 0) <= MOST_REPORTED:
-            self.note(replace(self.missing(code, message, where, keyword, number), blocks=blocks))
+            self.note(replace(self.missing(code, message, where, keyword, lacks), blocks=blocks))
 
     def report_out_of_sight(self) -> None:
         """Note once for each keyword whose lines are not read how often the deck uses what it may define."""
@@ -130,13 +135,14 @@ class Context:
         unread = (one for one in self.external_definers if not (is_read_definer(one) or makes_labels(one)))
         return next((definer for definer in unread if definition_by(definer, keyword)), "")
 
-    def missing(self, code: Code, message: str, where: Where, keyword: str, number: int | None = None) -> Problem:
+    def missing(self, code: Code, message: str, where: Where, keyword: str, lacks: int | str | None = None) -> Problem:
         """A name or number that nothing defines: an error, or a warning where something unread could define it."""
-        if source := self.possible_definition(keyword, number):
+        name = "" if lacks is None else str(lacks)
+        if source := self.possible_definition(keyword, lacks if isinstance(lacks, int) else None):
             cause = keyword if source == self._misplaced_definition(keyword) else ""
             message = f"{message}; {source}"
-            return Problem(code, message, None, Severity.WARNING, where, maybe_defined_by=cause)
-        return Problem(code, message, where=where)
+            return Problem(code, message, None, Severity.WARNING, where, maybe_defined_by=cause, lacks=name)
+        return Problem(code, message, where=where, lacks=name)
 
     def possible_definition(self, keyword: str, number: int | None = None) -> str:
         """What could define a thing of a keyword that is missing, in words, or ""; `number` None stands for any."""
@@ -308,7 +314,7 @@ class Context:
     def _meant(self, section: str, keyword: str, effort: Effort) -> Iterator[tuple[str, str]]:
         sections = catalogue.sections_of(keyword)
         if sections is None and section == "MODEL":
-            yield suggest_keyword(keyword, effort), f"*{keyword}, which is not known,"
+            yield suggest_keyword(keyword, effort=effort), f"*{keyword}, which is not known,"
         elif sections and section not in sections:
             for name in (keyword, meant_in(keyword, section)):
                 yield name, f"the *{keyword} in ${section}, where it does not belong,"

@@ -79,7 +79,7 @@ class Sets:
             hint = f" (did you mean {self.named[near].name}?)" if near else ""
             advice = advice_on(name) or "define it in *ELEMENT SETS"
             message = f"set {shown(name)} is not defined{hint}: {advice}"
-            self.context.report_missing(REF001, message, where, "ELEMENT SETS")
+            self.context.report_missing(REF001, message, where, "ELEMENT SETS", name)
 
 
 def read_sets(context: Context, elements: Numbered, external: ExternalElements | None = None) -> Sets:

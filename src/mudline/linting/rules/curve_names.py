@@ -72,11 +72,11 @@ def unused_curve(context: LintContext) -> Iterator[Problem]:
             unused[name] = [curve]
     places = [curve.where for curves in unused.values() for curve in curves]
     repairs = removals(context.text, places) if context.text else {}
-    soils = {_soil(name) for name in scene.laws.referenced}
+    soils = {_without_estimate(name) for name in scene.laws.referenced}
     for curve, *_ in unused.values():
         message = f"curve {shown(curve.name)} is not used: name it in a STIFFNESS=, or remove it"
-        estimate = _soil(curve.name) != folded(curve.name) and _soil(curve.name) in soils
-        severity = Severity.INFO if estimate else None
+        soil = _without_estimate(curve.name)
+        severity = Severity.INFO if soil != folded(curve.name) and soil in soils else None
         yield Problem(REF003, message, None, severity, curve.title, repairs.get(curve.where))
 
 
@@ -86,7 +86,7 @@ _ESTIMATE = re.compile(
 """The words of a name that say which estimate it is."""
 
 
-def _soil(name: str) -> str:
+def _without_estimate(name: str) -> str:
     """The name of a curve without the words that say which estimate of its soil it is."""
     return _ESTIMATE.sub("", folded(name)).strip(" -_.")
 
@@ -103,6 +103,8 @@ def _chosen_elsewhere(context: LintContext) -> bool:
         return True  # an equation, whose parameters may be varied
     if any(grant.kind is LawKind.NONE and grant.unknown for grant in scene.laws.set_laws):
         return True  # a set whose STIFFNESS= could not be read
+    if "SEABED PROPERTIES" in scene.context.unread:
+        return True  # a line that could not be read may name it
     if scene.context.misplaced("SEABED PROPERTIES") or (scene.context.restart and not scene.laws.referenced):
         return True
     return any(

@@ -11,6 +11,7 @@ from mudline.diagnostics import Code, Problem, Repair, Severity, Where
 from mudline.keywords.catalogue import is_extension, is_superseded, supersedes
 from mudline.keywords.text import shown
 from mudline.linting.rule import LintContext, rule
+from mudline.scene.checks.laws import SBD002
 from mudline.scene.model import Scene
 from mudline.syntax.edits import with_line_ends
 
@@ -101,8 +102,8 @@ def mixed_families(context: LintContext) -> Iterator[Problem]:
     """
     legacy = _first(context, context.superseded)
     new = _first(context, filter(supersedes, context.keywords)) if legacy else None
-    if not legacy or not new:
-        return
+    if not legacy or not new or context.problems_of(SBD002):
+        return  # of two seabeds, one of which goes, SBD002 speaks
     own = len(context.scene.deck.own_sections)
     where, keyword = max((place for place in (legacy, new) if place[0].section < own), default=legacy)
     other = (new if is_superseded(keyword) else legacy)[1]

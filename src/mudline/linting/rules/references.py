@@ -1,7 +1,8 @@
-"""Names that one place of a deck uses and another one defines: element sets and parameters."""
+"""What one place of a deck uses and another one defines: element sets, parameters, the water."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, cast
 
@@ -22,6 +23,7 @@ REF011 = Code("REF011", "long-name", Severity.WARNING)
 REF012 = Code("REF012", "long-list", Severity.WARNING)
 REF016 = Code("REF016", "repeated-set", Severity.WARNING)
 REF017 = Code("REF017", "repeated-parameter", Severity.WARNING)
+REF018 = Code("REF018", "missing-ocean", Severity.WARNING)
 
 LONGEST_NAME = 256
 LONGEST_LIST = 20
@@ -206,3 +208,40 @@ def _names(parameter: Parameter) -> list[str]:
     if isinstance(value, str) and value.startswith("/"):
         return [item.name for item in list_items(name, value)[0]]
     return [name]
+
+
+_WATER = re.compile(r"CURRENT|WAVE(?:-.*)?")
+
+
+@rule(REF018)
+def missing_ocean(context: LintContext) -> Iterator[Problem]:
+    """A load case has waves or a current, and the model has no *OCEAN.
+
+    Their velocities depend on the depth of the water, which *OCEAN gives in the model, with its density; the depth has
+    no default. Give *OCEAN, or remove the waves and currents of a model in air. A deck with *RESTART takes the water
+    from the deck that it continues.
+
+    Example:
+         $MODEL
+        +*OCEAN
+        + 500.0, 1025.0, 9.81
+         *NODE
+          1, 0.0, 0.0
+          2, 0.0, 10.0
+         *ELEMENT
+          1, 1, 2
+         $LOAD CASE
+         *WAVE-REGULAR
+          3.0, 11.0, 180.0
+
+    Finds: 8:1
+    """
+    scene = context.scene
+    if "OCEAN" in context.keywords or not scene.element_ids.size or scene.context.possible_definition("OCEAN"):
+        return
+    for i, section in enumerate(context.deck.own_sections):
+        for j, block in enumerate(section.blocks):
+            if section.name == "LOAD CASE" and _WATER.fullmatch(block.keyword):
+                message = f"*{block.keyword} needs the depth of the water: give *OCEAN in $MODEL"
+                yield Problem(REF018, message, where=Where(i, j))
+                return

@@ -205,6 +205,8 @@ def embedment_needs_elastic(scene: ResolvedDeck) -> Iterator[Problem]:
     if "RIGID" not in types and ("ELASTIC" in types or unread):
         return  # a type that could not be read is reported elsewhere
     for curve in first.values():
+        if "RIGID" in types and "ELASTIC" in types:
+            continue  # SBD002 reports both, and which of them is meant is open
         if "RIGID" in types:
             message = "*EMBEDMENT needs an elastic seabed: the seabed is rigid"
             yield Problem(SBD005, message, where=curve.where)
@@ -308,9 +310,8 @@ def undefined_curve(scene: ResolvedDeck) -> Iterator[Problem]:
             continue
         hint = scene.context.hint(name, names)
         advice = advice_on(name) or "*SEABED STIFFNESS has no such curve"
-        problem = scene.context.missing(
-            REF002, f"curve {shown(name)} is not defined{hint}: {advice}", where, "SEABED STIFFNESS"
-        )
+        message = f"curve {shown(name)} is not defined{hint}: {advice}"
+        problem = scene.context.missing(REF002, message, where, "SEABED STIFFNESS", name)
         followed = _followed(scene) if followed is None else followed
         yield replace(problem, blocks=Blocks.ALWAYS) if where in followed else problem
 
