@@ -76,7 +76,9 @@ have been misspelt may use any curve; and points without their CURVE= line belon
 
 
 def found(data: bytes, name: str) -> list[tuple[int, str]]:
-    return [(finding.line, finding.code) for finding in lint_bytes(data, name, select())]
+    """Line and code of each finding, also of those that follow from another one and stand under it."""
+    findings = lint_bytes(data, name, select())
+    return sorted((one.line, one.code) for finding in findings for one in (finding, *finding.following))
 
 
 def found_in(name: str) -> list[tuple[int, str]]:

@@ -272,7 +272,8 @@ def deck_texts(draw: st.DrawFn) -> str:
         lines.append(" x")
     ends = draw(st.sampled_from([["\n"], ["\r\n"], ["\r"], ["\n", "\r\n", "\r"]]))
     text = "".join(line + (ends[index % len(ends)]) for index, line in enumerate(lines))
-    whole = bool(lines) and cut_number(lines[-1].rpartition("=")[2].strip())  # without its line end it would be cut off
+    last = lines[-1].strip() if lines else ""
+    whole = last.startswith("*") or cut_number(last.rpartition("=")[2])  # without its line end it would be cut off
     return text if draw(st.booleans()) or whole else text.removesuffix("\n").removesuffix("\r")
 
 

@@ -9,10 +9,10 @@ import numpy as np
 
 from mudline.codes.contact import REF003, SBD017, SBD025
 from mudline.contact import LawKind
+from mudline.deck.model import Deck
 from mudline.deck.parameters import folded
 from mudline.diagnostics import Problem, Where
 from mudline.keywords.text import shown
-from mudline.keywords.values import Equation
 from mudline.scene.resolved import ResolvedDeck
 from mudline.syntax.rows import read_number
 
@@ -107,8 +107,13 @@ def _chosen_by_values(scene: ResolvedDeck) -> bool:
     """Whether equations or variations choose the curves, so that other values of theirs use the others."""
     if "VARIATION" in scene.deck.keywords("PREPROCESSOR"):
         return True
-    blocks = (cast("SeabedProperties", block) for _, block in scene.context.written.blocks("SEABED PROPERTIES"))
-    return any(isinstance(entry.stiffness, Equation) for block in blocks for entry in block.sets)
+    written, evaluated = (_stiffnesses(deck) for deck in (scene.context.written, scene.deck))
+    return any(before is not after for before, after in zip(written, evaluated, strict=False))
+
+
+def _stiffnesses(deck: Deck) -> Iterator[object]:
+    blocks = (cast("SeabedProperties", block) for _, block in deck.blocks("SEABED PROPERTIES"))
+    return (entry.stiffness for block in blocks for entry in block.sets)
 
 
 def line_of(scene: ResolvedDeck, where: Where) -> int:

@@ -103,8 +103,9 @@ def _chosen_elsewhere(context: LintContext) -> bool:
         return True  # an equation, whose parameters may be varied
     if any(grant.kind is LawKind.NONE and grant.unknown for grant in scene.laws.set_laws):
         return True  # a set whose STIFFNESS= could not be read
-    if "SEABED PROPERTIES" in scene.context.unread:
-        return True  # a line that could not be read may name it
+    laws = context.blocks("SEABED PROPERTIES")
+    if any(not cast("SeabedProperties", block).sets and scene.context.has_read_errors(where) for where, block in laws):
+        return True  # lines that could not be read may name it
     if scene.context.misplaced("SEABED PROPERTIES") or (scene.context.restart and not scene.laws.referenced):
         return True
     return any(

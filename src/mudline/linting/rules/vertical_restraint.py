@@ -61,8 +61,6 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
         return
     if any(map(is_superseded, reading.unread)) or "SEABED CONTACT" in context.keywords:
         return  # a law that was not read may hold
-    if context.problems_of(SYN014):
-        return  # the law may be in the part that was cut off
     if context.problems_of(SBD004):
         return  # that there is no stiffness is reported there
     yield from _zeros(scene)
@@ -71,7 +69,8 @@ def no_vertical_restraint(context: LintContext) -> Iterator[Problem]:
         free &= ~_inner_pipes(scene, free)
     if np.count_nonzero(free):
         yield from _blocks(scene, np.flatnonzero(free & (scene.laws.covered >= 0)))
-        yield from _lying(context, np.flatnonzero(free & (scene.laws.covered < 0)))
+        if not context.problems_of(SYN014):  # else the law may be in the part that was cut off
+            yield from _lying(context, np.flatnonzero(free & (scene.laws.covered < 0)))
 
 
 _LAW = re.compile(r"^[ \t]*TYPE[ \t]*=[ \t]*(?:ELASTIC|RIGID)[ \t]*$", re.IGNORECASE | re.MULTILINE)
