@@ -13,18 +13,23 @@ PSI = 144.0
 """lbf/ft2 in a pound per square inch."""
 
 
-def _ocean(draft: Draft) -> Row:
+def per_length(draft: Draft) -> float:
+    """Millimetres in a metre; inches in a foot."""
+    return 1000.0 if draft.units == "metric" else 12.0
+
+
+def ocean_row(draft: Draft) -> Row:
     return draft.numbers("*OCEAN")[0]
 
 
-def _only(draft: Draft, *units: str) -> None:
+def only(draft: Draft, *units: str) -> None:
     draft.needs(draft.units in units)
 
 
-def _pipe(draft: Draft) -> Row:
+def pipe_row(draft: Draft) -> Row:
     """The section of a steel pipe, the first of the deck."""
     row = draft.sections("RIGID")[0]
-    _only(draft, "metric", "imperial")
+    only(draft, "metric", "imperial")
     draft.needs(draft.value(row, 0) > (1.5e11 if draft.units == "metric" else 3e9))
     return row
 
@@ -35,49 +40,49 @@ def _pipe(draft: Draft) -> Row:
 @kind("UNT004")
 def water_in_tonnes(draft: Draft) -> None:
     """Sea water of 1.025, in t/m3 or g/cm3."""
-    _only(draft, "metric", "imperial")
-    draft.put(_ocean(draft), 1, "1.025")
+    only(draft, "metric", "imperial")
+    draft.put(ocean_row(draft), 1, "1.025")
 
 
 @kind("UNT004")
 def water_in_pounds(draft: Draft) -> None:
     """Sea water of 64 lb/ft3 where slug/ft3 belongs."""
-    _only(draft, "imperial")
-    draft.put(_ocean(draft), 1, "64.0")
+    only(draft, "imperial")
+    draft.put(ocean_row(draft), 1, "64.0")
 
 
 @kind("UNT004")
 def water_in_kilograms(draft: Draft) -> None:
     """Sea water of 1025 kg/m3 in an imperial deck."""
-    _only(draft, "imperial")
-    draft.put(_ocean(draft), 1, "1025.0")
+    only(draft, "imperial")
+    draft.put(ocean_row(draft), 1, "1025.0")
 
 
 @kind("UNT004")
 def water_in_slugs(draft: Draft) -> None:
     """Sea water of 1.99 slug/ft3 in a metric deck."""
-    _only(draft, "metric")
-    draft.put(_ocean(draft), 1, "1.99")
+    only(draft, "metric")
+    draft.put(ocean_row(draft), 1, "1.99")
 
 
 @kind("UNT004")
 def water_as_weight(draft: Draft) -> None:
     """The specific weight of sea water (10 055 N/m3) where its density belongs."""
-    _only(draft, "metric")
-    draft.put(_ocean(draft), 1, "10055.0")
+    only(draft, "metric")
+    draft.put(ocean_row(draft), 1, "10055.0")
 
 
 @kind("UNT004")
 def water_lost_a_digit(draft: Draft) -> None:
     """102.5 for 1025."""
-    _only(draft, "metric")
-    draft.put(_ocean(draft), 1, "102.5")
+    only(draft, "metric")
+    draft.put(ocean_row(draft), 1, "102.5")
 
 
 @kind("UNT004")
 def depth_and_density_exchanged(draft: Draft) -> None:
     """Density first, then the depth."""
-    row = _ocean(draft)
+    row = ocean_row(draft)
     depth, density = draft.value(row, 0), draft.value(row, 1)
     draft.needs(not 0.8 < depth / density < 1.25 and draft.units != "user")
     draft.needs(draft.units == "imperial" or not 900 < depth < 1250)
@@ -87,29 +92,29 @@ def depth_and_density_exchanged(draft: Draft) -> None:
 @kind("UNT001")
 def gravity_of_the_other_system(draft: Draft) -> None:
     """32.2 in a metric deck, 9.81 in an imperial one."""
-    _only(draft, "metric", "imperial")
-    draft.put(_ocean(draft), 2, "32.2" if draft.units == "metric" else "9.81")
+    only(draft, "metric", "imperial")
+    draft.put(ocean_row(draft), 2, "32.2" if draft.units == "metric" else "9.81")
 
 
 @kind("UNT001")
 def gravity_without_point(draft: Draft) -> None:
     """981 for 9.81, or 3217 for 32.17."""
-    _only(draft, "metric", "imperial")
-    draft.scale(_ocean(draft), 2, 100.0)
+    only(draft, "metric", "imperial")
+    draft.scale(ocean_row(draft), 2, 100.0)
 
 
 @kind("UNT001")
 def gravity_is_negative(draft: Draft) -> None:
     """-9.81, as gravity acts downwards."""
-    _only(draft, "metric", "imperial")
-    draft.scale(_ocean(draft), 2, -1.0)
+    only(draft, "metric", "imperial")
+    draft.scale(ocean_row(draft), 2, -1.0)
 
 
 @kind("UNT006")
 def ocean_depth_lost_a_digit(draft: Draft) -> None:
     """A depth of 100 m where the line reaches up to 1000 m. Seen at the depth, or at the highest node."""
     heights = [draft.value(row, 1) for row in draft.numbers("*NODE")]
-    row = _ocean(draft)
+    row = ocean_row(draft)
     draft.needs(max(heights) > 0.5 * draft.value(row, 0))
     draft.scale(row, 0, 0.1)
     draft.mark(*(each for each in draft.numbers("*NODE") if draft.value(each, 1) == max(heights)))
@@ -119,7 +124,7 @@ def ocean_depth_lost_a_digit(draft: Draft) -> None:
 def ocean_depth_in_other_unit(draft: Draft) -> None:
     """The depth in fathoms or km, the nodes in m or ft. Seen at the depth, or at the highest node."""
     heights = [draft.value(row, 1) for row in draft.numbers("*NODE")]
-    row = _ocean(draft)
+    row = ocean_row(draft)
     draft.needs(max(heights) > 0.5 * draft.value(row, 0))
     draft.scale(row, 0, 1 / 6 if draft.units == "imperial" else 0.001)
     draft.mark(*(each for each in draft.numbers("*NODE") if draft.value(each, 1) == max(heights)))
@@ -131,47 +136,47 @@ def ocean_depth_in_other_unit(draft: Draft) -> None:
 @kind("UNT004")
 def steel_in_tonnes(draft: Draft) -> None:
     """Steel of 7.85, in t/m3 or g/cm3."""
-    draft.put(_pipe(draft), 4, "7.85")
+    draft.put(pipe_row(draft), 4, "7.85")
 
 
 @kind("UNT004")
 def steel_in_pounds(draft: Draft) -> None:
     """Steel of 490 lb/ft3 where slug/ft3 belongs."""
-    _only(draft, "imperial")
-    draft.put(_pipe(draft), 4, "490.0")
+    only(draft, "imperial")
+    draft.put(pipe_row(draft), 4, "490.0")
 
 
 @kind("UNT004")
 def steel_in_kilograms(draft: Draft) -> None:
     """Steel of 7850 kg/m3 in an imperial deck."""
-    _only(draft, "imperial")
-    draft.put(_pipe(draft), 4, "7850.0")
+    only(draft, "imperial")
+    draft.put(pipe_row(draft), 4, "7850.0")
 
 
 @kind("UNT004")
 def steel_in_slugs(draft: Draft) -> None:
     """Steel of 15.2 slug/ft3 in a metric deck."""
-    _only(draft, "metric")
-    draft.put(_pipe(draft), 4, "15.2")
+    only(draft, "metric")
+    draft.put(pipe_row(draft), 4, "15.2")
 
 
 @kind("UNT004")
 def steel_as_weight(draft: Draft) -> None:
     """The specific weight of steel (77 000 N/m3, 490 lbf/ft3 being caught as a density) where its density belongs."""
-    _only(draft, "metric")
-    draft.put(_pipe(draft), 4, "77000.0")
+    only(draft, "metric")
+    draft.put(pipe_row(draft), 4, "77000.0")
 
 
 @kind("UNT004")
 def steel_gained_a_digit(draft: Draft) -> None:
     """78500 for 7850."""
-    draft.scale(_pipe(draft), 4, 10.0)
+    draft.scale(pipe_row(draft), 4, 10.0)
 
 
 @kind("UNT004")
 def steel_lost_a_digit(draft: Draft) -> None:
     """785 for 7850: lighter than water, with the modulus of steel."""
-    draft.scale(_pipe(draft), 4, 0.1)
+    draft.scale(pipe_row(draft), 4, 0.1)
 
 
 # -------------------------------------------------------------------------------------------------------------- moduli
@@ -180,47 +185,47 @@ def steel_lost_a_digit(draft: Draft) -> None:
 @kind("UNT005")
 def young_in_gigapascals(draft: Draft) -> None:
     """E of 207."""
-    _only(draft, "metric")
-    draft.put(_pipe(draft), 0, "207.0")
+    only(draft, "metric")
+    draft.put(pipe_row(draft), 0, "207.0")
 
 
 @kind("UNT005")
 def young_in_megapascals(draft: Draft) -> None:
     """E of 207 000."""
-    _only(draft, "metric")
-    draft.put(_pipe(draft), 0, "207000.0")
+    only(draft, "metric")
+    draft.put(pipe_row(draft), 0, "207000.0")
 
 
 @kind("UNT005")
 def young_in_kilopascals(draft: Draft) -> None:
     """E of 207E6, in kN/m2."""
-    _only(draft, "metric")
-    draft.put(_pipe(draft), 0, "207.0E6")
+    only(draft, "metric")
+    draft.put(pipe_row(draft), 0, "207.0E6")
 
 
 @kind("UNT005")
 def young_in_psi(draft: Draft) -> None:
     """E of 30E6 psi, in a metric or an imperial deck."""
-    draft.put(_pipe(draft), 0, "30.0E6")
+    draft.put(pipe_row(draft), 0, "30.0E6")
 
 
 @kind("UNT005")
 def young_in_ksi(draft: Draft) -> None:
     """E of 30 000 ksi."""
-    draft.put(_pipe(draft), 0, "30000.0")
+    draft.put(pipe_row(draft), 0, "30000.0")
 
 
 @kind("UNT005")
 def young_in_pascals(draft: Draft) -> None:
     """E of 207E9 N/m2 in an imperial deck."""
-    _only(draft, "imperial")
-    draft.put(_pipe(draft), 0, "207.0E9")
+    only(draft, "imperial")
+    draft.put(pipe_row(draft), 0, "207.0E9")
 
 
 @kind("UNT005")
 def both_moduli_in_other_unit(draft: Draft) -> None:
     """E and G in GPa, or in psi."""
-    row = _pipe(draft)
+    row = pipe_row(draft)
     factor = 1e-9 if draft.units == "metric" else 1 / PSI
     draft.scale(row, 0, factor)
     draft.scale(row, 1, factor)
@@ -229,203 +234,32 @@ def both_moduli_in_other_unit(draft: Draft) -> None:
 @kind("UNT005")
 def young_lost_a_digit(draft: Draft) -> None:
     """20.7E9 for 207E9."""
-    draft.scale(_pipe(draft), 0, 0.1)
+    draft.scale(pipe_row(draft), 0, 0.1)
 
 
 @kind("UNT005")
 def shear_in_other_unit(draft: Draft) -> None:
     """G in MPa or psi, E as it should be."""
-    draft.scale(_pipe(draft), 1, 1e-6 if draft.units == "metric" else 1 / PSI)
+    draft.scale(pipe_row(draft), 1, 1e-6 if draft.units == "metric" else 1 / PSI)
 
 
 @kind("UNT005")
 def young_and_shear_exchanged(draft: Draft) -> None:
     """G first, then E."""
-    draft.exchange(_pipe(draft), 0, 1)
+    draft.exchange(pipe_row(draft), 0, 1)
 
 
 @kind("UNT005")
 def shear_is_young(draft: Draft) -> None:
     """E typed twice."""
-    row = _pipe(draft)
+    row = pipe_row(draft)
     draft.put(row, 1, draft.field(row, 0))
 
 
 @kind("UNT005")
 def poisson_for_shear(draft: Draft) -> None:
     """Poisson's ratio where G belongs."""
-    draft.put(_pipe(draft), 1, "0.3")
-
-
-# ------------------------------------------------------------------------------------------------------------- lengths
-
-
-def _millimetres(draft: Draft) -> float:
-    return 1000.0 if draft.units == "metric" else 12.0
-
-
-@kind("UNT006", "UNT002")
-def diameters_in_millimetres(draft: Draft) -> None:
-    """Both diameters of a pipe in mm (in inches, in an imperial deck)."""
-    row = _pipe(draft)
-    for column in (2, 3):
-        draft.scale(row, column, _millimetres(draft))
-
-
-@kind("UNT006", "UNT002")
-def diameters_in_inches(draft: Draft) -> None:
-    """Both diameters of a pipe in inches, in a metric deck."""
-    row = _pipe(draft)
-    _only(draft, "metric")
-    draft.needs(draft.value(row, 2) < 2.0)
-    for column in (2, 3):
-        draft.scale(row, column, 1 / 0.0254)
-
-
-@kind("UNT006", "UNT002", "GEO001")
-def outer_diameter_in_millimetres(draft: Draft) -> None:
-    """Do alone in mm or inches: a wall far thicker than the bore."""
-    draft.scale(_pipe(draft), 2, _millimetres(draft))
-
-
-@kind("GEO001")
-def inner_diameter_in_millimetres(draft: Draft) -> None:
-    """Di alone in mm or inches: larger than Do."""
-    draft.scale(_pipe(draft), 3, _millimetres(draft))
-
-
-@kind("UNT006")
-def wall_for_inner_diameter(draft: Draft) -> None:
-    """The wall thickness where Di belongs."""
-    row = _pipe(draft)
-    draft.put(row, 3, plain((draft.value(row, 2) - draft.value(row, 3)) / 2))
-
-
-@kind("GEO001")
-def diameters_exchanged(draft: Draft) -> None:
-    """Di first, then Do."""
-    draft.exchange(_pipe(draft), 2, 3)
-
-
-@kind("UNT006", "UNT002")
-def mooring_diameter_in_millimetres(draft: Draft) -> None:
-    """Do of a chain or a rope in mm (in inches, in an imperial deck)."""
-    _only(draft, "metric", "imperial")
-    draft.scale(draft.sections("MOORING", "TRUSS")[0], 2, _millimetres(draft))
-
-
-@kind("UNT006")
-def mooring_mass_in_tonnes(draft: Draft) -> None:
-    """The mass of a chain in t/m."""
-    _only(draft, "metric")
-    draft.scale(draft.sections("MOORING", "TRUSS")[0], 1, 0.001)
-
-
-@kind("UNT006", "UNT002")
-def flexible_diameters_in_millimetres(draft: Draft) -> None:
-    """All diameters of a flexible in mm (in inches, in an imperial deck)."""
-    _only(draft, "metric", "imperial")
-    row = draft.sections("FLEXIBLE")[0]
-    draft.needs(len(draft.fields(row)) == 10)
-    for column in (6, 7, 8, 9):
-        draft.scale(row, column, _millimetres(draft)) if draft.value(row, column) else None
-
-
-@kind("UNT006")
-def flexible_mass_in_tonnes(draft: Draft) -> None:
-    """The mass of a flexible in t/m."""
-    _only(draft, "metric")
-    draft.scale(draft.sections("FLEXIBLE")[0], 4, 0.001)
-
-
-@kind("UNT006")
-def mobilisation_in_millimetres(draft: Draft) -> None:
-    """Mobilisation lengths of FRICTION= in mm (in inches, in an imperial deck)."""
-    row = draft.setting("*SEABED PROPERTIES", "FRICTION")
-    for column in (2, 3):
-        draft.scale(row, column, _millimetres(draft))
-
-
-@kind("UNT006", "GEO005", "SBD022")
-def coordinates_in_millimetres(draft: Draft) -> None:
-    """All coordinates in mm, the pipe in m. Seen at a node, or at an element that is too long."""
-    _only(draft, "metric")
-    for row in draft.numbers("*NODE"):
-        for column in range(1, len(draft.fields(row))):
-            draft.scale(row, column, 1000.0) if draft.value(row, column) else None
-        draft.mark(row)
-    draft.mark(*draft.numbers("*ELEMENT"), draft.block("*NODE")[0])
-
-
-@kind("UNT006")
-def coordinate_with_a_digit_more(draft: Draft) -> None:
-    """One node ten times as far along as it should be. Seen at the node, or at an element beside it."""
-    row, following = _along(draft)
-    draft.scale(row, 2, 10.0)
-    label = draft.field(row, 0)
-    draft.mark(following, *(each for each in draft.numbers("*ELEMENT") if label in draft.fields(each)[1:]))
-
-
-@kind("UNT006")
-def coordinate_without_point(draft: Draft) -> None:
-    """One node typed without its decimal point. Seen at the node, or at an element beside it."""
-    row, following = _along(draft)
-    text = draft.field(row, 2)
-    draft.needs(text.endswith(".0") or len(text.partition(".")[2]) > 1)
-    draft.put(row, 2, text.replace(".", ""))
-    label = draft.field(row, 0)
-    draft.mark(following, *(each for each in draft.numbers("*ELEMENT") if label in draft.fields(each)[1:]))
-
-
-def _along(draft: Draft) -> tuple[Row, Row]:
-    """A node in the part of a line that lies along Y, of a deck that lists all nodes, and the one behind it."""
-    rows = draft.numbers("*NODE")
-    draft.needs(len(rows) > 12 and draft.value(rows[5], 2) > 0)
-    return rows[5], rows[6]
-
-
-# ---------------------------------------------------------------------------------------------------------------- axes
-
-
-@kind("SBD022")
-def datum_at_the_surface(draft: Draft) -> None:
-    """X counted from the water surface: the seabed lies at minus the depth. Seen at a node."""
-    depth = draft.value(_ocean(draft), 0)
-    draft.needs("*P-Y" not in draft.text and "SEABED P" in draft.text)
-    for row in draft.numbers("*NODE"):
-        draft.put(row, 1, plain(draft.value(row, 1) - depth))
-
-
-@kind("GEO005", "SBD022")
-def z_is_up(draft: Draft) -> None:
-    """The vertical coordinate written last, as in other programs. Seen at a node or at the block."""
-    draft.needs("*P-Y" not in draft.text and "SEABED P" in draft.text and "*SEABED PROFILE" not in draft.text)
-    heights = [draft.value(row, 1) for row in draft.numbers("*NODE")]
-    draft.needs(max(heights) > 10.0)
-    for row in draft.numbers("*NODE"):
-        fields = draft.fields(row)
-        across = fields[3] if len(fields) > 3 else "0.0"
-        draft.write(row, f"{fields[0]}, {fields[2]}, {across}, {fields[1]}")
-    draft.mark(draft.block("*NODE")[0])
-
-
-@kind("GEO005")
-def laid_above_the_seabed(draft: Draft) -> None:
-    """50 m added to every X, by a datum of the site below the mudline. Seen at a node or at the block."""
-    draft.needs("SEABED P" in draft.text and "*SEABED PROFILE" not in draft.text)
-    for row in draft.numbers("*NODE"):
-        draft.put(row, 1, plain(draft.value(row, 1) + (50.0 / FOOT if draft.units == "imperial" else 50.0)))
-    draft.mark(draft.block("*NODE")[0])
-
-
-@kind("SBD022", "GEO005")
-def depth_positive_downwards(draft: Draft) -> None:
-    """X of a riser with the wrong sign: it hangs below the seabed. Seen at a node or the block."""
-    draft.needs("SEABED P" in draft.text)
-    draft.needs(max(draft.value(row, 1) for row in draft.numbers("*NODE")) > 10.0)
-    for row in draft.numbers("*NODE"):
-        draft.scale(row, 1, -1.0)
-    draft.mark(draft.block("*NODE")[0])
+    draft.put(pipe_row(draft), 1, "0.3")
 
 
 # -------------------------------------------------------------------------------------------------------------- seabed
@@ -434,7 +268,7 @@ def depth_positive_downwards(draft: Draft) -> None:
 @kind("UNT002")
 def stiffness_in_kilonewtons(draft: Draft) -> None:
     """STIFFNESS= in kN/m/m, or in kip/ft/ft."""
-    _only(draft, "metric", "imperial")
+    only(draft, "metric", "imperial")
     draft.swap(*_stiffness(draft))
 
 
@@ -448,14 +282,14 @@ def _stiffness(draft: Draft) -> tuple[Row, str, str]:
 @kind("UNT002")
 def legacy_stiffness_in_kilonewtons(draft: Draft) -> None:
     """The stiffness of `*ELASTIC SURFACE` in kN/m/m, or in kip/ft/ft."""
-    _only(draft, "metric", "imperial")
+    only(draft, "metric", "imperial")
     draft.scale(draft.numbers("*ELASTIC SURFACE")[0], 0, 0.001)
 
 
 @kind("UNT002")
 def curve_in_kilonewtons(draft: Draft) -> None:
     """Forces of a curve in kN/m, or in kip/ft. Seen at the curve's first line or at a point."""
-    _only(draft, "metric", "imperial")
+    only(draft, "metric", "imperial")
     points = draft.curve()
     draft.mark(draft.keyed_above(points[0]))
     for row in points[1:]:
@@ -470,7 +304,7 @@ def curve_in_millimetres(draft: Draft) -> None:
     diameter = draft.value(draft.sections("RIGID")[0], 2)
     draft.needs(diameter < 3.0)
     for row in points[1:]:
-        draft.scale(row, 0, diameter * _millimetres(draft))
+        draft.scale(row, 0, diameter * per_length(draft))
 
 
 @kind("UNT006", "CRV010")
@@ -519,7 +353,7 @@ def slope_without_point(draft: Draft) -> None:
 @kind("UNT002")
 def lateral_in_kilonewtons(draft: Draft) -> None:
     """LATERAL= in kN/m/m, or in kip/ft/ft."""
-    _only(draft, "metric", "imperial")
+    only(draft, "metric", "imperial")
     row = draft.setting("*SEABED PROPERTIES", "LATERAL")
     text = row.text.partition("=")[2]
     draft.swap(row, text, plain(typed(text) / 1000.0))
@@ -528,7 +362,7 @@ def lateral_in_kilonewtons(draft: Draft) -> None:
 @kind("UNT002")
 def suction_in_kilonewtons(draft: Draft) -> None:
     """The suction stiffness in kN/m/m, or in kip/ft/ft."""
-    _only(draft, "metric", "imperial")
+    only(draft, "metric", "imperial")
     row = draft.setting("*SEABED PROPERTIES", "SUCTION")
     text = row.text.partition("=")[2].partition(",")[0]
     draft.swap(row, text, plain(typed(text) / 1000.0))
@@ -540,14 +374,14 @@ def suction_in_kilonewtons(draft: Draft) -> None:
 def _any_value(draft: Draft) -> None:
     """In user units either side of a contradiction may be the wrong one: any of the values may be named."""
     draft.needs(draft.units == "user")
-    draft.mark(_ocean(draft), *draft.sections())
+    draft.mark(ocean_row(draft), *draft.sections())
 
 
 @kind("UNT004", "UNT005", "UNT006")
 def user_water_in_other_mass(draft: Draft) -> None:
     """User units: water in t/m3 in a deck of newtons, in kg/m3 in a deck of kilonewtons; too heavy for a light line."""
     _any_value(draft)
-    row = _ocean(draft)
+    row = ocean_row(draft)
     draft.scale(row, 1, 0.001 if draft.value(row, 1) > 100.0 else 1000.0)
 
 

@@ -16,14 +16,16 @@ from mudline.linting.registry import select
 from tests.faults.draft import Draft, NotHere
 from tests.faults.kind import Kind
 from tests.faults.kinds_copies import COPIES, NUMBERS
+from tests.faults.kinds_curves import CURVES
 from tests.faults.kinds_keywords import KEYWORDS
-from tests.faults.kinds_seabed import CURVES, SEABED
+from tests.faults.kinds_lengths import LENGTHS
+from tests.faults.kinds_seabed import SEABED
 from tests.faults.kinds_typing import TYPING
 from tests.faults.kinds_units import UNITS
 from tests.faults.legal import LegalDeck, legal_decks
 
 KINDS: list[Kind] = [
-    kind for group in (UNITS, TYPING, KEYWORDS, COPIES, NUMBERS, CURVES, SEABED) for kind in group.kinds
+    kind for group in (UNITS, LENGTHS, TYPING, KEYWORDS, COPIES, NUMBERS, CURVES, SEABED) for kind in group.kinds
 ]
 
 PER_KIND = 4
