@@ -92,7 +92,7 @@ def test_nothing_found_is_a_whole_result(form: str) -> None:
 @pytest.mark.parametrize("form", ["text", *form_names()])
 def test_a_reader_that_takes_one_line_ends_it_quietly(tmp_path: Path, form: str) -> None:
     """More than a pipe holds, so that the rest of it meets the pipe closed."""
-    rows = "".join(f" {number}, x, 0.0\n" for number in range(FAULTS))
+    rows = "".join(f" {number}, x, 0.0\n {number}0000, 0.0, 0.0\n" for number in range(1, FAULTS))
     (tmp_path / "long.keyxm").write_text(f"$MODEL\n*NODE\n{rows}", encoding="utf-8")
     command = f'"$PYTHON" -m mudline lint long.keyxm --output-format {form} | head -n 1; echo "${{PIPESTATUS[0]}}"'
     done = subprocess.run(

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from mudline.diagnostics import Problem, Severity, Span
-from mudline.linting.corrections import Blocks, Correction, missing_sections, misspelt
+from mudline.linting.corrections import Blocks, Correction, line_at, missing_sections, misspelt
 from mudline.linting.line_corrections import line_corrections
 from mudline.linting.rows import by_row, joined, left_out
 from mudline.linting.rule import LintContext
@@ -23,6 +23,9 @@ MOST_TRIALS = 24
 
 FEWEST_TRIALS, MOST_WORK = 2, 20_000
 """Times that any deck is checked again; the findings, blocks and thousands of characters that all trials look at."""
+
+LONGEST_LINE = 4096
+"""Characters of a line in which a correction is tried: what is longer was not typed."""
 
 MOST_ALTERNATIVES = 4
 """Corrections of one finding that are tried."""
@@ -53,6 +56,7 @@ def under_causes(context: LintContext, problems: list[Problem], check: Check) ->
         *line_corrections(blocks, problems),
         *value_corrections(blocks, problems),
     ]
+    made = [one for one in made if _typed(line_at(text, one.edits[0].span.start))]
     if not made:
         return by_row(text, problems)
     by_cause: dict[int, list[Correction]] = {}
@@ -62,6 +66,10 @@ def under_causes(context: LintContext, problems: list[Problem], check: Check) ->
     size = len(problems) + len(blocks.blocks) + blocks.end // 1000
     trials = min(MOST_TRIALS, max(FEWEST_TRIALS, MOST_WORK // size))
     return by_row(text, _Trials(context, problems, check, trials).grouped(tried))
+
+
+def _typed(line: Span) -> bool:
+    return line.end - line.start <= LONGEST_LINE
 
 
 @dataclass(frozen=True, slots=True)

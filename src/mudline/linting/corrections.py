@@ -119,7 +119,7 @@ def missing_sections(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Co
     outside = {start_of(text, one): one for one in problems if one.code is SYN007}
     elsewhere = {start_of(text, one): one for one in problems if one.code is SYN008 and one.weight is Severity.ERROR}
     tree = text.tree
-    heads = [trimmedstart_of(text, block) for block in tree.preamble.blocks]
+    heads = [head_start(text, block) for block in tree.preamble.blocks]
     if run := [(head, block.name) for head, block in zip(heads, tree.preamble.blocks, strict=True) if head in outside]:
         end = tree.sections[0].head.span.start if tree.sections and tree.sections[0].head else blocks.end
         first = outside[run[0][0]]
@@ -130,7 +130,7 @@ def missing_sections(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Co
             message = ""
         yield Correction(first, edits, Span(run[0][0], end), message)
     for section in tree.sections:
-        placed = [(trimmedstart_of(text, block), block.name) for block in section.blocks]
+        placed = [(head_start(text, block), block.name) for block in section.blocks]
         for begin, behind in _runs(placed, elsewhere):
             yield _moved(blocks, elsewhere[placed[begin][0]], section.name, placed[begin:behind], placed[behind:])
 
@@ -163,7 +163,7 @@ def _section_of(keyword: str) -> str:
     return (catalogue.sections_of(keyword) or ("MODEL",))[0]
 
 
-def trimmedstart_of(text: TextOrigin, block: RawBlock) -> int:
+def head_start(text: TextOrigin, block: RawBlock) -> int:
     """Where the name of a block begins: behind the blanks of its line."""
     line = text.source.unified[slice(*block.head.span)]
     return block.head.span.start + len(line) - len(line.lstrip(" \t"))

@@ -79,10 +79,10 @@ def _keyword_lines(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Corr
             end = (block.leaves or [block.head])[-1].span.end
             inside = [(at, number) for at, number in wanted if block.head.span.end <= at < end]
             if inside and any(problems[number].weight is Severity.ERROR for _, number in inside):
-                yield from _missingline_at(text, section.name, block, problems[inside[0][1]], inside[0][0])
+                yield from _missing_line(text, section.name, block, problems[inside[0][1]], inside[0][0])
 
 
-def _missingline_at(text: TextOrigin, section: str, block: RawBlock, cause: Problem, at: int) -> Iterator[Correction]:
+def _missing_line(text: TextOrigin, section: str, block: RawBlock, cause: Problem, at: int) -> Iterator[Correction]:
     unified = text.source.unified
     end = block.leaves[-1].span.end
     line = unified.rfind("\n", 0, at) + 1
