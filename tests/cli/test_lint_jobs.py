@@ -60,7 +60,7 @@ lint_jobs.PAYS, lint_jobs.TRIED = dict.fromkeys(lint_jobs.PAYS, 0.0), 0.0
 start_method, used = lint_jobs._start_method, []
 lint_jobs._start_method = lambda: used.append(start_method()) or used[-1]
 code = main(sys.argv[1:])
-print(*used, code, file=sys.stderr)
+print(*set(used), code, file=sys.stderr)
 """
 
 
