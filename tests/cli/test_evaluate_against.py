@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from mudline.contact import numpy_driver
+from mudline.contact.result import Part
 from mudline.results.against import Comparison
-from mudline.results.evaluation import Part
 from tests.builders.decks import CLEAN, CLEAN_WARNING
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, assert_fits, run

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from mudline.contact import ContactModel
-from mudline.contact.model import Stepped
+from mudline.contact.result import Part
 from mudline.results.forms import parquet
 from tests.builders.decks import CLEAN, CLEAN_WARNING
 from tests.cli.conftest import Place
@@ -79,7 +79,7 @@ def test_interruption_leaves_no_file(
 ) -> None:
     stream = ContactModel.stream
 
-    def interrupted(model: ContactModel, positions: np.ndarray, **options: object) -> Iterator[Stepped]:
+    def interrupted(model: ContactModel, positions: np.ndarray, **options: object) -> Iterator[Part]:
         for part in stream(model, positions, **options):  # type: ignore[arg-type] # handed on as they are
             yield part
             raise KeyboardInterrupt

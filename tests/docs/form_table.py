@@ -7,9 +7,9 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from mudline.linting.output import TEXT, TEXT_SUMMARY, form_module, form_names
+from mudline.quantities import ELEMENTS, NODES, Quantity
 from mudline.results.forms import form_module as result_module
 from mudline.results.forms import form_names as result_names
-from mudline.results.quantities import ELEMENTS, NODES, Quantity
 
 _ROOT = Path(__file__).parents[2]
 _FINDINGS = "| form | what it is |\n| --- | --- |\n"

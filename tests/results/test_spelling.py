@@ -11,9 +11,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mudline.results.columns import coded
+from mudline.contact.columns import coded
+from mudline.quantities import csv_lines, finite, headed, shown, unit_names
 from mudline.results.forms import Spelling
-from mudline.results.quantities import csv_lines, finite, headed, shown, unit_names
 
 JSON = Spelling(json.dumps, "null")
 CSV = Spelling(lambda name: name, "")

@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from mudline.results.columns import ElementTable, NodeTable, Table
+from mudline.contact.columns import Table
 from mudline.results.evaluation import Evaluation
 from mudline.results.forms import Output, Sink, Write, npz, text_form
 from mudline.results.totals import StepSummary, StepTotal, Total, totals
@@ -34,7 +34,7 @@ def pieces(evaluation: Evaluation, form: Callable[[Write], Sink]) -> Iterator[st
 
 def json_pieces(evaluation: Evaluation) -> Iterator[str]:
     """The JSON as it is written."""
-    return pieces(evaluation, lambda write: text_form("json")(evaluation, ElementTable(evaluation), write))
+    return pieces(evaluation, lambda write: text_form("json")(evaluation, evaluation.element_table(), write))
 
 
 def json_of(evaluation: Evaluation) -> Json:
@@ -44,8 +44,8 @@ def json_of(evaluation: Evaluation) -> Json:
 
 def csv_pieces(evaluation: Evaluation, table: str) -> Iterator[str]:
     """The CSV of `elements` or `nodes` as it is written."""
-    make: Callable[[Evaluation], Table] = ElementTable if table == "elements" else NodeTable
-    return pieces(evaluation, lambda write: text_form("csv")(evaluation, make(evaluation), write))
+    make: Callable[[], Table] = evaluation.element_table if table == "elements" else evaluation.node_table
+    return pieces(evaluation, lambda write: text_form("csv")(evaluation, make(), write))
 
 
 def csv_of(evaluation: Evaluation, table: str) -> str:
@@ -58,7 +58,7 @@ def arrays_of(evaluation: Evaluation) -> dict[str, NDArray[Any]]:
     stream = io.BytesIO()
     with (
         TemporaryDirectory() as folder,
-        npz.opened(Output(evaluation, ElementTable(evaluation), [stream], Path(folder))) as sink,
+        npz.opened(Output(evaluation, evaluation.element_table(), [stream], Path(folder))) as sink,
     ):
         for part in evaluation.parts():
             sink.take(part)

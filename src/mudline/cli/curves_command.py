@@ -16,7 +16,7 @@ from mudline.cli.view import View
 from mudline.curves import ForceCurve
 from mudline.deck.parameters import folded
 from mudline.linting.output import visible
-from mudline.results.quantities import UnitNames, csv_lines, finite, headed, shown, unit_names
+from mudline.quantities import UnitNames, csv_lines, finite, headed, shown, unit_names
 from mudline.results.summary import CURVE_SIDES, followers
 from mudline.scene.force_curves import SceneCurve
 from mudline.scene.model import Scene, resolve

@@ -20,14 +20,15 @@ from mudline.cli.inputs import GivenDeck, takes_deck
 from mudline.cli.streams import MOST_REPORTED, counted, emit, emit_json, notify, notify_missing, reason, writing
 from mudline.cli.view import Progress, View, tracked, wants_bar
 from mudline.contact import LawKind
+from mudline.contact.columns import ElementTable
+from mudline.contact.result import Part
 from mudline.deck.model import Deck
 from mudline.diagnostics import DeckError
 from mudline.linting.output import visible
+from mudline.quantities import csv_lines
 from mudline.results.against import Comparison, read_reference
-from mudline.results.columns import ElementTable, NodeTable
-from mudline.results.evaluation import Evaluation, Part, Prepared, Tension, evaluate_scene, prepare
+from mudline.results.evaluation import Evaluation, Prepared, Tension, evaluate_scene, prepare
 from mudline.results.forms import Output, ResultConsumer, Sink, Together, form_module, form_names, plan_rows, text_form
-from mudline.results.quantities import csv_lines
 from mudline.results.totals import PlotData, StepSummary
 from mudline.results.warnings import ContactWarning, ContactWatch, caption
 from mudline.scene.csv_file import ExternalElements, read_external
@@ -234,11 +235,11 @@ def _sink(
     as_text: bool,
 ) -> AbstractContextManager[Sink]:
     """Where the rows go: files, standard output (a form and a table), or nowhere."""
-    elements = ElementTable(evaluation, None if comparison is None else comparison.others)
+    elements = evaluation.element_table(None if comparison is None else comparison.others)
     if output:
         return _files(evaluation, elements, Path(output), view, as_text=as_text)
     if shown[0] in {"json", "csv"}:
-        rows = NodeTable(evaluation) if shown == ("csv", "nodes") else elements
+        rows = evaluation.node_table() if shown == ("csv", "nodes") else elements
         return nullcontext(text_form(shown[0], as_text=as_text)(evaluation, rows, emit))
     return nullcontext(Together())
 

@@ -10,10 +10,10 @@ import numpy as np
 
 from mudline.cli.view import View
 from mudline.contact import Plan
+from mudline.contact.result import Part
+from mudline.quantities import SLIDING, STATES, UnitNames, headed, shown, unit_names
 from mudline.results.against import Comparison
-from mudline.results.columns import ElementTable
-from mudline.results.evaluation import Evaluation, Part
-from mudline.results.quantities import SLIDING, STATES, UnitNames, headed, shown, unit_names
+from mudline.results.evaluation import Evaluation
 from mudline.results.totals import StepSummary, Total, acted_on, counts, reaction, totals
 from mudline.scene.numbering import Floats, Indices
 
@@ -176,7 +176,7 @@ def _touching_elements(evaluation: Evaluation, part: Part) -> tuple[Cells, Itera
     result, chosen = part.result.step(0), evaluation.elements
     held = np.flatnonzero(result.contact[chosen] | (np.nan_to_num(result.force[chosen]) != 0.0))
     index = chosen[held]
-    law = next(column for column in ElementTable(evaluation).columns(part) if column.name == "law")
+    law = next(column for column in evaluation.element_table().columns(part) if column.name == "law")
     cells = [
         [str(number) for number in evaluation.scene.element_ids[index].tolist()],
         [law.names[code] or "" for code in law.cut(0, 1)[0, held].tolist()],

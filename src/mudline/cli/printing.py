@@ -16,7 +16,7 @@ from rich.text import Text
 from mudline.diagnostics import Diagnostic
 from mudline.linting.output import visible
 from mudline.linting.output.text import STYLES, Screen, findings, summary
-from mudline.results.quantities import shown
+from mudline.quantities import shown
 from mudline.syntax.source import Source
 
 EXCERPT_WIDTH = 120

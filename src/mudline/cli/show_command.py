@@ -12,7 +12,7 @@ from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import GivenDeck, takes_deck
 from mudline.cli.streams import counted, emit_json, notify
 from mudline.cli.view import View
-from mudline.results.quantities import UnitNames, headed, shown, unit_names
+from mudline.quantities import UnitNames, headed, shown, unit_names
 from mudline.results.summary import summarise
 from mudline.scene.model import resolve
 

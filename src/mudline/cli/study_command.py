@@ -12,7 +12,7 @@ from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import GivenDeck, refuses_bad_decks
 from mudline.cli.streams import counted, emit, notify, notify_missing, reason
 from mudline.cli.view import View
-from mudline.results.quantities import headed, shown
+from mudline.quantities import headed, shown
 from mudline.scene.model import Scene, resolve
 from mudline.study import sample_scene
 from mudline.study.report import Cell, StudyError, StudyOptions, StudyReport, StudyTable, silent

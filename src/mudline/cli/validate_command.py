@@ -23,7 +23,7 @@ from mudline.linting.engine import grouped_problems, unsuppressed
 from mudline.linting.output.json import as_object
 from mudline.linting.registry import rules, select
 from mudline.linting.rule import LintContext
-from mudline.results.quantities import csv_lines
+from mudline.quantities import csv_lines
 from mudline.results.warnings import seabed_warnings
 from mudline.syntax.source import Source
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,6 +15,7 @@ from mudline.contact.laws import Law, NormalLaw, law_named
 from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:  # a scene without curves does not load them, nor does a flat seabed load other shapes
+    from mudline.contact.lines import Lines
     from mudline.contact.seabed import Seabed
     from mudline.curves import ForceCurve
 
@@ -114,6 +115,26 @@ class AssignedLaw:
         return found
 
 
+class Names(Protocol):
+    """What the laws of elements are called, and in which units all is: what tables of results say beside numbers."""
+
+    @property
+    def units(self) -> str:
+        """The unit system: "metric", "imperial" or "user"."""
+
+    @property
+    def source(self) -> str:
+        """The deck."""
+
+    @property
+    def law_names(self) -> Sequence[str]:
+        """(m,) `curve:NAME`, `linear`, `nodal`, `rigid` or `none`."""
+
+    @property
+    def law_sets(self) -> Sequence[str | None]:
+        """(m,) the set through which each element got its law."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class ContactInput:
     """Nodes (n), elements (m) and their laws. The arrays are not copied; do not change them.
@@ -133,6 +154,7 @@ class ContactInput:
         seabed: its shape; None for a flat one at X = 0.
         weight: (m,) submerged weights per unit length, NaN where unknown; None when none is. Forces do without them.
         left_out: reasons, by stage of the plan, why something the scene asks for is not evaluated.
+        names: what the laws, sets and units are called; None where nobody said.
 
     Raises:
         ValueError: an array has the wrong shape or kind, an index points nowhere, or there is no law of a name.
@@ -152,6 +174,8 @@ class ContactInput:
     seabed: Seabed | None = None
     weight: FloatArray | None = None
     left_out: Mapping[str, str] = field(default_factory=dict)
+    names: Names | None = None
+    _lines: list[Lines] = field(init=False, repr=False, default_factory=list)
     assigned: dict[str, AssignedLaw] = field(init=False, repr=False)
     """The laws that some element or node has, by name."""
 
@@ -174,6 +198,37 @@ class ContactInput:
         found = {name: self._assigned(name) for name in names}
         object.__setattr__(self, "assigned", {name: given for name, given in found.items() if len(given.rows)})
         self._check_normal()
+
+    @property
+    def lines(self) -> Lines:
+        """The lines that the elements form; found when they are first asked for."""
+        if not self._lines:
+            from mudline.contact.lines import lines_of  # noqa: PLC0415 - forces alone do without it
+
+            self._lines.append(lines_of(self))
+        return self._lines[0]
+
+    @property
+    def units(self) -> str:
+        """The unit system: "metric", "imperial" or "user"."""
+        return "user" if self.names is None else self.names.units
+
+    @property
+    def law_names(self) -> Sequence[str]:
+        """The name of each element's law (m,): `curve:NAME`, or that of its `LawKind`."""
+        if self.names is not None:
+            return self.names.law_names
+        curves = [f"curve:{curve.name}" for curve in self.curves]
+        kinds, at = self.law.tolist(), self.curve_index.tolist()
+        return [
+            curves[curve] if kind == LawKind.CURVE else LawKind(kind).name.lower()
+            for kind, curve in zip(kinds, at, strict=True)
+        ]
+
+    @property
+    def law_sets(self) -> Sequence[str | None]:
+        """The set (m,) through which each element got its law; None where nobody said."""
+        return [None] * len(self.element_ids) if self.names is None else self.names.law_sets
 
     def has(self, *names: str) -> bool:
         """Whether some element or node has one of these laws."""

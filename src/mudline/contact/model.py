@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,10 +13,10 @@ from mudline.contact.arrays import BoolArray, FloatArray, IdArray, StepReader
 from mudline.contact.input import ContactInput, PositionError
 from mudline.contact.numpy_driver import NumpyDriver
 from mudline.contact.plan import Backend, BackendChoice, Plan, make_plan
-from mudline.contact.result import ContactResult, blank_result, is_finite, refuse, refuse_pulling
+from mudline.contact.result import ContactResult, Part, blank_result, is_finite, refuse, refuse_pulling
 from mudline.contact.seabed import FlatSeabed, Seabed
 from mudline.contact.tables import Batch, ContactState, Tables
-from mudline.short_repr import counted, outline, short_repr
+from mudline.short_repr import counted, outline
 
 if TYPE_CHECKING:
     from mudline.contact.compiled.driver import CompiledDriver
@@ -25,16 +25,6 @@ if TYPE_CHECKING:
 
 
 RealArray = NDArray[np.floating[Any] | np.integer[Any]]
-
-
-class Stepped(NamedTuple):
-    """Steps `start` and on of a series, with their results."""
-
-    start: int
-    result: ContactResult
-
-    def __repr__(self) -> str:
-        return short_repr(self)
 
 
 class ContactModel:
@@ -100,6 +90,8 @@ class ContactModel:
                 velocities nor times.
         """
         given = self.input.coordinates if positions is None else positions
+        if np.ndim(given) == 2:
+            given = np.array(given)  # a copy, which the result keeps: the caller may write the next positions into it
         parts = list(self.stream(given, present=present, velocities=velocities, times=times, together=True))
         result = parts[0].result
         return result if np.ndim(given) == 3 else result.step(0)
@@ -112,7 +104,7 @@ class ContactModel:
         velocities: ArrayLike | None = None,
         times: ArrayLike | None = None,
         together: bool = False,
-    ) -> Iterator[Stepped]:
+    ) -> Iterator[Part]:
         """Evaluate a series a few steps at a time, with memory for those; `together`: all steps in one result.
 
         Takes and raises what `evaluate` does.
@@ -125,20 +117,21 @@ class ContactModel:
             raise ValueError("a series with suction needs velocities, or the times of its steps")
         driver = self._driver(len(series))
         rows = self._numpy.steps if driver is None else driver.steps
-        whole = self._blank(len(series), mask) if together else None
+        whole = self._blank(series[:], mask, clock) if together else None
         state = self._tables.initial_state()
         for start in range(0, len(series), rows):
             steps = range(start, min(start + rows, len(series)))
-            part = self._blank(len(steps), mask) if whole is None else whole.steps(steps.start, steps.stop)
             with np.errstate(all="ignore"):  # everything that can overflow is checked
                 points = _read_steps(series, steps, self.input.node_ids, mask)
+                when = None if clock is None else clock[steps.start : steps.stop]
+                part = self._blank(points, mask, when) if whole is None else whole.steps(steps.start, steps.stop)
                 rates = None if motion is None else np.asarray(motion[steps.start : steps.stop], np.float64)
                 spans = None if clock is None else np.diff(clock[max(start - 1, 0) : steps.stop])
                 state = self._advance(driver, points, rates, spans, part, state, start)
             if whole is None:
-                yield Stepped(start, part)
+                yield Part(start, part)
         if whole is not None:
-            yield Stepped(0, whole)
+            yield Part(0, whole)
 
     def initial_state(self) -> ContactState:
         """Return the state before the first step: nothing has touched the seabed."""
@@ -169,10 +162,10 @@ class ContactModel:
         motion = _as_velocities(velocities, series.shape)
         if self._tables.suction is not None and motion is None and state.positions is not None and dt is None:
             raise ValueError("a step without velocities needs dt > 0")
-        part = self._blank(1, mask)
         with np.errstate(all="ignore"):
-            # a copy: the state keeps it, and whoever steps may write the next positions into the same array
+            # a copy: state and result keep it, and whoever steps may write the next positions into the same array
             points = _read_steps(series, range(1), self.input.node_ids, mask).copy()
+            part = self._blank(points, mask, None)
             rates = None if motion is None else np.asarray(motion, np.float64)
             spans = None if dt is None or state.positions is None else np.array([dt])
             after = self._advance(self._driver(1), points, rates, spans, part, state, 0, kept=True)
@@ -223,10 +216,8 @@ class ContactModel:
             )
         return None if self._compiled.broken else self._compiled
 
-    def _blank(self, steps: int, mask: BoolArray) -> ContactResult:
-        line = self._tables.line
-        evaluated = mask[line.first] & mask[line.second]
-        return blank_result(steps, evaluated, mask, self._tables, self._seabed.same_normal)
+    def _blank(self, positions: RealArray, mask: BoolArray, times: FloatArray | None) -> ContactResult:
+        return blank_result(positions, mask, self._tables, self._seabed.same_normal, times)
 
     def _advance(  # noqa: PLR0913, PLR0917 - what a batch is made of
         self,

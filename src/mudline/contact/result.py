@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mudline.contact.arrays import BoolArray, FloatArray, IdArray, StateArray
-from mudline.contact.input import ElementError, PositionError
+from mudline.contact.input import ContactInput, ElementError, PositionError
 from mudline.contact.tables import Tables
-from mudline.short_repr import outline
+from mudline.short_repr import outline, short_repr
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -42,6 +42,9 @@ class ContactResult:
         evaluated: (m,) elements whose two nodes have positions.
         present: (n,) nodes that have a position.
         rigid: (n,) nodes of elements on a rigid seabed, a constraint and no force; None where there are none.
+        given: nodes, elements, laws and names that were evaluated.
+        positions: (..., n, 3) what was evaluated, in any type of number; a series is the caller's own array.
+        times: (steps,) the times of a series, () of one of its steps; None where there are none.
     """
 
     depth: FloatArray
@@ -62,6 +65,9 @@ class ContactResult:
     friction: FloatArray | None = None
     friction_state: StateArray | None = None
     rigid: BoolArray | None = None
+    given: ContactInput | None = None
+    positions: NDArray[Any] | None = None
+    times: FloatArray | None = None
 
     def __repr__(self) -> str:
         optional = ("state", "regularised", "friction", "friction_state", "rigid")
@@ -84,6 +90,14 @@ class ContactResult:
         """Return one step of a series, as views."""
         return self._cut(index)
 
+    def as_series(self) -> ContactResult:
+        """Return a single state as a series of one step, as views."""
+        arrays = ((name, getattr(self, name)) for name in _BY_STEP)
+        of_steps: dict[str, Any] = {
+            name: None if values is None else np.asarray(values)[None] for name, values in arrays
+        }
+        return ContactResult(**of_steps, **{name: getattr(self, name) for name in _OF_ALL_STEPS})
+
     def steps(self, start: int, stop: int) -> ContactResult:
         """Return the steps start <= step < stop of a series, as views."""
         return self._cut(slice(start, stop))
@@ -91,21 +105,47 @@ class ContactResult:
     def _cut(self, key: int | slice) -> ContactResult:
         arrays = ((name, getattr(self, name)) for name in _BY_STEP)
         of_steps: dict[str, Any] = {name: None if values is None else values[key] for name, values in arrays}
-        return ContactResult(**of_steps, evaluated=self.evaluated, present=self.present, rigid=self.rigid)
+        return ContactResult(**of_steps, **{name: getattr(self, name) for name in _OF_ALL_STEPS})
 
 
-_BY_STEP = tuple(each.name for each in fields(ContactResult) if each.name not in {"evaluated", "present", "rigid"})
+@dataclass(frozen=True, slots=True)
+class Part:
+    """Steps `start` and on of a series, with their results (steps, ...)."""
+
+    start: int
+    result: ContactResult
+
+    __repr__ = short_repr
+
+    @property
+    def count(self) -> int:
+        """Number of steps."""
+        return len(self.result.depth)
+
+    @property
+    def steps(self) -> slice:
+        """Where the steps stand among all steps."""
+        return slice(self.start, self.start + self.count)
+
+
+_OF_ALL_STEPS = ("evaluated", "present", "rigid", "given")
+_BY_STEP = tuple(each.name for each in fields(ContactResult) if each.name not in _OF_ALL_STEPS)
 
 
 def blank_result(
-    steps: int, evaluated: BoolArray, present: BoolArray, tables: Tables, same_normal: FloatArray | None
+    positions: NDArray[Any],
+    present: BoolArray,
+    tables: Tables,
+    same_normal: FloatArray | None,
+    times: FloatArray | None,
 ) -> ContactResult:
-    """Return a series of results to be filled in.
+    """Return the results of a series of positions (steps, n, 3), to be filled in.
 
     Arrays for laws that are not there are left out. Where all points of the seabed share a normal, it is a view, and so
     is `cut` where nothing is ever cut.
     """
-    on_elements, on_nodes = (steps, len(evaluated)), (steps, len(present))
+    evaluated = present[tables.line.first] & present[tables.line.second]
+    on_elements, on_nodes = (len(positions), len(evaluated)), (len(positions), len(present))
     slides = tables.friction is not None or tables.lateral is not None
     cuts = tables.cuts and any(rows.curve >= 0 for rows in tables.normal)
     return ContactResult(
@@ -127,6 +167,9 @@ def blank_result(
         friction=np.empty((*on_nodes, 2)) if slides else None,
         friction_state=None if tables.friction is None else np.empty((*on_nodes, 2), np.int8),
         rigid=tables.rigid,
+        given=tables.given,
+        positions=positions,
+        times=times,
     )
 
 

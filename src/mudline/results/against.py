@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mudline.results.evaluation import Evaluation, Part
+from mudline.contact.result import Part
+from mudline.results.evaluation import Evaluation
 from mudline.scene.csv_file import CsvTable, data_error, read_csv
 from mudline.scene.numbering import Floats, Ids, Indices
 

@@ -11,7 +11,9 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from mudline.contact import ContactModel, ContactResult, ElementError, PositionError
+from mudline.contact import ContactModel, ElementError, PositionError
+from mudline.contact.columns import ElementTable, NodeTable, Others
+from mudline.contact.result import Part
 from mudline.scene.mesh import distances
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices, Mask
@@ -32,26 +34,6 @@ class Prepared:
     lengths_from_positions: int
 
     __repr__ = short_repr
-
-
-@dataclass(frozen=True, slots=True)
-class Part:
-    """Steps `start` and on of an evaluation, with their results (steps, ...)."""
-
-    start: int
-    result: ContactResult
-
-    __repr__ = short_repr
-
-    @property
-    def count(self) -> int:
-        """Number of steps."""
-        return len(self.result.depth)
-
-    @property
-    def steps(self) -> slice:
-        """Where the steps stand among all steps."""
-        return slice(self.start, self.start + self.count)
 
 
 @dataclass(frozen=True)
@@ -101,6 +83,14 @@ class Evaluation:
         """Elements without a position of both nodes."""
         return len(self.scene.element_ids) - len(self.elements)
 
+    def element_table(self, others: Others | None = None) -> ElementTable:
+        """The rows of the elements that are evaluated, with further columns."""
+        return ElementTable(self.model.input, self.elements, others)
+
+    def node_table(self) -> NodeTable:
+        """The rows of the nodes that have a position."""
+        return NodeTable(self.model.input, self.nodes)
+
     def parts(self) -> Iterator[Part]:
         """Evaluate a few steps at a time; memory does not grow with the number of steps.
 
@@ -108,10 +98,10 @@ class Evaluation:
         """
         clock = self.time if self.model.input.has("suction") else None
         with as_deck_errors(self.scene):
-            for start, result in self.model.stream(
+            for part in self.model.stream(
                 self.positions, present=self.present, velocities=self.velocities, times=clock
             ):
-                yield Part(start, result)
+                yield part if self.time is None else Part(part.start, replace(part.result, times=self.time[part.steps]))
 
 
 def evaluate_scene(scene: Scene, positions: Positions | None = None, tension: Tension = "keep") -> Evaluation:

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
-from mudline.results.quantities import ELEMENTS, STEPS, headed, labelled, unit_names
+from mudline.quantities import ELEMENTS, STEPS, headed, labelled, unit_names
 from mudline.results.totals import TRACED, Chosen, PlotData
 from mudline.scene.numbering import Floats, Indices, Mask
 from mudline.short_repr import cut

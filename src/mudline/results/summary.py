@@ -11,7 +11,7 @@ from mudline.contact.arrays import BoolArray
 from mudline.contact.input import LawAssignment, LawKind
 from mudline.contact.laws.linear import penetration_under, smoothed_reaction
 from mudline.deck.model import Opaque
-from mudline.results.quantities import finite
+from mudline.quantities import finite
 from mudline.scene.assignments import element_smoothing, nodal_springs
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices, summed

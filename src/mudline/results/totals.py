@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mudline.contact import ContactResult, LawKind
-from mudline.results.evaluation import Evaluation, Part
-from mudline.results.quantities import SLIDING, STATES, Names, finite
+from mudline.contact.result import Part
+from mudline.quantities import SLIDING, STATES, Names, finite
+from mudline.results.evaluation import Evaluation
 from mudline.scene.numbering import Floats, Indices, Mask
 
 

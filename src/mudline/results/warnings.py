@@ -17,10 +17,11 @@ import numpy as np
 from mudline.codes.contact import GEO005, RUN003, RUN004, SBD006
 from mudline.codes.lines import SYN009
 from mudline.contact import ContactResult, LawKind
+from mudline.contact.result import Part
 from mudline.diagnostics import Code, DeckError, Diagnostic, Problem, Severity, Where
-from mudline.results.evaluation import Evaluation, Part, evaluate_scene
+from mudline.quantities import shown, unit_names
+from mudline.results.evaluation import Evaluation, evaluate_scene
 from mudline.results.missing_laws import UnknownKeyword, missing_laws, unknown_keywords
-from mudline.results.quantities import shown, unit_names
 from mudline.results.unused_curves import unused_curves
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices, Mask

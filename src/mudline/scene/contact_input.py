@@ -56,6 +56,7 @@ def _contact_input(scene: ResolvedDeck, tension: Literal["keep", "cut"]) -> Cont
         seabed=_seabed(scene),
         weight=scene.submerged_weight,
         left_out=_left_out(scene, [law.law for law in laws]),
+        names=scene,
     )
 
 

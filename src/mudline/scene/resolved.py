@@ -137,6 +137,11 @@ class ResolvedDeck:
         return self.set_table.context
 
     @property
+    def source(self) -> str:
+        """The deck: the file that it was made from, or its own."""
+        return str(self.deck.source or self.deck.file)
+
+    @property
     def units(self) -> str:
         """The unit system: "metric", "imperial" or "user"."""
         return self.deck.units

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, Literal, NamedTuple, TypeAlias, TypeVar, get_type_hints
 
 from mudline.files import write_atomically
-from mudline.results.quantities import csv_lines, labelled
+from mudline.quantities import csv_lines, labelled
 from mudline.short_repr import cut
 from mudline.study.timing import machine
 

@@ -21,8 +21,9 @@ import numpy as np
 from pydantic_core import to_json
 
 from mudline.contact import Plan
-from mudline.results.columns import Column, NodeTable, Table, Values
-from mudline.results.evaluation import Evaluation, Part
+from mudline.contact.columns import Column, Table, Values
+from mudline.contact.result import Part
+from mudline.results.evaluation import Evaluation
 
 _BLOCK = 16384
 """Rows spelled at a time: the texts of a large model are never all in memory."""
@@ -85,7 +86,7 @@ class Output:
     @property
     def tables(self) -> list[Table]:
         """The tables of elements and nodes."""
-        return [self.elements, NodeTable(self.evaluation)]
+        return [self.elements, self.evaluation.node_table()]
 
 
 def form_names() -> list[str]:

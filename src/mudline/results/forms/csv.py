@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, nullcontext
 
-from mudline.results.columns import Table
-from mudline.results.evaluation import Evaluation, Part
+from mudline.contact.columns import Table
+from mudline.contact.result import Part
+from mudline.quantities import csv_lines
+from mudline.results.evaluation import Evaluation
 from mudline.results.forms import More, Output, Sink, Spelling, Together, Write, batched, step_rows, text_into
-from mudline.results.quantities import csv_lines
 
 SUMMARY = "elements; the nodes in `...-nodes.csv`"
 BESIDE = True

@@ -7,8 +7,9 @@ from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager, nullcontext
 from functools import partial
 
-from mudline.results.columns import Column, NodeTable, Table
-from mudline.results.evaluation import Evaluation, Part
+from mudline.contact.columns import Column, Table
+from mudline.contact.result import Part
+from mudline.results.evaluation import Evaluation
 from mudline.results.forms import More, Output, Row, Sink, Spelling, Write, batched, plan_rows, step_rows, text_into
 
 SUMMARY = "everything: units, plan, elements, nodes, `restrained`, `against`"
@@ -27,7 +28,7 @@ class Text:
 
     def __init__(self, evaluation: Evaluation, elements: Table, write: Write) -> None:
         self._evaluation, self._write = evaluation, write
-        self._tables: dict[str, Table] = {"elements": elements, "nodes": NodeTable(evaluation)}
+        self._tables: dict[str, Table] = {"elements": elements, "nodes": evaluation.node_table()}
         self._times = None if evaluation.time is None else evaluation.time.tolist()
 
     def take(self, part: Part) -> None:

@@ -11,8 +11,8 @@ from typing import IO, Any
 
 import numpy as np
 
-from mudline.results.columns import Column, Values
-from mudline.results.evaluation import Part
+from mudline.contact.columns import Column, Values
+from mudline.contact.result import Part
 from mudline.results.forms import More, Output, Sink
 
 SUMMARY = (

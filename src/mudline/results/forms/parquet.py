@@ -10,8 +10,9 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from mudline.results.columns import Column, Table
-from mudline.results.evaluation import Evaluation, Part
+from mudline.contact.columns import Column, Table
+from mudline.contact.result import Part
+from mudline.results.evaluation import Evaluation
 from mudline.results.forms import More, Output, Sink, Together
 
 SUMMARY = "the same columns, in groups of rows; the nodes in `...-nodes.parquet`; `pip install 'mudline[parquet]'`"

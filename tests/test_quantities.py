@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 import mudline
+from mudline.quantities import ELEMENTS, NODES, Quantity
 from mudline.results.evaluation import Evaluation, evaluate_scene
-from mudline.results.quantities import ELEMENTS, NODES, Quantity
 from tests.results.written import arrays_of, csv_of, json_of
 from tests.samples import SAMPLES
 

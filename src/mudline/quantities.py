@@ -78,6 +78,10 @@ def _by_name(*quantities: Quantity) -> dict[str, Quantity]:
 ELEMENTS = _by_name(
     Quantity("element", "its number", over_steps=False),
     Quantity("set", "the set that gave it its law, or `null`", over_steps=False),
+    Quantity("arc_length", "of its middle, from the first end of its line", "length", over_steps=False),
+    Quantity("x", "of its middle, up", "length", label="height X"),
+    Quantity("y", "of its middle", "length"),
+    Quantity("z", "of its middle", "length"),
     Quantity("diameter", "external diameter, or `null`", "length", over_steps=False),
     Quantity("length", "length", "length", over_steps=False),
     Quantity(
@@ -102,11 +106,22 @@ ELEMENTS = _by_name(
         "of suction: `free`, `compression`, `suction`, `hold` or `broken`; `null` without a suction law",
         names=STATES,
     ),
+    Quantity(
+        "line",
+        "number of its line, from 1: elements one behind the other, up to an end or a junction",
+        over_steps=False,
+    ),
+    Quantity("node1", "the node that it begins at", over_steps=False),
+    Quantity("node2", "the node that it ends at", over_steps=False),
 )
 """Of an element, in the order of the columns."""
 
 NODES = _by_name(
     Quantity("node", "its number", over_steps=False),
+    Quantity("arc_length", "from the first end of its line; `null` without elements", "length", over_steps=False),
+    Quantity("x", "its height; X is up", "length", label="height X"),
+    Quantity("y", "its second coordinate", "length"),
+    Quantity("z", "its third coordinate", "length"),
     Quantity("gap", "height above the seabed, along its normal; `null` where there is no seabed", "length"),
     Quantity("normal", "normal of the seabed: x, y, z; `[null, null, null]` where there is no seabed", vector=True),
     Quantity("reaction", "total force of the seabed on the node: x, y, z", "force", vector=True),
@@ -119,6 +134,7 @@ NODES = _by_name(
     ),
     Quantity("axial_state", "`open`, `stick` or `slip`; `null` without a friction law", names=SLIDING),
     Quantity("lateral_state", "the same across the line", names=SLIDING),
+    Quantity("line", "the number of its line; of the first one at a junction; 0 without elements", over_steps=False),
 )
 """Of a node, in the order of the columns."""
 

@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mudline.contact import ContactResult
-from mudline.results.evaluation import Evaluation, Part
-from mudline.results.quantities import ELEMENTS, NODES, Names, Quantity
-from mudline.scene.numbering import Floats, Indices
+from mudline.contact.arrays import FloatArray, IndexArray
+from mudline.contact.input import ContactInput
+from mudline.contact.result import ContactResult, Part
+from mudline.quantities import ELEMENTS, NODES, Names, Quantity
 
 Values = NDArray[Any]
 
@@ -58,14 +58,14 @@ class Column:
         return self.values[first:last]
 
 
-Others = Callable[[Part], Sequence[tuple[str, Floats]]]
+Others = Callable[[Part], Sequence[tuple[str, FloatArray]]]
 """Gives further columns of elements for some steps: names, and values (steps, m)."""
 
 
 class Table(ABC):
     """Makes the columns of the elements or nodes with these indices for some steps."""
 
-    def __init__(self, chosen: Indices) -> None:
+    def __init__(self, chosen: IndexArray) -> None:
         self._chosen = chosen
 
     @property
@@ -103,25 +103,32 @@ class ElementTable(Table):
     `others` are columns besides those of the contract, by name: values (m,) of all elements for each step asked for.
     """
 
-    def __init__(self, evaluation: Evaluation, others: Others | None = None) -> None:
-        super().__init__(evaluation.elements)
-        scene, self._others = evaluation.scene, others
-        set_codes, sets = coded(scene.law_sets)
-        laws, names = coded(scene.law_names)
-        self._laws = laws[self._chosen]
-        self._may_cut = evaluation.model.input.tension == "cut"
+    def __init__(self, given: ContactInput, chosen: IndexArray, others: Others | None = None) -> None:
+        super().__init__(chosen)
+        self._others = others
+        set_codes, sets = coded(given.law_sets)
+        laws, names = coded(given.law_names)
+        self._laws = laws[chosen]
+        self._may_cut = given.tension == "cut"
         self._names: dict[str, Names] = {"set": sets, "law": (*names[:-1], CUT, None)}
+        self._ends = given.element_nodes[chosen]
         self._fixed: dict[str, Values] = {
-            "element": scene.element_ids[self._chosen],
-            "set": set_codes[self._chosen],
-            "diameter": scene.diameter[self._chosen],
-            "length": evaluation.length[self._chosen],
+            "element": given.element_ids[chosen],
+            "set": set_codes[chosen],
+            "arc_length": given.lines.element_arc[chosen],
+            "diameter": given.diameter[chosen],
+            "length": given.length[chosen],
+            "line": given.lines.of_element[chosen] + 1,
+            "node1": given.node_ids[self._ends[:, 0]],
+            "node2": given.node_ids[self._ends[:, 1]],
         }
 
     def columns(self, part: Part) -> list[Column]:
         """Return the columns of the contract, then the others."""
         result = part.result
+        ends = [_places(result, column) for column in self._ends.T]
         values: dict[str, Values] = self._fixed | {
+            **{axis: 0.5 * (ends[0][..., i] + ends[1][..., i]) for i, axis in enumerate("xyz")},
             "law": self._law(result),
             "state": codes_of(result.state, self._chosen),
         }
@@ -138,17 +145,22 @@ class ElementTable(Table):
 class NodeTable(Table):
     """The nodes that have a position. Without friction its forces are 0 and its states none."""
 
-    def __init__(self, evaluation: Evaluation) -> None:
-        super().__init__(evaluation.nodes)
-        self._ids = evaluation.scene.node_ids[self._chosen]
+    def __init__(self, given: ContactInput, chosen: IndexArray) -> None:
+        super().__init__(chosen)
+        self._fixed: dict[str, Values] = {
+            "node": given.node_ids[chosen],
+            "arc_length": given.lines.node_arc[chosen],
+            "line": given.lines.of_node[chosen] + 1,
+        }
 
     def columns(self, part: Part) -> list[Column]:
         """Return the columns of the contract."""
         result, chosen = part.result, self._chosen
         axial, lateral = _by_direction(result.friction)
         axial_state, lateral_state = _by_direction(result.friction_state)
-        values: dict[str, Values] = {
-            "node": self._ids,
+        places = _places(result, chosen)
+        values: dict[str, Values] = self._fixed | {
+            **{axis: places[..., i] for i, axis in enumerate("xyz")},
             "normal": self._normal(result.normal),
             "axial_force": self._force(axial),
             "lateral_force": self._force(lateral),
@@ -174,6 +186,13 @@ def coded(texts: Sequence[str | None]) -> tuple[NDArray[np.int32], Names]:
     names = (*number, None)
     number[None] = -1
     return np.array([number[text] for text in texts], dtype=np.int32).reshape(len(texts)), names
+
+
+def _places(result: ContactResult, nodes: IndexArray) -> FloatArray:
+    """The positions (steps, k, 3) of some nodes."""
+    if result.positions is None:
+        return np.full((len(result.depth), len(nodes), 3), np.nan)
+    return np.asarray(result.positions[:, nodes], np.float64)
 
 
 def codes_of(states: Values | None, chosen: NDArray[np.intp]) -> Values:
