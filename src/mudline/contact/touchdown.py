@@ -1,0 +1,252 @@
+"""Touchdown of lines: where they meet the seabed, how much of them lies on it, and what carries them there."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
+from mudline.contact.input import ContactInput, LawKind
+from mudline.contact.result import ContactResult, Part
+from mudline.quantities import finite
+
+
+class TouchdownPoint(NamedTuple):
+    """A point of a line where the gap of its nodes changes sign, found between two of them by interpolation.
+
+    `contact` says on which side, in the direction of arc length, the line lies on the seabed.
+    """
+
+    arc_length: float
+    x: float
+    y: float
+    z: float
+    contact: Literal["after", "before"]
+
+
+class ElementForce(NamedTuple):
+    """A force per unit length, and the element that has it: its number, and arc length and place of its middle."""
+
+    force: float
+    element: int
+    arc_length: float
+    x: float
+    y: float
+    z: float
+
+
+@dataclass(frozen=True, slots=True)
+class LineSummary:
+    """A line at a step.
+
+    Attributes:
+        time: of the step; None for a single state without a time.
+        line: its number, from 1; first_element, last_element: the ends of it; length: all of it.
+        touchdown: the points where it leaves the seabed or comes down on it, along the line.
+        contact_length: how much of it lies below the seabed, between the touchdown points.
+        largest_force: where the seabed pushes most; None where it does not push.
+        largest_uplift: where the seabed pulls most, by suction or a curve; its force is negative. None without a pull.
+        reaction: total normal force on its nodes; a node of several lines counts for the first of them.
+        submerged_weight: of its elements in contact with a law that carries; None where it is not known.
+        ratio: reaction / submerged weight; None where that is not above 0.
+    """
+
+    time: float | None
+    line: int
+    first_element: int
+    last_element: int
+    length: float
+    touchdown: tuple[TouchdownPoint, ...]
+    contact_length: float
+    largest_force: ElementForce | None
+    largest_uplift: ElementForce | None
+    reaction: float | None
+    submerged_weight: float | None
+    ratio: float | None
+
+    def row(self) -> dict[str, object]:
+        """The line as JSON has it."""
+        places = ("largest_force", "largest_uplift")
+        values: dict[str, object] = {name: getattr(self, name) for name in self.__slots__}
+        for name in places:
+            found: ElementForce | None = getattr(self, name)
+            values[name] = None if found is None else found._asdict()
+        return values | {"touchdown": [point._asdict() for point in self.touchdown]}
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Points:
+    """Touchdown points of a line: step, segment of the line, part of the segment, and whether contact lies behind."""
+
+    step: IndexArray
+    segment: IndexArray
+    part: FloatArray
+    after: BoolArray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LineSeries:
+    """A line over some steps (s,); NaN and -1 stand for none.
+
+    Attributes:
+        number: of the line, from 0.
+        points: how many touchdown points each step has.
+        first, last: arc length of the first and the last of them.
+        contact_length, reaction, weight: as in `LineSummary`.
+        force, uplift: the largest push and the largest pull, an element's force per unit length with its sign; and
+            `force_at`, `uplift_at`: the indices of the elements.
+    """
+
+    number: int
+    points: IndexArray
+    first: FloatArray
+    last: FloatArray
+    contact_length: FloatArray
+    reaction: FloatArray
+    weight: FloatArray
+    force: FloatArray
+    force_at: IndexArray
+    uplift: FloatArray
+    uplift_at: IndexArray
+    found: _Points
+
+
+class Touchdown:
+    """Finds the touchdown of every line of an input."""
+
+    def __init__(self, given: ContactInput) -> None:
+        self.given = given
+        self.lines = given.lines
+        self._arcs = [self.lines.node_arcs(line, given.length) for line in range(len(self.lines.elements))]
+        self._own_nodes = [np.flatnonzero(self.lines.of_node == line) for line in range(len(self.lines.elements))]
+        self._carries = (given.law != LawKind.NONE) & (given.law != LawKind.RIGID)
+        with np.errstate(over="ignore", invalid="ignore"):
+            self._weights = None if given.weight is None else given.weight * given.length
+
+    def series(self, part: Part) -> list[LineSeries]:
+        """Return what each line does over some steps; lines without an evaluated element are left out."""
+        result = part.result
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+            return [
+                self._line(line, result)
+                for line, elements in enumerate(self.lines.elements)
+                if result.evaluated[elements].any()
+            ]
+
+    def _line(self, line: int, result: ContactResult) -> LineSeries:
+        elements, nodes = self.lines.elements[line], self.lines.nodes[line]
+        gap, arc = result.gap[:, nodes], self._arcs[line]
+        touches = gap < 0.0
+        if result.restrained is not None:
+            touches |= result.restrained[:, nodes]
+        known = ~np.isnan(gap)
+        between = known[:, :-1] & known[:, 1:]
+        changes = (touches[:, :-1] != touches[:, 1:]) & between
+        step, segment = np.nonzero(changes)
+        before, behind = gap[step, segment], gap[step, segment + 1]
+        portion = np.clip(before / (before - behind), 0.0, 1.0)
+        portion = np.where(np.isnan(portion), 0.5, portion)
+        points = _Points(step, segment, portion, touches[step, segment + 1])
+        steps = len(gap)
+        both = touches[:, :-1] & touches[:, 1:] & between
+        length = np.diff(arc)
+        lies = both @ length
+        np.add.at(lies, step, np.where(points.after, 1.0 - portion, portion) * length[segment])
+        at = arc[segment] + portion * length[segment]
+        first, last = np.full(steps, np.nan), np.full(steps, np.nan)
+        first[step[::-1]], last[step] = at[::-1], at
+        force = result.force[:, elements]
+        held = result.contact[:, elements] & self._carries[elements]
+        weight = np.full(steps, np.nan)
+        if self._weights is not None:
+            weight = np.where(held, self._weights[elements], 0.0).sum(axis=1)
+        own = self._own_nodes[line]
+        pushes, pulls = _extreme(force, elements, 1.0), _extreme(force, elements, -1.0)
+        counts = np.bincount(step, minlength=steps)
+        return LineSeries(
+            line,
+            counts,
+            first,
+            last,
+            lies,
+            np.nansum(result.normal_force[:, own], axis=1),
+            weight,
+            *pushes,
+            *pulls,
+            points,
+        )
+
+    def summaries(self, part: Part) -> Iterator[LineSummary]:
+        """Yield every line at each of some steps: those of a step follow each other."""
+        found = self.series(part)
+        ends = [np.searchsorted(one.found.step, np.arange(part.count + 1)).tolist() for one in found]
+        for step in range(part.count):
+            for one, cuts in zip(found, ends, strict=True):
+                yield self._summary(one, part.result, step, slice(cuts[step], cuts[step + 1]))
+
+    def _summary(self, one: LineSeries, result: ContactResult, step: int, cut: slice) -> LineSummary:
+        elements = self.lines.elements[one.number]
+        reaction, weight = float(one.reaction[step]), float(one.weight[step])
+        ids = self.given.element_ids
+        ratio = reaction / weight if weight > 0.0 else math.nan
+        return LineSummary(
+            time=None if result.times is None else float(result.times[step]),
+            line=one.number + 1,
+            first_element=int(ids[elements[0]]),
+            last_element=int(ids[elements[-1]]),
+            length=float(self._arcs[one.number][-1]),
+            touchdown=tuple(self._points(one, result, step, cut)),
+            contact_length=float(one.contact_length[step]),
+            largest_force=self._place(float(one.force[step]), int(one.force_at[step]), result, step),
+            largest_uplift=self._place(float(one.uplift[step]), int(one.uplift_at[step]), result, step),
+            reaction=finite(reaction),
+            submerged_weight=finite(weight),
+            ratio=finite(ratio),
+        )
+
+    def _points(self, one: LineSeries, result: ContactResult, step: int, cut: slice) -> Iterator[TouchdownPoint]:
+        nodes, arc, found = self.lines.nodes[one.number], self._arcs[one.number], one.found
+        for segment, part, after in zip(
+            found.segment[cut].tolist(), found.part[cut].tolist(), found.after[cut].tolist(), strict=True
+        ):
+            place = [math.nan] * 3
+            if result.positions is not None:
+                ends = np.asarray(result.positions[step, nodes[segment : segment + 2]], np.float64)
+                place = (ends[0] + part * (ends[1] - ends[0])).tolist()
+            at = float(arc[segment] + part * (arc[segment + 1] - arc[segment]))
+            yield TouchdownPoint(at, *place, "after" if after else "before")
+
+    def _place(self, force: float, element: int, result: ContactResult, step: int) -> ElementForce | None:
+        if element < 0:
+            return None
+        place = [math.nan] * 3
+        if result.positions is not None:
+            place = (
+                np.asarray(result.positions[step, self.given.element_nodes[element]], np.float64).mean(axis=0).tolist()
+            )
+        number, arc = int(self.given.element_ids[element]), float(self.lines.element_arc[element])
+        return ElementForce(force, number, arc, *place)
+
+
+def line_summaries(result: ContactResult) -> list[LineSummary]:
+    """Return every line of a result at each of its steps.
+
+    Raises ValueError for a result that does not know what was evaluated.
+    """
+    if result.given is None:
+        raise ValueError("the result does not know its nodes and elements: evaluate them with a ContactModel")
+    series = result if result.depth.ndim == 2 else result.as_series()
+    return list(Touchdown(result.given).summaries(Part(0, series)))
+
+
+def _extreme(force: FloatArray, elements: IndexArray, sign: float) -> tuple[FloatArray, IndexArray]:
+    """The force (steps,) that is largest in a direction, and the element; NaN and -1 where there is none."""
+    ranked = np.nan_to_num(force * sign, nan=-np.inf, neginf=-np.inf, posinf=np.inf)
+    column = ranked.argmax(axis=1)
+    found = ranked[np.arange(len(force)), column]
+    acts = found > 0.0
+    return np.where(acts, found * sign, np.nan), np.where(acts, elements[column], -1)
