@@ -138,6 +138,33 @@ NODES = _by_name(
 )
 """Of a node, in the order of the columns."""
 
+LINES = _by_name(
+    Quantity("line", "its number, from 1", over_steps=False),
+    Quantity("first_element", "at its first end", over_steps=False),
+    Quantity("last_element", "at its other end", over_steps=False),
+    Quantity("length", "all of it", "length", over_steps=False),
+    Quantity("touchdown_points", "how often it comes down on the seabed or leaves it"),
+    Quantity("first_touchdown", "arc length of the first of these points", "length", label="touchdown point"),
+    Quantity("first_touchdown_x", "its height", "length"),
+    Quantity("first_touchdown_y", "its second coordinate", "length"),
+    Quantity("first_touchdown_z", "its third coordinate", "length"),
+    Quantity("last_touchdown", "arc length of the last of these points", "length"),
+    Quantity("last_touchdown_x", "its height", "length"),
+    Quantity("last_touchdown_y", "its second coordinate", "length"),
+    Quantity("last_touchdown_z", "its third coordinate", "length"),
+    Quantity("contact_length", "length below the seabed", "length", label="length in contact"),
+    Quantity("largest_force", "largest push of the seabed on an element, per unit length", "line_force"),
+    Quantity("largest_force_element", "the element"),
+    Quantity("largest_force_arc_length", "arc length of its middle", "length"),
+    Quantity("largest_uplift", "largest pull, negative, by suction or a curve", "line_force"),
+    Quantity("largest_uplift_element", "the element"),
+    Quantity("largest_uplift_arc_length", "arc length of its middle", "length"),
+    Quantity("reaction", "total normal force on its nodes", "force"),
+    Quantity("submerged_weight", "of its elements in contact", "force"),
+    Quantity("ratio", "reaction / submerged weight"),
+)
+"""Of a line, in the order of the columns; `null` where there is none."""
+
 STEPS = _by_name(
     Quantity("reaction", "total normal force on all nodes", "force", label="total reaction"),
     Quantity(

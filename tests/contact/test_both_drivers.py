@@ -300,5 +300,5 @@ def test_series_in_parts(rows: int) -> None:
     driver.steps = rows
     parts = list(contact.stream(positions, times=times))
     assert [part.start for part in parts] == list(range(0, 30, rows))
-    for start, part in parts:
+    for start, part in ((each.start, each.result) for each in parts):
         assert differences(part, whole.steps(start, start + rows)) == []

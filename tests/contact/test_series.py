@@ -27,7 +27,7 @@ def test_how_many_steps_are_taken_together_does_not_change_a_bit(rows: int) -> N
     assert same_bits(contact.evaluate(positions), whole)
     parts = list(contact.stream(positions))
     assert [part.start for part in parts] == list(range(0, 50, rows))
-    for start, part in parts:
+    for start, part in ((each.start, each.result) for each in parts):
         assert same_bits(part, whole.steps(start, start + rows))
 
 

@@ -9,6 +9,7 @@ from functools import partial
 from importlib import import_module
 from math import isfinite
 from pathlib import Path
+from types import ModuleType
 from typing import TypeVar, cast
 
 import click
@@ -29,6 +30,7 @@ from mudline.quantities import csv_lines
 from mudline.results.against import Comparison, read_reference
 from mudline.results.evaluation import Evaluation, Prepared, Tension, evaluate_scene, prepare
 from mudline.results.forms import Output, ResultConsumer, Sink, Together, form_module, form_names, plan_rows, text_form
+from mudline.results.lines import LineWatch
 from mudline.results.totals import PlotData, StepSummary
 from mudline.results.warnings import ContactWarning, ContactWatch, caption
 from mudline.scene.csv_file import ExternalElements, read_external
@@ -62,16 +64,16 @@ _Read = TypeVar("_Read")
     "-o",
     "--output",
     metavar=f"OUT.{'|'.join(form_names())}",
-    help="Write the results; CSV and Parquet write the nodes to OUT-nodes beside it.",
+    help="Write the results; CSV and Parquet write OUT-nodes and OUT-summary beside it.",
 )
 @click.option("--plot", "picture", metavar="FILE.png|svg", help="Draw the results (needs the extra mudline[plot]).")
 @click.option("--plan", "plan_only", is_flag=True, help="Print what the deck needs and what is left out, and why.")
 @click.option(
     "--table",
-    type=click.Choice(["elements", "nodes"]),
+    type=click.Choice(["elements", "nodes", "summary"]),
     default="elements",
     show_default=True,
-    help="Which rows text and CSV on standard output show, of one state or of time steps.",
+    help="Which rows text and CSV on standard output show; a line at a step is a row of the summary.",
 )
 @options.spreadsheet
 @click.option(
@@ -112,11 +114,11 @@ def command(
     loaded = deck.load()
     pull = cast("Tension", tension)
     scene = _evaluable(loaded, _read(elements, read_external) if elements else None, pull)
-    given = _positions(positions, scene, time_step) if positions else None
+    placed = _positions(positions, scene, time_step) if positions else None
     if plan_only:
-        _plan(prepare(scene, given, pull), output_format, view)
+        _plan(prepare(scene, placed, pull), output_format, view)
         return DONE
-    evaluation = evaluate_scene(scene, given, pull)
+    evaluation = evaluate_scene(scene, placed, pull)
     reference = _read(against, lambda file: read_reference(file, evaluation)) if against else None
     comparison = None if reference is None else Comparison(evaluation, reference)
     if not view.quiet:
@@ -125,29 +127,42 @@ def command(
     shown = "" if output else output_format
     most = None if view.verbose else MOST_ROWS
     digest = StepSummary(evaluation, most, table == "nodes") if shown == "text" else None
+    lines = _line_watch(evaluation, shown or _form(output, form_names()), most)
     slow, watch = _SlowSuction(), ContactWatch.of(evaluation)
-    consumers: list[ResultConsumer] = [one for one in (comparison, drawing, digest, slow, watch) if one is not None]
+    given = (comparison, drawing, digest, lines, slow, watch)
+    consumers: list[ResultConsumer] = [one for one in given if one is not None]
     with _sink(evaluation, comparison, output, (shown, table), view, as_text=spreadsheet) as sink:
         _run(evaluation, [*consumers, sink], view, bar=shown in {"", "text"})
         warnings = watch.warnings()
-        sink.finish(_behind(evaluation, warnings, comparison))
+        sink.finish(_behind(evaluation, warnings, comparison, lines))
     if picture and drawing is not None:
         _draw(drawing, Path(picture), caption(warnings), view)
     if not view.quiet:
         _notify_warnings(warnings)
         _notify_after(evaluation, slow, watch.note(), Path(output) if output else None)
-    if digest is not None:
-        print_evaluation(digest, table, view)
+    if digest is not None and lines is not None:
+        print_evaluation(digest, lines, table, view)
     if comparison is not None and output_format == "text":
         print_comparison(comparison, view)
     return FOUND if warnings and fail_on == "warning" else DONE
 
 
+def _line_watch(evaluation: Evaluation, form: str, most: int | None) -> LineWatch | None:
+    """What keeps the rows of lines: all for JSON, the first ones for text; other forms have a table of them."""
+    if form == "json":
+        return LineWatch(evaluation, None)
+    return LineWatch(evaluation, most) if form == "text" else None
+
+
 def _behind(
-    evaluation: Evaluation, warnings: Sequence[ContactWarning], comparison: Comparison | None
+    evaluation: Evaluation,
+    warnings: Sequence[ContactWarning],
+    comparison: Comparison | None,
+    lines: LineWatch | None,
 ) -> dict[str, object]:
     """What JSON has behind the results."""
     found: dict[str, object] = {
+        "summary": [] if lines is None else [row.row() for row in lines.rows],
         "positions": "deck" if evaluation.own_positions else "file",
         "warnings": [one.row() for one in warnings],
     }
@@ -239,7 +254,8 @@ def _sink(
     if output:
         return _files(evaluation, elements, Path(output), view, as_text=as_text)
     if shown[0] in {"json", "csv"}:
-        rows = evaluation.node_table() if shown == ("csv", "nodes") else elements
+        tables = {"nodes": evaluation.node_table, "summary": evaluation.line_table}
+        rows = tables[shown[1]]() if shown[0] == "csv" and shown[1] in tables else elements
         return nullcontext(text_form(shown[0], as_text=as_text)(evaluation, rows, emit))
     return nullcontext(Together())
 
@@ -249,14 +265,14 @@ def _files(evaluation: Evaluation, elements: ElementTable, path: Path, view: Vie
     """The file of an evaluation by its suffix, or two files; they exist when all is written, or not at all."""
     form = form_module(_suffix(path))
     with ExitStack() as stack:
-        streams = [stack.enter_context(writing(one)) for one in (path, *([_beside(path)] if form.BESIDE else []))]
+        streams = [stack.enter_context(writing(one)) for one in (path, *_beside(path, form))]
         output = Output(evaluation, elements, streams, path.parent, partial(tracked, view=view), as_text)
         yield stack.enter_context(form.opened(output))
 
 
-def _beside(path: Path) -> Path:
-    """The file of the nodes beside that of the elements."""
-    return path.with_name(f"{path.stem}-nodes{path.suffix}")
+def _beside(path: Path, form: ModuleType) -> list[Path]:
+    """The files of the other tables beside that of the elements."""
+    return [path.with_name(f"{path.stem}-{table}{path.suffix}") for table in form.BESIDE]
 
 
 def _run(evaluation: Evaluation, consumers: Sequence[ResultConsumer], view: View, *, bar: bool) -> None:
@@ -330,8 +346,9 @@ def _notify_after(evaluation: Evaluation, slow: _SlowSuction, note: str, written
         notify(f"suction is pulled slower than REGULARISATION {when}: the force there is less than alpha v^n")
     if written is None:
         return
-    if form_module(_suffix(written)).BESIDE:
-        notify(f"nodes -> {_beside(written).as_posix()}")
+    form = form_module(_suffix(written))
+    for table, file in zip(form.BESIDE, _beside(written, form), strict=True):
+        notify(f"{table} -> {file.as_posix()}")
     notify(f"{evaluation.scene.deck.file} -> {written.as_posix()}")
 
 

@@ -11,9 +11,11 @@ import numpy as np
 from mudline.cli.view import View
 from mudline.contact import Plan
 from mudline.contact.result import Part
+from mudline.contact.touchdown import LineSummary
 from mudline.quantities import SLIDING, STATES, UnitNames, headed, shown, unit_names
 from mudline.results.against import Comparison
 from mudline.results.evaluation import Evaluation
+from mudline.results.lines import LineWatch
 from mudline.results.totals import StepSummary, Total, acted_on, counts, reaction, totals
 from mudline.scene.numbering import Floats, Indices
 
@@ -32,25 +34,30 @@ def print_plan(plan: Plan, view: View) -> None:
     view.printer().table(f"Plan, {plan.steps}", columns, rows, left=columns)
 
 
-def print_evaluation(digest: StepSummary, which: str, view: View) -> None:
+def print_evaluation(digest: StepSummary, lines: LineWatch, which: str, view: View) -> None:
     """Print totals and rows of one state; of time steps a line each, as rows are for files."""
     printer = view.printer()
+    if which == "summary":
+        _print_lines(printer, lines)
+        return
     if digest.evaluation.time is not None:
         _print_steps(printer, digest)
+        _print_extents(printer, lines)
         return
     if digest.first is None:
         return
     _print_totals(printer, digest.evaluation, digest.first)
+    _print_lines(printer, lines)
     _print_states(printer, digest.evaluation, digest.first)
     rows = _touching_elements if which == "elements" else _touching_nodes
     columns, cells = rows(digest.evaluation, digest.first)
-    lines = list(cells if view.verbose else _joined(cells))
-    if not lines:
+    shown_rows = list(cells if view.verbose else _joined(cells))
+    if not shown_rows:
         printer.line(f"No {which} in contact")
         return
-    left = len(lines) - len(lines[: digest.most])
+    left = len(shown_rows) - len(shown_rows[: digest.most])
     note = f"{left} more lines: -v shows all, -o writes all" if left else ""
-    printer.table(f"{which.capitalize()} in contact", columns, lines[: digest.most], left=_LEFT, note=note)
+    printer.table(f"{which.capitalize()} in contact", columns, shown_rows[: digest.most], left=_LEFT, note=note)
 
 
 def _joined(rows: Iterable[Cells]) -> Iterator[Cells]:
@@ -147,6 +154,76 @@ def _print_peaks(printer: Printer, digest: StepSummary) -> None:
             rows.append((what, peak.value, unit, float(times[peak.step]), peak.element))
     columns = ("largest", "value", "unit", _time(names), "element")
     printer.table("Over all steps", columns, rows, left=("largest", "unit"))
+
+
+_MOST_POINTS = 3
+"""Touchdown points that a cell shows."""
+
+
+def _print_lines(printer: Printer, lines: LineWatch) -> None:
+    """Print touchdown, largest forces, reaction and weight of lines, a row for each at each step."""
+    names, timed = unit_names(lines.evaluation.scene.units), lines.evaluation.time is not None
+    pulled = any(row.largest_uplift is not None for row in lines.rows)
+    rows = []
+    for row in lines.rows:
+        push, pull = row.largest_force, row.largest_uplift
+        cells: list[Cell] = [row.time] if timed else []
+        cells += [row.line, _span(row.first_element, row.last_element), _touchdown(row), row.contact_length]
+        cells += [None, ""] if push is None else [push.force, push.element]
+        if pulled:
+            cells += [None, ""] if pull is None else [pull.force, pull.element]
+        rows.append((*cells, row.reaction, row.submerged_weight, row.ratio))
+    uplift = (headed("largest\nuplift", names.line_force), "element")
+    columns = (
+        *((_time(names),) if timed else ()),
+        "line",
+        "elements",
+        headed("touchdown\nat", names.length),
+        headed("length in\ncontact", names.length),
+        headed("largest\nforce", names.line_force),
+        "element",
+        *(uplift if pulled else ()),
+        headed("total\nreaction", names.force),
+        headed("submerged\nweight", names.force),
+        "ratio",
+    )
+    note = f"{lines.left} more lines: -v shows all, -o writes all" if lines.left else ""
+    printer.table("Touchdown", columns, rows, left=("elements",), note=note)
+
+
+def _touchdown(row: LineSummary) -> str:
+    """The arc lengths of the touchdown points, or where all of the line is."""
+    if not row.touchdown:
+        return "all on the seabed" if row.contact_length else "none"
+    found = ", ".join(shown(point.arc_length) for point in row.touchdown[:_MOST_POINTS])
+    more = len(row.touchdown) - _MOST_POINTS
+    return f"{found}, {more} more" if more > 0 else found
+
+
+def _print_extents(printer: Printer, lines: LineWatch) -> None:
+    """Print between which values touchdown, length in contact, forces and reaction of lines were."""
+    names, times = unit_names(lines.evaluation.scene.units), lines.evaluation.time
+    figures = {
+        "first": ("touchdown point", names.length),
+        "last": ("last touchdown point", names.length),
+        "contact_length": ("length in contact", names.length),
+        "force": ("largest force", names.line_force),
+        "uplift": ("largest uplift", names.line_force),
+        "reaction": ("total reaction", names.force),
+    }
+    if times is None or not lines.extents:
+        return
+    several = len({line for line, _ in lines.extents}) > 1
+    rows = []
+    for (line, name), extent in sorted(lines.extents.items(), key=lambda each: each[0][0]):
+        if name == "last" and lines.extents.get((line, "first")) == extent:
+            continue
+        what, unit = figures[name]
+        low, high = float(times[extent.least_step]), float(times[extent.largest_step])
+        number = (line + 1,) if several else ()
+        rows.append((*number, what, unit, extent.least, low, extent.largest, high))
+    columns = ("figure", "unit", "least", _time(names), "largest", _time(names))
+    printer.table("Lines over all steps", ("line", *columns) if several else columns, rows, left=("figure", "unit"))
 
 
 def _time(names: UnitNames) -> str:

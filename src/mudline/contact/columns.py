@@ -31,6 +31,7 @@ class Column:
         names: the texts of a column of texts, whose values are indices; -1 is the last one, None. Empty for numbers.
         vector: whether a value has three components.
         over_steps: whether the column is one that a step may change, even if nothing does in this scene.
+        blank: the whole number that stands for no value; None where every one is a value.
     """
 
     name: str
@@ -38,6 +39,7 @@ class Column:
     names: Names = ()
     vector: bool = False
     over_steps: bool = True
+    blank: int | None = None
 
     @property
     def steady(self) -> bool:
@@ -58,6 +60,8 @@ class Column:
         return self.values[first:last]
 
 
+NO_ELEMENT = -1
+"""Stands in a column of numbers of elements for none."""
 Others = Callable[[Part], Sequence[tuple[str, FloatArray]]]
 """Gives further columns of elements for some steps: names, and values (steps, m)."""
 

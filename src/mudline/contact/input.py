@@ -205,7 +205,7 @@ class ContactInput:
         if not self._lines:
             from mudline.contact.lines import lines_of  # noqa: PLC0415 - forces alone do without it
 
-            self._lines.append(lines_of(self))
+            self._lines.append(lines_of(self.element_nodes, self.length, len(self.node_ids)))
         return self._lines[0]
 
     @property

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from mudline.contact.arrays import FloatArray, IndexArray
-
-if TYPE_CHECKING:
-    from mudline.contact.input import ContactInput
 
 
 class Lines(NamedTuple):
@@ -40,17 +37,17 @@ class Lines(NamedTuple):
         return np.append(0.0, np.cumsum(length[self.elements[line]]))
 
 
-def lines_of(given: ContactInput) -> Lines:
-    """Return the lines of an input."""
-    ends = np.ascontiguousarray(given.element_nodes, np.intp)
-    elements, nodes = len(ends), len(given.node_ids)
+def lines_of(element_nodes: IndexArray, length: FloatArray, nodes: int) -> Lines:
+    """Return the lines that elements (m, 2) of some lengths (m,) form among so many nodes."""
+    ends = np.ascontiguousarray(element_nodes, np.intp)
+    elements = len(ends)
     found = _in_order(ends, nodes) or _followed(ends, nodes)
     of_element, of_node = np.zeros(elements, np.intp), np.full(nodes, -1, np.intp)
     element_arc, node_arc = np.zeros(elements), np.full(nodes, np.nan)
     with np.errstate(over="ignore", invalid="ignore"):
         for number in range(len(found) - 1, -1, -1):  # a junction keeps the first of its lines
             along, through = found[number]
-            arc = np.append(0.0, np.cumsum(given.length[along]))
+            arc = np.append(0.0, np.cumsum(length[along]))
             of_element[along], element_arc[along] = number, 0.5 * (arc[:-1] + arc[1:])
             closed = through[0] == through[-1]
             of_node[through], node_arc[through] = number, arc

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, fields
 from typing import Any, NoReturn
 
@@ -92,19 +93,18 @@ class ContactResult:
 
     def as_series(self) -> ContactResult:
         """Return a single state as a series of one step, as views."""
-        arrays = ((name, getattr(self, name)) for name in _BY_STEP)
-        of_steps: dict[str, Any] = {
-            name: None if values is None else np.asarray(values)[None] for name, values in arrays
-        }
-        return ContactResult(**of_steps, **{name: getattr(self, name) for name in _OF_ALL_STEPS})
+        return self._each(lambda values: np.asarray(values)[None])
 
     def steps(self, start: int, stop: int) -> ContactResult:
         """Return the steps start <= step < stop of a series, as views."""
         return self._cut(slice(start, stop))
 
     def _cut(self, key: int | slice) -> ContactResult:
+        return self._each(lambda values: values[key])
+
+    def _each(self, cut: Callable[[NDArray[Any]], NDArray[Any]]) -> ContactResult:
         arrays = ((name, getattr(self, name)) for name in _BY_STEP)
-        of_steps: dict[str, Any] = {name: None if values is None else values[key] for name, values in arrays}
+        of_steps: dict[str, Any] = {name: None if values is None else cut(values) for name, values in arrays}
         return ContactResult(**of_steps, **{name: getattr(self, name) for name in _OF_ALL_STEPS})
 
 

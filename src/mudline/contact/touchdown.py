@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
+from mudline.contact.columns import NO_ELEMENT, Column, Table, Values
 from mudline.contact.input import ContactInput, LawKind
 from mudline.contact.result import ContactResult, Part
-from mudline.quantities import finite
+from mudline.quantities import LINES, finite
+
+_NOWHERE = (math.nan, math.nan, math.nan)
 
 
 class TouchdownPoint(NamedTuple):
@@ -180,9 +183,20 @@ class Touchdown:
             points,
         )
 
-    def summaries(self, part: Part) -> Iterator[LineSummary]:
-        """Yield every line at each of some steps: those of a step follow each other."""
-        found = self.series(part)
+    def places(self, one: LineSeries, result: ContactResult, row: IndexArray, there: BoolArray) -> FloatArray:
+        """Coordinates (s, 3) of a touchdown point of each step, by its row among the points; NaN for none."""
+        found = np.full((len(there), 3), np.nan)
+        if result.positions is None or not there.any():
+            return found
+        row, steps = row[there], np.flatnonzero(there)
+        segment, part = one.found.segment[row], one.found.part[row, np.newaxis]
+        nodes = self.lines.nodes[one.number]
+        begin, end = (np.asarray(result.positions[steps, nodes[segment + i]], np.float64) for i in (0, 1))
+        found[there] = begin + part * (end - begin)
+        return found
+
+    def summaries(self, part: Part, found: Sequence[LineSeries]) -> Iterator[LineSummary]:
+        """Yield every line at each of some steps, from its `series`: those of a step follow each other."""
         ends = [np.searchsorted(one.found.step, np.arange(part.count + 1)).tolist() for one in found]
         for step in range(part.count):
             for one, cuts in zip(found, ends, strict=True):
@@ -213,23 +227,86 @@ class Touchdown:
         for segment, part, after in zip(
             found.segment[cut].tolist(), found.part[cut].tolist(), found.after[cut].tolist(), strict=True
         ):
-            place = [math.nan] * 3
+            x, y, z = _NOWHERE
             if result.positions is not None:
                 ends = np.asarray(result.positions[step, nodes[segment : segment + 2]], np.float64)
-                place = (ends[0] + part * (ends[1] - ends[0])).tolist()
+                x, y, z = (ends[0] + part * (ends[1] - ends[0])).tolist()
             at = float(arc[segment] + part * (arc[segment + 1] - arc[segment]))
-            yield TouchdownPoint(at, *place, "after" if after else "before")
+            yield TouchdownPoint(at, x, y, z, "after" if after else "before")
 
     def _place(self, force: float, element: int, result: ContactResult, step: int) -> ElementForce | None:
         if element < 0:
             return None
-        place = [math.nan] * 3
+        x, y, z = _NOWHERE
         if result.positions is not None:
-            place = (
-                np.asarray(result.positions[step, self.given.element_nodes[element]], np.float64).mean(axis=0).tolist()
-            )
+            ends = np.asarray(result.positions[step, self.given.element_nodes[element]], np.float64)
+            x, y, z = ends.mean(axis=0).tolist()
         number, arc = int(self.given.element_ids[element]), float(self.lines.element_arc[element])
-        return ElementForce(force, number, arc, *place)
+        return ElementForce(force, number, arc, x, y, z)
+
+
+class LineTable(Table):
+    """The lines with an evaluated element."""
+
+    def __init__(self, given: ContactInput, elements: IndexArray) -> None:
+        lines = np.unique(given.lines.of_element[elements])
+        super().__init__(lines)
+        self.finder = Touchdown(given)
+        ids, along = given.element_ids, [given.lines.elements[line] for line in lines.tolist()]
+        with np.errstate(over="ignore", invalid="ignore"):
+            length = np.array([given.length[each].sum() for each in along])
+        self._fixed: dict[str, Values] = {
+            "line": lines + 1,
+            "first_element": np.array([ids[each[0]] for each in along], np.int64),
+            "last_element": np.array([ids[each[-1]] for each in along], np.int64),
+            "length": length.reshape(len(along)),
+        }
+
+    def columns(self, part: Part) -> list[Column]:
+        """Return the columns of `LINES`."""
+        found = [self._values(one, part.result) for one in self.finder.series(part)]
+        values = self._fixed | {
+            name: np.stack([each[name] for each in found], axis=1) if found else np.zeros((part.count, 0))
+            for name in LINES
+            if name not in self._fixed
+        }
+        return [
+            Column(
+                name,
+                values[name],
+                over_steps=quantity.over_steps,
+                blank=NO_ELEMENT if name.startswith("largest") and name.endswith("element") else None,
+            )
+            for name, quantity in LINES.items()
+        ]
+
+    def _values(self, one: LineSeries, result: ContactResult) -> dict[str, Values]:
+        given, lines = self.finder.given, self.finder.lines
+        ids = np.append(given.element_ids, NO_ELEMENT)
+        arcs = np.append(lines.element_arc, np.nan)
+        found: dict[str, Values] = {
+            "touchdown_points": one.points,
+            "contact_length": one.contact_length,
+            "largest_force": one.force,
+            "largest_force_element": ids[one.force_at],
+            "largest_force_arc_length": arcs[one.force_at],
+            "largest_uplift": one.uplift,
+            "largest_uplift_element": ids[one.uplift_at],
+            "largest_uplift_arc_length": arcs[one.uplift_at],
+            "reaction": one.reaction,
+            "submerged_weight": one.weight,
+            "ratio": np.where(one.weight > 0.0, one.reaction / np.where(one.weight > 0.0, one.weight, 1.0), np.nan),
+        }
+        steps = np.arange(len(one.points))
+        starts = np.searchsorted(one.found.step, steps)
+        for name, arc, row in (
+            ("first_touchdown", one.first, starts),
+            ("last_touchdown", one.last, starts + one.points - 1),
+        ):
+            found[name] = arc
+            places = self.finder.places(one, result, row, one.points > 0)
+            found |= {f"{name}_{axis}": places[:, i] for i, axis in enumerate("xyz")}
+        return found
 
 
 def line_summaries(result: ContactResult) -> list[LineSummary]:
@@ -240,7 +317,8 @@ def line_summaries(result: ContactResult) -> list[LineSummary]:
     if result.given is None:
         raise ValueError("the result does not know its nodes and elements: evaluate them with a ContactModel")
     series = result if result.depth.ndim == 2 else result.as_series()
-    return list(Touchdown(result.given).summaries(Part(0, series)))
+    finder, part = Touchdown(result.given), Part(0, series)
+    return list(finder.summaries(part, finder.series(part)))
 
 
 def _extreme(force: FloatArray, elements: IndexArray, sign: float) -> tuple[FloatArray, IndexArray]:

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from mudline.contact import ContactModel, ElementError, PositionError
 from mudline.contact.columns import ElementTable, NodeTable, Others
 from mudline.contact.result import Part
+from mudline.contact.touchdown import LineTable
 from mudline.scene.mesh import distances
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices, Mask
@@ -90,6 +91,10 @@ class Evaluation:
     def node_table(self) -> NodeTable:
         """The rows of the nodes that have a position."""
         return NodeTable(self.model.input, self.nodes)
+
+    def line_table(self) -> LineTable:
+        """The rows of the lines: touchdown, largest forces, reaction and weight."""
+        return LineTable(self.model.input, self.elements)
 
     def parts(self) -> Iterator[Part]:
         """Evaluate a few steps at a time; memory does not grow with the number of steps.

@@ -1,8 +1,8 @@
 """The forms of result files, a module each with the name of the suffix, imported when it is asked for.
 
 A module is a form by being here: `SUMMARY` says in the documentation what is in a file, `opened(output)` is a context
-with the `Sink` that writes it, and where it is `BESIDE`, the nodes go to a second file. Results come a few steps at a
-time and are written as they come: a long series is never in memory as text.
+with the `Sink` that writes it, and `BESIDE` names the tables that go to files of their own. Results come a few steps at
+a time and are written as they come: a long series is never in memory as text.
 """
 
 from __future__ import annotations
@@ -84,9 +84,13 @@ class Output:
     as_text: bool = False
 
     @property
-    def tables(self) -> list[Table]:
-        """The tables of elements and nodes."""
-        return [self.elements, self.evaluation.node_table()]
+    def tables(self) -> dict[str, Table]:
+        """The tables of elements, nodes and lines, by their names."""
+        return {
+            "elements": self.elements,
+            "nodes": self.evaluation.node_table(),
+            "summary": self.evaluation.line_table(),
+        }
 
 
 def form_names() -> list[str]:
@@ -123,10 +127,12 @@ class Spelling:
     name: Callable[[str], str]
     nothing: str
 
-    def column(self, values: Values, names: tuple[str | None, ...] = ()) -> list[str]:
-        """The values of a column; numbers read back to the same double, NaN is no value."""
+    def column(self, values: Values, names: tuple[str | None, ...] = (), blank: int | None = None) -> list[str]:
+        """The values of a column; numbers read back to the same double, NaN and `blank` are no value."""
         if not values.size:
             return []
+        if blank is not None:
+            return [self.nothing if number == blank else str(number) for number in values.tolist()]
         if names:
             spelled = [self.nothing if name is None else self.name(name) for name in names]
             return [spelled[code] for code in values.tolist()]
@@ -144,13 +150,15 @@ def step_rows(columns: list[Column], steps: int, rows: int, spelling: Spelling) 
             yield chain.from_iterable(_long(flat, step, rows, spelling))
         return
     together = max(1, _BLOCK // max(rows, 1))
-    constant = {column.name: spelling.column(column.values, column.names) for column in flat if column.steady}
+    constant = {
+        column.name: spelling.column(column.values, column.names, column.blank) for column in flat if column.steady
+    }
     for first in range(0, steps, together):
         last = min(steps, first + together)
         texts = [
             constant[column.name] * (last - first)
             if column.steady
-            else spelling.column(column.cut(first, last).ravel(), column.names)
+            else spelling.column(column.cut(first, last).ravel(), column.names, column.blank)
             for column in flat
         ]
         spelled = zip(*texts, strict=True)
@@ -162,7 +170,9 @@ def _long(columns: list[Column], step: int, rows: int, spelling: Spelling) -> It
     """The rows of one step of a large model, block by block."""
     for start in range(0, rows, _BLOCK):
         block = slice(start, start + _BLOCK)
-        texts = [spelling.column(column.cut(step, step + 1)[0, block], column.names) for column in columns]
+        texts = [
+            spelling.column(column.cut(step, step + 1)[0, block], column.names, column.blank) for column in columns
+        ]
         yield zip(*texts, strict=True)
 
 

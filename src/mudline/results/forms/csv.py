@@ -1,4 +1,4 @@
-"""Results as two tables of CSV."""
+"""Results as tables of CSV."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from mudline.quantities import csv_lines
 from mudline.results.evaluation import Evaluation
 from mudline.results.forms import More, Output, Sink, Spelling, Together, Write, batched, step_rows, text_into
 
-SUMMARY = "elements; the nodes in `...-nodes.csv`"
-BESIDE = True
+SUMMARY = "elements; the nodes in `...-nodes.csv`, the lines in `...-summary.csv`"
+BESIDE = ("nodes", "summary")
 
 
 def _spelling(*, as_text: bool) -> Spelling:
@@ -22,7 +22,7 @@ def _spelling(*, as_text: bool) -> Spelling:
 
 def opened(output: Output) -> AbstractContextManager[Sink]:
     """What takes the results."""
-    pairs = zip(output.tables, output.streams, strict=True)
+    pairs = zip(output.tables.values(), output.streams, strict=True)
     made = [Text(output.evaluation, table, text_into(stream), as_text=output.as_text) for table, stream in pairs]
     return nullcontext(Together(made))
 

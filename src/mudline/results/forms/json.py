@@ -12,8 +12,8 @@ from mudline.contact.result import Part
 from mudline.results.evaluation import Evaluation
 from mudline.results.forms import More, Output, Row, Sink, Spelling, Write, batched, plan_rows, step_rows, text_into
 
-SUMMARY = "everything: units, plan, elements, nodes, `restrained`, `against`"
-BESIDE = False
+SUMMARY = "everything: units, plan, elements, nodes, `restrained`, `summary`, `warnings`, `against`"
+BESIDE = ()
 
 _SPELLING = Spelling(partial(json.dumps, ensure_ascii=False), "null")
 

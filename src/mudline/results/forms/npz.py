@@ -13,13 +13,14 @@ import numpy as np
 
 from mudline.contact.columns import Column, Values
 from mudline.contact.result import Part
+from mudline.quantities import ELEMENTS
 from mudline.results.forms import More, Output, Sink
 
 SUMMARY = (
-    "an array of each column: (elements,) or (steps, elements), (nodes,) or (steps, nodes), "
-    "vectors with a last axis of 3"
+    "an array of each column: (elements,) or (steps, elements), (nodes,) or (steps, nodes), vectors with a last axis "
+    "of 3; `node_` before what elements have too, `summary_` before (lines,) or (steps, lines)"
 )
-BESIDE = False
+BESIDE = ()
 
 _PACKED = 1 << 18
 """Values that are packed at a time."""
@@ -45,11 +46,12 @@ class NpzArchive:
 
     def take(self, part: Part) -> None:
         """Keep some steps. Raises OSError."""
-        for table in self._tables:
+        for which, table in self._tables.items():
             for column in table.columns(part):
-                if column.name not in self._arrays:
-                    self._arrays[column.name] = _Array(column, self._temporary, self._output.folder)
-                self._arrays[column.name].take(column)
+                name = array_name(which, column.name)
+                if name not in self._arrays:
+                    self._arrays[name] = _Array(column, self._temporary, self._output.folder)
+                self._arrays[name].take(column)
 
     def finish(self, more: More) -> None:
         """Write the archive; it has no place for more. Raises OSError."""
@@ -61,6 +63,13 @@ class NpzArchive:
                 _pack(archive, name, array.dtype, shape, array.pieces(steps if array.over_steps else 1))
             if time is not None:
                 _pack(archive, "time", time.dtype, time.shape, [time])
+
+
+def array_name(table: str, column: str) -> str:
+    """The name of an array: nodes have `node_` before what elements have too, lines `summary_` before all."""
+    if table == "summary":
+        return f"summary_{column}"
+    return f"node_{column}" if table == "nodes" and column in ELEMENTS else column
 
 
 class _Array:

@@ -1,4 +1,4 @@
-"""Results as two tables in Parquet, a group of rows at a time; needs the extra `parquet`."""
+"""Results as tables in Parquet, a group of rows at a time; needs the extra `parquet`."""
 
 from __future__ import annotations
 
@@ -15,8 +15,11 @@ from mudline.contact.result import Part
 from mudline.results.evaluation import Evaluation
 from mudline.results.forms import More, Output, Sink, Together
 
-SUMMARY = "the same columns, in groups of rows; the nodes in `...-nodes.parquet`; `pip install 'mudline[parquet]'`"
-BESIDE = True
+SUMMARY = (
+    "the same columns, in groups of rows; the nodes in `...-nodes.parquet`, the lines in `...-summary.parquet`; "
+    "`pip install 'mudline[parquet]'`"
+)
+BESIDE = ("nodes", "summary")
 
 GROUP = 1 << 18
 """Rows of a group, as soon as there are so many."""
@@ -25,7 +28,7 @@ GROUP = 1 << 18
 @contextmanager
 def opened(output: Output) -> Iterator[Sink]:
     """What takes the results."""
-    pairs = zip(output.tables, output.streams, strict=True)
+    pairs = zip(output.tables.values(), output.streams, strict=True)
     with ExitStack() as files:
         yield Together([files.enter_context(closing(ParquetFile(output.evaluation, *pair))) for pair in pairs])
 
@@ -69,6 +72,8 @@ class ParquetFile:
 
 def _array(column: Column, steps: int) -> pa.Array:
     values = column.cut(0, steps).ravel()
+    if column.blank is not None:
+        return pa.array(values, mask=values == column.blank)
     if not column.names:
         return pa.array(values, from_pandas=True)  # NaN is no value
     codes = pa.array(values.astype(np.int32), mask=values < 0)
