@@ -14,7 +14,7 @@ from mudline.contact import ContactResult
 AnyArray = NDArray[Any]
 
 
-_EVALUATED = ("given", "positions", "times")
+EVALUATED = {"given", "positions", "times"}
 """What a result says of its evaluation, which is no part of what came out of it."""
 
 
@@ -24,7 +24,7 @@ def arrays_of(part: object, name: str = "") -> Iterator[tuple[str, AnyArray | No
         yield name, part
     elif is_dataclass(part):
         for field in fields(part):
-            if field.name in _EVALUATED and isinstance(part, ContactResult):
+            if field.name in EVALUATED and isinstance(part, ContactResult):
                 continue
             yield from arrays_of(getattr(part, field.name), f"{name}.{field.name}".lstrip("."))
     else:
