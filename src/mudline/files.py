@@ -122,15 +122,22 @@ def _take_over(handle: int, temporary: Path, old: os.stat_result) -> None:
 def _new_beside(target: Path, mode: int) -> tuple[int, Path]:
     """An open and locked new file in the folder of another one; the system takes its mask for new files off the mode.
 
-    One that another run took for left behind, before it was locked, is given up.
+    One that another run took for left behind, before it was locked, is given up. A signal that ends the run leaves
+    none, also between the making of the file and its first line.
     """
     while True:
         path = target.with_name(f".{target.name[:40]}.{os.urandom(_RANDOM).hex()}{_MARK}")
-        with suppress(FileExistsError):
+        try:
             handle = os.open(path, _CREATE, mode)
             if _locked(handle) is not False and path.exists():
                 return handle, path
             os.close(handle)
+        except FileExistsError:
+            continue
+        except BaseException:
+            with suppress(OSError):
+                path.unlink()
+            raise
 
 
 def _locked(handle: int) -> bool | None:

@@ -44,6 +44,11 @@ def test_steps_have_traces(place: Place, folder: Path) -> None:
     assert words(folder) == first
 
 
+def test_a_curve_is_in_the_legend_whatever_its_name(place: Place, folder: Path) -> None:
+    assert run("evaluate", place(CLEAN.replace("Clay", "_Clay")), "--plot", "p.svg").code == 0
+    assert "_Clay" in words(folder)
+
+
 def test_panels_without_data_are_left_out(place: Place, folder: Path) -> None:
     assert run("evaluate", place(LINEAR), "--plot", "p.svg", "--units", "user").code == 0
     text = words(folder)

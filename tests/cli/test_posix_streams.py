@@ -77,6 +77,14 @@ def test_output_that_is_full(arguments: list[str]) -> None:
     assert (done.returncode, done.stderr) == (2, b"mudline: the output cannot be written: no space left on device\n")
 
 
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no device that is always full")
+def test_output_and_standard_error_that_are_full() -> None:
+    with Path("/dev/full").open("wb") as full:
+        words = [sys.executable, "-m", "mudline", "--version"]
+        done = subprocess.run(words, stdout=full, stderr=full, timeout=TIMEOUT, check=False)
+    assert done.returncode == 2
+
+
 def test_interruption(folder: Path) -> None:
     (folder / "deck.keyxm").write_text("$MODEL\n", encoding="utf-8")
     with started("-m", "mudline", "lint", "-v", "deck.keyxm", "-") as running:

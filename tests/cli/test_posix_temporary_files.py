@@ -11,6 +11,7 @@ from unittest.mock import Mock
 import pytest
 
 from mudline import files
+from mudline.cli.signals import Ended
 from mudline.files import replacement, write_atomically
 from tests.cli.conftest import Place
 from tests.cli.runner import process, run
@@ -111,6 +112,13 @@ def test_a_file_that_was_taken_for_left_behind_is_made_again(folder: Path, monke
     write_atomically(folder / "new", b"x")
     assert (folder / "new").read_bytes() == b"x"
     assert names(folder) == ["new"]
+
+
+def test_a_run_that_is_ended_while_it_makes_a_file_leaves_none(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(fcntl, "flock", Mock(side_effect=Ended(signal.SIGTERM)))
+    with pytest.raises(Ended):
+        write_atomically(folder / "new", b"x")
+    assert names(folder) == []
 
 
 def test_a_folder_whose_files_cannot_be_locked(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:

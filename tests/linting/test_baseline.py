@@ -82,6 +82,7 @@ ENTRY = '{"path": "a", "code": "REF003", "content": "", "count": 1}'
         ("", "not JSON"),
         ("[" * 100_000, "not JSON"),
         ("\udcff", "not JSON"),
+        (f'{{"format": {"9" * 5000}}}', "^a whole number in it is too large$"),
         ("[]", "mudline-baseline/1"),
         ('{"format": "mudline-baseline/2"}', "mudline-baseline/1"),
         ('{"format": "mudline-baseline/1"}', "no list"),

@@ -22,6 +22,7 @@ from mudline.linting.registry import code_fault
         ('[severity]\nLEG001 = "loud"', ":2: LEG001 cannot be 'loud'"),
         ('[per-file-ignores]\n"*.das" = ["NO"]', ":2: *.das: 'NO' names no rule"),
         ("select = ", ": this is not TOML"),
+        (f"dialect = {'9' * 5000}", ": a whole number in this file is too large"),
     ],
 )
 def test_a_wrong_configuration_is_told_with_its_line(tmp_path: Path, text: str, message: str) -> None:

@@ -4,12 +4,24 @@ from __future__ import annotations
 
 import csv
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from matplotlib.figure import Figure
 
-from mudline.study.report import Column, Omission, Picture, StudyReport, StudyTable, label, legend_below, style
+from mudline.study.report import (
+    Column,
+    Omission,
+    Picture,
+    StudyReport,
+    StudyTable,
+    drawn,
+    label,
+    legend_below,
+    shortened,
+    style,
+)
 from mudline.study.timing import _processor, machine, timed
 
 TABLE = StudyTable(
@@ -55,6 +67,26 @@ def test_json() -> None:
     assert whole["omissions"] == [{"what": "c", "reason": "too slow"}]
     assert whole["pictures"] == [{"name": "lines", "caption": "Some lines."}]
     assert whole["machine"]["cores"]
+
+
+def test_names_of_a_deck_are_drawn_as_they_are() -> None:
+    names = ["a$", "$x_$", r"\$\frac{$", "_hidden", "\x1b[31m\u6c34"]
+
+    def named(figure: Figure) -> None:
+        axes = figure.add_subplot()
+        for index, name in enumerate(names):
+            axes.plot([0, 1], [index, 1], label=drawn(name), **style(index))
+        label(axes, shortened(names[1] * 40), "x [-]", "y [m]")
+        legend_below(figure, axes)
+        figure.canvas.draw_idle()
+        assert len(figure.legends[0].get_texts()) == len(names)
+
+    assert Picture("names", "Names.", named, (4.0, 3.0)).png().startswith(b"\x89PNG")
+
+
+def test_names_that_are_no_utf_8_are_written(tmp_path: Path) -> None:
+    replace(REPORT, title="deck-\udcff.keyxm", pictures=()).write(tmp_path)
+    assert json.loads((tmp_path / "precision.json").read_bytes())["title"] == "deck-\udcff.keyxm"
 
 
 def test_machine_names_versions_and_no_place() -> None:

@@ -6,6 +6,7 @@ import errno
 import os
 import sys
 from collections.abc import Sequence
+from contextlib import suppress
 from importlib import import_module
 from typing import cast
 
@@ -124,6 +125,7 @@ def _unwritable(error: OSError) -> int:
     """Standard output is closed (EINVAL on Windows), or full."""
     closed = isinstance(error, BrokenPipeError) or (os.name == "nt" and error.errno == errno.EINVAL)
     if not closed:
-        notify(f"the output cannot be written: {reason(error)}")
+        with suppress(OSError):  # standard error may be full too
+            notify(f"the output cannot be written: {reason(error)}")
     streams.drop()
     return CLOSED_PIPE if closed else WRONG_USAGE

@@ -85,8 +85,10 @@ def read_baseline(path: Path) -> Baseline:
     """The baseline in a file; raises OSError, or BaselineError for a file that is not a baseline."""
     try:
         document = json.loads(path.read_bytes())
-    except (ValueError, RecursionError) as error:
+    except (json.JSONDecodeError, UnicodeDecodeError, RecursionError) as error:
         raise BaselineError(f"it is not JSON ({error})") from error
+    except ValueError as error:  # of more digits than Python reads
+        raise BaselineError("a whole number in it is too large") from error
     if not isinstance(document, dict) or document.get("format") != FORMAT:
         raise BaselineError(f'it has no "format": "{FORMAT}"')
     findings = document.get("findings")

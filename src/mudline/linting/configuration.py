@@ -60,8 +60,10 @@ def read_configuration(
     try:
         text = content.decode("utf-8-sig").replace("\r\n", "\n")
         document = tomllib.loads(text)
-    except (ValueError, RecursionError) as error:
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
         raise ConfigurationError(f"{path.as_posix()}: this is not TOML: {error}") from error
+    except ValueError as error:  # of more digits than Python reads
+        raise ConfigurationError(f"{path.as_posix()}: a whole number in this file is too large") from error
     values: object = document
     if path.name == "pyproject.toml":
         tool = document.get("tool")

@@ -285,7 +285,8 @@ def on_curves(axes: Axes, data: PlotData, spelled: _Spelled) -> None:
         curve = curves[index]
         reach = np.array([0.0, max(float(ratio.max()), float(curve.ratios[-1]))])
         knots = np.unique(np.concatenate([curve.ratios[(curve.ratios > reach[0]) & (curve.ratios < reach[1])], reach]))
-        label = cut(spelled(str(curve.name)), 30) if place < _MOST_CURVES else None
+        name = cut(spelled(str(curve.name)), 30)
+        label = (f" {name}" if name.startswith("_") else name) if place < _MOST_CURVES else None  # _ hides from legends
         axes.plot(knots, curve.evaluate(knots)[0], color=color, linewidth=1.2, zorder=2)
         axes.plot(
             ratio, force, color=color, linestyle="none", marker="o", markersize=4, alpha=0.55, zorder=3, rasterized=True

@@ -10,6 +10,7 @@ from __future__ import annotations
 import io
 import json
 import math
+import warnings
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from operator import attrgetter
@@ -174,7 +175,9 @@ class Picture:
         figure = Figure(figsize=self.size, layout="constrained", dpi=100)
         self.draw(figure)
         stream = io.BytesIO()
-        figure.savefig(stream, format="png", metadata={"Software": None})
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # a letter that the font lacks becomes a box
+            figure.savefig(stream, format="png", metadata={"Software": None})
         return stream.getvalue()
 
 
@@ -212,9 +215,15 @@ def panels(figure: Figure, count: int, across: int, *, sharey: bool = False) -> 
     return found[:count]
 
 
+def drawn(name: str) -> str:
+    """A name of the deck as plain text of a picture, where $ would begin a formula, and _ hide it from a legend."""
+    text = "".join(char if char.isprintable() else "\ufffd" for char in name).replace("$", r"\$")
+    return f" {text}" if text.startswith("_") else text
+
+
 def shortened(name: str) -> str:
-    """A name that fits above a panel."""
-    return cut(name, _LONGEST)
+    """A name of the deck that fits above a panel, as it is drawn."""
+    return drawn(cut(name, _LONGEST))
 
 
 def label(axes: Axes, title: str, x: str, y: str) -> None:
@@ -312,7 +321,7 @@ class StudyReport:
         folder.mkdir(parents=True, exist_ok=True)
         texts = [(folder / f"{self.name}-{table.name}.csv", "".join(table.csv())) for table in self.tables]
         texts.append((folder / f"{self.name}.json", self.json()))
-        files = [*pictures, *((path, text.encode()) for path, text in texts)]
+        files = [*pictures, *((path, text.encode("utf-8", "backslashreplace")) for path, text in texts)]
         for path, data in files:
             write_atomically(path, data)
         return [path for path, _ in files]

@@ -15,7 +15,7 @@ from mudline.scene.model import Scene
 from mudline.study.laws import ElasticContact, LinearLaw, smoothed_spring
 from mudline.study.precision.drop import Drop, drop_case, reference_drop
 from mudline.study.precision.integration import row
-from mudline.study.report import Layout, Picture, Points, Section, StudyOptions, columns_of, draw_lines, grouped
+from mudline.study.report import Layout, Picture, Points, Section, StudyOptions, columns_of, draw_lines, drawn, grouped
 from mudline.study.schemes import SCHEMES, Newton
 
 if TYPE_CHECKING:  # only who draws loads matplotlib
@@ -100,7 +100,7 @@ def _draw(rest: Sequence[RestRow], hits: Sequence[ImpactRow], figure: Figure) ->
     (iterations, error), (rebound, effort) = figure.subplots(2, 2)
     tries: dict[str, Points] = {}
     wrong: dict[str, Points] = {}
-    for name, rows in grouped(sorted(rest, key=_share), lambda row: row.case).items():
+    for name, rows in grouped(sorted(rest, key=_share), lambda row: drawn(row.case)).items():
         tries[f"{name}, from above"] = [(_share(row), row.from_above) for row in rows]
         tries[f"{name}, from below"] = [(_share(row), row.from_below) for row in rows]
         wrong[name] = [(_share(row), row.error) for row in rows if row.error > 1e-15]

@@ -18,7 +18,17 @@ from mudline.contact.stiffest import ADVISED_OMEGA_DT, CRITICAL_OMEGA_DT, omega,
 from mudline.scene.assignments import given_stiffness
 from mudline.scene.model import Scene
 from mudline.study.motion import Forces, History, Motion, Scheme, march
-from mudline.study.report import Layout, Omission, Picture, Section, StudyOptions, columns_of, label, legend_below
+from mudline.study.report import (
+    Layout,
+    Omission,
+    Picture,
+    Section,
+    StudyOptions,
+    columns_of,
+    drawn,
+    label,
+    legend_below,
+)
 from mudline.study.schemes import SCHEMES, Newton, OneStep
 
 if TYPE_CHECKING:  # only who draws loads matplotlib
@@ -267,7 +277,7 @@ def _draw(rows: Sequence[Measured], figure: Figure) -> None:
             name = word if not row else None
             axes.plot(SHARES[which], np.full(which.sum(), row), mark, color=color, markersize=5, label=name)
     axes.axvline(1.0, color="0.3", linewidth=1.0, label="predicted critical step")
-    names = [f"{one.contact.name}\n{one.scheme.title}, {one.predicted:.4g} s" for one in rows]
+    names = [f"{drawn(one.contact.name)}\n{one.scheme.title}, {one.predicted:.4g} s" for one in rows]
     axes.set_yticks(range(len(rows)), names, fontsize="small")
     axes.set_ylim(len(rows) - 0.4, -0.6)
     label(axes, "Steps around the critical one, really stepped", "step / predicted critical step [-]", "")
