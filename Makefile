@@ -37,19 +37,24 @@ $(VENV)/.developer: $(INSTALLATION) | $(BIN)/pip
 
 # ------------------------------------------------------------------------------------------------------------- a look
 
-# run COMMAND: print it as a reader would type it, then run it.
-run = @printf '\n$$ %s\n' '$(1)'; PATH="$(CURDIR)/$(BIN):$$PATH"; $(1)
+SCREEN := 22
+# run COMMAND,CODE: print it as a reader would type it, run it, show a screen of what it prints; it ends with CODE or 0.
+define run
+@printf '\n$$ %s\n' '$(1)'; PATH="$(CURDIR)/$(BIN):$$PATH"; $(1) >$(OUT)/screen.txt 2>&1; code=$$?; \
+	awk 'NR <= $(SCREEN) { print } END { if (NR > $(SCREEN)) printf "... and %d lines more\n", NR - $(SCREEN) }' \
+		$(OUT)/screen.txt; test $$code -eq $(or $(2),0)
+endef
 
 demo: $(VENV)/.user ## a look at what mudline does, on samples/
 	@mkdir -p $(OUT)
-	$(call run,mudline lint samples/broken.keyxm); code=$$?; echo "(exit code $$code)"; test $$code -eq 1
+	$(call run,mudline lint samples/broken.keyxm,1)
 	$(call run,mudline convert samples/legacy-flowline.keyxm -o $(OUT)/legacy-flowline.json)
-	$(call run,head -n 16 $(OUT)/legacy-flowline.json)
-	$(call run,mudline convert samples/legacy-flowline.keyxm -o $(OUT)/legacy-flowline.yaml)
-	$(call run,head -n 16 $(OUT)/legacy-flowline.yaml)
+	$(call run,mudline convert samples/legacy-flowline.keyxm --to yaml)
 	$(call run,mudline migrate --verify samples/legacy-flowline.keyxm -o $(OUT)/migrated-flowline.keyxm)
 	$(call run,mudline curves samples/scr-touchdown.keyxm)
 	$(call run,mudline evaluate samples/scr-touchdown.keyxm)
+	@rm -f $(OUT)/screen.txt
+	@printf '\nWhat was written is in $(OUT). To go on, in this terminal:\n\n    . $(BIN)/activate\n    mudline lint samples\n'
 
 # ----------------------------------------------------------------------------------------------------------- the work
 
