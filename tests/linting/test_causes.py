@@ -152,6 +152,27 @@ def test_a_finding_that_sums_up_more_than_what_follows_stays() -> None:
     assert [len(one.following) for one in both if one.code == "SYN004"] == [8]
 
 
+TWICE = {
+    "a keyword": ("*ELEMENT SETS", "*ELEMENT SETZ", [("SYN009", 11, [14])]),
+    "a setting": (" STIFFNESS=", " STIFNESS=", [("SYN004", 29, [32])]),
+    "the name of a set": ("SET=Left\n STIFFNESS=Clay", "SET=Lift\n STIFFNESS=Clay\n SET=Lift", [("REF001", 28, [30])]),
+}
+
+
+@pytest.mark.parametrize(("right", "wrong", "expected"), TWICE.values(), ids=TWICE)
+def test_the_same_slip_twice_is_one_finding(right: str, wrong: str, expected: list[tuple[str, int, list[int]]]) -> None:
+    text = DECK.replace(" SET=Right\n 6", "*ELEMENT SETS\n SET=Right\n 6") if right == "*ELEMENT SETS" else DECK
+    causes = [each for each in found(text.replace(right, wrong)) if each.code in {one[0] for one in expected}]
+    alike = [[other.line for other in each.following if other.code == each.code] for each in causes]
+    assert [(one.code, one.line, lines) for one, lines in zip(causes, alike, strict=True)] == expected
+    assert "; the same in line " in causes[0].message
+
+
+def test_two_slips_alike_are_two_findings() -> None:
+    text = changed((" SET=Left\n STIFF", " SET=Lift\n STIFF"), (" SET=Right\n STIFF", " SET=Wright\n STIFF"))
+    assert [one.line for one in found(text) if one.code == "REF001"] == [28, 31]
+
+
 def test_two_causes_have_what_follows_from_each() -> None:
     both = found(changed(("*ELEMENT\n", "*ELEMNT\n"), ("*SEABED STIFFNESS\n", "*SEABED STIFFNES\n")))
     assert [(one.code, one.line, len(one.following)) for one in both] == [("SYN009", 8, 10), ("SYN009", 19, 2)]
@@ -160,7 +181,8 @@ def test_two_causes_have_what_follows_from_each() -> None:
 def test_what_follows_is_not_left_out_where_its_cause_is_not_reported() -> None:
     text = changed(("*NODE\n", "*NODS\n"))
     chosen = select(["REF006"])
-    assert [one.line for one in lint_bytes(text.encode(), "deck.keyxm", chosen)] == [9, 9, 10]
+    lacking = lint_bytes(text.encode(), "deck.keyxm", chosen)
+    assert [(one.line, [each.line for each in one.following]) for one in lacking] == [(9, []), (9, [10])]
     suppressed = text.replace("*NODS\n", "C mudline: ignore SYN009\n*NODS\n")
     assert {one.code for one in found(suppressed)} >= {"REF006"}
 
