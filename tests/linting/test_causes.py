@@ -98,6 +98,12 @@ CAUSES = {
     "a broken number of a node": ((" 1, -0.05, 0.0\n", " 1x, -0.05, 0.0\n"), "SYN002", 5, 4),
     "a broken GEN= of nodes": ((" GEN=1, 11\n", " GEN=1, l1\n"), "SYN002", 7, 2),
     "points before their CURVE=": ((" CURVE=Clay\n", ""), "SYN001", 20, 1),
+    "points above their CURVE=": (
+        (" CURVE=Clay\n 0.0, 0.0\n 0.5, 20000.0\n", " 0.0, 0.0\n 0.5, 20000.0\n CURVE=Clay\n"),
+        "SYN001",
+        20,
+        1,
+    ),
     "an empty SET=": ((" SET=Left\n 1,", " SET=\n 1,"), "SYN003", 12, 1),
 }
 
@@ -171,6 +177,13 @@ def test_the_same_slip_twice_is_one_finding(right: str, wrong: str, expected: li
 def test_two_slips_alike_are_two_findings() -> None:
     text = changed((" SET=Left\n STIFF", " SET=Lift\n STIFF"), (" SET=Right\n STIFF", " SET=Wright\n STIFF"))
     assert [one.line for one in found(text) if one.code == "REF001"] == [28, 31]
+
+
+def test_a_name_below_its_points_is_to_be_moved() -> None:
+    (one,) = found(changed((" CURVE=Clay\n 0.0, 0.0\n", " 0.0, 0.0\n CURVE=Clay\n")))
+    assert one.message.startswith("CURVE=Clay in line 21 stands below its points: move it up; ")
+    others = found(changed((" CURVE=Clay\n", " 0.0, 0.0\n 0.5, 900.0\n CURVE=Clay\n")))
+    assert [(each.line, "move it up" in each.message) for each in others] == [(20, False)]
 
 
 def test_two_causes_have_what_follows_from_each() -> None:

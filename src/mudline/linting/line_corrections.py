@@ -169,11 +169,30 @@ def _names(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
         if found is None or problem.span is None:
             continue
         key = found[1] or found[2]
+        if found[1] and (moved := _name_below(text, blocks.raw_at(problem.span.start), problem, key)):
+            yield moved
         for name in missing[key]:
             at, written = problem.span.end, name
             if found[1]:
                 at, written = line_at(text, problem.span.start).start, f" {key}={name}\n"
             yield Correction(problem, (TextEdit(Span(at, at), written),), blocks.block_at(at))
+
+
+def _name_below(text: TextOrigin, block: RawBlock | None, problem: Problem, key: str) -> Correction | None:
+    """The first line with a name below points without one: above them."""
+    at = start_of(text, problem)
+    for leaf in block.leaves if block else ():
+        if leaf.span.start < at or leaf.kind is not Kind.SETTING:
+            continue
+        line = line_at(text, leaf.span.start)
+        written = text.source.unified[slice(*line)]
+        if written.partition("=")[0].strip().upper() != key:
+            break
+        begin = line_at(text, at).start
+        message = f"{written.strip()} in line {text.source.position(line.start)[0]} stands below its points: move it up"
+        edits = TextEdit(Span(begin, begin), f"{written}\n"), TextEdit(Span(line.start, line.end + 1), "")
+        return Correction(problem, edits, Span(begin, line.end), message, guessed=True)
+    return None
 
 
 def _settings(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
