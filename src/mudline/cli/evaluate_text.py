@@ -10,12 +10,14 @@ import numpy as np
 
 from mudline.cli.view import View
 from mudline.contact import Plan
+from mudline.contact.input import LawKind
 from mudline.results.against import Comparison
 from mudline.results.columns import ElementTable
 from mudline.results.evaluation import Evaluation, Part
 from mudline.results.quantities import SLIDING, STATES, UnitNames, headed, shown, unit_names
 from mudline.results.totals import StepSummary, Total, acted_on, counts, reaction, totals
 from mudline.scene.numbering import Floats, Indices
+from mudline.short_repr import counted
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Cell, Printer
@@ -33,8 +35,16 @@ def print_plan(plan: Plan, view: View) -> None:
 
 
 def print_evaluation(digest: StepSummary, which: str, view: View) -> None:
-    """Print totals and rows of one state; of time steps a line each, as rows are for files."""
+    """Print totals and rows of one state; of time steps a line each, as rows are for files.
+
+    Where no element has a law, a line says so in their place; `view.verbose` shows them too.
+    """
     printer = view.printer()
+    if _no_law(digest.evaluation):
+        elements = counted(len(digest.evaluation.elements), "element")
+        printer.line(f"{_title(digest.evaluation)}: none of {elements} has a seabed law, so there are no forces")
+        if not view.verbose:
+            return
     if digest.evaluation.time is not None:
         _print_steps(printer, digest)
         return
@@ -51,6 +61,14 @@ def print_evaluation(digest: StepSummary, which: str, view: View) -> None:
     left = len(lines) - len(lines[: digest.most])
     note = f"{left} more lines: -v shows all, -o writes all" if left else ""
     printer.table(f"{which.capitalize()} in contact", columns, lines[: digest.most], left=_LEFT, note=note)
+
+
+def _no_law(evaluation: Evaluation) -> bool:
+    """Whether nothing acts on any of the elements: none has a law, a nodal spring or suction."""
+    scene = evaluation.scene
+    springs = bool(scene.nodal.any()) or "SEABED SUCTION" in scene.extensions
+    lawless = scene.law[evaluation.elements] == LawKind.NONE
+    return bool(lawless.size) and bool(lawless.all()) and not springs
 
 
 def _joined(rows: Iterable[Cells]) -> Iterator[Cells]:
