@@ -186,6 +186,27 @@ def test_a_name_below_its_points_is_to_be_moved() -> None:
     assert [(each.line, "move it up" in each.message) for each in others] == [(20, False)]
 
 
+def test_a_missing_option_is_named() -> None:
+    section = DECK[DECK.index(" SET=ALL\n 1.0E8") : DECK.index("*SEABED STIFFNESS")]
+    pipe = " 207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0\n"
+    (one,) = found(changed((section, f" SET=Left\n{pipe} SET=Right\n{pipe}")))
+    assert (one.code, one.line, len(one.following)) == ("SYN003", 18, 1)
+    assert one.message.startswith("5 values are not FLEXIBLE's: OPTION=RIGID seems to be missing above line 17;")
+
+
+@pytest.mark.parametrize(("keyword", "line"), [("*ELEMENT", 9), ("*SEABED PROPERTIES", 27)])
+def test_a_missing_first_keyword_of_a_section_is_named(keyword: str, line: int) -> None:
+    text = DECK.replace(f"{keyword}\n", "$MODEL\n")
+    one = only(text)
+    assert (one.code, one.line) == ("SYN011", line)
+    assert f"read as {keyword}: that line seems to be missing above them" in one.message
+
+
+def test_a_title_below_a_section_is_no_keyword() -> None:
+    (one,) = found(DECK.replace("$MODEL\n", "$MODEL\n Flowline 12, as laid\n"))
+    assert one.message.startswith("1 line of $MODEL under no keyword")
+
+
 def test_two_causes_have_what_follows_from_each() -> None:
     both = found(changed(("*ELEMENT\n", "*ELEMNT\n"), ("*SEABED STIFFNESS\n", "*SEABED STIFFNES\n")))
     assert [(one.code, one.line, len(one.following)) for one in both] == [("SYN009", 8, 10), ("SYN009", 19, 2)]

@@ -205,6 +205,9 @@ def test_a_diameter_of_a_steel_pipe(suffix: str, row: str, column: int, words: s
     [
         ("FLEXIBLE", ", , , 3.5E8, 95.0, 0.9, 152.4, 262.0, 262.0", 33, "expected below 60 m"),
         ("FLEXIBLE", ", , , 3.5E8, 95.0, 0.9, 6.0, 10.3, 10.3", 31, "(inches?)"),
+        ("FLEXIBLE", ", , , 3.5E8, 2800.0, 0.9, 0.1524, 0.262, 0.262, 0.262", 50, "(kg, lb?)"),
+        ("FLEXIBLE", ", , , 3.5E8, 95.0, 0.9, 0.1524, 0.262, 0.262, 2.62", 48, "10 times the drag and buoyancy"),
+        ("RIGID", "207.0E9, 79.6E9, 0.25, 0.22, 7850.0, , , , 350.0, 350.0", 45, "(mm or inches?)"),
         ("FLEXIBLE", ", , , 3.5E6, 0.5, 0.001, 0.0, 0.02, 17.0, 17.0", 44, "(mm?)"),
         ("MOORING", "493.0E6, 126.5, 600.0", 18, "expected below 60 m"),
         ("TRUSS", "493.0E6, 20.0, 17.0", 17, "displaces"),

@@ -8,7 +8,7 @@ from itertools import islice
 
 import numpy as np
 
-from mudline.diagnostics import MOST_REPORTED, Problem
+from mudline.diagnostics import MOST_REPORTED, Problem, Where
 from mudline.keywords.model import Part
 from mudline.linting.rule import LARGEST_RATIO, LintContext, rule
 from mudline.linting.rules.coordinates import UNT006, odd_coordinates
@@ -46,6 +46,10 @@ NARROWEST_BORE = 0.1
 """Internal to external diameter: a smaller one is a wall thickness."""
 LIGHTEST = 0.1
 """Mass to that of the water displaced: no line is lighter, nor is a float or an air can."""
+HEAVIEST = 30.0
+"""Likewise: a chain whose diameter is that of its bar has 27, lead has 11."""
+WIDEST_FLOAT, WIDEST_COATING, WIDEST_OUTER = 25.0, 11.5, 8.0
+"""Times the external diameter that of drag or buoyancy may be, of FLEXIBLE and of RIGID; that one times both others."""
 LINES = (0.3, 30.0)
 """Mass to that of the water displaced, of usual lines."""
 _METRIC_UNITS = {"mm": 1e-3, "inches": 0.0254}
@@ -78,6 +82,32 @@ def _diameters(context: LintContext) -> Iterator[Problem]:
             source = "Di"
         if message:
             yield Problem(UNT006, message, where=place.inside(source))
+        else:
+            widest = WIDEST_FLOAT if entry.rigid is None else WIDEST_COATING
+            yield from _other_diameters(context, section, widest * width, source, place)
+
+
+def _other_diameters(context: LintContext, section: Part, most: float, source: str, place: Where) -> Iterator[Problem]:
+    """Drag and buoyancy diameters above `most`, and an external one that is far wider than both."""
+    width = number(section, source.lower())
+    others = {label: number(section, label.lower()) for label in ("Dd", "Db") if label != source}
+    known = {label: value for label, value in others.items() if 0.0 < value < math.inf}
+    unit = LENGTH_UNIT.get(context.scene.units)
+    behind = f" {unit}" if unit else ""
+    widest = max(known.values(), default=0.0)
+    if widest > most:
+        label = next(label for label, value in known.items() if value > most)
+        message = (
+            f"a diameter {label} of {known[label]!r}{behind} is {known[label] / width:.3g} times {source}, "
+            f"{width!r}{behind}: write both in one unit (mm or inches?)"
+        )
+        yield Problem(UNT006, message, where=place.inside(label))
+    elif len(known) == 2 and width > WIDEST_OUTER * widest:
+        message = (
+            f"an external diameter {source} of {width!r}{behind} is {width / widest:.3g} times the drag and buoyancy "
+            "diameters: correct one of them"
+        )
+        yield Problem(UNT006, message, where=place.inside(source))
 
 
 def _width(context: LintContext, section: Part, width: float, source: str) -> str:
@@ -118,7 +148,15 @@ def _mass(context: LintContext, section: Part, width: float, source: str) -> str
     """What is wrong with a diameter beside the mass of its section."""
     mass, buoyancy = number(section, "mass"), number(section, "db", width)
     displaced = 0.25 * math.pi * buoyancy * buoyancy * _water(context)
-    if is_placeholder(mass) or not mass < LIGHTEST * displaced < math.inf:
+    if is_placeholder(mass) or not 0.0 < displaced < math.inf:
+        return ""
+    widest = max(width, buoyancy, number(section, "dd", width))
+    if mass > HEAVIEST * displaced * (widest / buoyancy) ** 2:
+        return (
+            f"a mass of {mass!r} is {mass / displaced:.3g} times the water that a diameter {source} of {width!r} "
+            f"displaces, expected below {HEAVIEST:g}: write the mass in the unit of the water's density (kg, lb?)"
+        )
+    if not mass < LIGHTEST * displaced:
         return ""
     metres = METRES.get(context.scene.units)
     units = {name: factor / metres for name, factor in _METRIC_UNITS.items()} if metres else {}
@@ -147,7 +185,9 @@ def suspicious_length(context: LintContext) -> Iterator[Problem]:
 
     * an external diameter above 60 m (a spar hull of 37 m is legal); one above 2 m with the wall of a steel pipe, at
       least 90 mm and a 6th to a 50th of the diameter; one of a FLEXIBLE, MOORING or TRUSS section whose mass is below
-      10 % of the water that it displaces (0 and powers of ten are placeholders);
+      10 % or above 30 times that of the water that it displaces (0 and powers of ten are placeholders);
+    * a drag or buoyancy diameter above 25 times the external one, 11.5 times in RIGID; an external one above 8 times
+      both;
     * an internal diameter below a tenth of the external one in a steel pipe up to 2.5 m wide: the wall thickness;
     * a mobilisation length above 10 diameters and above 10 ft, the usual characteristic length;
     * a force-embedment curve with three points or more whose ratios become round numbers when divided by the diameter;
