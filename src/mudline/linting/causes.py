@@ -114,6 +114,8 @@ class _Trials:
                 break
             if id(cause) in hidden:
                 continue
+            if len(self.left) == 1 and all(one.guessed or not one.message for one in alternatives):
+                continue  # nothing else is left that could follow
             outcomes = [outcome for one in alternatives if (outcome := self._outcome(one)) is not None]
             best = max(outcomes, key=lambda outcome: outcome.gain, default=None)
             if best is None or best.gain < 1:
