@@ -183,11 +183,10 @@ def _skipping(scene: Scene) -> Iterator[Problem]:
     if not apart.any():
         return
     used = _uses(scene)
+    apart &= (used[ends[behind, 0]] == 1) & (used[ends[here, 1]] >= 3)
     places = scene.coordinates
     for element in here[apart].tolist():
         (start, end), (begin, following) = ends[element].tolist(), ends[element + 1].tolist()
-        if used[begin] != 1 or used[end] < 3:
-            continue
         way = float(np.linalg.norm(places[end] - places[start]))
         around = float(np.linalg.norm(places[begin] - places[start]) + np.linalg.norm(places[end] - places[begin]))
         usual = max(scene.length[element - 1], scene.length[element + 1])
