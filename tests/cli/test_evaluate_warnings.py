@@ -21,10 +21,20 @@ BOTH = "node,x,y,z\n1,-0.1,0,0\n2,-0.1,10,0\n3,0.3,20,0\n"
 ABOVE = "time,node,x,y,z\n" + "".join(f"{step},{node},{5 - step},{node},0\n" for step in (0, 1) for node in (1, 2, 3))
 
 
-def test_misspelt_keyword_is_said_beside_the_zeros(place: Place) -> None:
+def test_misspelt_keyword_is_said_in_the_place_of_zeros(place: Place) -> None:
     outcome = run("evaluate", place(MISSPELT))
     assert (outcome.code, outcome.err) == (0, WARNING + OWN)
-    assert "none              2        1      0.1         0" in outcome.out
+    message = "Contact of deck.keyxm (metric units): none of 2 elements has a seabed law, so there are no forces\n"
+    assert outcome.out == message
+    everything = run("evaluate", place(MISSPELT), "-v").out
+    assert everything.startswith(message)
+    assert "none              2        1      0.1         0" in everything
+
+
+def test_steps_without_a_law_are_no_table_of_zeros(place: Place) -> None:
+    outcome = run("evaluate", place(MISSPELT), "--positions", place(ABOVE.replace(",5", ",-5"), "below.csv"))
+    assert "none of 2 elements has a seabed law" in outcome.out
+    assert len(outcome.out.splitlines()) == 1
 
 
 def test_quiet_prints_the_result_only(place: Place) -> None:

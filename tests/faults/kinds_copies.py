@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tests.faults.draft import Draft, Row
+from tests.faults.draft import Draft, Row, plain
 from tests.faults.kind import Group
 
 COPIES = Group("copies and names")
@@ -378,6 +378,25 @@ def nodes_at_one_place(draft: Draft) -> None:
     label = draft.field(rows[7], 0)
     draft.write(rows[7], ", ".join([label, *fields[1:]]))
     draft.mark(draft.numbers("*ELEMENT")[6])
+
+
+@numbering("UNT006")
+def element_leaves_out_a_node(draft: Draft) -> None:
+    """An element that ends at the node behind the one where the next element begins."""
+    rows = _listed(draft, "*ELEMENT")
+    behind = draft.field(rows[6], 2)
+    draft.needs(draft.field(rows[5], 2) == draft.field(rows[6], 1))
+    draft.put(rows[5], 2, behind)
+
+
+@numbering("UNT006")
+def digits_of_coordinate_exchanged(draft: Draft) -> None:
+    """A node that lies beyond the next one. Seen at it, or at the next one."""
+    rows = _listed(draft, "*NODE")[3:6]
+    before, here, behind = (draft.value(row, 2) for row in rows)
+    draft.needs(before < here < behind)
+    draft.put(rows[1], 2, plain(1.5 * behind - 0.5 * here))
+    draft.mark(rows[2])
 
 
 @numbering("SYN002", "SYN001")

@@ -88,6 +88,22 @@ def flexible_mass_in_tonnes(draft: Draft) -> None:
 
 
 @kind("UNT006")
+def flexible_mass_in_pounds(draft: Draft) -> None:
+    """The mass of a flexible in lb/ft in an imperial deck, in kg/m in a deck of tonnes."""
+    draft.needs(draft.units == "imperial" or (draft.units == "user" and draft.value(ocean_row(draft), 1) < 2.0))
+    draft.scale(draft.sections("FLEXIBLE")[0], 4, 32.174 if draft.units == "imperial" else 1000.0)
+
+
+@kind("UNT006", "UNT002")
+def coating_in_millimetres(draft: Draft) -> None:
+    """Drag and buoyancy diameters of a coated pipe in mm (in inches, in an imperial deck)."""
+    row = pipe_row(draft)
+    draft.needs(len(draft.fields(row)) > 9)
+    for column in (8, 9):
+        draft.scale(row, column, per_length(draft))
+
+
+@kind("UNT006")
 def mobilisation_in_millimetres(draft: Draft) -> None:
     """Mobilisation lengths of FRICTION= in mm (in inches, in an imperial deck)."""
     row = draft.setting("*SEABED PROPERTIES", "FRICTION")

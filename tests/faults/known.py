@@ -8,7 +8,7 @@ MISSED = {
     "steel-lost-a-digit": "the wall of a riser joint may carry its buoyancy, and be as light",
     "outer-diameter-in-millimetres": "a diameter of 4 m with a small bore: what is wider than 2.5 m may be a hull",
     "mobilisation-in-millimetres": "in inches it is shorter than the usual characteristic length of 10 ft",
-    "decimal-comma-in-coordinate": "rows of nodes are read as tables, in which blanks beside commas are not looked at",
+    "digits-of-coordinate-exchanged": "in a steep part the line makes a spike aside there, and does not turn back",
     "density-left-out": "in user units nothing is known of the density of water beside flexible lines",
 }
 """Kinds of which at least one fault is missed."""

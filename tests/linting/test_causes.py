@@ -98,6 +98,12 @@ CAUSES = {
     "a broken number of a node": ((" 1, -0.05, 0.0\n", " 1x, -0.05, 0.0\n"), "SYN002", 5, 4),
     "a broken GEN= of nodes": ((" GEN=1, 11\n", " GEN=1, l1\n"), "SYN002", 7, 2),
     "points before their CURVE=": ((" CURVE=Clay\n", ""), "SYN001", 20, 1),
+    "points above their CURVE=": (
+        (" CURVE=Clay\n 0.0, 0.0\n 0.5, 20000.0\n", " 0.0, 0.0\n 0.5, 20000.0\n CURVE=Clay\n"),
+        "SYN001",
+        20,
+        1,
+    ),
     "an empty SET=": ((" SET=Left\n 1,", " SET=\n 1,"), "SYN003", 12, 1),
 }
 
@@ -152,6 +158,55 @@ def test_a_finding_that_sums_up_more_than_what_follows_stays() -> None:
     assert [len(one.following) for one in both if one.code == "SYN004"] == [8]
 
 
+TWICE = {
+    "a keyword": ("*ELEMENT SETS", "*ELEMENT SETZ", [("SYN009", 11, [14])]),
+    "a setting": (" STIFFNESS=", " STIFNESS=", [("SYN004", 29, [32])]),
+    "the name of a set": ("SET=Left\n STIFFNESS=Clay", "SET=Lift\n STIFFNESS=Clay\n SET=Lift", [("REF001", 28, [30])]),
+}
+
+
+@pytest.mark.parametrize(("right", "wrong", "expected"), TWICE.values(), ids=TWICE)
+def test_the_same_slip_twice_is_one_finding(right: str, wrong: str, expected: list[tuple[str, int, list[int]]]) -> None:
+    text = DECK.replace(" SET=Right\n 6", "*ELEMENT SETS\n SET=Right\n 6") if right == "*ELEMENT SETS" else DECK
+    causes = [each for each in found(text.replace(right, wrong)) if each.code in {one[0] for one in expected}]
+    alike = [[other.line for other in each.following if other.code == each.code] for each in causes]
+    assert [(one.code, one.line, lines) for one, lines in zip(causes, alike, strict=True)] == expected
+    assert "; the same in line " in causes[0].message
+
+
+def test_two_slips_alike_are_two_findings() -> None:
+    text = changed((" SET=Left\n STIFF", " SET=Lift\n STIFF"), (" SET=Right\n STIFF", " SET=Wright\n STIFF"))
+    assert [one.line for one in found(text) if one.code == "REF001"] == [28, 31]
+
+
+def test_a_name_below_its_points_is_to_be_moved() -> None:
+    (one,) = found(changed((" CURVE=Clay\n 0.0, 0.0\n", " 0.0, 0.0\n CURVE=Clay\n")))
+    assert one.message.startswith("CURVE=Clay in line 21 stands below its points: move it up; ")
+    others = found(changed((" CURVE=Clay\n", " 0.0, 0.0\n 0.5, 900.0\n CURVE=Clay\n")))
+    assert [(each.line, "move it up" in each.message) for each in others] == [(20, False)]
+
+
+def test_a_missing_option_is_named() -> None:
+    section = DECK[DECK.index(" SET=ALL\n 1.0E8") : DECK.index("*SEABED STIFFNESS")]
+    pipe = " 207.0E9, 79.6E9, 0.3239, 0.2889, 7850.0\n"
+    (one,) = found(changed((section, f" SET=Left\n{pipe} SET=Right\n{pipe}")))
+    assert (one.code, one.line, len(one.following)) == ("SYN003", 18, 1)
+    assert one.message.startswith("5 values are not FLEXIBLE's: OPTION=RIGID seems to be missing above line 17;")
+
+
+@pytest.mark.parametrize(("keyword", "line"), [("*ELEMENT", 9), ("*SEABED PROPERTIES", 27)])
+def test_a_missing_first_keyword_of_a_section_is_named(keyword: str, line: int) -> None:
+    text = DECK.replace(f"{keyword}\n", "$MODEL\n")
+    one = only(text)
+    assert (one.code, one.line) == ("SYN011", line)
+    assert f"read as {keyword}: that line seems to be missing above them" in one.message
+
+
+def test_a_title_below_a_section_is_no_keyword() -> None:
+    (one,) = found(DECK.replace("$MODEL\n", "$MODEL\n Flowline 12, as laid\n"))
+    assert one.message.startswith("1 line of $MODEL under no keyword")
+
+
 def test_two_causes_have_what_follows_from_each() -> None:
     both = found(changed(("*ELEMENT\n", "*ELEMNT\n"), ("*SEABED STIFFNESS\n", "*SEABED STIFFNES\n")))
     assert [(one.code, one.line, len(one.following)) for one in both] == [("SYN009", 8, 10), ("SYN009", 19, 2)]
@@ -160,7 +215,8 @@ def test_two_causes_have_what_follows_from_each() -> None:
 def test_what_follows_is_not_left_out_where_its_cause_is_not_reported() -> None:
     text = changed(("*NODE\n", "*NODS\n"))
     chosen = select(["REF006"])
-    assert [one.line for one in lint_bytes(text.encode(), "deck.keyxm", chosen)] == [9, 9, 10]
+    lacking = lint_bytes(text.encode(), "deck.keyxm", chosen)
+    assert [(one.line, [each.line for each in one.following]) for one in lacking] == [(9, []), (9, [10])]
     suppressed = text.replace("*NODS\n", "C mudline: ignore SYN009\n*NODS\n")
     assert {one.code for one in found(suppressed)} >= {"REF006"}
 

@@ -150,7 +150,7 @@ def test_exchanged_columns_are_told_once_and_exchanged() -> None:
     assert repaired(text, "CRV009").split("\n")[3:6] == [" 0, 0", " 0.1, 1200", " 0.5, 4200"]
 
 
-@pytest.mark.parametrize("given", [((0, 0), (10, 0.5)), ((0, 0), (11, 1)), ((0, 0), (0, 0)), ((0, 0), (0.1, 900))])
+@pytest.mark.parametrize("given", [((0, 0), (10, 0.5)), ((0, 0), (11, 2)), ((0, 0), (0, 0)), ((0, 0), (0.1, 900))])
 def test_columns_in_their_order(given: tuple[tuple[float, float], ...]) -> None:
     assert found(points(*given), "CRV009") == []
 

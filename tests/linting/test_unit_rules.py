@@ -205,6 +205,9 @@ def test_a_diameter_of_a_steel_pipe(suffix: str, row: str, column: int, words: s
     [
         ("FLEXIBLE", ", , , 3.5E8, 95.0, 0.9, 152.4, 262.0, 262.0", 33, "expected below 60 m"),
         ("FLEXIBLE", ", , , 3.5E8, 95.0, 0.9, 6.0, 10.3, 10.3", 31, "(inches?)"),
+        ("FLEXIBLE", ", , , 3.5E8, 2800.0, 0.9, 0.1524, 0.262, 0.262, 0.262", 50, "(kg, lb?)"),
+        ("FLEXIBLE", ", , , 3.5E8, 95.0, 0.9, 0.1524, 0.262, 0.262, 2.62", 48, "10 times the drag and buoyancy"),
+        ("RIGID", "207.0E9, 79.6E9, 0.25, 0.22, 7850.0, , , , 350.0, 350.0", 45, "(mm or inches?)"),
         ("FLEXIBLE", ", , , 3.5E6, 0.5, 0.001, 0.0, 0.02, 17.0, 17.0", 44, "(mm?)"),
         ("MOORING", "493.0E6, 126.5, 600.0", 18, "expected below 60 m"),
         ("TRUSS", "493.0E6, 20.0, 17.0", 17, "displaces"),
@@ -292,12 +295,51 @@ def test_an_element_longer_than_its_neighbours(y: tuple[int, ...], lines: list[i
         assert [one[:3] for one in told(text, suffix)] == [("UNT006", line, 2) for line in lines]
 
 
-@pytest.mark.parametrize(
-    ("y", "expected"), [((0, 10, 500, 30, 40), [5]), ((0, 10, 250, 30, 40), []), ((0, 10, 500, 990, 1000), [])]
-)
+@pytest.mark.parametrize(("y", "expected"), [((0, 10, 500, 30, 40), [5]), ((0, 10, 500, 990, 1000), [])])
 def test_a_node_far_from_both_of_its_neighbours(y: tuple[int, ...], expected: list[int]) -> None:
     text = NODES.format(*y) + CHAIN + STEEL
     assert [one[1] for one in told(text)] == expected
+
+
+@pytest.mark.parametrize(
+    ("y", "expected"),
+    [
+        ((0, 10, 250, 30, 40), [5]),
+        ((0, 10, 32, 30, 40), [5]),
+        ((0, 10, 29, 30, 40), []),
+        ((0, 10, 20, 12, 5), []),  # it goes back, and on
+    ],
+)
+def test_a_line_that_turns_back_and_forward_again(y: tuple[int, ...], expected: list[int]) -> None:
+    found = told(NODES.format(*y) + CHAIN + STEEL)
+    assert [one[:2] for one in found] == [("UNT006", line) for line in expected]
+
+
+@pytest.mark.parametrize(
+    ("ends", "expected"), [("1, 3", [10]), ("1, 4", []), ("1, 2", [])], ids=["the next one", "far", "right"]
+)
+def test_an_element_that_leaves_out_a_node(ends: str, expected: list[int]) -> None:
+    listed = f"*ELEMENT\n 1, 0, 1\n 2, {ends}\n 3, 2, 3\n 4, 3, 4\n"
+    found = told(NODES.format(0, 10, 20, 30, 40) + listed + STEEL)
+    assert [one[1] for one in found] == expected
+
+
+ROWS = {
+    "x": (" 2, -0,05, 20.0", [5]),
+    "y": (" 2, 0.0, 20,5", [5]),
+    "y of zeros": (" 2, 0.0, 20,00", [5]),
+    "three coordinates": (" 2, 0.0, 20.0, 0", []),
+    "whole numbers": (" 2, 0, 20, 0", []),
+    "a node aside": (" 2, 0, 20, 5.0", []),
+}
+
+
+@pytest.mark.parametrize(("row", "expected"), ROWS.values(), ids=ROWS)
+def test_a_decimal_comma_in_a_coordinate(row: str, expected: list[int]) -> None:
+    text = (NODES.format("0.0", "10.0", "20.0", "30.0", "40.0") + CHAIN + STEEL).replace(" 2, 0.0, 20.0", row)
+    assert row in text
+    found = [one for one in told(text) if one[0] == "UNT006"]
+    assert [one[1] for one in found] == expected
 
 
 def test_an_element_of_another_section_may_be_long() -> None:

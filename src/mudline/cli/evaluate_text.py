@@ -10,6 +10,7 @@ import numpy as np
 
 from mudline.cli.view import View
 from mudline.contact import Plan
+from mudline.contact.input import LawKind
 from mudline.contact.result import Part
 from mudline.contact.touchdown import LineSummary
 from mudline.quantities import SLIDING, STATES, UnitNames, headed, shown, unit_names
@@ -18,6 +19,7 @@ from mudline.results.evaluation import Evaluation
 from mudline.results.lines import LineWatch
 from mudline.results.totals import StepSummary, Total, acted_on, counts, reaction, totals
 from mudline.scene.numbering import Floats, Indices
+from mudline.short_repr import counted
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Cell, Printer
@@ -35,8 +37,16 @@ def print_plan(plan: Plan, view: View) -> None:
 
 
 def print_evaluation(digest: StepSummary, lines: LineWatch, which: str, view: View) -> None:
-    """Print totals and rows of one state; of time steps a line each, as rows are for files."""
+    """Print totals and rows of one state; of time steps a line each, as rows are for files.
+
+    Where no element has a law, a line says so in their place; `view.verbose` shows them too.
+    """
     printer = view.printer()
+    if _no_law(digest.evaluation):
+        elements = counted(len(digest.evaluation.elements), "element")
+        printer.line(f"{_title(digest.evaluation)}: none of {elements} has a seabed law, so there are no forces")
+        if not view.verbose:
+            return
     if which == "summary":
         _print_lines(printer, lines)
         return
@@ -58,6 +68,14 @@ def print_evaluation(digest: StepSummary, lines: LineWatch, which: str, view: Vi
     left = len(shown_rows) - len(shown_rows[: digest.most])
     note = f"{left} more lines: -v shows all, -o writes all" if left else ""
     printer.table(f"{which.capitalize()} in contact", columns, shown_rows[: digest.most], left=_LEFT, note=note)
+
+
+def _no_law(evaluation: Evaluation) -> bool:
+    """Whether nothing acts on any of the elements: none has a law, a nodal spring or suction."""
+    scene = evaluation.scene
+    springs = bool(scene.nodal.any()) or "SEABED SUCTION" in scene.extensions
+    lawless = scene.law[evaluation.elements] == LawKind.NONE
+    return bool(lawless.size) and bool(lawless.all()) and not springs
 
 
 def _joined(rows: Iterable[Cells]) -> Iterator[Cells]:

@@ -10,10 +10,11 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 
+from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Problem, Severity, Span
 from mudline.linting.corrections import Blocks, Correction, line_at, missing_sections, misspelt
 from mudline.linting.line_corrections import line_corrections
-from mudline.linting.rows import by_row, joined, left_out
+from mudline.linting.rows import also_in, by_row, joined, left_out
 from mudline.linting.rule import LintContext
 from mudline.linting.value_corrections import value_corrections
 from mudline.syntax.edits import OverlapError, TextEdit, edited_bytes, with_line_ends
@@ -65,7 +66,7 @@ def under_causes(context: LintContext, problems: list[Problem], check: Check) ->
     tried = [alternatives[:MOST_ALTERNATIVES] for alternatives in by_cause.values()]
     size = len(problems) + len(blocks.blocks) + blocks.end // 1000
     trials = min(MOST_TRIALS, max(FEWEST_TRIALS, MOST_WORK // size))
-    return by_row(text, _Trials(context, problems, check, trials).grouped(tried))
+    return by_row(text, _Trials(context, text, problems, check, trials).grouped(tried))
 
 
 def _typed(line: Span) -> bool:
@@ -91,8 +92,11 @@ class _Outcome:
 class _Trials:
     """The corrections of a deck, made one after the other; each is kept if it explains something."""
 
-    def __init__(self, context: LintContext, problems: list[Problem], check: Check, trials: int) -> None:
+    def __init__(
+        self, context: LintContext, text: TextOrigin, problems: list[Problem], check: Check, trials: int
+    ) -> None:
         self.context = context
+        self.text = text
         self.check = check
         self.problems = problems
         self.made: list[TextEdit] = []
@@ -110,6 +114,8 @@ class _Trials:
                 break
             if id(cause) in hidden:
                 continue
+            if len(self.left) == 1 and all(one.guessed or not one.message for one in alternatives):
+                continue  # nothing else is left that could follow
             outcomes = [outcome for one in alternatives if (outcome := self._outcome(one)) is not None]
             best = max(outcomes, key=lambda outcome: outcome.gain, default=None)
             if best is None or best.gain < 1:
@@ -118,7 +124,7 @@ class _Trials:
             if following or (best.correction.message and not best.correction.guessed):
                 self.made += best.correction.edits
                 self.known = best.found
-                self.under[id(cause)] = _cause(best.correction, following)
+                self.under[id(cause)] = _cause(self.text, best.correction, following)
                 hidden.update(map(id, following))
                 gone = hidden | {id(cause)}
                 self.left = [(key, one) for key, one in self.left if id(one) not in gone]
@@ -126,10 +132,10 @@ class _Trials:
 
     def _outcome(self, correction: Correction) -> _Outcome | None:
         """What a correction does; None where it cannot be made, leaves its own finding, or too much was tried."""
-        text = self.context.text
-        if text is None or self.trials <= 0:
+        if self.trials <= 0:
             return None
         self.trials -= 1
+        text = self.text
         edits = with_line_ends(text.source, [*self.made, *correction.edits])
         try:
             context, problems = self.check(edited_bytes(text.source, edits))
@@ -177,13 +183,17 @@ class _Trials:
         return following
 
 
-def _cause(correction: Correction, following: Sequence[Problem]) -> Problem:
+def _cause(text: TextOrigin, correction: Correction, following: Sequence[Problem]) -> Problem:
     """The finding of a cause with those that follow from it."""
     cause = correction.cause
     cause = replace(cause, message=correction.message or cause.message, span=correction.place or cause.span)
-    if not following:
-        return cause
-    return joined(cause, following, left_out(len(following)))
+    same: list[Problem] = []
+    if not correction.message:
+        same = [one for one in following if (one.code, one.message) == (cause.code, cause.message)]
+    if same:
+        cause = joined(cause, same, also_in(text, same))
+    others = [one for one in following if not any(one is each for each in same)]
+    return joined(cause, others, left_out(len(others))) if others else cause
 
 
 def _key(context: LintContext, problem: Problem, edits: Iterable[TextEdit]) -> _Key:

@@ -6,6 +6,7 @@ from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import chain
 
 from mudline.codes.lines import SYN004, SYN005, SYN007, SYN008, SYN009, SYN010
 from mudline.deck.reading import TextOrigin
@@ -48,11 +49,15 @@ def line_at(text: TextOrigin, offset: int) -> Span:
 
 
 def misspelt(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
-    """Names for which another one was meant."""
+    """Names for which another one was meant; one that is misspelt several times is corrected everywhere."""
+    alike: dict[tuple[str, str], list[Problem]] = {}
     for problem in problems:
-        if problem.code not in _NAMES or problem.repair is None:
-            continue
-        edits = tuple(TextEdit(span, written) for span, written in problem.repair.edits)
+        if problem.code in _NAMES and problem.repair is not None:
+            alike.setdefault((problem.code.code, problem.message), []).append(problem)
+    for found in alike.values():
+        problem = min(found, key=lambda one: start_of(blocks.text, one))
+        repairs = [one.repair.edits for one in found if one.repair is not None]
+        edits = tuple(TextEdit(span, written) for span, written in sorted(chain.from_iterable(repairs)))
         first = edits[0].span
         region = blocks.section_at(first.start) if problem.code is SYN010 else blocks.block_at(first.start)
         yield Correction(problem, edits, region)

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import chain, islice
 
 from mudline.codes.fields import SYN002, SYN003
-from mudline.codes.lines import SYN001, SYN004, SYN013, SYN014
+from mudline.codes.lines import SYN001, SYN004, SYN011, SYN013, SYN014
 from mudline.codes.references import REF007, REF009
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Problem, Severity, Span
@@ -33,15 +33,17 @@ _MISREAD = str.maketrans({"O": "0", "o": "0", "l": "1", "I": "1"})
 _NUMBER = re.compile(r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[EeDd][-+]?[0-9]+)?")
 _CURVE_NAMES = {"EMBEDMENT": "SET", "SEABED STIFFNESS": "CURVE"}
 """Keywords of points, and the setting that names the curve."""
+_VALUES = {"RIGID": range(5, 9), "MOORING": range(3, 4)}
+"""Options of *GEOMETRIC SETS and how many values their rows have, where those of FLEXIBLE have another count."""
 _NAMED_POINT = re.compile(r"[ \t]*([^-+.,=0-9 \t][^,=\n]*?)[ \t]*,[ \t]*([-+.0-9][^\n\r]*?)[ \t\r]*")
 _LACKS_NAME = re.compile(r"expected (CURVE|SET)= before this line|(SET|CURVE)= has no value")
 
 
 def line_corrections(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Return corrections of lines that cannot be read as they stand."""
-    if not any(one.code in (*_OF_FOREIGN_LINES, SYN013, SYN014) for one in problems):
+    if not any(one.code in (*_OF_FOREIGN_LINES, SYN011, SYN013, SYN014) for one in problems):
         return iter(())
-    parts = (_stars, _tables, _keyword_lines, _names, _settings, _cut_off, _rows)
+    parts = (_stars, _tables, _keyword_lines, _first_keyword, _options, _names, _settings, _cut_off, _rows)
     return chain.from_iterable(part(blocks, problems) for part in parts)
 
 
@@ -97,6 +99,22 @@ def _missing_line(text: TextOrigin, section: str, block: RawBlock, cause: Proble
                 message = (
                     f"the lines from line {number} on read as *{keyword}: that line seems to be missing above them"
                 )
+            edit = TextEdit(Span(place, place), f"*{keyword}\n")
+            yield Correction(cause, (edit,), Span(place, end), message, guessed=True)
+
+
+def _first_keyword(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
+    """Lines below a `$SECTION` line and above its first keyword: the keyword that they read as."""
+    text = blocks.text
+    stray = {start_of(text, one): one for one in problems if one.code is SYN011}
+    for section in text.tree.sections if stray else ():
+        lines = [leaf for leaf in section.leaves if leaf.kind not in (Kind.COMMENT, Kind.BLANK)]
+        cause = next((stray[at] for at in stray if lines and lines[0].span.start <= at < lines[0].span.end), None)
+        if cause is None:
+            continue
+        place, end = lines[0].span.start, section.leaves[-1].span.end
+        for keyword in islice(_reads_as(text, section.name, "", text.source.unified[place:end]), MOST_KEYWORDS):
+            message = f"this line and those below it read as *{keyword}: that line seems to be missing above them"
             edit = TextEdit(Span(place, place), f"*{keyword}\n")
             yield Correction(cause, (edit,), Span(place, end), message, guessed=True)
 
@@ -169,11 +187,52 @@ def _names(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
         if found is None or problem.span is None:
             continue
         key = found[1] or found[2]
+        if found[1] and (moved := _name_below(text, blocks.raw_at(problem.span.start), problem, key)):
+            yield moved
         for name in missing[key]:
             at, written = problem.span.end, name
             if found[1]:
                 at, written = line_at(text, problem.span.start).start, f" {key}={name}\n"
             yield Correction(problem, (TextEdit(Span(at, at), written),), blocks.block_at(at))
+
+
+def _name_below(text: TextOrigin, block: RawBlock | None, problem: Problem, key: str) -> Correction | None:
+    """The first line with a name below points without one: above them."""
+    at = start_of(text, problem)
+    for leaf in block.leaves if block else ():
+        if leaf.span.start < at or leaf.kind is not Kind.SETTING:
+            continue
+        line = line_at(text, leaf.span.start)
+        written = text.source.unified[slice(*line)]
+        if written.partition("=")[0].strip().upper() != key:
+            break
+        begin = line_at(text, at).start
+        message = f"{written.strip()} in line {text.source.position(line.start)[0]} stands below its points: move it up"
+        edits = TextEdit(Span(begin, begin), f"{written}\n"), TextEdit(Span(line.start, line.end + 1), "")
+        return Correction(problem, edits, Span(begin, line.end), message, guessed=True)
+    return None
+
+
+def _options(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
+    """Rows of sections without an OPTION= above them, which makes them FLEXIBLE: that of so many values."""
+    text = blocks.text
+    seen: set[int] = set()
+    for problem in sorted((one for one in problems if one.code is SYN003), key=lambda one: start_of(text, one)):
+        at = start_of(text, problem)
+        block = blocks.raw_at(at)
+        if block is None or block.name != "GEOMETRIC SETS" or block.head.span.start in seen:
+            continue
+        seen.add(block.head.span.start)
+        above = [leaf for leaf in block.leaves if leaf.kind is Kind.SETTING and leaf.span.start < at]
+        written = [text.source.unified[slice(*leaf.span)].strip().upper() for leaf in above]
+        count = text.source.unified[slice(*line_at(text, at))].count(",") + 1
+        option = next((name for name, counts in _VALUES.items() if count in counts), "")
+        if option and written and not any(each.startswith("OPTION") for each in written):
+            line = line_at(text, above[-1].span.start)
+            edit = TextEdit(Span(line.start, line.start), f" OPTION={option}\n")
+            number = text.source.position(line.start)[0]
+            message = f"{count} values are not FLEXIBLE's: OPTION={option} seems to be missing above line {number}"
+            yield Correction(problem, (edit,), Span(line.start, whole(block).end), message, guessed=True)
 
 
 def _settings(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:

@@ -1,4 +1,4 @@
-"""Findings about rows: one for a row that was misread, and one for row after row with the same fault."""
+"""Findings that repeat themselves: about a row that was misread, row after row, and about one missing name."""
 
 from __future__ import annotations
 
@@ -31,20 +31,20 @@ _Rows = dict[tuple[str, int], list[Problem]]
 
 
 def by_row(text: TextOrigin, problems: list[Problem]) -> list[Problem]:
-    """Return the findings with those under another one that say no more about their rows (`Problem.following`).
+    """Return the findings with those under another one that say no more (`Problem.following`).
 
-    These are what is said of the values of a row that was misread; further fields of a row with the same fault; and
-    rows, each directly below the one before, of which the same is said but for the digits.
+    These are what is said of the values of a row that was misread; further fields of a row with the same fault; rows,
+    each directly below the one before, of which the same is said but for the digits; and further lines that use a name
+    or a number which is not defined.
     """
     rows: _Rows = {}
     for problem in problems:
         if problem.code in _OF_ROWS and problem.message != MORE:
             rows.setdefault((problem.code.code, text.place(problem).line), []).append(problem)
-    if not rows:
-        return problems
+    groups = [*_judged(text, problems, rows), *_repeated(rows), *_lacking(text, problems)]
     under: dict[int, Problem] = {}
     hidden: set[int] = set()
-    for cause, others, words in [*_judged(text, problems, rows), *_repeated(rows)]:
+    for cause, others, words in groups:
         if id(cause) not in hidden:
             under[id(cause)] = joined(under.get(id(cause), cause), [under.get(id(one), one) for one in others], words)
             hidden.update(map(id, others))
@@ -81,6 +81,26 @@ def _repeated(rows: _Rows) -> Iterator[tuple[Problem, list[Problem], str]]:
         lines = f"{len(below)} more rows of this block, the last in line {line + len(below)}" if below else ""
         if others := [*same, *(one for row in below for one in row)]:
             yield found[0], others, f"and {' and '.join(filter(None, (fields, lines)))}"
+
+
+def _lacking(text: TextOrigin, problems: list[Problem]) -> Iterator[tuple[Problem, list[Problem], str]]:
+    """Further lines that use a name or a number of a kind which is not defined."""
+    lacking: dict[tuple[str, str], list[Problem]] = {}
+    for problem in problems:
+        if problem.lacks and problem.message != MORE:
+            lacking.setdefault((problem.code.code, problem.lacks.casefold()), []).append(problem)
+    for found in lacking.values():
+        if len(found) > 1:
+            first, *others = sorted(found, key=lambda one: text.place(one).line)
+            yield first, others, also_in(text, others)
+
+
+def also_in(text: TextOrigin, others: Sequence[Problem]) -> str:
+    """Where else the same is found, in words."""
+    *lines, last = sorted({text.place(one).line for one in others})
+    if not lines:
+        return f"the same in line {last}"
+    return f"the same in {len(lines) + 1} more lines, the last of them line {last}"
 
 
 def _said(problem: Problem) -> str:

@@ -28,7 +28,7 @@ _MASSES = (0.001, 1000.0)
 
 def value_corrections(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
     """Return corrections of what was read as it stands and is at odds with the rest of the deck."""
-    parts = (_numbers, _copies, _points, _law_lines, _rigid, _water)
+    parts = (_numbers, _copies, _columns, _points, _law_lines, _rigid, _water)
     return chain.from_iterable(part(blocks, problems) for part in parts)
 
 
@@ -85,6 +85,14 @@ def _copies(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]
 
 
 # --------------------------------------------------------------------------------------------------------- curves
+
+
+def _columns(_: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
+    """Curves with their columns exchanged."""
+    for problem in problems:
+        if problem.code.code == "CRV009" and problem.repair is not None:
+            edits = tuple(TextEdit(span, written) for span, written in problem.repair.edits)
+            yield Correction(problem, edits, Span(edits[0].span.start, edits[-1].span.end))
 
 
 def _points(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:

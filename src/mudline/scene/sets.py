@@ -11,7 +11,7 @@ import numpy as np
 
 from mudline.codes.references import REF001, REF005, REF008, REF009, REF010
 from mudline.deck.parameters import folded
-from mudline.diagnostics import Severity, Where
+from mudline.diagnostics import Problem, Severity, Where
 from mudline.keywords.text import advice_on, shown
 from mudline.scene.context import Context
 from mudline.scene.deck_values import bare
@@ -277,10 +277,21 @@ class _Reader:
         wanted = (end - start) // step + 1
         lacking = wanted - len(found)
         if lacking and not self.context.possible_definition("ELEMENT"):
-            lacks = f"{lacking} of its {wanted} elements are not defined"
-            message = f"GEN={start}, {end}, {step}: {lacks}: correct it, or define them"
-            self.context.report(REF005, message, place, Severity.WARNING if len(found) else None)
+            first = self._first_lacking(start, end, step)
+            if lacking == 1:
+                message = f"GEN={start}, {end}, {step}: element {first} is not defined: correct it, or define that"
+            else:
+                lacks = f"{lacking} of its {wanted} elements are not defined (first: {first})"
+                message = f"GEN={start}, {end}, {step}: {lacks}: correct it, or define them"
+            severity = Severity.WARNING if len(found) else None
+            self.context.note(Problem(REF005, message, None, severity, place, lacks=str(first)))
         return found, not lacking
+
+    def _first_lacking(self, start: int, end: int, step: int) -> int:
+        """The first number of a range that no element has."""
+        numbers = _distinct(self.elements.ids[self.elements.between(start, end, step)])
+        gaps = np.flatnonzero(numbers != start + step * np.arange(len(numbers)))
+        return start + step * int(gaps[0] if len(gaps) else len(numbers))
 
 
 def _ascending(indices: Indices) -> Indices:

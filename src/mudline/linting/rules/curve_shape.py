@@ -25,13 +25,13 @@ CRV009 = Code("CRV009", "swapped-columns", Severity.WARNING)
 CRV010 = Code("CRV010", "ratio-range", Severity.WARNING)
 
 _LIKE_A_FORCE = 10.0
-_LIKE_A_RATIO = 1.0
+_LIKE_A_RATIO = 2.0
 
 _NO_PLAIN_NUMBERS = frozenset('["{')
 
 
 def swapped(curve: SceneCurve) -> bool:
-    """Whether all points other than (0, 0) have a first number above 10 and a second one below 1."""
+    """Whether all points other than (0, 0) have a first number above 10 and a second one below 2."""
     points = curve.points[(curve.points != 0.0).any(axis=1)]
     return bool(points.size and (points[:, 0] > _LIKE_A_FORCE).all() and (points[:, 1] < _LIKE_A_RATIO).all())
 
@@ -40,7 +40,7 @@ def swapped(curve: SceneCurve) -> bool:
 def swapped_columns(context: LintContext) -> Iterator[Problem]:
     """The columns of a curve seem to be exchanged: forces are where the ratios belong.
 
-    A point is the embedment ratio, then the force. Ratios above 10 with forces below 1 make no sense together; tables
+    A point is the embedment ratio, then the force. Ratios above 10 with forces below 2 make no sense together; tables
     of soil springs, such as those of *P-Y, have the force first, and were perhaps copied. With the columns exchanged
     the seabed has next to no stiffness. Exchange them.
 

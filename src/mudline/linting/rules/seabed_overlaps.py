@@ -33,9 +33,9 @@ def overlapping_sets(context: LintContext) -> Iterator[Problem]:
     The later definition in the file overrides the earlier one as a whole: nothing of that remains. A set that refines a
     larger one given before it is the usual way to write a deck and is not reported. Reported are a definition that
     overrides an earlier one for all its elements, as SET=ALL after the other sets does, and sets of which each has
-    elements that the other one lacks. Two definitions of one set with different values are a warning. For curves of
-    *EMBEDMENT no order is documented: there any overlap of two different curves is a warning. Put the larger set first,
-    or give each element one definition.
+    elements that the other one lacks. A definition of which nothing is left is a warning if its values are others. For
+    curves of *EMBEDMENT no order is documented: there any overlap of two different curves is a warning. Put the larger
+    set first, or give each element one definition.
 
     Example:
          $MODEL
@@ -199,8 +199,8 @@ def _properties(scene: Scene, grants: list[SetLaw]) -> Iterator[tuple[int, Probl
                 f"{_called(one, other)} is overridden by this one for all its elements: "
                 "put the larger set first, or remove one"
             )
-            again = folded(one.name) == folded(other.name) and not _alike(scene, grants[earlier], grants[later])
-            yield earlier, Problem(SBD008, message, None, Severity.WARNING if again else None, place)
+            lost = not _alike(scene, grants[earlier], grants[later])
+            yield earlier, Problem(SBD008, message, None, Severity.WARNING if lost else None, place)
         elif not _within(other, one, len(scene.element_ids)) and not _alike(scene, grants[earlier], grants[later]):
             message = (
                 f"this definition overrides the earlier one of SET={shown(one.name)} for "

@@ -8,9 +8,10 @@ from itertools import islice
 
 import numpy as np
 
-from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity
+from mudline.diagnostics import MOST_REPORTED, Problem, Where
 from mudline.keywords.model import Part
 from mudline.linting.rule import LARGEST_RATIO, LintContext, rule
+from mudline.linting.rules.coordinates import UNT006, odd_coordinates
 from mudline.linting.rules.seabed_friction import given
 from mudline.linting.rules.seabed_position import bounds_of, depths
 from mudline.linting.rules.unit_densities import (
@@ -33,8 +34,6 @@ from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Mask, looked_up
 from mudline.scene.sections import format_of
 
-UNT006 = Code("UNT006", "suspicious-length", Severity.WARNING)
-
 WIDEST = 60.0
 """m: no hull that is modelled by beams is wider."""
 WIDEST_LINE = 2.0
@@ -47,6 +46,10 @@ NARROWEST_BORE = 0.1
 """Internal to external diameter: a smaller one is a wall thickness."""
 LIGHTEST = 0.1
 """Mass to that of the water displaced: no line is lighter, nor is a float or an air can."""
+HEAVIEST = 30.0
+"""Likewise: a chain whose diameter is that of its bar has 27, lead has 11."""
+WIDEST_FLOAT, WIDEST_COATING, WIDEST_OUTER = 25.0, 11.5, 8.0
+"""Times the external diameter that of drag or buoyancy may be, of FLEXIBLE and of RIGID; that one times both others."""
 LINES = (0.3, 30.0)
 """Mass to that of the water displaced, of usual lines."""
 _METRIC_UNITS = {"mm": 1e-3, "inches": 0.0254}
@@ -55,8 +58,6 @@ LONGEST_MOBILISATION = 10.0
 """Diameters, where the usual characteristic length of 10 ft is shorter."""
 LONGEST_IN_USER_UNITS = 100.0
 """Diameters."""
-LONGEST_ELEMENT = 25.0
-"""Times as long as the longer neighbour: meshes are graded in smaller steps."""
 FEWEST_POINTS, MOST_ROUND, ROUNDING = 3, 0.5, 1e-3
 """Points of a curve over metres, the share of them that may be round numbers, and how well depths are rounded."""
 HIGHEST, HIGHEST_IN_USER_UNITS = 3.0, 10.0
@@ -81,6 +82,32 @@ def _diameters(context: LintContext) -> Iterator[Problem]:
             source = "Di"
         if message:
             yield Problem(UNT006, message, where=place.inside(source))
+        else:
+            widest = WIDEST_FLOAT if entry.rigid is None else WIDEST_COATING
+            yield from _other_diameters(context, section, widest * width, source, place)
+
+
+def _other_diameters(context: LintContext, section: Part, most: float, source: str, place: Where) -> Iterator[Problem]:
+    """Drag and buoyancy diameters above `most`, and an external one that is far wider than both."""
+    width = number(section, source.lower())
+    others = {label: number(section, label.lower()) for label in ("Dd", "Db") if label != source}
+    known = {label: value for label, value in others.items() if 0.0 < value < math.inf}
+    unit = LENGTH_UNIT.get(context.scene.units)
+    behind = f" {unit}" if unit else ""
+    widest = max(known.values(), default=0.0)
+    if widest > most:
+        label = next(label for label, value in known.items() if value > most)
+        message = (
+            f"a diameter {label} of {known[label]!r}{behind} is {known[label] / width:.3g} times {source}, "
+            f"{width!r}{behind}: write both in one unit (mm or inches?)"
+        )
+        yield Problem(UNT006, message, where=place.inside(label))
+    elif len(known) == 2 and width > WIDEST_OUTER * widest:
+        message = (
+            f"an external diameter {source} of {width!r}{behind} is {width / widest:.3g} times the drag and buoyancy "
+            "diameters: correct one of them"
+        )
+        yield Problem(UNT006, message, where=place.inside(source))
 
 
 def _width(context: LintContext, section: Part, width: float, source: str) -> str:
@@ -121,7 +148,15 @@ def _mass(context: LintContext, section: Part, width: float, source: str) -> str
     """What is wrong with a diameter beside the mass of its section."""
     mass, buoyancy = number(section, "mass"), number(section, "db", width)
     displaced = 0.25 * math.pi * buoyancy * buoyancy * _water(context)
-    if is_placeholder(mass) or not mass < LIGHTEST * displaced < math.inf:
+    if is_placeholder(mass) or not 0.0 < displaced < math.inf:
+        return ""
+    widest = max(width, buoyancy, number(section, "dd", width))
+    if mass > HEAVIEST * displaced * (widest / buoyancy) ** 2:
+        return (
+            f"a mass of {mass!r} is {mass / displaced:.3g} times the water that a diameter {source} of {width!r} "
+            f"displaces, expected below {HEAVIEST:g}: write the mass in the unit of the water's density (kg, lb?)"
+        )
+    if not mass < LIGHTEST * displaced:
         return ""
     metres = METRES.get(context.scene.units)
     units = {name: factor / metres for name, factor in _METRIC_UNITS.items()} if metres else {}
@@ -150,12 +185,16 @@ def suspicious_length(context: LintContext) -> Iterator[Problem]:
 
     * an external diameter above 60 m (a spar hull of 37 m is legal); one above 2 m with the wall of a steel pipe, at
       least 90 mm and a 6th to a 50th of the diameter; one of a FLEXIBLE, MOORING or TRUSS section whose mass is below
-      10 % of the water that it displaces (0 and powers of ten are placeholders);
+      10 % or above 30 times that of the water that it displaces (0 and powers of ten are placeholders);
+    * a drag or buoyancy diameter above 25 times the external one, 11.5 times in RIGID; an external one above 8 times
+      both;
     * an internal diameter below a tenth of the external one in a steel pipe up to 2.5 m wide: the wall thickness;
     * a mobilisation length above 10 diameters and above 10 ft, the usual characteristic length;
     * a force-embedment curve with three points or more whose ratios become round numbers when divided by the diameter;
     * an element over 25 times as long as each of the neighbours at its two ends, all of one section; a node that is
-      so far from both of its neighbours;
+      so far from both of its neighbours; a node at which a line turns back, and forward again at the next one; an
+      element that leaves out a node at which the next one begins, and ends where the line goes on;
+    * a node row with one value more than the others, which fits its neighbours if two of them are a decimal comma;
     * nodes over three times as high above the seabed as the water is deep, and over 500 m above the sea.
 
     In user units only ratios are checked: masses against displaced water where *OCEAN gives its density, bores of walls
@@ -171,7 +210,7 @@ def suspicious_length(context: LintContext) -> Iterator[Problem]:
 
     Finds: 5:19
     """
-    for kind in (_diameters, _mobilisation, _curves, _elements, _ocean):
+    for kind in (_diameters, _mobilisation, _curves, odd_coordinates, _ocean):
         yield from islice(kind(context), MOST_REPORTED)
 
 
@@ -251,87 +290,6 @@ def _is_round(values: Floats) -> Mask:
     with np.errstate(divide="ignore", over="ignore", under="ignore", invalid="ignore"):
         digits = np.abs(values) / 10.0 ** np.floor(np.log10(np.abs(values)))  # inf for the smallest floats
         return np.abs(digits - digits.round(1)) <= ROUNDING * digits
-
-
-def _elements(context: LintContext) -> Iterator[Problem]:
-    scene = context.scene
-    for element, ratio in _longest_of_neighbours(scene):
-        message = (
-            f"element {scene.element_ids[element]} is {scene.length[element]:.4g} long, {ratio:.3g} times as long as "
-            "the longer of its neighbours: correct the coordinates of its nodes"
-        )
-        yield Problem(UNT006, message, where=scene.table.numbered.where(element))
-
-    for node, ratio in _far_nodes(scene):
-        message = (
-            f"node {scene.node_ids[node]} is {ratio:.3g} times as far from both of its neighbours as these are from "
-            "theirs: correct its coordinates"
-        )
-        yield Problem(UNT006, message, where=scene.nodes.where(node))
-
-
-def _far_nodes(scene: Scene) -> Iterator[tuple[int, float]]:
-    """Index of each node between two elements that are both over 25 times as long as those beyond them, and how many.
-
-    All four must be of one section, and no other element may end at one of their nodes.
-    """
-    ends, length = scene.element_nodes, scene.length
-    if len(length) < 4 or not np.fmax.reduce(length, initial=0.0) > LONGEST_ELEMENT * np.fmin.reduce(length, initial=1):
-        return
-    usable = np.flatnonzero((ends >= 0).all(axis=1) & np.isfinite(length) & (ends[:, 0] != ends[:, 1]))
-    nodes, elements = ends[usable].ravel(), np.repeat(usable, 2)
-    order = np.argsort(nodes, kind="stable")
-    nodes, elements = nodes[order], elements[order]
-    starts = np.flatnonzero(np.append(True, nodes[1:] != nodes[:-1]))
-    double = starts[np.diff(np.append(starts, len(nodes))) == 2]
-    pair = np.full((len(scene.node_ids), 2), -1, dtype=np.intp)
-    pair[nodes[double]] = np.column_stack([elements[double], elements[double + 1]])
-    middle = nodes[double]
-    inner = pair[middle]
-    outer_nodes = ends[inner].sum(axis=2) - middle[:, None]
-    at_outer = pair[outer_nodes]
-    beyond = np.where(at_outer[:, :, 0] == inner, at_outer[:, :, 1], at_outer[:, :, 0])
-    complete = (at_outer >= 0).all(axis=(1, 2))
-    middle, inner, beyond = middle[complete], inner[complete], beyond[complete]
-    sections = scene.section_table.of_element
-    alike = (sections[beyond] == sections[inner][:, :1]).all(axis=1) & (sections[inner[:, 0]] == sections[inner[:, 1]])
-    farther = length[beyond].max(axis=1, initial=0.0)
-    shorter = length[inner].min(axis=1, initial=np.inf)
-    ratios = np.divide(shorter, farther, where=farther > 0.0, out=0.0 * farther)
-    apart = np.linalg.norm(np.diff(scene.coordinates[outer_nodes[complete]], axis=1)[:, 0], axis=1)
-    alike &= apart < shorter  # else the line goes on in two long elements
-    found = np.flatnonzero(alike & (ratios > LONGEST_ELEMENT))
-    yield from zip(middle[found].tolist(), ratios[found].tolist(), strict=True)
-
-
-def _longest_of_neighbours(scene: Scene) -> Iterator[tuple[int, float]]:
-    """Index of each element that is over 25 times as long as any neighbour, at both ends, and how many times it is.
-
-    All must be of one section, so that a tether or a rigid link beside a finely meshed pipe is not reported.
-    """
-    ends, length = scene.element_nodes, scene.length
-    shortest = np.minimum.reduce(length, initial=np.inf)
-    if not shortest > 0.0:  # or not known
-        shortest = length.min(where=length > 0.0, initial=np.inf)
-    if not np.fmax.reduce(length, initial=0.0) > LONGEST_ELEMENT * shortest:
-        return
-    usable = np.flatnonzero((ends >= 0).all(axis=1) & np.isfinite(length) & (length > 0.0))
-    order = usable[np.argsort(length[usable], kind="stable")]
-    nodes, elements = ends[order].ravel(), np.repeat(order, 2)
-    by_node = np.argsort(nodes, kind="stable")  # of one node the longest element comes last
-    nodes, elements = nodes[by_node], elements[by_node]
-    last = np.flatnonzero(np.append(nodes[1:] != nodes[:-1], True))
-    longest, second = np.full((2, len(scene.node_ids)), -1, dtype=np.intp)
-    longest[nodes[last]] = elements[last]
-    shared = last[(last > 0) & (nodes[last - 1] == nodes[last])]
-    second[nodes[shared]] = elements[shared - 1]
-    found = order[(longest[ends[order]] == order[:, None]).all(axis=1)]
-    found = found[(second[ends[found]] >= 0).all(axis=1)]
-    neighbours = second[ends[found]]
-    sections = scene.section_table.of_element
-    ratios = length[found] / length[neighbours].max(axis=1, initial=0.0)
-    odd = (sections[neighbours] == sections[found][:, None]).all(axis=1) & (ratios > LONGEST_ELEMENT)
-    yield from zip(found[odd].tolist(), ratios[odd].tolist(), strict=True)
 
 
 def _ocean(context: LintContext) -> Iterator[Problem]:
