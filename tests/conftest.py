@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 from collections.abc import Generator, Iterator
 from importlib.util import find_spec
@@ -13,7 +14,7 @@ from hypothesis import HealthCheck, settings
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 # A loaded machine draws examples slowly; that says nothing about the code under test.
-settings.register_profile("mudline", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.register_profile("mudline", max_examples=50, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.register_profile("mudline-ci", settings.get_profile("mudline"), derandomize=True, print_blob=True)
 settings.load_profile("mudline-ci" if os.environ.get("CI") else "mudline")
 
@@ -56,3 +57,9 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     for item in items:
         if item.get_closest_marker("untraced") or getattr(getattr(item, "obj", None), "is_hypothesis_test", False):
             item.add_marker(pytest.mark.no_cover)
+
+
+def pytest_collection_finish() -> None:
+    """What is there when the tests begin stays to their end: the garbage collector need not look at it again."""
+    gc.collect()
+    gc.freeze()

@@ -153,6 +153,7 @@ def test_every_fault_is_announced_by_the_nearest_comment_above_it() -> None:
         assert code in announced, (line, code)
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("line", sorted({line for line, _ in FAULTS}))
 def test_no_bad_line_hides_another(line: int) -> None:
     lines = (SAMPLES / "broken.keyxm").read_bytes().split(b"\n")

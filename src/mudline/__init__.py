@@ -45,25 +45,16 @@ __all__ = [
 ]
 
 _HOMES = {
-    "ContactModel": "contact",
-    "ContactResult": "contact",
-    "ContactState": "contact",
-    "ContactWarning": "results.warnings",
-    "CurveError": "curves",
-    "Deck": "api",
-    "DeckError": "diagnostics",
-    "Diagnostic": "diagnostics",
-    "ForceCurve": "curves",
-    "Plan": "contact",
-    "PositionError": "contact",
-    "Scene": "scene.model",
-    "Severity": "diagnostics",
-    "contact_warnings": "results.warnings",
-    "from_json": "api",
-    "from_keyword": "api",
-    "from_yaml": "api",
-    "lint": "api",
-    "read": "api",
+    name: home
+    for home, names in {
+        "api": ["Deck", "from_json", "from_keyword", "from_yaml", "lint", "read"],
+        "contact": ["ContactModel", "ContactResult", "ContactState", "Plan", "PositionError"],
+        "curves": ["CurveError", "ForceCurve"],
+        "diagnostics": ["DeckError", "Diagnostic", "Severity"],
+        "results.warnings": ["ContactWarning", "contact_warnings"],
+        "scene.model": ["Scene"],
+    }.items()
+    for name in names
 }
 
 

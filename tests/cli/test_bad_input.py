@@ -181,7 +181,7 @@ def test_document_that_is_not_utf_8(place: Place) -> None:
 SOURCE = (SAMPLES / "broken.keyxm").read_bytes()
 
 
-@settings(max_examples=60)
+@settings(max_examples=25)
 @given(st.data())
 def test_damaged_deck_never_breaks_a_command(data: st.DataObject) -> None:
     body = bytearray(SOURCE)

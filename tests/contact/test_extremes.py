@@ -34,7 +34,7 @@ def sound(result: ContactResult) -> bool:
     return not np.isinf(result.gap).any() and all(part is None or bool(np.isfinite(part).all()) for part in floats)
 
 
-@settings(max_examples=75)
+@settings(max_examples=50)
 @given(st.integers(1, 4), st.integers(0, 999), st.tuples(sizes, sizes, sizes), sizes, st.sampled_from(SEABEDS))
 @example(2, 1, (1e300, 0.0, 0.0), 1e6, SEABEDS[0])
 @example(2, 1, (0.0, 0.0, 0.0), 0.0, SEABEDS[1])

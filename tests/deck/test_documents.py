@@ -278,7 +278,7 @@ def _paths(value: object, path: Path = ()) -> list[Path]:
 
 
 @given(st.sampled_from(_paths(json.loads(JSON))), _values)
-@settings(max_examples=75)
+@settings(max_examples=50)
 def test_any_value_at_any_place_is_read_or_refused_as_the_schema_says(path: Path, value: object) -> None:
     made = changed(path, value)
     accepted = validator().is_valid(made)
@@ -289,7 +289,7 @@ def test_any_value_at_any_place_is_read_or_refused_as_the_schema_says(path: Path
 
 
 @given(mutated(deck_texts().map(lambda t: dump(load_bytes(t.encode(), "a.keyxm"), "json").encode())), st.booleans())
-@settings(max_examples=80)
+@settings(max_examples=50)
 def test_mutated_json_is_read_or_refused(data: bytes, as_yaml: bool) -> None:
     deck = read_or_refuse(data, "a.yaml" if as_yaml else "a.json")
     if deck is not None:

@@ -98,7 +98,7 @@ _words = st.sampled_from(
 
 
 @given(st.lists(_words, max_size=40).map("".join))
-@settings(max_examples=400)
+@settings(max_examples=200)
 def test_fragments_of_decks(text: str) -> None:
     read(text.encode())
 
@@ -107,7 +107,7 @@ def test_fragments_of_decks(text: str) -> None:
     st.sampled_from(sorted(MODELLED)),
     st.lists(_words.filter(lambda word: word[0] not in "$*"), max_size=25).map("".join),
 )
-@settings(max_examples=400)
+@settings(max_examples=200)
 def test_fragments_in_every_keyword(keyword: str, text: str) -> None:
     deck = read(f"${MODELLED[keyword][0]}\n*{keyword}\n{text}\n*{keyword}\n".encode())
     assert len(deck.sections) == 1
@@ -121,7 +121,7 @@ def test_random_bytes(data: bytes) -> None:
 
 
 @given(mutated(st.just(BROKEN) | deck_texts().map(str.encode)))
-@settings(max_examples=100)
+@settings(max_examples=60)
 def test_mutated_decks(data: bytes) -> None:
     read(data)
 

@@ -61,6 +61,7 @@ def held_in_text(deck: Deck) -> None:
     held_in_documents(again)
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("keyword", KEYWORDS, ids=lambda keyword: f"{keyword[0]}-{keyword[1]}".replace(" ", "-"))
 @given(data=st.data())
 @settings(max_examples=8)

@@ -79,9 +79,14 @@ def write() -> None:
     schema = ROOT / CONFIG_SCHEMA
     schema.parent.mkdir(parents=True, exist_ok=True)
     schema.write_text(config_schema(), encoding="utf-8", newline="\n")
-    report.write(run())
+    write_faults()
     for path in made_files() - wanted.keys():
         (ROOT / path).unlink()
+
+
+def write_faults() -> None:
+    """Write the page of how well faults are found."""
+    report.write(run())
 
 
 if __name__ == "__main__":

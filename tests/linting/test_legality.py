@@ -33,7 +33,7 @@ def test_decks_about_a_pipe_on_a_seabed(first: int) -> None:
 
 
 @given(document())
-@settings(max_examples=100)
+@settings(max_examples=60)
 def test_documents_of_all_keywords(values: Values) -> None:
     found = outcome(json.dumps(values).encode(), "deck.json")
     assert found.agrees, found

@@ -81,7 +81,7 @@ _CASES = st.sampled_from([str.upper, str.lower, str.title])
 
 
 @given(_KEYWORDS, names, names, st.lists(names, min_size=1, max_size=4), st.data())
-@settings(max_examples=80)
+@settings(max_examples=50)
 def test_any_name_is_found(keyword: str, line: str, section: str, more: list[str], data: st.DataObject) -> None:
     key = "NAME" if keyword == "LINE SECTION GROUPS" else "LINE"
     listed = ",".join(data.draw(pads) + name + data.draw(pads) for name in more)
@@ -115,7 +115,7 @@ _pieces = st.lists(
 
 @given(_pieces | texts)
 @example('ADDITIONAL=a, "b, c" d, {e, "f}, g, LINE={h')
-@settings(max_examples=300)
+@settings(max_examples=150)
 def test_lines_are_cut_as_the_reader_of_fields_does(line: str) -> None:
     line = " " + line.replace("$", "").replace("*", "")
     wanted = {folded(bare(name)) for name in _slowly(line)} - {""}

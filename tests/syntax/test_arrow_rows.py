@@ -72,6 +72,7 @@ def holds_the_slow_rows(text: str, columns: int) -> None:
         assert values.tobytes() == slow.values.tobytes()
 
 
+@pytest.mark.untraced
 @pytest.mark.parametrize("spelling", SPELLINGS, ids=ascii)
 @pytest.mark.parametrize("end", ["\n", "\r\n"], ids=["LF", "CRLF"])
 def test_every_spelling(spelling: str, end: str) -> None:

@@ -139,7 +139,7 @@ def tables(draw: st.DrawFn, fields: st.SearchStrategy[str], *, blanks: bool = Tr
 @example(" \n", 1)
 @example("0,0,0,\n0,0 0", 4)
 @example("2.2250738585072011e-308", 1)
-@settings(max_examples=200)
+@settings(max_examples=100)
 def test_fast_is_slow_or_declines(text: str, columns: int) -> None:
     compared(text, columns)
 
@@ -159,7 +159,7 @@ def test_plain_numbers(text: str) -> None:
 @example("1 - 2\n", 3)
 @example("1..2\n", 2)
 @example(f"0.{'1' * 500}\n", 1)
-@settings(max_examples=350)
+@settings(max_examples=150)
 def test_any_text_of_the_fast_alphabet(text: str, columns: int) -> None:
     compared(text, columns)
 

@@ -13,13 +13,14 @@ import numpy as np
 
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import STDIN, GivenDeck, refuses_bad_decks
-from mudline.cli.streams import counted, emit
+from mudline.cli.streams import emit
 from mudline.cli.view import View
 from mudline.comparison.comparing import compare
 from mudline.comparison.model import Difference, Value, spans_of, text_of
 from mudline.comparison.superseded import Comparison, without_spelling
 from mudline.linting.output import visible
 from mudline.scene.model import resolve
+from mudline.short_repr import counted
 
 FORMAT = "mudline-diff/1"
 MOST = 20

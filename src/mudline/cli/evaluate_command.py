@@ -18,7 +18,7 @@ import numpy as np
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.evaluate_text import print_comparison, print_evaluation, print_plan
 from mudline.cli.inputs import GivenDeck, takes_deck
-from mudline.cli.streams import MOST_REPORTED, counted, emit, emit_json, notify, notify_missing, reason, writing
+from mudline.cli.streams import MOST_REPORTED, emit, emit_json, notify, notify_missing, reason, writing
 from mudline.cli.view import Progress, View, tracked, wants_bar
 from mudline.contact import LawKind
 from mudline.contact.columns import ElementTable
@@ -36,7 +36,7 @@ from mudline.results.warnings import ContactWarning, ContactWatch, caption
 from mudline.scene.csv_file import ExternalElements, read_external
 from mudline.scene.model import Scene, resolve
 from mudline.scene.positions import Positions, read_positions
-from mudline.short_repr import listed_numbers
+from mudline.short_repr import counted, listed_numbers
 
 MOST_ROWS = 40
 """Lines of a table on the terminal, unless more is asked for."""

@@ -9,8 +9,9 @@ import click
 
 from mudline.cli import DONE, options
 from mudline.cli.inputs import STDIN, GivenDeck, takes_deck
-from mudline.cli.streams import counted, emit, notify, reason, write_bytes, write_text
+from mudline.cli.streams import emit, notify, reason, write_bytes, write_text
 from mudline.cli.view import View
+from mudline.short_repr import counted
 from mudline.variations.files import MANIFEST, ExpansionPlan, PlannedDeck, conflicts, lacking, manifest_text
 from mudline.variations.planning import plan
 

@@ -9,10 +9,11 @@ import click
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.changes import print_changes
 from mudline.cli.inputs import Input, Inputs, collect
-from mudline.cli.streams import counted, emit, emit_deck, notify, notify_diagnostics
+from mudline.cli.streams import emit, emit_deck, notify, notify_diagnostics
 from mudline.cli.view import View
 from mudline.diagnostics import DeckError
 from mudline.formatting.document import FormatError, formatted
+from mudline.short_repr import counted
 
 _CHANGED, _SAME, _FAILED = "reformatted", "left unchanged", "not formatted"
 

@@ -9,7 +9,7 @@ import click
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.changes import print_changes
 from mudline.cli.inputs import Input, collect
-from mudline.cli.streams import counted, emit_deck, notify, notify_diagnostics, write_bytes
+from mudline.cli.streams import emit_deck, notify, notify_diagnostics, write_bytes
 from mudline.cli.view import View
 from mudline.deck.forms import form_of
 from mudline.deck.loading import dump, load_bytes
@@ -17,6 +17,7 @@ from mudline.diagnostics import DeckError
 from mudline.migration.migrating import Continuations, Migration, legacy_blocks, migrate
 from mudline.migration.refusals import misspelt
 from mudline.migration.verification import Verdict, verify
+from mudline.short_repr import counted
 
 _MOST_REPORTED = 20
 

@@ -10,11 +10,12 @@ import click
 
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import GivenDeck, takes_deck
-from mudline.cli.streams import counted, emit_json, notify
+from mudline.cli.streams import emit_json, notify
 from mudline.cli.view import View
 from mudline.quantities import UnitNames, headed, shown, unit_names
 from mudline.results.summary import summarise
 from mudline.scene.model import resolve
+from mudline.short_repr import counted
 
 if TYPE_CHECKING:
     from mudline.cli.printing import Printer

@@ -15,6 +15,7 @@ import click
 
 from mudline.diagnostics import Diagnostic
 from mudline.linting.output import visible, visible_lines
+from mudline.short_repr import counted as counted  # noqa: PLC0414 - commands that print findings take it here
 from mudline.syntax.source import Source
 
 MOST_REPORTED = 20
@@ -104,11 +105,6 @@ def notify_missing(what: str, library: str, extra: str) -> None:
 def reason(error: OSError) -> str:
     """Why a file could not be read or written, in words."""
     return (error.strerror or str(error)).lower()
-
-
-def counted(count: int, noun: str) -> str:
-    """A number of things, as in "1 deck" and "2 decks"."""
-    return f"{count} {noun}{'s' * (count != 1)}"
 
 
 # ----------------------------------------------------------------------------------------------------------- files

@@ -10,10 +10,11 @@ import click
 
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import GivenDeck, refuses_bad_decks
-from mudline.cli.streams import counted, emit, notify, notify_missing, reason
+from mudline.cli.streams import emit, notify, notify_missing, reason
 from mudline.cli.view import View
 from mudline.quantities import headed, shown
 from mudline.scene.model import Scene, resolve
+from mudline.short_repr import counted
 from mudline.study import sample_scene
 from mudline.study.report import Cell, StudyError, StudyOptions, StudyReport, StudyTable, silent
 

@@ -14,7 +14,7 @@ import click
 
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.inputs import Input, Inputs, collect_any_form
-from mudline.cli.streams import counted, emit, reason
+from mudline.cli.streams import emit, reason
 from mudline.cli.view import Progress, View, wants_bar
 from mudline.codes.contact import SBD006
 from mudline.deck.loading import load_bytes
@@ -25,6 +25,7 @@ from mudline.linting.registry import rules, select
 from mudline.linting.rule import LintContext
 from mudline.quantities import csv_lines
 from mudline.results.warnings import seabed_warnings
+from mudline.short_repr import counted
 from mudline.syntax.source import Source
 
 if TYPE_CHECKING:

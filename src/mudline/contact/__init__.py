@@ -33,17 +33,15 @@ __all__ = [
 ]
 
 _HOMES = {
-    "ContactInput": "input",
-    "ContactModel": "model",
-    "ContactResult": "result",
-    "ContactState": "tables",
-    "ElementError": "input",
-    "LawAssignment": "input",
-    "LawKind": "input",
-    "Plan": "plan",
-    "PositionError": "input",
-    "Stage": "plan",
-    "Tension": "input",
+    name: home
+    for home, names in {
+        "input": ["ContactInput", "ElementError", "LawAssignment", "LawKind", "PositionError", "Tension"],
+        "model": ["ContactModel"],
+        "plan": ["Plan", "Stage"],
+        "result": ["ContactResult"],
+        "tables": ["ContactState"],
+    }.items()
+    for name in names
 }
 
 

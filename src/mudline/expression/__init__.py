@@ -35,21 +35,13 @@ __all__ = [
 ]
 
 _HOMES = {
-    "CONSTANTS": "evaluation",
-    "DEEPEST": "parsing",
-    "FORMS": "evaluation",
-    "FUNCTIONS": "evaluation",
-    "LONGEST": "parsing",
-    "EvaluationError": "nodes",
-    "Expression": "nodes",
-    "ExpressionError": "nodes",
-    "Form": "evaluation",
-    "Function": "evaluation",
-    "NameSpan": "nodes",
-    "UndefinedName": "nodes",
-    "UnknownFunction": "nodes",
-    "evaluate": "evaluation",
-    "parse": "parsing",
+    name: home
+    for home, names in {
+        "evaluation": ["CONSTANTS", "FORMS", "FUNCTIONS", "Form", "Function", "evaluate"],
+        "nodes": ["EvaluationError", "Expression", "ExpressionError", "NameSpan", "UndefinedName", "UnknownFunction"],
+        "parsing": ["DEEPEST", "LONGEST", "parse"],
+    }.items()
+    for name in names
 }
 
 

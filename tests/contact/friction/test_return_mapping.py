@@ -175,7 +175,7 @@ springs = st.one_of(st.none(), st.tuples(st.floats(1.0e3, 1.0e6), st.floats(1.0e
     st.booleans(),
     st.sampled_from([-1.0, 0.0, 1.0]),
 )
-@settings(max_examples=200)
+@settings(max_examples=100)
 def test_the_tangent_is_consistent(
     coefficients: tuple[float, float],
     spring: tuple[float, float] | None,
