@@ -21,8 +21,8 @@ def metadata_folders() -> Iterator[str]:
 def may_declare(group: str) -> bool:
     """Whether a package may have entry points of a group.
 
-    False is certain. The modules that find entry points take longer to import than many a deck takes to be linted, and
-    most people have no such package.
+    False is certain. To read the entry points of all packages takes longer than to look for one word in them, and most
+    people have no such package.
     """
     if any(hasattr(finder, "find_distributions") for finder in sys.meta_path if finder is not PathFinder):
         return True
