@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import re
+from itertools import islice, pairwise, product
+
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -10,8 +13,9 @@ from mudline.deck.model import Deck
 from mudline.deck.reading import TextOrigin, read_source
 from mudline.diagnostics import Span
 from mudline.keywords import catalogue, grammar, reader
-from mudline.keywords.grammar import Content
+from mudline.keywords.grammar import Content, Node
 from mudline.keywords.reader import ReadBlock
+from mudline.keywords.recovery import by_lines
 from mudline.syntax.source import Source
 from tests.builders.keyword_texts import deck_texts, mutated
 
@@ -179,14 +183,54 @@ def test_blocks_of_any_records(data: st.DataObject) -> None:
     compare(text[:cut] if data.draw(st.booleans()) else text)
 
 
-RULES = [block.rule for block in map(catalogue.load, catalogue.modules()) if grammar.records_of(block.rule)]
+RULES = sorted({block.rule for block in map(catalogue.load, catalogue.modules())})
+
+
+def lines_of(data: st.DataObject, rule: str) -> list[Content]:
+    """Lines of a block in any order."""
+    terminals = data.draw(st.lists(st.sampled_from(sorted(grammar.terminals_below(rule))), max_size=10))
+    return [Content(terminal, Span(at, at + 1), at) for at, terminal in enumerate(terminals)]
+
+
+@settings(max_examples=200)
+@given(st.data())
+def test_lines_that_fit_have_the_tree_that_lark_makes_of_them(data: st.DataObject) -> None:
+    rule = data.draw(st.sampled_from(RULES))
+    contents = lines_of(data, rule)
+    tree, mismatches = by_lines(rule, contents)
+    assert grammar.tree_of(rule, contents) == (None if mismatches else tree)
+
+
+@pytest.mark.parametrize("rule", RULES)
+def test_a_few_lines_fit_where_they_do_for_lark(rule: str) -> None:
+    terminals = sorted(set(grammar.terminals_below(rule)))
+    few = [line for count in range(4) for line in islice(product(terminals, repeat=count), 300)]
+    fits = 0
+    for sequence in few:
+        contents = [Content(terminal, Span(at, at + 1), at) for at, terminal in enumerate(sequence)]
+        tree, mismatches = by_lines(rule, contents)
+        assert grammar.tree_of(rule, contents) == (None if mismatches else tree)
+        fits += not mismatches
+    assert fits
 
 
 @settings(max_examples=200)
 @given(st.data())
 def test_cutting_into_records_gives_the_tree_of_the_whole(data: st.DataObject) -> None:
-    rule = data.draw(st.sampled_from(RULES))
-    terminals = data.draw(st.lists(st.sampled_from(sorted(grammar.terminals_below(rule))), min_size=1, max_size=10))
-    contents = [Content(terminal, Span(at, at + 1), at) for at, terminal in enumerate(terminals)]
-    tree, mismatches = grammar.by_lines(rule, contents)
-    assert grammar.by_records(rule, contents) == (None if mismatches else (tree, []))
+    rule = data.draw(st.sampled_from([rule for rule in RULES if grammar.records_of(rule)]))
+    contents = lines_of(data, rule)
+    records = grammar.records_of(rule)
+    assert records
+    starts = [at for at, content in enumerate(contents) if content.terminal == records.opening]
+    if starts[:1] != [0]:
+        assert not contents or grammar.tree_of(rule, contents) is None
+        return
+    pieces = [contents[start:stop] for start, stop in pairwise([*starts, len(contents)])]
+    trees = [grammar.tree_of(records.rule, piece) for piece in pieces]
+    assert grammar.tree_of(rule, contents) == (None if None in trees else Node(rule, [tree for tree in trees if tree]))
+
+
+def test_what_a_rule_may_not_have(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(grammar._rules(), "anchor", 'anchor: K_SET "," ROW\n')
+    with pytest.raises(ValueError, match=re.escape("the rule anchor may have names, brackets, |, *, + and ? only")):
+        grammar.fitting("anchor", ("K_SET",))

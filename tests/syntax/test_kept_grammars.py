@@ -14,7 +14,7 @@ from lark import Lark, Token, UnexpectedCharacters, UnexpectedToken
 
 from mudline import cache_folder
 from mudline.expression import parsing
-from mudline.keywords import catalogue, grammar
+from mudline.keywords import catalogue, grammar, recovery
 from mudline.syntax import scanning
 from mudline.syntax.scanning import kept_parser
 
@@ -151,7 +151,7 @@ def sequence(parser: Lark, terminals: list[str]) -> object:
 @pytest.mark.parametrize("rule", sorted({catalogue.load(module).rule for module in catalogue.modules()}))
 @pytest.mark.usefixtures("folder")
 def test_the_rules_of_keywords_are_the_same(rule: str) -> None:
-    make = grammar._parser.__wrapped__
+    make = recovery._parser.__wrapped__
     made, kept = make(rule), make(rule)
     known = grammar.terminals_below(rule)
     for start in range(len(known)):

@@ -1,21 +1,18 @@
-"""Level two: a keyword's rule over the lines of level one, compiled when first needed, with recovery from bad lines."""
+"""Level two: a keyword's rule over the lines of level one, read from the grammar when a deck has the keyword.
+
+Lines that fit are read here, in a hundredth of the time that lark takes to compile the rule; the tree is the same. Of
+other lines `mudline.keywords.recovery` finds which are wrong.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
 from functools import cache, lru_cache
-from itertools import pairwise
 from typing import NamedTuple, cast
-
-from lark import Lark, Token, Tree, UnexpectedToken
-from lark.lexer import Lexer
-from lark.parsers.lalr_interactive_parser import InteractiveParser
 
 from mudline.diagnostics import Span
 from mudline.resources import grammar_file
-from mudline.syntax.scanning import kept_parser
 
 END = "$END"
 ROW = "ROW"
@@ -23,6 +20,7 @@ ROW = "ROW"
 _NAME = re.compile(r"\b[a-z_][a-z_0-9]*+")
 _OPENING = re.compile(rf"({_NAME.pattern})\s*:")
 _TERMINAL = re.compile(r"\b[A-Z][A-Z_0-9]*+")
+_WORD = re.compile(rf"\s*({_NAME.pattern}|{_TERMINAL.pattern}|[()|*+?])\s*")
 
 _RECORDS = re.compile(r"[a-z_]+: ([a-z_]+)\*\n")
 _IN_BRACKETS = re.compile(r"\([^()]*\)")
@@ -40,8 +38,7 @@ class Content(NamedTuple):
     position: int
 
 
-@dataclass(slots=True)
-class Node:
+class Node(NamedTuple):
     """A rule with the contents and rules below it."""
 
     rule: str
@@ -56,15 +53,21 @@ class Mismatch(NamedTuple):
     missing: str
 
 
-class _Given(Lexer):
-    """No lexer: the tokens are fed one by one."""
+class Line(NamedTuple):
+    """One of a sequence of terminals, with its index."""
 
-    def __init__(self, _configuration: object) -> None:
-        pass
+    terminal: str
+    at: int
 
-    def lex(self, lexer_state: object, parser_state: object) -> Iterator[Token]:  # noqa: ARG002 - lark's signature
-        """Nothing to cut."""
-        return iter(())
+
+class Tree(NamedTuple):
+    """A rule with the terminals and rules below it: a `Node` of any lines that are these terminals."""
+
+    rule: str
+    children: list[Tree | Line]
+
+
+# ---------------------------------------------------------------------------------------- the rules as they are written
 
 
 @cache
@@ -81,38 +84,25 @@ def _rules() -> dict[str, str]:
     return found
 
 
-def _part(rule: str) -> str:
-    """The grammar of a rule and of those it leads to: the whole one takes as long to compile for each keyword."""
+def rules_below(rule: str) -> str:
+    """Return the text of a rule and of those it leads to."""
     wanted, found = [rule], dict[str, str]()
     while wanted:
         name = wanted.pop()
         if name not in found:
             found[name] = _rules()[name]
             wanted += sorted(set(_NAME.findall(found[name])) & _rules().keys())
-    text = "".join(found.values())
-    return f"{text}%declare {' '.join(sorted(set(_TERMINAL.findall(text))))}\n"
+    return "".join(found.values())
 
 
-@cache
-def _parser(rule: str) -> Lark:
-    return kept_parser(rule, _part(rule), start=rule, lexer=_Given, keep_all_tokens=True, maybe_placeholders=False)
+def terminals_below(rule: str) -> list[str]:
+    """Return the terminals of a rule and of those it leads to, each as often as it is written."""
+    return _TERMINAL.findall(rules_below(rule))
 
 
 def terminal_of(key: str) -> str:
     """The terminal of a setting line by its first key."""
     return "K_" + "".join(letter if letter.isalnum() else "_" for letter in key)
-
-
-def parse(rule: str, contents: list[Content]) -> tuple[Node, list[Mismatch]]:
-    """The tree of a block under its rule.
-
-    A line that does not fit is left out, unless putting in a missing line before it makes it fit; each is reported.
-    """
-    if len(contents) <= SMALL:
-        tree = fitting(rule, tuple([content.terminal for content in contents]))
-        if tree is not None:
-            return _node(tree, contents), []
-    return by_records(rule, contents) or by_lines(rule, contents)
 
 
 class Records(NamedTuple):
@@ -137,89 +127,123 @@ def records_of(rule: str) -> Records | None:
     return Records(listed[1], opened[1]) if always and once else None
 
 
-def terminals_below(rule: str) -> list[str]:
-    """Return the terminals of a rule and of those it leads to, each as often as it is written."""
-    return _TERMINAL.findall(_part(rule).partition("%declare")[0])
+# ----------------------------------------------------------------------------------------------- lines that fit a rule
 
-
-def by_records(rule: str, contents: list[Content]) -> tuple[Node, list[Mismatch]] | None:
-    """Return the tree of a block, a record at a time; None where it has no records, or one does not fit."""
-    records = records_of(rule)
-    starts = [i for i, content in enumerate(contents) if content.terminal == records.opening] if records else []
-    if records is None or starts[:1] != [0]:
-        return None
-    children: list[Node | Content] = []
-    for start, stop in pairwise([*starts, len(contents)]):
-        piece = contents[start:stop]
-        tree = fitting(records.rule, tuple([content.terminal for content in piece])) if len(piece) <= SMALL else None
-        if tree is None:
-            return None
-        children.append(_node(tree, piece))
-    return Node(rule, children), []
+_Take = Callable[[Sequence[str], int, list[Tree | Line]], int]
+"""Takes terminals from an index on, adds what they are, and returns the next index; -1 where they do not fit."""
 
 
 @lru_cache(maxsize=1024)
-def fitting(rule: str, terminals: tuple[str, ...]) -> Tree[Token] | None:
+def fitting(rule: str, terminals: tuple[str, ...]) -> Tree | None:
     """Return the tree of lines by their terminals, if all of them fit."""
-    parser = _parser(rule).parse_interactive()
-    try:
-        for index, terminal in enumerate(terminals):
-            parser.feed_token(Token(terminal, "", start_pos=index))
-        return cast("Tree[Token]", parser.feed_eof())
-    except UnexpectedToken:
+    found: list[Tree | Line] = []
+    if _named(rule)(terminals, 0, found) != len(terminals):
         return None
+    return cast("Tree", found[0])
 
 
-def by_lines(rule: str, contents: list[Content]) -> tuple[Node, list[Mismatch]]:
-    """Return the tree of a block line by line, whatever fits."""
-    parser = _parser(rule).parse_interactive()
-    mismatches: list[Mismatch] = []
-    for index, content in enumerate(contents):
-        token = Token(content.terminal, "", start_pos=index)
-        try:
-            parser.feed_token(token)
-        except UnexpectedToken:
-            mismatches.append(_recover(parser, token, content))
-    try:
-        tree = parser.feed_eof()
-    except UnexpectedToken:
-        tree, missing = _complete(parser)
-        mismatches.append(missing)
-    return _node(tree, contents), mismatches
+@cache
+def _named(name: str) -> _Take:
+    """Take a terminal, or the lines of a rule; what is below a rule whose name begins with _ is added without it."""
+
+    def terminal(given: Sequence[str], start: int, found: list[Tree | Line]) -> int:
+        if start == len(given) or given[start] != name:
+            return -1
+        found.append(Line(name, start))
+        return start + 1
+
+    if name.isupper():
+        return terminal
+    body = _body(name)
+
+    def rule(given: Sequence[str], start: int, found: list[Tree | Line]) -> int:
+        below: list[Tree | Line] = []
+        end = body(given, start, below)
+        found.append(Tree(name, below))
+        return end
+
+    return body if name.startswith("_") else rule
 
 
-def _recover(parser: InteractiveParser, token: Token, content: Content) -> Mismatch:
-    """Feed the missing line before a token that does not fit, or drop the token."""
-    expected = tuple(sorted(parser.accepts()))
-    for missing in expected:
-        trial = parser.copy()
-        if missing == END:
-            continue
-        trial.feed_token(Token(missing, ""))
-        if token.type in trial.accepts():
-            parser.feed_token(Token(missing, ""))
-            parser.feed_token(token)
-            return Mismatch(content, expected, missing)
-    return Mismatch(content, expected, "")
+def _body(name: str) -> _Take:
+    """What stands behind the colon of a rule."""
+    text = _rules()[name].partition(":")[2]
+    words: list[str] = []
+    at = 0
+    while at < len(text):
+        word = _WORD.match(text, at)
+        if word is None:
+            raise ValueError(f"the rule {name} may have names, brackets, |, *, + and ? only, not {text[at:].strip()!r}")
+        words.append(word[1])
+        at = word.end()
+    return _choice(words[::-1])
 
 
-def _complete(parser: InteractiveParser) -> tuple[Tree[Token], Mismatch]:
-    """Feed the mandatory lines that the end of a block lacks."""
-    expected = tuple(sorted(parser.accepts()))
-    first = expected[0]
-    missing = first
-    while END not in parser.accepts():
-        parser.feed_token(Token(missing, ""))
-        missing = min(parser.accepts())
-    return parser.feed_eof(), Mismatch(None, expected, first)
+def _choice(words: list[str]) -> _Take:
+    """Take the first of the sequences before a closing bracket that fits; `words` are in reverse, and are used up."""
+    options = [_sequence(words)]
+    while words and words[-1] == "|":
+        words.pop()
+        options.append(_sequence(words))
+
+    def take(given: Sequence[str], start: int, found: list[Tree | Line]) -> int:
+        before = len(found)
+        for option in options:
+            end = option(given, start, found)
+            if end >= 0:
+                return end
+            del found[before:]
+        return -1
+
+    return take if len(options) > 1 else options[0]
 
 
-def _node(tree: Tree[Token], contents: list[Content]) -> Node:
-    """Our own tree; a line that was put in has no content."""
-    children: list[Node | Content] = []
-    for child in tree.children:
-        if isinstance(child, Tree):
-            children.append(_node(child, contents))
-        elif child.start_pos is not None:
-            children.append(contents[child.start_pos])
-    return Node(str(tree.data), children)
+def _sequence(words: list[str]) -> _Take:
+    items: list[_Take] = []
+    while words and words[-1] not in {"|", ")"}:
+        word = words.pop()
+        item = _choice(words) if word == "(" else _named(word)
+        if word == "(":
+            words.pop()
+        if words and words[-1] in {"*", "+", "?"}:
+            item = _repeated(item, words.pop())
+        items.append(item)
+
+    def take(given: Sequence[str], start: int, found: list[Tree | Line]) -> int:
+        for item in items:
+            start = item(given, start, found)
+            if start < 0:
+                return -1
+        return start
+
+    return take if len(items) > 1 else items[0]
+
+
+def _repeated(item: _Take, sign: str) -> _Take:
+    """As many as fit: lark, too, goes on with a list wherever it can."""
+
+    def take(given: Sequence[str], start: int, found: list[Tree | Line]) -> int:
+        first, before = start, len(found)
+        while (end := item(given, start, found)) > start:
+            start, before = end, len(found)
+            if sign == "?":
+                return start
+        del found[before:]
+        return -1 if sign == "+" and start == first else start
+
+    return take
+
+
+# ------------------------------------------------------------------------------------------------- the tree of a block
+
+
+def tree_of(rule: str, contents: list[Content]) -> Node | None:
+    """Return the tree of a block under its rule, if all of its lines fit."""
+    terminals = tuple([content.terminal for content in contents])
+    tree = (fitting if len(contents) <= SMALL else fitting.__wrapped__)(rule, terminals)
+    return tree and _node(tree, contents)
+
+
+def _node(tree: Tree, contents: list[Content]) -> Node:
+    below = [_node(child, contents) if isinstance(child, Tree) else contents[child.at] for child in tree.children]
+    return Node(tree.rule, below)

@@ -11,13 +11,12 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache, partial
-from typing import Any, cast
+from typing import Any
 
-from lark import Token, Tree
 from pydantic import ValidationError
 
 from mudline.diagnostics import Problem, Span
-from mudline.keywords.grammar import ROW, SMALL, fitting, records_of, terminal_of
+from mudline.keywords.grammar import ROW, SMALL, Tree, fitting, records_of, terminal_of
 from mudline.keywords.model import Block, FieldSpec, ListRow, Part, Record, columns_of, record_schema
 from mudline.keywords.table import LARGEST_WHOLE, Column, from_numbers, from_rows
 from mudline.keywords.text import UnreadableError, Value, read_value
@@ -185,25 +184,25 @@ def _form_of(record: type[Record], terminals: tuple[str, ...], tabular: bool) ->
         return None
 
 
-def _form(record: type[Record], tree: Tree[Token], *, tabular: bool) -> _Form:
+def _form(record: type[Record], tree: Tree, *, tabular: bool) -> _Form:
     """How a record is read that has this tree."""
     found = record_schema(record)
     form = _Form(record.sticky)
     given: list[str] = []
     for child in tree.children:
         if isinstance(child, Tree):
-            slot = found.children[str(child.data)]
-            form.children.append((slot.json, _form(slot.record[str(child.data)], child, tabular=tabular)))
+            slot = found.children[child.rule]
+            form.children.append((slot.json, _form(slot.record[child.rule], child, tabular=tabular)))
             continue
-        if child.type == ROW:
+        if child.terminal == ROW:
             reading = _row_reading(record, tabular=tabular)
         else:
-            slots = [slot for key, slot in found.keys.items() if terminal_of(key) == child.type]
+            slots = [slot for key, slot in found.keys.items() if terminal_of(key) == child.terminal]
             if len(slots) != 1:
                 raise _OddError
             reading = _setting_reading(slots[0])
-        given.append(child.type)
-        form.lines.append((cast("int", child.start_pos), reading))
+        given.append(child.terminal)
+        form.lines.append((child.at, reading))
     lacks_table = found.table and found.table.required and ROW not in given
     if lacks_table or len(set(given)) < len(given) or (not tree.children and not issubclass(record, Block)):
         raise _OddError

@@ -134,7 +134,12 @@ class _Reader:
 
     def read(self) -> ReadBlock:
         contents = self._contents()
-        node, mismatches = grammar.parse(self.declared.rule, contents)
+        mismatches: list[Mismatch] = []
+        node = grammar.tree_of(self.declared.rule, contents)
+        if node is None:
+            from mudline.keywords.recovery import by_lines  # noqa: PLC0415 - lark, which most decks do without
+
+            node, mismatches = by_lines(self.declared.rule, contents)
         places = Places(self.text, trimmed(self.text, *self.raw.head.span))
         end = len(self.text.rstrip(" \t")) if self.last and not self.text.endswith("\n") else -1
         builder = Builder(self.text, places, self.problems, slashes=self.declared.slashes, end=end)

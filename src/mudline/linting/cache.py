@@ -22,6 +22,7 @@ from typing import Any, NamedTuple
 from mudline.cache_folder import cache_folder
 from mudline.diagnostics import Diagnostic, Edit, Fix, Severity
 from mudline.files import write_atomically
+from mudline.installed import metadata_folders
 from mudline.linting.configuration import Configuration
 from mudline.resources import grammar_file
 
@@ -40,7 +41,6 @@ MOST_BYTES = 64_000_000
 _MAGIC = b"mudline-lint-cache/3 "
 _COARSE = 0.02
 """Seconds by which the date of a file may lag behind the clock."""
-_METADATA = (".dist-info", ".egg-info")
 
 
 class Remembered(NamedTuple):
@@ -56,10 +56,7 @@ def program() -> str:
     for root in {Path(__file__).parents[1], grammar_file("deck.lark").parent}:
         for folder, _, names in os.walk(root):
             words += (_version(f"{folder}/{name}") for name in names if not name.endswith(".pyc"))
-    for place in dict.fromkeys(sys.path):
-        with suppress(OSError), os.scandir(place or ".") as entries:
-            found = [entry.name for entry in entries if entry.name.endswith(_METADATA)]
-            words += (f"{name} {_version(f'{place}/{name}/entry_points.txt')}" for name in found)
+    words += (_version(f"{folder}/entry_points.txt") for folder in metadata_folders())
     words.sort()
     return "\n".join(words)
 

@@ -14,7 +14,6 @@ from mudline.deck.reading import units_of
 from mudline.diagnostics import Blocks, DeckError, Diagnostic, Problem, Severity
 from mudline.keywords.model import Block
 from mudline.keywords.reader import ReadBlock, read_block, read_piece
-from mudline.linting.causes import under_causes
 from mudline.linting.rule import LintContext, Noticed, Rule
 from mudline.linting.suppression import suppressions
 from mudline.syntax.tree import RawBlock
@@ -74,7 +73,12 @@ def grouped_problems(context: LintContext, chosen: Sequence[Rule], *, suppress: 
         corrected = LintContext(read, dialect=context.dialect)
         return corrected, found_in(corrected)
 
-    return under_causes(context, found_in(context), check)
+    found = found_in(context)
+    if not found:
+        return found
+    from mudline.linting.causes import under_causes  # noqa: PLC0415 - most decks are without a finding
+
+    return under_causes(context, found, check)
 
 
 def named_causes(deck: Deck, refused: Sequence[Diagnostic], chosen: Sequence[Rule]) -> list[Diagnostic]:

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 from mudline.codes import all_codes
 from mudline.diagnostics import Code, PluginError, Problem, Severity, Where
+from mudline.installed import may_declare
 from mudline.linting.rule import RULES, Check, LintContext, Noticed, Rule, add, described_by
 from mudline.resources import modules_of, rule_file
 from mudline.scene.checks import all_checks
@@ -137,7 +138,9 @@ def load(known: dict[str, Rule]) -> tuple[str, ...]:
 
 def _entries() -> Sequence[EntryPoint]:
     """The entry points of the group, each once however often its package is on the path."""
-    from importlib.metadata import entry_points  # noqa: PLC0415 - commands that run no rules do without it
+    if not may_declare(GROUP):
+        return ()
+    from importlib.metadata import entry_points  # noqa: PLC0415 - only plugins need it
 
     return list({(entry.name, entry.value): entry for entry in entry_points(group=GROUP)}.values())
 

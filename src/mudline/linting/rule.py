@@ -252,7 +252,7 @@ def limited(check: Check) -> Check:
 def add(described: Rule) -> None:
     """Register a rule; raises ValueError for a code or slug that another rule has."""
     code = described.code
-    if any(code.code == known.code.code or code.slug == known.code.slug for known in RULES.values()):
+    if code.code in RULES or any(code.slug == known.code.slug for known in RULES.values()):
         raise ValueError(f"there is already a rule {code.code} or {code.slug}")
     RULES[code.code] = described
 

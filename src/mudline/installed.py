@@ -1,0 +1,39 @@
+"""What is installed beside mudline, as the folders on Python's path show it without their packages being read."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import suppress
+from importlib.machinery import PathFinder
+
+_METADATA = (".dist-info", ".egg-info")
+
+
+def metadata_folders() -> Iterator[str]:
+    """The folders with what is known of each package; those inside archives are left out."""
+    for place in dict.fromkeys(sys.path):
+        with suppress(OSError), os.scandir(place or ".") as entries:
+            yield from [f"{place or '.'}/{entry.name}" for entry in entries if entry.name.lower().endswith(_METADATA)]
+
+
+def may_declare(group: str) -> bool:
+    """Whether a package may have entry points of a group.
+
+    False is certain. To read the entry points of all packages takes longer than to look for one word in them, and most
+    people have no such package.
+    """
+    if any(hasattr(finder, "find_distributions") for finder in sys.meta_path if finder is not PathFinder):
+        return True
+    if any(place.lower().endswith(".egg") or os.path.isfile(place) for place in sys.path):  # noqa: PTH113 - see above
+        return True
+    return any(group.encode() in _entry_points(folder) for folder in metadata_folders())
+
+
+def _entry_points(folder: str) -> bytes:
+    try:
+        with open(f"{folder}/entry_points.txt", "rb") as stream:  # noqa: PTH123 - see above
+            return stream.read()
+    except OSError:
+        return b""
