@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from mudline.cli.inputs import collect
+from mudline.cli.inputs import Input, collect
 from tests.builders.decks import BAD_NUMBER, CLEAN, CLEAN_WARNING
 from tests.cli.conftest import Place
 from tests.cli.runner import run
@@ -99,10 +99,10 @@ def test_name_that_is_too_long(command: str) -> None:
 
 @pytest.mark.parametrize("command", ["lint", "show"])
 def test_file_that_may_not_be_read(command: str, place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
-    def refuse(path: Path) -> bytes:
-        raise PermissionError(13, "Permission denied", str(path))
+    def refuse(file: Input) -> bytes:
+        raise PermissionError(13, "Permission denied", file.path)
 
-    monkeypatch.setattr(Path, "read_bytes", refuse)
+    monkeypatch.setattr(Input, "read", refuse)
     outcome = run(command, place())
     assert (outcome.code, outcome.out, outcome.err) == (2, "", "mudline: deck.keyxm: permission denied\n")
 
