@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from pathlib import Path
+from pathlib import Path, PurePath
 
 import pytest
 
@@ -34,6 +34,32 @@ def test_directory_is_searched_for_decks(place: Place) -> None:
     assert names("decks") == expected
     assert names("decks/") == expected
     assert names("./decks") == [f"./{name}" for name in expected]
+
+
+def test_files_of_folders_come_where_the_name_of_the_folder_does(
+    place: Place, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("mudline.cli.inputs._BATCH", 2)
+    inner = (
+        "a.keyxm",
+        "a/z.keyxm",
+        "a-b/c.keyxm",
+        "a-b/c/d.keyxm",
+        "b.keyxm",
+        "c.keyxm",
+        "d.keyxm",
+        "e.keyxm",
+        "Z/a.das",
+    )
+    for name in inner:
+        place(CLEAN, f"decks/{name}")
+    (folder / "decks/b.keyxm.d").mkdir()
+    expected = [path.as_posix() for path in sorted(PurePath("decks", name) for name in inner)]
+    found = collect(["decks"]).files
+    assert [file.name for file in found] == expected
+    assert [file.name for file in found] == expected
+    assert len(found) == len(expected)
+    assert names("decks/b.keyxm", "decks") == ["decks/b.keyxm", *(one for one in expected if one != "decks/b.keyxm")]
 
 
 def test_current_directory_adds_nothing_to_the_names(place: Place) -> None:
