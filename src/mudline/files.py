@@ -46,7 +46,7 @@ def look(path: Path) -> Path:
     return path
 
 
-def write_atomically(path: Path, data: bytes | Iterable[bytes], *, synced: bool = True) -> None:
+def write_atomically(path: Path, data: bytes | Iterable[bytes | memoryview], *, synced: bool = True) -> None:
     """Write a file, whole or in pieces as they come, as `replacement` does it.
 
     What is not `synced` is not waited for until it is on the disk: for files with a checksum, that can be made again.

@@ -5,11 +5,11 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from pathlib import Path
+from pathlib import Path, PurePath
 
 import pytest
 
-from mudline.cli.inputs import collect
+from mudline.cli.inputs import Input, collect
 from tests.builders.decks import BAD_NUMBER, CLEAN, CLEAN_WARNING
 from tests.cli.conftest import Place
 from tests.cli.runner import run
@@ -34,6 +34,32 @@ def test_directory_is_searched_for_decks(place: Place) -> None:
     assert names("decks") == expected
     assert names("decks/") == expected
     assert names("./decks") == [f"./{name}" for name in expected]
+
+
+def test_files_of_folders_come_where_the_name_of_the_folder_does(
+    place: Place, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("mudline.cli.inputs._BATCH", 2)
+    inner = (
+        "a.keyxm",
+        "a/z.keyxm",
+        "a-b/c.keyxm",
+        "a-b/c/d.keyxm",
+        "b.keyxm",
+        "c.keyxm",
+        "d.keyxm",
+        "e.keyxm",
+        "Z/a.das",
+    )
+    for name in inner:
+        place(CLEAN, f"decks/{name}")
+    (folder / "decks/b.keyxm.d").mkdir()
+    expected = [path.as_posix() for path in sorted(PurePath("decks", name) for name in inner)]
+    found = collect(["decks"]).files
+    assert [file.name for file in found] == expected
+    assert [file.name for file in found] == expected
+    assert len(found) == len(expected)
+    assert names("decks/b.keyxm", "decks") == ["decks/b.keyxm", *(one for one in expected if one != "decks/b.keyxm")]
 
 
 def test_current_directory_adds_nothing_to_the_names(place: Place) -> None:
@@ -99,10 +125,10 @@ def test_name_that_is_too_long(command: str) -> None:
 
 @pytest.mark.parametrize("command", ["lint", "show"])
 def test_file_that_may_not_be_read(command: str, place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
-    def refuse(path: Path) -> bytes:
-        raise PermissionError(13, "Permission denied", str(path))
+    def refuse(file: Input) -> bytes:
+        raise PermissionError(13, "Permission denied", file.path)
 
-    monkeypatch.setattr(Path, "read_bytes", refuse)
+    monkeypatch.setattr(Input, "read", refuse)
     outcome = run(command, place())
     assert (outcome.code, outcome.out, outcome.err) == (2, "", "mudline: deck.keyxm: permission denied\n")
 

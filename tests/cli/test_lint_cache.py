@@ -335,6 +335,11 @@ def test_number_and_size_are_bounded(tmp_path: Path, monkeypatch: pytest.MonkeyP
         cache.write_entries(tmp_path / f"lint-{name}.txt", dict.fromkeys(keys, ""))
     assert len(list(tmp_path.iterdir())) == 2
     assert list(cache.read_entries(tmp_path / "lint-c.txt")) == keys[-5:]
+    lines = b"".join(cache.line_of(key, "") for key in keys[3:])
+    cache.write_entries(tmp_path / "lint-c.txt", {}, lines)
+    assert list(cache.read_entries(tmp_path / "lint-c.txt")) == keys[-5:]
+    cache.write_entries(tmp_path / "lint-c.txt", {keys[0]: "[]", keys[1]: ""}, lines[: 4 * len(lines) // 6])
+    assert list(cache.read_entries(tmp_path / "lint-c.txt")) == [keys[1], *keys[3:7]]
     monkeypatch.setattr(cache, "MOST_BYTES", 1100)
     cache.write_entries(tmp_path / "lint-c.txt", dict.fromkeys(keys, ""))
     assert list(cache.read_entries(tmp_path / "lint-c.txt")) == keys[-2:]

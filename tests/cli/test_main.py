@@ -15,6 +15,7 @@ import pytest
 
 import mudline
 from mudline.__main__ import main
+from mudline.cli.inputs import Input
 from mudline.cli.main import COMMANDS
 from tests.builders.decks import BAD_NUMBER, CLEAN
 from tests.cli.conftest import Place
@@ -138,13 +139,13 @@ def test_message_about_an_argument_does_not_act_on_the_terminal() -> None:
 
 
 def test_interruption_in_this_process(monkeypatch: pytest.MonkeyPatch, place: Place) -> None:
-    monkeypatch.setattr(Path, "read_bytes", Mock(side_effect=KeyboardInterrupt))
+    monkeypatch.setattr(Input, "read", Mock(side_effect=KeyboardInterrupt))
     outcome = run("lint", place())
     assert (outcome.code, outcome.out, outcome.err) == (130, "", "")
 
 
 def test_too_little_memory(monkeypatch: pytest.MonkeyPatch, place: Place) -> None:
-    monkeypatch.setattr(Path, "read_bytes", Mock(side_effect=MemoryError))
+    monkeypatch.setattr(Input, "read", Mock(side_effect=MemoryError))
     outcome = run("lint", place())
     assert (outcome.code, outcome.out, outcome.err) == (1, "", "mudline: out of memory\n")
 

@@ -13,6 +13,7 @@ import pytest
 
 from mudline.__main__ import main
 from mudline.cli import view
+from mudline.cli.inputs import Input
 from mudline.cli.printing import elided
 from mudline.cli.validate_command import Total, Verdict
 from mudline.cli.view import View
@@ -116,13 +117,13 @@ def test_decks_are_told_when_they_are_judged(place: Place, monkeypatch: pytest.M
     names = [place(ILLEGAL, "a.keyxm"), place(ILLEGAL, "b.keyxm")]
     there: list[str] = []
     stream = Stream("utf-8", terminal=False)
-    read = Path.read_bytes
+    read = Input.read
 
-    def watched(path: Path) -> bytes:
+    def watched(file: Input) -> bytes:
         there.append(stream.content().decode())
-        return read(path)
+        return read(file)
 
-    monkeypatch.setattr(Path, "read_bytes", watched)
+    monkeypatch.setattr(Input, "read", watched)
     with patch.object(sys, "stdout", stream):
         main(["validate", *names, "--output-format", "json"])
     assert there[0] == ""
@@ -154,11 +155,12 @@ def test_folder_that_may_not_be_entered(decks: str, monkeypatch: pytest.MonkeyPa
 
 
 def test_document_that_cannot_be_opened_is_told(decks: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    def closed(path: Path, mode: str) -> None:
+    def closed(file: Path | Input, mode: str = "rb") -> None:
         assert mode == "rb"
-        raise PermissionError(13, "Permission denied", str(path))
+        raise PermissionError(13, "Permission denied", str(file))
 
     monkeypatch.setattr(Path, "open", closed)
+    monkeypatch.setattr(Input, "read", closed)
     outcome = run("validate", decks, "-q")
     assert "mudline: decks/package.json: permission denied\n" in outcome.err
 
@@ -187,14 +189,14 @@ def test_bar_never_reaches_standard_output(decks: str, form: str) -> None:
 
 @pytest.mark.usefixtures("_bar")
 def test_bar_is_gone_when_the_run_is_stopped(decks: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    read = Path.read_bytes
+    read = Input.read
 
-    def stopped(path: Path) -> bytes:
-        if path.name == "bytes.das":
+    def stopped(file: Input) -> bytes:
+        if file.name.endswith("bytes.das"):
             raise KeyboardInterrupt
-        return read(path)
+        return read(file)
 
-    monkeypatch.setattr(Path, "read_bytes", stopped)
+    monkeypatch.setattr(Input, "read", stopped)
     outcome = on_error_only("validate", decks, "--output-format=csv", code=130)
     assert "1/8" in outcome.err
     assert not any("/8" in line for line in screen(outcome.err))

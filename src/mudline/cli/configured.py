@@ -8,7 +8,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from pathlib import Path, PurePath
+from pathlib import Path
 from typing import NamedTuple, TypeVar
 
 import click
@@ -43,6 +43,7 @@ class Configured:
     code_fault: CodeFault | None = None
     _fixed: Configuration | None = field(init=False, default=None)
     _search: Search = field(init=False)
+    _of_folder: dict[str, Configuration] = field(init=False, default_factory=dict)
 
     def __post_init__(self) -> None:
         if self.config is not None and self.isolated:
@@ -58,16 +59,19 @@ class Configured:
         """The configuration of a file; that of standard input is the working folder's."""
         if self._fixed is not None:
             return self._fixed
-        folder = Path(os.path.abspath(path or "-")).parent  # noqa: PTH100 - links stay what they are called
-        return _read(lambda: self._search.nearest(folder))
+        folder = os.path.dirname(path or "-")  # noqa: PTH120 - asked for each of many files
+        if folder not in self._of_folder:
+            whole = Path(os.path.abspath(folder))  # noqa: PTH100 - links stay what they are called
+            self._of_folder[folder] = _read(lambda: self._search.nearest(whole))
+        return self._of_folder[folder]
 
-    def wanted(self, path: PurePath) -> bool:
+    def wanted(self, path: str) -> bool:
         """Whether a file in a searched directory is linted: `include` adds to the suffixes, `exclude` removes."""
-        found = self.of(str(path))
+        found = self.of(path)
         include, exclude = found.words("include"), found.words("exclude")
         if not (include or exclude):
             return is_deck(path)
-        relative = place(found, str(path))
+        relative = place(found, path)
         return (is_deck(path) or matches(relative, include)) and not matches(relative, exclude)
 
 

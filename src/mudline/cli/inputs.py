@@ -1,32 +1,33 @@
-"""The decks that a command reads: files, searched directories without what a .gitignore hides, standard input."""
+"""The decks that a command reads: files, those found in directories, standard input."""
 
 from __future__ import annotations
 
 import errno
 import os
 import sys
-from collections.abc import Callable, Container, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache, wraps
-from pathlib import Path, PurePath
-from typing import TYPE_CHECKING, NamedTuple
+from itertools import chain
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from mudline.cli import FOUND, WRONG_USAGE, options
+from mudline.cli.search import Search
 from mudline.cli.streams import notify, notify_diagnostics, reason
 from mudline.deck.forms import form_of
 from mudline.diagnostics import DeckError
 from mudline.files import write_atomically
-from mudline.patterns import Pattern, read_pattern
 
 if TYPE_CHECKING:
     from mudline.deck.model import Deck
 
-GITIGNORE = ".gitignore"
 SUFFIXES = frozenset({".keyx", ".keyxm", ".keyxi", ".das"})
 STDIN = "-"
 
+_BATCH = 1000
 _MARK = b"mudline-deck/"
 _HEAD = 4096
 """Bytes at the beginning of a JSON or YAML file that name its format."""
@@ -47,7 +48,8 @@ class Input:
     def read(self) -> bytes:
         """The content; raises OSError."""
         if self.path is not None:
-            return Path(self.path).read_bytes()
+            with open(self.path, "rb", buffering=0) as stream:  # noqa: PTH123 - as above
+                return stream.readall()
         if sys.stdin is None:
             raise OSError(errno.EBADF, "standard input is closed")
         return sys.stdin.buffer.read()
@@ -58,25 +60,59 @@ def _folder(path: str) -> Path:
     return Path(path)
 
 
+@dataclass(frozen=True, slots=True)
+class Batch:
+    """Some files of one folder, kept as one text: there may be very many.
+
+    `name` and `path` are what stands before them in the name and the path of an `Input`, `files` their names with NUL
+    between them.
+    """
+
+    name: str
+    path: str
+    files: str
+
+    def __iter__(self) -> Iterator[Input]:
+        return (Input(self.name + file, self.path + file) for file in self.files.split("\0"))
+
+    def __len__(self) -> int:
+        return self.files.count("\0") + 1
+
+
+@dataclass(slots=True)
+class Files:
+    """The files of a run in their order, each made anew whenever it is asked for."""
+
+    parts: list[list[Input] | Batch] = field(default_factory=list)
+
+    def __iter__(self) -> Iterator[Input]:
+        return chain.from_iterable(self.parts)
+
+    def __len__(self) -> int:
+        return sum(map(len, self.parts))
+
+
 @dataclass(slots=True)
 class Inputs:
     """The files found, each once, and whether something could not be found or read."""
 
-    files: list[Input] = field(default_factory=list)
+    files: Files = field(default_factory=Files)
     code: int = 0
 
-    def contents(self, unread: Container[Input] = ()) -> Iterator[tuple[Input, bytes]]:
-        """Each file that can be read; the others are reported and set the exit code. Those in `unread` are not read."""
+    def contents(self) -> Iterator[tuple[Input, bytes]]:
+        """Each file that can be read; the others are reported and set the exit code."""
         for file in self.files:
-            if file in unread:
-                yield file, b""
-                continue
-            try:
-                data = file.read()
-            except OSError as error:
-                self.fail(f"{file.name}: {reason(error)}")
-                continue
-            yield file, data
+            data = self.content(file)
+            if data is not None:
+                yield file, data
+
+    def content(self, file: Input) -> bytes | None:
+        """The content of a file; one that cannot be read is reported and sets the exit code."""
+        try:
+            return file.read()
+        except OSError as error:
+            self.fail(f"{file.name}: {reason(error)}")
+            return None
 
     def replaced(self, file: Input, content: bytes) -> bool:
         """Whether a file has its new content; if not, that is reported."""
@@ -93,13 +129,13 @@ class Inputs:
         self.code = WRONG_USAGE
 
 
-Wanted = Callable[[PurePath], bool]
-"""Whether a file of a directory is taken as a deck."""
+Wanted = Callable[[str], bool]
+"""Whether a file of a directory, given by its path, is taken as a deck."""
 
 
-def is_deck(path: PurePath) -> bool:
+def is_deck(path: str) -> bool:
     """Whether the suffix is one of a deck."""
-    return path.suffix.lower() in SUFFIXES
+    return os.path.splitext(path)[1].lower() in SUFFIXES  # noqa: PTH122 - asked for each of many files
 
 
 def collect(
@@ -110,7 +146,7 @@ def collect(
     `gitignore` leaves out of a search what `.gitignore` files hide.
     """
 
-    def taken(path: PurePath) -> bool:
+    def taken(path: str) -> bool:
         return wanted(path) and os.path.isfile(path)  # noqa: PTH113 - Path raises for a name that is too long
 
     return _collect(paths, stdin_name, taken, gitignore=gitignore)
@@ -121,9 +157,9 @@ def collect_any_form(paths: Sequence[str], stdin_name: str, *, gitignore: bool) 
     return _collect(paths, stdin_name, _is_deck_in_any_form, gitignore=gitignore)
 
 
-def _is_deck_in_any_form(path: PurePath) -> bool:
+def _is_deck_in_any_form(path: str) -> bool:
     """Whether a file is a deck by its suffix or its content; one that cannot be opened is taken, and reported later."""
-    if not is_deck(path) and form_of(path.name) == "keyword":
+    if not is_deck(path) and form_of(path) == "keyword":
         return False
     file = Path(path)
     if file.exists() and not file.is_file():
@@ -143,8 +179,9 @@ def _collect(paths: Sequence[str], stdin_name: str, taken: Wanted, *, gitignore:
         if os.path.isdir(given):  # noqa: PTH112 - Path raises for a name that is too long or may not be looked at
             _directory(Search(given, gitignore), found, taken)
         else:
-            found.files.append(_single(given, stdin_name))
-    found.files = list(dict.fromkeys(found.files))
+            found.files.parts.append([_single(given, stdin_name)])
+    if len(paths) > 1:
+        found.files = Files([list(dict.fromkeys(found.files))])
     return found
 
 
@@ -158,14 +195,18 @@ def _slashed(path: str) -> str:
 
 def _directory(search: Search, found: Inputs, taken: Wanted) -> None:
     given = search.given
-    decks = sorted(path for path in search.paths() if taken(path))
+    start = "" if given == "." else _slashed(given).rstrip("/") + "/"
+    batches = [
+        Batch(start + inside, path, "\0".join(names[at : at + _BATCH]))
+        for inside, path, names in search.files(taken)
+        for at in range(0, len(names), _BATCH)
+    ]
     for error in search.unreadable:
         found.fail(f"{_slashed(str(error.filename))}: {reason(error)}")
-    if not decks and not search.unreadable:
+    if not batches and not search.unreadable:
         hidden = "; --no-gitignore takes what a .gitignore hides" if search.hidden else ""
         found.fail(f"{given}: no deck in this directory (looked for {', '.join(sorted(SUFFIXES))}{hidden})")
-    start = "" if given == "." else _slashed(given).rstrip("/") + "/"
-    found.files += [Input(start + path.relative_to(given).as_posix(), str(path)) for path in decks]
+    found.files.parts += batches
 
 
 # ------------------------------------------------------------------------------------------------ the one deck
@@ -215,86 +256,3 @@ def refuses_bad_decks(command: options.Command) -> options.Command:
             return FOUND
 
     return guarded
-
-
-# ---------------------------------------------------------------------------------------------------- .gitignore
-
-
-class _Rules(NamedTuple):
-    """The patterns of a `.gitignore`, the last first.
-
-    They are for paths from its own folder: `above` stands before a path from the searched directory, or the first
-    `below` letters of it are left out.
-    """
-
-    above: str
-    below: int
-    patterns: Sequence[Pattern]
-
-    def hides(self, path: str, *, folder: bool) -> bool | None:
-        """Whether a path from the searched directory is hidden; None where no pattern says anything of it."""
-        own = self.above + path[self.below :]
-        return next((not one.negated for one in self.patterns if one.fits(own, folder=folder)), None)
-
-
-@dataclass(slots=True)
-class Search:
-    """A search of a directory and all below it; links to directories are not followed.
-
-    `unreadable` collects what cannot be looked at, `hidden` says whether a `.gitignore` hid anything. Like git, the
-    search also honours the `.gitignore` files above the directory in the same repository; like ripgrep, it honours them
-    for what lies in the directory, not for the directory itself, which was asked for.
-    """
-
-    given: str
-    gitignore: bool = True
-    unreadable: list[OSError] = field(default_factory=list)
-    hidden: bool = False
-
-    def paths(self) -> Iterator[PurePath]:
-        """The files, in no order."""
-        rules = {self.given: self._above() if self.gitignore else []}
-        for folder, folders, files in os.walk(self.given, onerror=self.unreadable.append):
-            found = rules.pop(folder)
-            if self.gitignore:
-                start = self._start(folder)
-                if GITIGNORE in files:
-                    found = [*self._read(Path(folder), "", len(start)), *found]
-                folders[:] = [
-                    name for name in folders if name != ".git" and not self._hides(found, start + name, folder=True)
-                ]
-                files[:] = [name for name in files if not self._hides(found, start + name, folder=False)]
-            rules.update((os.path.join(folder, name), found) for name in folders)  # noqa: PTH118 - as os.walk does
-            yield from (PurePath(folder, name) for name in files)
-
-    def _start(self, folder: str) -> str:
-        """What stands before the names in a folder, from the searched directory."""
-        inside = folder[len(self.given) :].replace(os.sep, "/").strip("/")
-        return f"{inside}/" if inside else ""
-
-    def _hides(self, rules: Sequence[_Rules], path: str, *, folder: bool) -> bool:
-        said = next((hides for one in rules if (hides := one.hides(path, folder=folder)) is not None), False)
-        self.hidden |= said
-        return said
-
-    def _above(self) -> list[_Rules]:
-        """The rules above the directory, the nearest first."""
-        here = Path(os.path.abspath(self.given))  # noqa: PTH100 - links stay what they are called
-        found: list[_Rules] = []
-        for folder in (here, *here.parents):
-            if folder != here:
-                found += self._read(folder, f"{here.relative_to(folder).as_posix()}/", 0)
-            if (folder / ".git").exists():
-                return found
-        return []
-
-    def _read(self, folder: Path, above: str, below: int) -> list[_Rules]:
-        """The rules of a folder, if it has any."""
-        path = folder / GITIGNORE
-        try:
-            text = os.fsdecode(path.read_bytes()) if path.is_file() else ""
-        except OSError as error:
-            self.unreadable.append(error)
-            return []
-        patterns = [pattern for line in text.split("\n") if (pattern := read_pattern(line))]
-        return [_Rules(above, below, patterns[::-1])] if patterns else []

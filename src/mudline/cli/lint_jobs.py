@@ -101,7 +101,7 @@ def lint_all(
     """
     tasks = _tasks(inputs, settings_of, known)
     plugins = plugin_files() if known is not None else ()
-    with closing(_reports(tasks, len(inputs.files) - len(known.clean if known else ()), effort)) as reports:
+    with closing(_reports(tasks, len(inputs.files) - (known.clean.count(1) if known else 0), effort)) as reports:
         for one, report in reports:
             if known is not None and one.key and one.known is None:
                 known.cache.put(one.key, report.found, (*report.looked_at, *plugins))
@@ -112,12 +112,14 @@ def lint_all(
 
 def _tasks(inputs: Inputs, settings_of: SettingsOf, known: KnownDecks | None) -> Iterator[Task]:
     """The files with their reports as far as the cache has them; it is not asked for standard input."""
-    for file, data in inputs.contents(known.clean if known else frozenset()):
+    for number, file in enumerate(inputs.files):
         settings = settings_of(file)
-        if known is None or file.path is None:
+        if known is not None and known.clean[number]:
+            yield Task(file, b"", settings, known=FileReport(file.name, ()))
+        elif (data := inputs.content(file)) is None:
+            continue
+        elif known is None or file.path is None:
             yield Task(file, data, settings)
-        elif file in known.clean:
-            yield Task(file, data, settings, known=FileReport(file.name, ()))
         else:
             key = known.key(file, data)
             found = known.cache.get(key, file.name)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from mudline.cli.configured import Configured, Given
 from mudline.cli.inputs import Input, Inputs
@@ -11,17 +11,17 @@ from mudline.linting.cache import Cache, opened
 
 @dataclass
 class KnownDecks:
-    """The cache, and the decks of a run of which it knows that nothing is found in them."""
+    """The cache, and for each deck of a run whether it knows that nothing is found in it: 1 or 0 in `clean`."""
 
     cache: Cache
     configured: Configured
     inputs: Inputs
-    clean: set[Input] = field(default_factory=set)
+    clean: bytearray
 
     @property
     def all_clean(self) -> bool:
         """Whether nothing is found in any deck of the run."""
-        return bool(self.inputs.files) and len(self.clean) == len(self.inputs.files)
+        return bool(self.clean) and all(self.clean)
 
     def key(self, file: Input, data: bytes) -> str:
         """What the findings of a file are kept under."""
@@ -29,7 +29,7 @@ class KnownDecks:
 
     def look(self) -> None:
         """Find the decks in which nothing is found."""
-        for file in self.inputs.files:
+        for number, file in enumerate(self.inputs.files):
             if file.path is None:
                 continue
             try:
@@ -37,7 +37,7 @@ class KnownDecks:
             except OSError:  # reported when the others are read
                 continue
             if self.cache.get(self.key(file, data), file.name) == ():
-                self.clean.add(file)
+                self.clean[number] = 1
 
 
 def known_decks(inputs: Inputs, given: Given, configured: Configured) -> KnownDecks | None:
@@ -45,7 +45,7 @@ def known_decks(inputs: Inputs, given: Given, configured: Configured) -> KnownDe
     cache = opened(repr(given))
     if cache is None:
         return None
-    found = KnownDecks(cache, configured, inputs)
+    found = KnownDecks(cache, configured, inputs, bytearray(len(inputs.files)))
     if cache.known:
         found.look()
     return found

@@ -61,13 +61,16 @@ class Report:
     aside: bool
     fixing: bool
     found: list[Diagnostic] = field(default_factory=list)
+    files: int = 0
     names: list[str] = field(default_factory=list)
     fixed: int = 0
     failing: bool = False
 
     def add(self, name: str, data: bytes, found: list[Diagnostic], fixed: int, limit: Severity) -> None:
         """Add the findings that are left in one file, whose content is `data`, and the number of those fixed."""
-        self.names.append(name)
+        self.files += 1
+        if self._formed:
+            self.names.append(name)
         self.found += found
         self.fixed += fixed
         self.failing = self.failing or any(one.severity.rank >= limit.rank for one in found)
@@ -75,6 +78,11 @@ class Report:
             self.view.printer().findings(found, Source.from_bytes(data, name), following=self.view.verbose)
         if self.view.verbose:
             notify(f"{name}: {counted(len(found), 'finding')}")
+
+    @property
+    def _formed(self) -> bool:
+        """Whether a form is written, which may name the files: text does not, and there may be very many."""
+        return self.aside or self.view.quiet or self.outputs.form != TEXT or bool(self.outputs.files)
 
     @property
     def _as_they_come(self) -> bool:
@@ -93,7 +101,7 @@ class Report:
             emit(self._in_form(self.outputs.form, found))
         elif self.view.quiet:
             emit(self._in_form("concise", found))
-        elif self.names:
+        elif self.files:
             self._summary(found)
 
     def _in_form(self, name: str, found: list[Diagnostic]) -> Iterator[str]:
@@ -110,15 +118,15 @@ class Report:
         if self.fixing and (self.fixed or found):
             click.echo(self._fixed_summary(found))
         elif found:
-            self.view.printer().summary(found, len(self.names))
+            self.view.printer().summary(found, self.files)
         else:
-            click.echo(f"No findings in {counted(len(self.names), 'file')}.")
+            click.echo(f"No findings in {counted(self.files, 'file')}.")
         if hint := fixable(found):
             click.echo(hint)
 
     def _fixed_summary(self, found: list[Diagnostic]) -> str:
         total = counted(self.fixed + len(found), "finding")
-        return f"Found {total} ({self.fixed} fixed, {len(found)} remaining) in {counted(len(self.names), 'file')}."
+        return f"Found {total} ({self.fixed} fixed, {len(found)} remaining) in {counted(self.files, 'file')}."
 
 
 def fixable(found: list[Diagnostic]) -> str:

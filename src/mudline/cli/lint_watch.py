@@ -12,7 +12,8 @@ from typing import NoReturn
 
 import click
 
-from mudline.cli.inputs import GITIGNORE, STDIN, is_deck
+from mudline.cli.inputs import STDIN, is_deck
+from mudline.cli.search import GITIGNORE
 from mudline.cli.streams import notify
 from mudline.cli.view import View
 from mudline.linting.output import TEXT
@@ -105,14 +106,14 @@ def _files(given: str) -> Iterator[str]:
     """The files in a folder and below; for a file, the decks beside it, which it may continue."""
     if _is_folder(given):
         for folder, _, names in os.walk(given):
-            yield from (os.path.join(folder, name) for name in names if is_deck(Path(name)) or name in _RULES)  # noqa: PTH118 - many files
+            yield from (os.path.join(folder, name) for name in names if is_deck(name) or name in _RULES)  # noqa: PTH118 - many files
         return
     folder = os.path.dirname(given) or "."  # noqa: PTH120 - as above
     try:
         names = os.listdir(folder)  # noqa: PTH208 - as above
     except OSError:
         return
-    yield from (os.path.join(folder, name) for name in names if is_deck(Path(name)))  # noqa: PTH118 - as above
+    yield from (os.path.join(folder, name) for name in names if is_deck(name))  # noqa: PTH118 - as above
 
 
 def _is_folder(path: str) -> bool:

@@ -193,24 +193,31 @@ def read_entries(path: Path) -> dict[str, str]:
     return {line[:KEY]: line[KEY + 1 :] for line in body.decode("ascii").split("\n") if line}
 
 
-def write_entries(path: Path, entries: Mapping[str, str]) -> None:
-    """Replace a file of the cache by the last of the entries; does nothing where that is not possible."""
-    lines: list[bytes] = []
-    size = 0
-    for key, held in list(entries.items())[: -MOST_ENTRIES - 1 : -1]:
-        line = f"{key} {held}\n".encode("ascii")
-        size += len(line)
-        if size > MOST_BYTES - 1000:
-            break
-        lines.append(line)
-    body = b"".join(reversed(lines))
+def line_of(key: str, held: str) -> bytes:
+    """An entry as it is in a file."""
+    return f"{key} {held}\n".encode("ascii")
+
+
+def write_entries(path: Path, entries: Mapping[str, str], new: bytes | bytearray = b"") -> None:
+    """Replace a file of the cache by the last of the entries and the lines of new ones.
+
+    Does nothing where that is not possible.
+    """
+    body = b"".join([*(line_of(*entry) for entry in entries.items()), new]) if entries else new
+    start = 0
+    for _ in range(body.count(b"\n") - MOST_ENTRIES):
+        start = body.index(b"\n", start) + 1
+    beyond = len(body) - (MOST_BYTES - 1000)
+    if beyond > start:
+        start = body.index(b"\n", beyond - 1) + 1
+    kept = memoryview(body)[start:]
     with suppress(OSError):
         path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-        write_atomically(path, _head(body) + b"\n" + body, synced=False)
+        write_atomically(path, [_head(kept), b"\n", kept], synced=False)
         _drop_old(path.parent)
 
 
-def _head(body: bytes) -> bytes:
+def _head(body: bytes | memoryview) -> bytes:
     return _MAGIC + blake2b(body, digest_size=20).hexdigest().encode("ascii")
 
 
@@ -225,7 +232,7 @@ def _drop_old(folder: Path) -> None:
 
 @dataclass
 class Cache:
-    """What is known from runs before in a working folder, and what this run adds.
+    """What is known from runs before in a working folder, and the lines that this run adds.
 
     `given` is what the command line says about findings.
     """
@@ -233,7 +240,7 @@ class Cache:
     path: Path
     known: dict[str, str]
     given: str
-    new: dict[str, str] = field(default_factory=dict)
+    new: bytearray = field(default_factory=bytearray)
     _program: str = field(default_factory=program)
     _starts: dict[Path | None, bytes] = field(default_factory=dict)
     _states: dict[str, str] = field(default_factory=dict)
@@ -243,8 +250,8 @@ class Cache:
         """What the findings of a file are kept under."""
         place = configuration.path
         if place not in self._starts:
-            words = (self._program, self.given, str(place), configuration.content)
-            self._starts[place] = repr(words).encode("utf-8", "backslashreplace")
+            words = repr((self._program, self.given, str(place), configuration.content))
+            self._starts[place] = blake2b(words.encode("utf-8", "backslashreplace")).digest()
         return key(self._starts[place], name, data)
 
     def get(self, key: str, name: str) -> tuple[Diagnostic, ...] | None:
@@ -268,12 +275,13 @@ class Cache:
             return
         held = packed(found, {path: self._state(path) for path in looked_at})
         if len(held) <= LONGEST:
-            self.new[key] = held
+            self.known.pop(key, None)
+            self.new += line_of(key, held)
 
     def save(self) -> None:
         """Write what was added, if anything was."""
         if self.new:
-            write_entries(self.path, {**self.known, **self.new})
+            write_entries(self.path, self.known, self.new)
 
     def _state(self, path: str) -> str:
         """A state, looked at once in a run: many decks continue the same one."""

@@ -1,0 +1,144 @@
+"""The search of a directory for decks, without what a .gitignore hides."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import groupby
+from pathlib import Path, PurePath
+from typing import NamedTuple
+
+from mudline.patterns import Pattern, read_pattern
+
+GITIGNORE = ".gitignore"
+
+
+class Run(NamedTuple):
+    """Files of one folder that follow each other: what stands before their names, and these.
+
+    `inside` is the folder as seen from the searched directory, `path` the path to it.
+    """
+
+    inside: str
+    path: str
+    names: list[str]
+
+
+class _Rules(NamedTuple):
+    """The patterns of a `.gitignore`, the last first.
+
+    They are for paths from its own folder: `above` stands before a path from the searched directory, or the first
+    `below` letters of it are left out.
+    """
+
+    above: str
+    below: int
+    patterns: Sequence[Pattern]
+
+    def hides(self, path: str, *, folder: bool) -> bool | None:
+        """Whether a path from the searched directory is hidden; None where no pattern says anything of it."""
+        own = self.above + path[self.below :]
+        return next((not one.negated for one in self.patterns if one.fits(own, folder=folder)), None)
+
+
+@dataclass(slots=True)
+class Search:
+    """A search of a directory and all below it; links to directories are not followed.
+
+    `unreadable` collects what cannot be looked at, `hidden` says whether a `.gitignore` hid anything. Like git, the
+    search also honours the `.gitignore` files above the directory in the same repository; like ripgrep, it honours them
+    for what lies in the directory, not for the directory itself, which was asked for.
+    """
+
+    given: str
+    gitignore: bool = True
+    unreadable: list[OSError] = field(default_factory=list)
+    hidden: bool = False
+
+    def files(self, taken: Callable[[str], bool]) -> Iterator[Run]:
+        """The files that are taken, sorted by the names in their paths."""
+        return _in_order(self.given, self._walk(taken))
+
+    def _walk(self, taken: Callable[[str], bool]) -> dict[str, _Folder]:
+        """What is taken and not hidden in each folder that has or may have any."""
+        rules = {self.given: self._above() if self.gitignore else []}
+        walked: dict[str, _Folder] = {}
+        for folder, folders, names in os.walk(self.given, onerror=self.unreadable.append):
+            files = names
+            found = rules.pop(folder)
+            start = self._start(folder)
+            if self.gitignore:
+                if GITIGNORE in names:
+                    found = [*self._read(Path(folder), "", len(start)), *found]
+                folders[:] = [
+                    name for name in folders if name != ".git" and not self._hides(found, start + name, folder=True)
+                ]
+                if found:
+                    files = [name for name in names if not self._hides(found, start + name, folder=False)]
+            rules.update((os.path.join(folder, name), found) for name in folders)  # noqa: PTH118 - as os.walk does
+            path = str(PurePath(folder, "-"))[:-1]
+            walked[folder] = _Folder(start, path, [name for name in files if taken(path + name)], list(folders))
+        return walked
+
+    def _start(self, folder: str) -> str:
+        """What stands before the names in a folder, from the searched directory."""
+        inside = folder[len(self.given) :].replace(os.sep, "/").strip("/")
+        return f"{inside}/" if inside else ""
+
+    def _hides(self, rules: Sequence[_Rules], path: str, *, folder: bool) -> bool:
+        said = next((hides for one in rules if (hides := one.hides(path, folder=folder)) is not None), False)
+        self.hidden |= said
+        return said
+
+    def _above(self) -> list[_Rules]:
+        """The rules above the directory, the nearest first."""
+        here = Path(os.path.abspath(self.given))  # noqa: PTH100 - links stay what they are called
+        found: list[_Rules] = []
+        for folder in (here, *here.parents):
+            if folder != here:
+                found += self._read(folder, f"{here.relative_to(folder).as_posix()}/", 0)
+            if (folder / ".git").exists():
+                return found
+        return []
+
+    def _read(self, folder: Path, above: str, below: int) -> list[_Rules]:
+        """The rules of a folder, if it has any."""
+        path = folder / GITIGNORE
+        try:
+            text = os.fsdecode(path.read_bytes()) if path.is_file() else ""
+        except OSError as error:
+            self.unreadable.append(error)
+            return []
+        patterns = [pattern for line in text.split("\n") if (pattern := read_pattern(line))]
+        return [_Rules(above, below, patterns[::-1])] if patterns else []
+
+
+class _Folder(NamedTuple):
+    """A folder that was searched: the first two as in a `Run`, the names of files that are taken, and of folders."""
+
+    inside: str
+    path: str
+    files: list[str]
+    folders: list[str]
+
+
+def _in_order(top: str, walked: dict[str, _Folder]) -> Iterator[Run]:
+    """The files of folders: those of a folder come where its name does among the files beside it."""
+    waiting: list[str | Run] = [top]
+    while waiting:
+        one = waiting.pop()
+        if isinstance(one, Run):
+            yield one
+        elif (found := walked.pop(one, None)) is not None:  # not walked: it is a link, or unreadable
+            waiting += reversed(list(_pieces(one, found)))
+
+
+def _pieces(folder: str, found: _Folder) -> Iterator[str | Run]:
+    folders = frozenset(found.folders)
+    names = sorted([*found.files, *folders], key=os.path.normcase)
+    for are_folders, group in groupby(names, folders.__contains__):
+        if are_folders:
+            yield from (os.path.join(folder, name) for name in group)  # noqa: PTH118 - as os.walk does
+        else:
+            yield Run(found.inside, found.path, list(group))
