@@ -13,7 +13,7 @@ from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Code, Problem, Severity, Where
 from mudline.linting.rule import LintContext
 from mudline.scene.model import Scene
-from mudline.scene.numbering import Floats, Indices, Mask
+from mudline.scene.numbering import Floats, Indices, Mask, blocks_of
 
 if TYPE_CHECKING:
     from mudline.keywords.library.node import Nodes
@@ -130,32 +130,37 @@ def _turning_back(scene: Scene, far: Mapping[int, float]) -> Iterator[Problem]:
 
     Nodes that are `far` from their neighbours are reported as such.
     """
-    ends = scene.element_nodes
-    first = np.arange(max(len(ends) - 2, 0))
-    chained = (ends[first, 1] == ends[first + 1, 0]) & (ends[first + 1, 1] == ends[first + 2, 0])
-    sections = scene.section_table.of_element
-    chained &= (sections[first] == sections[first + 1]) & (sections[first + 1] == sections[first + 2])
-    chained &= (ends[first] >= 0).all(axis=1) & (ends[first + 2] >= 0).all(axis=1)
-    first = first[chained]
-    if not len(first):
-        return
-    steps = [_directions(scene, first + number) for number in range(3)]
-    turned = (np.sum(steps[0] * steps[1], axis=1) < TURNED) & (np.sum(steps[1] * steps[2], axis=1) < TURNED)
-    used = _uses(scene)
-    for element in (first[np.asarray(turned)] + 1).tolist():
-        one, other = ends[element].tolist()
-        if used[one] == used[other] == 2 and one not in far and other not in far:
-            ids = scene.node_ids
-            message = (
-                f"the line turns back at node {ids[one]} and forward again at node {ids[other]}: correct the "
-                "coordinates of one of them"
-            )
-            yield Problem(UNT006, message, where=scene.nodes.where(one))
+    ends, used = scene.element_nodes, None
+    for block in blocks_of(max(len(ends) - 2, 0)):
+        for element in _turned(scene, block):
+            used = _uses(scene) if used is None else used
+            one, other = ends[element].tolist()
+            if used[one] == used[other] == 2 and one not in far and other not in far:
+                ids = scene.node_ids
+                message = (
+                    f"the line turns back at node {ids[one]} and forward again at node {ids[other]}: correct the "
+                    "coordinates of one of them"
+                )
+                yield Problem(UNT006, message, where=scene.nodes.where(one))
 
 
-def _directions(scene: Scene, elements: Indices) -> Floats:
-    """Unit vectors along elements; NaN for one without length."""
-    ends = scene.element_nodes[elements]
+def _turned(scene: Scene, block: slice) -> list[int]:
+    """Elements that run back, between two of their section that run forward; those before them are of the block."""
+    three = range(block.start, block.stop + 2)
+    ends = scene.element_nodes[three.start : three.stop]
+    sections = scene.section_table.of_element[three.start : three.stop]
+    joined = (ends[:-1, 1] == ends[1:, 0]) & (sections[:-1] == sections[1:]) & (ends[:-1] >= 0).all(axis=1)
+    chained = joined[:-1] & joined[1:] & (ends[2:] >= 0).all(axis=1)
+    if not chained.any():
+        return []
+    steps = _directions(scene, ends)
+    back = np.sum(steps[:-1] * steps[1:], axis=1) < TURNED
+    found: list[int] = (np.flatnonzero(chained & back[:-1] & back[1:]) + 1 + block.start).tolist()
+    return found
+
+
+def _directions(scene: Scene, ends: Indices) -> Floats:
+    """Unit vectors along elements with these nodes; NaN for one without length."""
     steps = scene.coordinates[ends[:, 1]] - scene.coordinates[ends[:, 0]]
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         found: Floats = steps / np.linalg.norm(steps, axis=1)[:, np.newaxis]
@@ -170,22 +175,22 @@ def _uses(scene: Scene) -> Indices:
 
 def _skipping(scene: Scene) -> Iterator[Problem]:
     """Elements that end at a node further on, where the next one begins at a node at which nothing else ends."""
-    ends = scene.element_nodes
-    if len(ends) < 3:
-        return
-    usable: Mask = np.all(ends >= 0, axis=1)
-    sections = scene.section_table.of_element
-    before = np.arange(len(ends) - 2)
-    here, behind = before + 1, before + 2
-    apart: Mask = (ends[before, 1] == ends[here, 0]) & (ends[here, 1] != ends[behind, 0])
-    apart &= usable[before] & usable[here] & usable[behind]
-    apart &= (sections[before] == sections[here]) & (sections[here] == sections[behind])
-    if not apart.any():
+    ends, sections = scene.element_nodes, scene.section_table.of_element
+    parts = []
+    for block in blocks_of(max(len(ends) - 2, 0)):
+        of_three, alike = ends[block.start : block.stop + 2], sections[block.start : block.stop + 2]
+        before, here, behind = of_three[:-2], of_three[1:-1], of_three[2:]
+        apart: Mask = (before[:, 1] == here[:, 0]) & (here[:, 1] != behind[:, 0])
+        apart &= (before >= 0).all(axis=1) & (here >= 0).all(axis=1) & (behind >= 0).all(axis=1)
+        apart &= (alike[:-2] == alike[1:-1]) & (alike[1:-1] == alike[2:])
+        parts.append(np.flatnonzero(apart) + 1 + block.start)
+    found = np.concatenate(parts) if parts else np.zeros(0, np.intp)
+    if not found.size:
         return
     used = _uses(scene)
-    apart &= (used[ends[behind, 0]] == 1) & (used[ends[here, 1]] >= 3)
+    found = found[(used[ends[found + 1, 0]] == 1) & (used[ends[found, 1]] >= 3)]
     places = scene.coordinates
-    for element in here[apart].tolist():
+    for element in found.tolist():
         (start, end), (begin, following) = ends[element].tolist(), ends[element + 1].tolist()
         way = float(np.linalg.norm(places[end] - places[start]))
         around = float(np.linalg.norm(places[begin] - places[start]) + np.linalg.norm(places[end] - places[begin]))
