@@ -9,6 +9,11 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
+RESULT_FORMAT = "mudline-result/2"
+"""Name and version of the form of result files."""
+
+UNIT_SYSTEMS = ("metric", "imperial", "user")
+
 
 class UnitNames(NamedTuple):
     """Names of units; empty where the deck's units are the user's own."""
@@ -29,6 +34,11 @@ _NONE = UnitNames("", "", "", "")
 def unit_names(units: str) -> UnitNames:
     """The names of "metric", "imperial" or "user" units."""
     return {"metric": _METRIC, "imperial": _IMPERIAL}.get(units, _NONE)
+
+
+def time_unit(units: str) -> str:
+    """The name of the unit of times; "" in user units."""
+    return "s" if unit_names(units).length else ""
 
 
 Names = tuple[str | None, ...]

@@ -23,6 +23,7 @@ class Lines(NamedTuple):
         node_arc: (n,) arc length of each node on its line; NaN for a node without elements.
         elements: for each line its elements (k,) along it.
         nodes: for each line its nodes (k + 1,) along it; a closed line ends with the node that it begins with.
+        start: arc length of the first node of each line; None where it is 0 for all.
     """
 
     of_element: IndexArray
@@ -31,10 +32,12 @@ class Lines(NamedTuple):
     node_arc: FloatArray
     elements: list[IndexArray]
     nodes: list[IndexArray]
+    start: FloatArray | None = None
 
     def node_arcs(self, line: int, length: FloatArray) -> FloatArray:
         """Arc lengths (k + 1,) of the nodes along a line, from the lengths (m,) of all elements."""
-        return np.append(0.0, np.cumsum(length[self.elements[line]]))
+        arcs: FloatArray = np.append(0.0, np.cumsum(length[self.elements[line]]))
+        return arcs if self.start is None else arcs + self.start[line]
 
 
 def lines_of(element_nodes: IndexArray, length: FloatArray, nodes: int) -> Lines:

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, nullcontext
 
-from mudline.contact.columns import Table
+import numpy as np
+
+from mudline.contact.columns import Column, Table
 from mudline.contact.result import Part
 from mudline.quantities import csv_lines
 from mudline.results.evaluation import Evaluation
@@ -33,6 +35,7 @@ class Text:
     def __init__(self, evaluation: Evaluation, table: Table, write: Write, *, as_text: bool = False) -> None:
         self._table, self._write, self._spelling = table, write, _spelling(as_text=as_text)
         self._times = None if evaluation.time is None else evaluation.time.tolist()
+        self._units = Column("units", np.zeros(table.rows, np.int32), (table.units, None), over_steps=False)
 
     def take(self, part: Part) -> None:
         """Write some steps; before the first, the names of the columns."""
@@ -42,7 +45,7 @@ class Text:
         """Write nothing: a table has no place for more."""
 
     def _steps(self, part: Part) -> Iterator[str]:
-        columns = self._table.columns(part)
+        columns = [*self._table.columns(part), self._units]
         if part.start == 0:
             names = [flat.name for column in columns for flat in column.flat()]
             yield ",".join(names if self._times is None else ["time", *names]) + "\n"

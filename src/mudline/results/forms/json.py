@@ -9,6 +9,7 @@ from functools import partial
 
 from mudline.contact.columns import Column, Table
 from mudline.contact.result import Part
+from mudline.quantities import RESULT_FORMAT
 from mudline.results.evaluation import Evaluation
 from mudline.results.forms import More, Output, Row, Sink, Spelling, Write, batched, plan_rows, step_rows, text_into
 
@@ -62,7 +63,7 @@ class Text:
                 yield "}"
 
     def _head(self) -> Iterator[str]:
-        yield f'{{"units": {json.dumps(self._evaluation.scene.units)},\n "plan": '
+        yield f'{{"format": "{RESULT_FORMAT}",\n "units": {json.dumps(self._evaluation.scene.units)},\n "plan": '
         yield from _list(map(_dumped, plan_rows(self._evaluation.model.plan)), "  ")
         yield ",\n" if self._times is None else ',\n "steps": ['
 

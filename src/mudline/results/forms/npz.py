@@ -12,13 +12,14 @@ from typing import IO, Any
 import numpy as np
 
 from mudline.contact.columns import Column, Values
+from mudline.contact.frames import array_name
 from mudline.contact.result import Part
-from mudline.quantities import ELEMENTS
+from mudline.quantities import RESULT_FORMAT
 from mudline.results.forms import More, Output, Sink
 
 SUMMARY = (
     "an array of each column: (elements,) or (steps, elements), (nodes,) or (steps, nodes), vectors with a last axis "
-    "of 3; `node_` before what elements have too, `summary_` before (lines,) or (steps, lines)"
+    "of 3; `node_` before what elements have too, `summary_` before (lines,) or (steps, lines); `units` and `format`"
 )
 BESIDE = ()
 
@@ -63,13 +64,9 @@ class NpzArchive:
                 _pack(archive, name, array.dtype, shape, array.pieces(steps if array.over_steps else 1))
             if time is not None:
                 _pack(archive, "time", time.dtype, time.shape, [time])
-
-
-def array_name(table: str, column: str) -> str:
-    """The name of an array: nodes have `node_` before what elements have too, lines `summary_` before all."""
-    if table == "summary":
-        return f"summary_{column}"
-    return f"node_{column}" if table == "nodes" and column in ELEMENTS else column
+            for name, text in (("units", self._output.elements.units), ("format", RESULT_FORMAT)):
+                word = np.array(text)
+                _pack(archive, name, word.dtype, word.shape, [word])
 
 
 class _Array:

@@ -10,7 +10,8 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from mudline.contact.columns import Column, Table
+from mudline.contact.columns import Table
+from mudline.contact.frames import arrow_of
 from mudline.contact.result import Part
 from mudline.results.evaluation import Evaluation
 from mudline.results.forms import More, Output, Sink, Together
@@ -44,10 +45,8 @@ class ParquetFile:
     def take(self, part: Part) -> None:
         """Write some steps. Raises OSError."""
         flat = [column for vector in self._table.columns(part) for column in vector.flat()]
-        fields = {column.name: _array(column, part.count) for column in flat}
-        if self._times is not None:
-            fields = {"time": pa.array(np.repeat(self._times[part.steps], self._table.rows)), **fields}
-        self._waiting.append(pa.table(fields))
+        times = {} if self._times is None else {"time": np.repeat(self._times[part.steps], self._table.rows)}
+        self._waiting.append(arrow_of(flat, part.count, times, self._table.units))
         if sum(len(table) for table in self._waiting) >= GROUP:
             self._flush()
 
@@ -68,13 +67,3 @@ class ParquetFile:
             self._writer = self._writer or pq.ParquetWriter(self._stream, group.schema, compression="zstd")
             self._writer.write_table(group, row_group_size=max(len(group), 1))
             self._waiting = []
-
-
-def _array(column: Column, steps: int) -> pa.Array:
-    values = column.cut(0, steps).ravel()
-    if column.blank is not None:
-        return pa.array(values, mask=values == column.blank)
-    if not column.names:
-        return pa.array(values, from_pandas=True)  # NaN is no value
-    codes = pa.array(values.astype(np.int32), mask=values < 0)
-    return pa.DictionaryArray.from_arrays(codes, pa.array(column.names[:-1], pa.string()))
