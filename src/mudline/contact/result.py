@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, fields
+from importlib import import_module
+from types import ModuleType
 from typing import TYPE_CHECKING, Any, Literal, NoReturn
 
 import numpy as np
@@ -108,9 +110,8 @@ class ContactResult:
             ImportError: pandas is not installed; the extra `frames` brings it.
             ValueError: there is no such table, or the result does not know what was evaluated.
         """
-        from mudline.contact.frames import dataframe  # noqa: PLC0415 - forces alone do without it
-
-        return dataframe(self, table)
+        found: pd.DataFrame = _frames().dataframe(self, table)
+        return found
 
     def to_arrow(self, table: TableName = "elements") -> pa.Table:
         """Return the elements, nodes or lines ("summary") as a pyarrow table with the columns of `to_dataframe`.
@@ -118,9 +119,8 @@ class ContactResult:
         Each field has its `unit` as metadata, the table `mudline.format` and `mudline.units`; no value is null. Raises
         what `to_dataframe` does, ImportError for want of pyarrow.
         """
-        from mudline.contact.frames import arrow_table  # noqa: PLC0415 - as above
-
-        return arrow_table(self, table)
+        found: pa.Table = _frames().arrow_table(self, table)
+        return found
 
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:
         """The elements for whatever takes Arrow streams: `polars.DataFrame(result)`, DuckDB, `pyarrow.table(result)`.
@@ -137,9 +137,8 @@ class ContactResult:
         single state has no `time`, except as a number where it is one of a series. Raises what `to_dataframe` does,
         ImportError for want of xarray.
         """
-        from mudline.contact.frames import dataset  # noqa: PLC0415 - as above
-
-        return dataset(self)
+        found: xr.Dataset = _frames().dataset(self)
+        return found
 
     @property
     def known(self) -> ContactInput:
@@ -166,6 +165,11 @@ class ContactResult:
         arrays = ((name, getattr(self, name)) for name in _BY_STEP)
         of_steps: dict[str, Any] = {name: None if values is None else cut(values) for name, values in arrays}
         return ContactResult(**of_steps, **{name: getattr(self, name) for name in _OF_ALL_STEPS})
+
+
+def _frames() -> ModuleType:
+    """The module of tables of results: it knows results, which know it only when a table is asked for."""
+    return import_module("mudline.contact.frames")
 
 
 @dataclass(frozen=True, slots=True)
