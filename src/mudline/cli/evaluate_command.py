@@ -29,7 +29,17 @@ from mudline.linting.output import visible
 from mudline.quantities import csv_lines
 from mudline.results.against import Comparison, read_reference
 from mudline.results.evaluation import Evaluation, Prepared, Tension, evaluate_scene, prepare
-from mudline.results.forms import Output, ResultConsumer, Sink, Together, form_module, form_names, plan_rows, text_form
+from mudline.results.forms import (
+    Output,
+    ResultConsumer,
+    Sink,
+    Together,
+    form_module,
+    form_names,
+    plan_rows,
+    table_path,
+    text_form,
+)
 from mudline.results.lines import LineWatch
 from mudline.results.totals import PlotData, StepSummary
 from mudline.results.warnings import ContactWarning, ContactWatch, caption
@@ -43,7 +53,12 @@ MOST_ROWS = 40
 
 _PICTURES = ("png", "svg")
 _PLOTS = "mudline.results.plots"
-_EXTRAS = {"parquet": ("pyarrow", "parquet"), "png": ("matplotlib", "plot"), "svg": ("matplotlib", "plot")}
+_EXTRAS = {
+    "parquet": ("pyarrow", "parquet"),
+    "png": ("matplotlib", "plot"),
+    "svg": ("matplotlib", "plot"),
+    "xlsx": ("xlsxwriter", "excel"),
+}
 """By form: the library that draws or writes it, and the extra that brings it."""
 _Read = TypeVar("_Read")
 
@@ -272,7 +287,7 @@ def _files(evaluation: Evaluation, elements: ElementTable, path: Path, view: Vie
 
 def _beside(path: Path, form: ModuleType) -> list[Path]:
     """The files of the other tables beside that of the elements."""
-    return [path.with_name(f"{path.stem}-{table}{path.suffix}") for table in form.BESIDE]
+    return [table_path(path, table) for table in form.BESIDE]
 
 
 def _run(evaluation: Evaluation, consumers: Sequence[ResultConsumer], view: View, *, bar: bool) -> None:

@@ -253,7 +253,7 @@ class LineTable(Table):
 
     def __init__(self, given: ContactInput, elements: IndexArray) -> None:
         lines = np.unique(given.lines.of_element[elements])
-        super().__init__(lines)
+        super().__init__(given, lines)
         self.finder = Touchdown(given)
         ids, along = given.element_ids, [given.lines.elements[line] for line in lines.tolist()]
         with np.errstate(over="ignore", invalid="ignore"):
@@ -279,6 +279,7 @@ class LineTable(Table):
                 values[name],
                 over_steps=quantity.over_steps,
                 blank=NO_ELEMENT if name.startswith("largest") and name.endswith("element") else None,
+                unit=quantity.unit_name(self.units),
             )
             for name, quantity in LINES.items()
         ]
@@ -317,10 +318,7 @@ def line_summaries(result: ContactResult) -> list[LineSummary]:
 
     Raises ValueError for a result that does not know what was evaluated.
     """
-    if result.given is None:
-        raise ValueError("the result does not know its nodes and elements: evaluate them with a ContactModel")
-    series = result if result.depth.ndim == 2 else result.as_series()
-    finder, part = Touchdown(result.given), Part(0, series)
+    finder, part = Touchdown(result.known), Part(0, result.as_series())
     return list(finder.summaries(part, finder.series(part)))
 
 
