@@ -2,23 +2,32 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Sequence
 from pathlib import Path
 from typing import cast
 
 import click
+from click.core import ParameterSource
 
 from mudline.cli import DONE, FOUND, options
 from mudline.cli.evaluate_inputs import EvaluateInputs, read_headings
+from mudline.cli.evaluate_many import ManyOptions, evaluate_many
 from mudline.cli.evaluate_one import Outputs, evaluate_one, show_plan
-from mudline.cli.inputs import GivenDeck, takes_deck
-from mudline.cli.result_files import suffix
+from mudline.cli.inputs import STDIN, GivenDeck, collect, refuses_bad_decks
+from mudline.cli.result_files import has_library, is_installed, suffix
 from mudline.cli.view import View
 from mudline.results.evaluation import Tension
 from mudline.results.forms import form_names
 
 
 @click.command("evaluate")
-@click.option("--positions", metavar="FILE", help="Positions of the nodes: CSV, NPZ or NPY, one state or time steps.")
+@click.option(
+    "--positions",
+    metavar="FILE",
+    help="Positions of the nodes: CSV, NPZ or NPY, one state or time steps. Several decks: also a folder with a file "
+    "NAME.csv for each, or a pattern such as {folder}/{name}.csv.",
+)
 @click.option(
     "--columns",
     multiple=True,
@@ -39,8 +48,17 @@ from mudline.results.forms import form_names
     "-o",
     "--output",
     metavar=f"OUT.{'|'.join(form_names())}",
-    help="Write the results; CSV and Parquet write OUT-nodes and OUT-summary beside it.",
+    help="Write the results; CSV and Parquet write OUT-nodes and OUT-summary beside it. Of several decks: the folder.",
 )
+@click.option(
+    "--form",
+    type=click.Choice(form_names()),
+    help="Form of the files of several decks; without it Parquet, or NPZ where pyarrow is not installed.",
+)
+@click.option(
+    "--jobs", type=click.IntRange(min=0), default=0, help="Processes for several decks; 0: one for each processor."
+)
+@click.option("--no-cache", "anew", is_flag=True, help="Evaluate every deck again, whatever -o DIR holds from before.")
 @click.option("--plot", "picture", metavar="FILE.png|svg", help="Draw the results (needs the extra mudline[plot]).")
 @click.option("--plan", "plan_only", is_flag=True, help="Print what the deck needs and what is left out, and why.")
 @click.option(
@@ -59,10 +77,21 @@ from mudline.results.forms import form_names
     help="Exit with 1 for warnings about the results too.",
 )
 @options.output_format("text", "json", "csv")
-@takes_deck
+@options.every_file
+@options.decks
+@options.stdin_name
+@options.units
+@options.common
+@refuses_bad_decks
 def command(
     *,
-    deck: GivenDeck,
+    decks: tuple[str, ...],
+    stdin_name: str,
+    units: str | None,
+    every_file: bool,
+    form: str | None,
+    jobs: int,
+    anew: bool,
     positions: str | None,
     columns: tuple[str, ...],
     time_step: float | None,
@@ -78,19 +107,51 @@ def command(
     output_format: str,
     view: View,
 ) -> int:
-    """Evaluate contact forces and stiffnesses of a deck, at its own coordinates or at positions from a file.
+    """Evaluate contact forces and stiffnesses of decks, at their own coordinates or at positions from a file.
 
     Forces are per unit length, in the deck's units; reactions are the total force of the seabed on a node.
+
+    DECKS is one deck or - for standard input; or several decks and directories (searched for *.keyx, *.keyxm, *.keyxi,
+    *.das): a row for each deck is then printed, those that failed and those with the largest force first.
     """
-    if spreadsheet and "csv" not in (output_format, suffix(Path(output or ""))):
-        raise click.UsageError(options.CSV_ONLY)
     inputs = EvaluateInputs(cast("Tension", tension), elements, time_step, read_headings(columns))
     inputs.check(positions)
+    if _are_many(decks):
+        _refuse_options_of_one()
+        form = form or ("parquet" if is_installed("parquet") else "npz")
+        if output is not None and not has_library(form):
+            return FOUND
+        if spreadsheet and "csv" not in (output_format, form):
+            raise click.UsageError(options.CSV_ONLY)
+        many = ManyOptions(inputs, units, positions, output, form, output_format, fail_on, spreadsheet, jobs, anew)
+        return evaluate_many(collect(decks, gitignore=not every_file), many, view)
+    if form is not None:
+        raise click.UsageError("--form is for several decks: the suffix of -o gives the form of the results of one")
+    if spreadsheet and "csv" not in (output_format, suffix(Path(output or ""))):
+        raise click.UsageError(options.CSV_ONLY)
     outputs = Outputs(output, picture, against, table, output_format, spreadsheet, fail_on)
     if not outputs.have_libraries():
         return FOUND
-    loaded = deck.load()
+    deck = GivenDeck(decks[0], stdin_name, units).load()
     if plan_only:
-        show_plan(inputs.prepared(loaded, positions), output_format, view)
+        show_plan(inputs.prepared(deck, positions), output_format, view)
         return DONE
-    return evaluate_one(loaded, inputs, positions, outputs, view)
+    return evaluate_one(deck, inputs, positions, outputs, view)
+
+
+_OF_ONE = {"against": "--against", "picture": "--plot", "plan_only": "--plan", "table": "--table"}
+
+
+def _are_many(decks: Sequence[str]) -> bool:
+    """Whether several decks or a folder are given; raises click.UsageError for standard input among others."""
+    if len(decks) > 1 and STDIN in decks:
+        raise click.UsageError("- is one deck, from standard input: give it alone")
+    return len(decks) > 1 or os.path.isdir(decks[0])  # noqa: PTH112 - Path raises for a name that is too long
+
+
+def _refuse_options_of_one() -> None:
+    """Raise click.UsageError for an option that was given and that several decks cannot have."""
+    context = click.get_current_context()
+    for name, option in _OF_ONE.items():
+        if context.get_parameter_source(name) is not ParameterSource.DEFAULT:
+            raise click.UsageError(f"{option} is for one deck: give a single file")

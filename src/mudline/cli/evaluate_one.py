@@ -13,7 +13,17 @@ import numpy as np
 from mudline.cli import DONE, FOUND
 from mudline.cli.evaluate_inputs import EvaluateInputs, read_file
 from mudline.cli.evaluate_text import print_comparison, print_evaluation, print_plan
-from mudline.cli.result_files import PICTURES, PLOTS, beside, form_of_file, has_library, result_files, suffix
+from mudline.cli.result_files import (
+    PICTURES,
+    PLOTS,
+    behind,
+    beside,
+    form_of_file,
+    has_library,
+    line_watch,
+    result_files,
+    suffix,
+)
 from mudline.cli.streams import MOST_REPORTED, counted, emit, emit_json, notify, writing
 from mudline.cli.view import Progress, View, wants_bar
 from mudline.contact import LawKind
@@ -24,7 +34,6 @@ from mudline.quantities import csv_lines
 from mudline.results.against import Comparison, read_reference
 from mudline.results.evaluation import Evaluation, Prepared
 from mudline.results.forms import ResultConsumer, Sink, Together, form_names, plan_rows, text_form
-from mudline.results.lines import LineWatch
 from mudline.results.totals import PlotData, StepSummary
 from mudline.results.warnings import ContactWarning, ContactWatch, caption
 from mudline.short_repr import listed_numbers
@@ -63,14 +72,14 @@ def evaluate_one(deck: Deck, inputs: EvaluateInputs, positions: str | None, outp
     shown = "" if output else output_format
     most = None if view.verbose else MOST_ROWS
     digest = StepSummary(evaluation, most, outputs.table == "nodes") if shown == "text" else None
-    lines = _line_watch(evaluation, shown or form_of_file(output, form_names()), most)
+    lines = line_watch(evaluation, shown or form_of_file(output, form_names()), most)
     slow, watch = _SlowSuction(), ContactWatch.of(evaluation)
     given = (comparison, drawing, digest, lines, slow, watch)
     consumers: list[ResultConsumer] = [one for one in given if one is not None]
     with _sink(evaluation, comparison, outputs, view) as sink:
         _run(evaluation, [*consumers, sink], view, bar=shown in {"", "text"})
         warnings = watch.warnings()
-        sink.finish(_behind(evaluation, warnings, comparison, lines))
+        sink.finish(behind(evaluation, warnings, comparison, lines))
     if outputs.picture and drawing is not None:
         _draw(drawing, Path(outputs.picture), caption(warnings), view)
     if not view.quiet:
@@ -92,28 +101,6 @@ def show_plan(prepared: Prepared, form: str, view: View) -> None:
         emit(csv_lines([("stage", "active", "why"), *(row.values() for row in rows)]))
     else:
         print_plan(prepared.model.plan, view)
-
-
-def _line_watch(evaluation: Evaluation, form: str, most: int | None) -> LineWatch | None:
-    """What keeps the rows of lines: all for JSON, the first ones for text; other forms have a table of them."""
-    if form == "json":
-        return LineWatch(evaluation, None)
-    return LineWatch(evaluation, most) if form == "text" else None
-
-
-def _behind(
-    evaluation: Evaluation,
-    warnings: Sequence[ContactWarning],
-    comparison: Comparison | None,
-    lines: LineWatch | None,
-) -> dict[str, object]:
-    """What JSON has behind the results."""
-    found: dict[str, object] = {
-        "summary": [] if lines is None else [row.row() for row in lines.rows],
-        "positions": "deck" if evaluation.own_positions else "file",
-        "warnings": [one.row() for one in warnings],
-    }
-    return found if comparison is None else {**found, "against": comparison.summary()}
 
 
 def _sink(

@@ -13,8 +13,11 @@ import click
 from mudline.cli.streams import notify_missing, writing
 from mudline.cli.view import View, tracked
 from mudline.contact.columns import ElementTable
+from mudline.results.against import Comparison
 from mudline.results.evaluation import Evaluation
 from mudline.results.forms import Output, Sink, form_module
+from mudline.results.lines import LineWatch
+from mudline.results.warnings import ContactWarning
 
 PICTURES = ("png", "svg")
 PLOTS = "mudline.results.plots"
@@ -71,3 +74,25 @@ def beside(path: Path) -> dict[str, Path]:
     """The files of the other tables beside that of the elements, by the names of the tables."""
     form = form_module(suffix(path))
     return {table: path.with_name(f"{path.stem}-{table}{path.suffix}") for table in form.BESIDE}
+
+
+def line_watch(evaluation: Evaluation, form: str, most: int | None) -> LineWatch | None:
+    """What keeps the rows of lines: all for JSON, the first ones for text; other forms have a table of them."""
+    if form == "json":
+        return LineWatch(evaluation, None)
+    return LineWatch(evaluation, most) if form == "text" else None
+
+
+def behind(
+    evaluation: Evaluation,
+    warnings: Sequence[ContactWarning],
+    comparison: Comparison | None,
+    lines: LineWatch | None,
+) -> dict[str, object]:
+    """What JSON has behind the results."""
+    found: dict[str, object] = {
+        "summary": [] if lines is None else [row.row() for row in lines.rows],
+        "positions": "deck" if evaluation.own_positions else "file",
+        "warnings": [one.row() for one in warnings],
+    }
+    return found if comparison is None else {**found, "against": comparison.summary()}
