@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
@@ -21,6 +22,8 @@ _GAP = "  "
 _SHORTEST = 20
 """Columns that a deck's name gets on the narrowest terminal."""
 _DIGITS = 5
+_LARGE = 1e7
+"""Numbers from here on have an exponent."""
 
 Cell = Callable[[CaseSummary], str]
 
@@ -30,9 +33,13 @@ def print_cases(rows: Sequence[CaseSummary], folder: str, names: Mapping[str, st
     if not rows:
         return
     printer = view.printer()
-    printer.write(
-        _lines(rows, f"Contact of {counted(len(rows), 'deck')} in {folder}", names, printer, all_of=view.verbose)
-    )
+    printer.write(_lines(rows, _title(len(rows), folder), names, printer, all_of=view.verbose))
+
+
+def _title(count: int, folder: str) -> str:
+    place, here = Path(folder), Path.cwd()
+    inside = place.relative_to(here) if place.is_relative_to(here) else place
+    return f"Contact of {counted(count, 'deck')}" + (f" in {inside.as_posix()}" if folder and inside.parts else "")
 
 
 def _lines(
@@ -102,12 +109,12 @@ def _columns(rows: Sequence[CaseSummary]) -> tuple[dict[str, Cell], list[str]]:
         return f"{text}\n[{unit}]" if unit else text
 
     def number(name: str) -> Cell:
-        return lambda row: shown(getattr(row, name), _DIGITS)
+        return lambda row: _number(getattr(row, name))
 
     def count(name: str) -> Cell:
         return lambda row: "" if getattr(row, name) is None else str(getattr(row, name))
 
-    optional = ("units", "steps", "in_contact", "largest_force_element", "contact_length")
+    optional = ("steps", "in_contact", "largest_force_element", "contact_length")
     cells: dict[str, Cell] = {
         "units": count("units"),
         "steps": count("steps"),
@@ -135,8 +142,14 @@ def _touchdown(row: CaseSummary) -> str:
         return ""
     if row.touchdown_from is None:
         return "all" if row.contact_length else "none"
-    low, high = shown(row.touchdown_from, _DIGITS), shown(row.touchdown_to, _DIGITS)
+    low, high = _number(row.touchdown_from), _number(row.touchdown_to)
     return low if low == high else f"{low} to {high}"
+
+
+def _number(value: float | None) -> str:
+    """A number with few digits; one that is large for that is whole, rather than with an exponent."""
+    text = shown(value, _DIGITS)
+    return f"{value:.0f}" if value is not None and "e+" in text and abs(value) < _LARGE else text
 
 
 def _total(rows: Sequence[CaseSummary], printer: Printer) -> str:

@@ -69,6 +69,8 @@ def evaluate_many(decks: Inputs, options: ManyOptions, view: View) -> int:
     """
     placed = PositionFiles(options.positions)
     placed.check()
+    if not decks.files:
+        return decks.code
     folder = None if options.output is None else Path(options.output)
     common, cases = named_cases(decks.files, options.form if folder else "")
     known = None if folder is None else KnownResults(folder, _spelled(options))

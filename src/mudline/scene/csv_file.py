@@ -199,9 +199,9 @@ def _column_of(heading: str, given: Sequence[str]) -> tuple[int, int]:
 
 def _lacks(name: str, heading: str, found: Sequence[str]) -> str:
     what = "" if heading == name else f" for {name}"
-    listed = ", ".join(map(shown, found[:_MOST_HEADINGS]))
+    listed = ", ".join(map(shown, found[:_MOST_HEADINGS])) or "nothing"
     more = f" and {len(found) - _MOST_HEADINGS} more" if len(found) > _MOST_HEADINGS else ""
-    return f"the header lacks {shown(heading)}{what}: it has {listed}{more}"
+    return f"the header lacks {shown(heading)}{what}: it has {listed or 'nothing'}{more}"
 
 
 def _texts(file: str, text: str, names: Sequence[str], separator: str = ",") -> CsvTable:
