@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mudline.contact.arrays import FloatArray, IndexArray
+from mudline.short_repr import short_repr
 
 
 class Lines(NamedTuple):
@@ -31,6 +32,9 @@ class Lines(NamedTuple):
     node_arc: FloatArray
     elements: list[IndexArray]
     nodes: list[IndexArray]
+
+    def __repr__(self) -> str:
+        return short_repr(self)
 
     def node_arcs(self, line: int, length: FloatArray) -> FloatArray:
         """Arc lengths (k + 1,) of the nodes along a line, from the lengths (m,) of all elements."""
@@ -106,7 +110,7 @@ def _followed(ends: IndexArray, nodes: int) -> list[tuple[IndexArray, IndexArray
             continue
         back, behind = follow(element, other)
         start = behind[-1]
-        closed = start == other and len(back) > 1
+        closed = start == other and len(back) > 1 and len(joined[start]) == 2
         along, through = follow(element, one) if closed else follow(back[-1], start)
         nodes_along = [one if closed else start, *through]
         for each in along:

@@ -73,12 +73,15 @@ class LineSummary:
 
     def row(self) -> dict[str, object]:
         """The line as JSON has it."""
-        places = ("largest_force", "largest_uplift")
-        values: dict[str, object] = {name: getattr(self, name) for name in self.__slots__}
-        for name in places:
-            found: ElementForce | None = getattr(self, name)
-            values[name] = None if found is None else found._asdict()
-        return values | {"touchdown": [point._asdict() for point in self.touchdown]}
+        found: dict[str, object] = {name: _bounded(getattr(self, name)) for name in self.__slots__}
+        return found | {"touchdown": [_bounded(point) for point in self.touchdown]}
+
+
+def _bounded(value: object) -> object:
+    """A value as JSON can hold it: None for what overflowed."""
+    if isinstance(value, TouchdownPoint | ElementForce):
+        return {name: _bounded(each) for name, each in value._asdict().items()}
+    return finite(value) if isinstance(value, float) else value
 
 
 @dataclass(frozen=True, slots=True, eq=False)
