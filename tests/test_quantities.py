@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+from dataclasses import fields
 from pathlib import Path
 
 import pytest
 
 import mudline
-from mudline.quantities import ELEMENTS, LINES, NODES, Quantity
+from mudline.quantities import CASES, ELEMENTS, LINES, NODES, Quantity
+from mudline.results.cases import CaseSummary
 from mudline.results.evaluation import Evaluation, evaluate_scene
 from tests.results.written import arrays_of, csv_of, json_of
 from tests.samples import SAMPLES
@@ -41,6 +43,12 @@ def test_the_schema_requires_the_quantities() -> None:
     schema = json.loads((ROOT / "docs/schemas/evaluate.json").read_text(encoding="utf-8"))
     for key, quantities in (("elements", ELEMENTS), ("nodes", NODES)):
         assert schema["$defs"][key]["items"]["required"] == list(quantities)
+
+
+def test_rows_of_many_decks_have_the_quantities() -> None:
+    schema = json.loads((ROOT / "docs/schemas/cases.json").read_text(encoding="utf-8"))
+    assert [field.name for field in fields(CaseSummary)] == list(CASES)
+    assert schema["items"]["required"] == list(schema["items"]["properties"]) == list(CASES)
 
 
 def test_units_are_those_of_the_deck() -> None:

@@ -160,9 +160,13 @@ def _locked(handle: int) -> bool | None:
 
 def _tidy(folder: str) -> None:
     """Remove the temporary files that killed runs left in a folder, once in a run: those that nobody has locked."""
-    if folder in _tidied:
-        return
-    _tidied.add(folder)
+    if folder not in _tidied:
+        _tidied.add(folder)
+        remove_left(folder)
+
+
+def remove_left(folder: str) -> None:
+    """Remove the temporary files of a folder that no run has in use."""
     with suppress(OSError), os.scandir(folder) as entries:
         for path in [one.path for one in entries if _is_temporary(one.name) and one.is_file(follow_symlinks=False)]:
             with suppress(OSError):  # it is another user's, or in use

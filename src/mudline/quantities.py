@@ -207,6 +207,37 @@ STEPS = _by_name(
 )
 """Of a step: what is followed over time."""
 
+CASES = _by_name(
+    Quantity("deck", "the file, as it was given or found"),
+    Quantity("verdict", "`evaluated` or `failed`"),
+    Quantity("reason", "why it failed"),
+    Quantity("units", "`metric`, `imperial` or `user`"),
+    Quantity("positions", "`deck` or `file`"),
+    Quantity("steps", "number of time steps; 1 for one state"),
+    Quantity("elements", "number of elements that were evaluated"),
+    Quantity("in_contact", "largest number of elements in contact", label="in\ncontact"),
+    Quantity("touchdown_from", "least arc length of a touchdown point", "length"),
+    Quantity("touchdown_to", "largest arc length of a touchdown point", "length"),
+    Quantity("contact_length", "largest length below the seabed", "length", label="length in\ncontact"),
+    Quantity(
+        "largest_force",
+        "largest push of the seabed on an element, per unit length",
+        "line_force",
+        label="largest\nforce",
+    ),
+    Quantity("largest_force_element", "the element", label="element"),
+    Quantity("largest_force_time", "when; `null` for one state"),
+    Quantity("largest_uplift", "largest pull, negative, by suction or a curve", "line_force", label="largest\nuplift"),
+    Quantity("largest_uplift_element", "the element"),
+    Quantity("largest_uplift_time", "when; `null` for one state"),
+    Quantity("reaction", "largest total normal force on all nodes", "force", label="total\nreaction"),
+    Quantity("ratio", "this reaction / submerged weight of the elements in contact at that step", label="ratio"),
+    Quantity("warnings", "number of warnings about the results", label="warn-\nings"),
+    Quantity("warning_codes", "their codes, separated by spaces"),
+    Quantity("result", "the file with its results, below the folder of `-o`"),
+)
+"""Of a deck among many: the worst over all lines and steps; `null` where there is none."""
+
 
 def labelled(text: str, unit: str) -> str:
     """A label, with the unit in brackets behind it if it has one."""

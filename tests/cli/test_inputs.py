@@ -109,7 +109,7 @@ def test_one_deck_that_is_missing(command: str) -> None:
     assert outcome.err == "mudline: nowhere.keyxm: no such file or directory\n"
 
 
-@pytest.mark.parametrize("command", ["show", "curves", "evaluate", "convert"])
+@pytest.mark.parametrize("command", ["show", "curves", "convert"])
 def test_directory_where_one_deck_belongs(command: str, folder: Path) -> None:
     outcome = run(command, str(folder), *(["--to", "json"] if command == "convert" else []))
     assert outcome.code == 2

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from mudline import cache_folder
-from mudline.cli import lint_jobs
+from mudline.cli import processes
 from mudline.diagnostics import Diagnostic
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import rules
@@ -20,7 +20,7 @@ STARLESS = changed(("*ELEMENT\n", "ELEMENT\n"))
 
 
 def test_jobs_cache_and_baseline_agree(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(lint_jobs, "PAYS", dict.fromkeys(lint_jobs.PAYS, 0.0))
+    monkeypatch.setattr(processes, "PAYS", dict.fromkeys(processes.PAYS, 0.0))
     monkeypatch.setenv(cache_folder.PLACE, str(folder / "cache"))
     for name, text in (("a", ROWS), ("b", STARLESS)):
         (folder / f"{name}.keyxm").write_text(text, encoding="utf-8")

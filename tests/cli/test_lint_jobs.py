@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from mudline.cli import lint_jobs
+from mudline.cli import lint_jobs, processes
 from mudline.cli.inputs import Input
 from mudline.linting.engine import LintSettings
 from mudline.linting.fixing import FileReport
@@ -25,7 +25,7 @@ from tests.processes import TIMEOUT
 @pytest.fixture
 def eager(monkeypatch: pytest.MonkeyPatch) -> None:
     """Processes are used behind the first file, whatever there is to do."""
-    monkeypatch.setattr(lint_jobs, "PAYS", dict.fromkeys(lint_jobs.PAYS, 0.0))
+    monkeypatch.setattr(processes, "PAYS", dict.fromkeys(processes.PAYS, 0.0))
     monkeypatch.setattr(lint_jobs, "TRIED", 0.0)
 
 
@@ -54,11 +54,11 @@ import sys
 from mudline.__main__ import main
 
 sys.argv[0] = "mudline"
-from mudline.cli import lint_jobs
+from mudline.cli import lint_jobs, processes
 
-lint_jobs.PAYS, lint_jobs.TRIED = dict.fromkeys(lint_jobs.PAYS, 0.0), 0.0
-start_method, used = lint_jobs._start_method, []
-lint_jobs._start_method = lambda: used.append(start_method()) or used[-1]
+processes.PAYS, lint_jobs.TRIED = dict.fromkeys(processes.PAYS, 0.0), 0.0
+start_method, used = processes.start_method, []
+processes.start_method = lambda: used.append(start_method()) or used[-1]
 code = main(sys.argv[1:])
 print(*set(used), code, file=sys.stderr)
 """
@@ -81,13 +81,13 @@ def test_systems_start_processes_in_their_own_way(monkeypatch: pytest.MonkeyPatc
 
     monkeypatch.setattr("sys.platform", platform)
     monkeypatch.setattr(os, "listdir", listdir)
-    assert lint_jobs._start_method() == method
+    assert processes.start_method() == method
 
 
 def test_a_process_with_threads_is_not_copied(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("sys.platform", "linux")
     monkeypatch.setattr(os, "listdir", lambda _: ["1", "2"])
-    assert lint_jobs._start_method() == "forkserver"
+    assert processes.start_method() == "forkserver"
 
 
 @pytest.mark.usefixtures("eager")
@@ -100,7 +100,7 @@ def test_known_decks_do_not_count_as_work_that_was_done(
         path = folder / decks / f"{name}.keyxm"
         path.write_text(path.read_text(encoding="utf-8") + "C\n", encoding="utf-8")
     estimates: list[float] = []
-    monkeypatch.setattr(lint_jobs, "_pays", lambda estimate, _: estimates.append(estimate))
+    monkeypatch.setattr(lint_jobs, "pays", lambda estimate, _: estimates.append(estimate))
     assert run("lint", decks).code == first.code
     assert len(estimates) == 3
     assert estimates[0] > 0.0
@@ -140,7 +140,7 @@ def test_fixing_stays_in_one_process(decks: str, monkeypatch: pytest.MonkeyPatch
 
 def test_small_runs_stay_in_one_process(decks: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(lint_jobs, "pool", None)
-    monkeypatch.setattr(lint_jobs, "PAYS", dict.fromkeys(lint_jobs.PAYS, float("inf")))
+    monkeypatch.setattr(processes, "PAYS", dict.fromkeys(processes.PAYS, float("inf")))
     assert run("lint", decks, "--jobs", "2", "--no-cache").code == 1
 
 
@@ -153,8 +153,8 @@ def test_workers_do_what_is_done_here(place: Place) -> None:
 
 
 def test_number_of_processes() -> None:
-    assert lint_jobs.Effort(3).processes == 3
-    assert 1 <= lint_jobs.Effort().processes <= (os.cpu_count() or 1)
+    assert processes.Effort(3).processes == 3
+    assert 1 <= processes.Effort().processes <= (os.cpu_count() or 1)
 
 
 def test_number_that_is_none(place: Place) -> None:

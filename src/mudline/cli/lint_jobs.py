@@ -5,21 +5,17 @@ The processes end with this one and print nothing.
 
 from __future__ import annotations
 
-import os
-import sys
 import time
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
-from contextlib import closing, contextmanager
-from dataclasses import dataclass, replace
+from contextlib import closing
+from dataclasses import replace
 from functools import cache
 from typing import TYPE_CHECKING, NamedTuple
 
-import click
-
 from mudline.cli.inputs import Input, Inputs
 from mudline.cli.lint_known import KnownDecks
-from mudline.cli.signals import ignore_interrupt, interrupt_deferred
+from mudline.cli.processes import Effort, pays, pool, submitted
 from mudline.linting.engine import Fixing, LintSettings
 from mudline.linting.fixing import FileReport, lint_one
 from mudline.linting.registry import plugin_files, rules
@@ -28,42 +24,16 @@ from mudline.linting.rule import Rule
 if TYPE_CHECKING:  # imported by runs that are large enough
     from concurrent.futures import Executor, Future
 
-PAYS = {"fork": 0.1, "forkserver": 1.5, "spawn": 1.5}
-"""Seconds of remaining work from which on other processes are started, by the way in which they are.
-
-A copy of this process is there at once; the others take a part of a second to import everything.
-"""
-
 TRIED = 0.05
 """Seconds of linting by which the remaining work is estimated."""
 
 _CHUNK_FILES = 20
 _CHUNK_BYTES = 500_000
 _CHUNK_KNOWN = 256
-_MOST_ON_WINDOWS = 61
-"""Processes that one process can wait for there."""
 
 SettingsOf = Callable[[Input], LintSettings]
 """The settings of a file."""
 Linted = tuple[Input, bytes, FileReport]
-
-
-@dataclass(frozen=True, slots=True)
-class Effort:
-    """The number of processes at most (0: as many as there are processors)."""
-
-    jobs: int = 0
-
-    @property
-    def processes(self) -> int:
-        """The number of processes that may be used."""
-        if self.jobs:
-            wanted = self.jobs
-        elif hasattr(os, "sched_getaffinity"):
-            wanted = len(os.sched_getaffinity(0))
-        else:
-            wanted = os.cpu_count() or 1
-        return min(wanted, _MOST_ON_WINDOWS) if sys.platform == "win32" else wanted
 
 
 class Task(NamedTuple):
@@ -138,16 +108,12 @@ def _reports(tasks: Iterable[Task], count: int, effort: Effort) -> Generator[tup
         done += one.known is None
         yield one, report
         alone = one.settings.fixing is not Fixing.NONE or not done or spent < TRIED
-        if not alone and _pays(spent / done * (count - done), effort):
+        if not alone and pays(spent / done * (count - done), effort):
             break
     else:
         return
-    with pool(effort.processes) as executor:
+    with pool(effort.processes, "linted decks", __name__) as executor:
         yield from _ahead(rest, executor, 2 * effort.processes)
-
-
-def _pays(estimate: float, effort: Effort) -> bool:
-    return effort.processes > 1 and estimate >= PAYS[_start_method()]
 
 
 def _ahead(tasks: Iterable[Task], executor: Executor, most: int) -> Iterator[tuple[Task, FileReport]]:
@@ -187,42 +153,6 @@ def _chunks(tasks: Iterable[Task]) -> Iterator[list[Task]]:
 # -------------------------------------------------------------------------------------------------- other processes
 
 
-def _start_method() -> str:
-    """How processes are started: as copies of this one on Linux, unless it has threads, which copies would lack."""
-    if sys.platform in ("win32", "darwin"):
-        return "spawn"
-    try:
-        threads = len(os.listdir("/proc/self/task"))  # noqa: PTH208 - those of libraries, too
-    except OSError:
-        return "forkserver"
-    return "fork" if threads == 1 else "forkserver"
-
-
-@contextmanager
-def pool(processes: int) -> Iterator[Executor]:
-    """Processes that lint; they end at once when not all is done. Ends the command where one has died."""
-    import multiprocessing  # noqa: PLC0415 - most runs are too small to start processes
-    from concurrent.futures.process import BrokenProcessPool, ProcessPoolExecutor  # noqa: PLC0415 - as above
-
-    before = set(multiprocessing.active_children())
-    method = _start_method()
-    context = multiprocessing.get_context(method)
-    if method == "forkserver":
-        context.set_forkserver_preload([__name__])
-    executor = ProcessPoolExecutor(processes, context, ignore_interrupt)
-    try:
-        yield executor
-    except BaseException as error:
-        for child in set(multiprocessing.active_children()) - before:
-            child.kill()
-        if not isinstance(error, BrokenProcessPool):
-            raise
-        message = "a process that linted decks has ended early, perhaps out of memory: lint fewer, or use --jobs 1"
-        raise click.ClickException(message) from error
-    finally:
-        executor.shutdown(cancel_futures=True)
-
-
 def _order(task: Task, sendable: dict[int, Sendable]) -> Order:
     """`sendable` has settings that many files share: a process is sent the same object once in a chunk."""
     if id(task.settings) not in sendable:
@@ -235,8 +165,7 @@ def _order(task: Task, sendable: dict[int, Sendable]) -> Order:
 def _sent(executor: Executor, orders: list[Order]) -> Future[list[FileReport]] | None:
     if not orders:
         return None
-    with interrupt_deferred():
-        return executor.submit(lint_orders, orders)
+    return submitted(executor, lint_orders, orders)
 
 
 def lint_orders(orders: Sequence[Order]) -> list[FileReport]:

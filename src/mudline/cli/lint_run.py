@@ -11,9 +11,10 @@ import click
 
 from mudline.cli.configured import Configured, Given, place
 from mudline.cli.inputs import Input, Inputs
-from mudline.cli.lint_jobs import Effort, lint_all
+from mudline.cli.lint_jobs import lint_all
 from mudline.cli.lint_known import KnownDecks
 from mudline.cli.lint_report import Report
+from mudline.cli.processes import Effort
 from mudline.cli.streams import counted, emit_deck, notify, reason, write_text
 from mudline.cli.view import View
 from mudline.deck.forms import form_of

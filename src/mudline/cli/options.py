@@ -48,6 +48,8 @@ _files = click.Path().shell_complete
 
 deck = click.argument("deck", metavar="DECK", shell_complete=_files)
 
+decks = click.argument("decks", nargs=-1, required=True, metavar="DECKS...", shell_complete=_files)
+
 paths = click.argument("paths", nargs=-1, required=True, metavar="PATHS...", shell_complete=_files)
 
 

@@ -94,7 +94,8 @@ def state(path: str) -> str:
     return digest.hexdigest()
 
 
-def _changed_since(moment: float, path: str) -> bool:
+def changed_since(moment: float, path: str) -> bool:
+    """Whether a file may have changed since a moment."""
     try:
         found = os.stat(path)  # noqa: PTH116 - as above
     except (OSError, ValueError):  # still not there
@@ -271,7 +272,7 @@ class Cache:
 
         Nothing is kept where one of them has changed since the run began: what was read of it is not certain.
         """
-        if any(_changed_since(self._began, path) for path in looked_at):
+        if any(changed_since(self._began, path) for path in looked_at):
             return
         held = packed(found, {path: self._state(path) for path in looked_at})
         if len(held) <= LONGEST:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
@@ -19,6 +19,15 @@ from mudline.keywords.text import shown
 from mudline.scene.numbering import LARGEST, Floats, Ids
 from mudline.syntax.rows import read_number, read_rows_fast
 
+_SEPARATORS = (",", ";", "\t")
+"""Between the fields of a file that another program wrote."""
+
+_UNUSED = "\0"
+"""Begins the name of a column that nothing asks for."""
+
+_MOST_HEADINGS = 12
+"""Headings that a message lists."""
+
 
 class CsvTable(NamedTuple):
     """The columns of a file by name, each a list of texts, and the line of each row; `text` is the whole file."""
@@ -27,6 +36,7 @@ class CsvTable(NamedTuple):
     columns: dict[str, list[str]]
     lines: list[int]
     text: str
+    separator: str = ","
 
     def numbers(self, name: str, *, optional: bool = False) -> Floats:
         """A column as finite numbers; an empty field of an optional column is NaN. Raises DeckError with the line."""
@@ -53,7 +63,7 @@ class CsvTable(NamedTuple):
     def _column(self, line: int, field: int) -> int:
         """Where a field of a line begins; 1 where quotation marks hide it."""
         written = next(islice(io.StringIO(self.text, newline=""), line - 1, None))  # lines as the reader counts them
-        parts = written.rstrip("\r\n").split(",")
+        parts = written.rstrip("\r\n").split(self.separator)
         if len(parts) != len(self.columns):
             return 1
         blanks = len(parts[field]) - len(parts[field].lstrip())
@@ -104,20 +114,30 @@ def read_csv(path: Path, needed: Sequence[str], known: Sequence[str], *, others:
 
     With `others` the file may have columns of other names, which are read past.
     """
-    return _texts(path.as_posix(), _read_text(path), needed, known if not others else None)
-
-
-def read_numeric_csv(path: Path, needed: Sequence[str], known: Sequence[str]) -> NumericTable:
-    """A file of numbers, in a fast way where all of them are spelled plainly. Raises OSError, DeckError."""
     file, text = path.as_posix(), _read_text(path)
-    names = _header(file, text, needed, known)
+    return _texts(file, text, _header(file, text, needed, known if not others else None))
+
+
+def read_numeric_csv(
+    path: Path, needed: Sequence[str], known: Sequence[str], headings: Mapping[str, str] | None = None
+) -> NumericTable:
+    """A file of numbers, in a fast way where all of them are spelled plainly. Raises OSError, DeckError.
+
+    `headings` gives columns the headings that another program wrote, in upper or lower case. Such a file may be
+    separated by semicolons or tabs, and have more columns, which are read past.
+    """
+    file, text = path.as_posix(), _read_text(path)
+    separator, names = (
+        _exported(file, text, needed, known, headings) if headings else (",", _header(file, text, needed, known))
+    )
+    wanted = [name for name in names if not name.startswith(_UNUSED)]
     start = text.find("\n") + 1
-    rows = read_rows_fast(text, Span(start, len(text)), len(names)) if start else None
+    rows = read_rows_fast(text, Span(start, len(text)), len(names)) if start and separator == "," else None
     if rows is not None and rows.values.shape[1] == len(names):
-        columns = dict(zip(names, rows.values.T.copy(), strict=True))
+        columns = {name: rows.values[:, names.index(name)].copy() for name in wanted}
         return NumericTable(file, columns, range(2, len(rows.values) + 2))
-    table = _texts(file, text, needed, known)
-    return NumericTable(file, {name: table.numbers(name) for name in names}, table.lines)
+    table = _texts(file, text, names, separator)
+    return NumericTable(file, {name: table.numbers(name) for name in wanted}, table.lines)
 
 
 def _read_text(path: Path) -> str:
@@ -145,11 +165,50 @@ def _header(file: str, text: str, needed: Sequence[str], known: Sequence[str] | 
     return names
 
 
-def _texts(file: str, text: str, needed: Sequence[str], known: Sequence[str] | None) -> CsvTable:
-    names = _header(file, text, needed, known)
+def _exported(
+    file: str, text: str, needed: Sequence[str], known: Sequence[str], headings: Mapping[str, str]
+) -> tuple[str, list[str]]:
+    """The separator of a file with other headings, and a name for each of its columns. Raises DeckError."""
+    wanted = {name: headings.get(name, name) for name in known if name in headings or name in needed}
+    headers = {
+        separator: [field.strip() for field in next(_rows(file, text, separator), ([], 1))[0]]
+        for separator in _SEPARATORS
+    }
+    best = max(_SEPARATORS, key=lambda separator: len(headers[separator]))
+    found = headers[best]
+    given = [field.casefold() for field in found]
+    names = [f"{_UNUSED}{column}" for column in range(len(found))]
+    optional = {name: name for name in known if name not in wanted and name in given}
+    for name, heading in (wanted | optional).items():
+        column, count = _column_of(heading, given)
+        if not count:
+            raise data_error(file, _lacks(name, heading, found))
+        if count > 1:
+            raise data_error(file, f"the header has {shown(heading)} twice")
+        if not names[column].startswith(_UNUSED):
+            raise data_error(file, f"the column {shown(heading)} is taken for {names[column]} and for {name}")
+        names[column] = name
+    return best, names
+
+
+def _column_of(heading: str, given: Sequence[str]) -> tuple[int, int]:
+    """Where a heading is, and how often."""
+    sought = heading.strip().casefold()
+    return (given.index(sought) if sought in given else -1, given.count(sought))
+
+
+def _lacks(name: str, heading: str, found: Sequence[str]) -> str:
+    what = "" if heading == name else f" for {name}"
+    listed = ", ".join(map(shown, found[:_MOST_HEADINGS])) or "nothing"
+    more = f" and {len(found) - _MOST_HEADINGS} more" if len(found) > _MOST_HEADINGS else ""
+    return f"the header lacks {shown(heading)}{what}: it has {listed or 'nothing'}{more}"
+
+
+def _texts(file: str, text: str, names: Sequence[str], separator: str = ",") -> CsvTable:
+    """The rows below the header, whose columns have these names."""
     columns: dict[str, list[str]] = {name: [] for name in names}
     lines: list[int] = []
-    rows = _rows(file, text)
+    rows = _rows(file, text, separator)
     next(rows)
     for row, line in rows:
         if not any(field.strip() for field in row):
@@ -159,12 +218,12 @@ def _texts(file: str, text: str, needed: Sequence[str], known: Sequence[str] | N
         lines.append(line)
         for name, field in zip(names, row, strict=True):
             columns[name].append(field.strip())
-    return CsvTable(file, columns, lines, text)
+    return CsvTable(file, columns, lines, text, separator)
 
 
-def _rows(file: str, text: str) -> Iterator[tuple[list[str], int]]:
+def _rows(file: str, text: str, separator: str = ",") -> Iterator[tuple[list[str], int]]:
     """The rows of a text, each with the number of its last line."""
-    reader = csv.reader(io.StringIO(text, newline=""))
+    reader = csv.reader(io.StringIO(text, newline=""), delimiter=separator)
     try:
         for row in reader:
             yield row, reader.line_num

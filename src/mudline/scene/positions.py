@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import weakref
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -20,6 +21,8 @@ from mudline.short_repr import listed_numbers, short_repr
 
 _AXES = ("x", "y", "z")
 _VELOCITIES = ("vx", "vy", "vz")
+COLUMNS = ("time", "node", *_AXES, *_VELOCITIES)
+"""Columns of positions in a CSV."""
 
 Reals = NDArray[np.floating]
 
@@ -88,8 +91,10 @@ class Positions:
         return int((~self.present).sum())
 
 
-def read_positions(path: Path, nodes: Numbered) -> Positions:
+def read_positions(path: Path, nodes: Numbered, headings: Mapping[str, str] | None = None) -> Positions:
     """Positions from CSV (`[time,]node,x,y,z[,vx,vy,vz]`), NPZ or NPY by the file's suffix.
+
+    `headings` are those of a CSV whose columns have other names, by the name in `COLUMNS`; the values stay as they are.
 
     Raises OSError, or DeckError for a file with faults: nodes that the deck lacks, numbers that are none, steps with
     different nodes.
@@ -99,7 +104,7 @@ def read_positions(path: Path, nodes: Numbered) -> Positions:
         return _from_npy(path, nodes)
     if suffix == ".npz":
         return _from_arrays(file, _load_npz(path), nodes)
-    return _from_csv(path, nodes)
+    return _from_csv(path, nodes, headings)
 
 
 def _spread(values: NDArray[np.floating], where: Indices, count: int) -> NDArray[np.floating]:
@@ -109,8 +114,8 @@ def _spread(values: NDArray[np.floating], where: Indices, count: int) -> NDArray
     return spread
 
 
-def _from_csv(path: Path, nodes: Numbered) -> Positions:
-    table = read_numeric_csv(path, ("node", *_AXES), ("time", "node", *_AXES, *_VELOCITIES))
+def _from_csv(path: Path, nodes: Numbered, headings: Mapping[str, str] | None) -> Positions:
+    table = read_numeric_csv(path, ("node", *_AXES), COLUMNS, headings)
     if not table.lines:
         raise data_error(table.file, "no row below the header", 2)
     if len({name in table.columns for name in _VELOCITIES}) > 1:

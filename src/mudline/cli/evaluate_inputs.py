@@ -1,0 +1,109 @@
+"""What is evaluated: the scene of a deck, and positions and elements from files as the options of `evaluate` say."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from math import isfinite
+from pathlib import Path
+from typing import TypeVar
+
+import click
+
+from mudline.cli.streams import reason
+from mudline.deck.model import Deck
+from mudline.diagnostics import DeckError
+from mudline.results.evaluation import Evaluation, Prepared, Tension, evaluate_scene, prepare
+from mudline.scene.csv_file import read_external
+from mudline.scene.model import Scene, resolve
+from mudline.scene.positions import COLUMNS, Positions, read_positions
+
+_MAPPING = re.compile(r"""\s*(\w+)\s*=\s*("[^"]*"|.*?)\s*(?:,(?=\s*\w+\s*=)|,?\s*$)""", re.DOTALL)
+"""NAME=HEADING up to a comma with another name behind it: a comma may be in a heading."""
+
+_Read = TypeVar("_Read")
+
+
+@dataclass(frozen=True)
+class EvaluateInputs:
+    """The options about what is evaluated, which every deck of a run shares."""
+
+    tension: Tension = "keep"
+    elements: str | None = None
+    time_step: float | None = None
+    headings: Mapping[str, str] = field(default_factory=dict)
+
+    def scene(self, deck: Deck) -> Scene:
+        """The scene of a deck; raises DeckError with the causes of what keeps it from being evaluated."""
+        external = read_file(self.elements, read_external) if self.elements else None
+        try:
+            return resolve(deck, external).require_evaluable(self.tension)
+        except DeckError as error:
+            from mudline.linting.engine import named_causes  # noqa: PLC0415 - only where the deck is refused
+            from mudline.linting.registry import rules  # noqa: PLC0415 - as above
+
+            raise DeckError(named_causes(deck, error.diagnostics, rules())) from error
+
+    def evaluation(self, deck: Deck, positions: str | None) -> Evaluation:
+        """A deck ready to be evaluated, at positions of a file or its own. Raises DeckError, click.ClickException."""
+        scene = self.scene(deck)
+        return evaluate_scene(scene, self._placed(positions, scene), self.tension)
+
+    def prepared(self, deck: Deck, positions: str | None) -> Prepared:
+        """The evaluator of a deck, for its plan. Raises DeckError, click.ClickException."""
+        scene = self.scene(deck)
+        return prepare(scene, self._placed(positions, scene), self.tension)
+
+    def check(self, positions: str | None) -> None:
+        """Refuse options that do not fit each other; raises click.UsageError."""
+        if self.headings and positions is None:
+            raise click.UsageError("--columns is for positions from a CSV: give --positions too")
+        if self.time_step is not None and not (isfinite(self.time_step) and self.time_step > 0.0):
+            raise click.UsageError(f"--time-step is {self.time_step!r}: it must be greater than 0")
+
+    def _placed(self, path: str | None, scene: Scene) -> Positions | None:
+        """Positions of a scene's nodes; with `time_step` those without times get them."""
+        if path is None:
+            return None
+        if self.headings and Path(path).suffix.lower() in {".npz", ".npy"}:
+            raise click.UsageError(f"--columns is for CSV: the arrays of {path} have their names")
+        positions = read_file(path, lambda file: read_positions(file, scene.nodes, self.headings))
+        if self.time_step is None:
+            return positions
+        if positions.time is None or positions.timed:
+            what = "has times of its own" if positions.timed and positions.time is not None else "is one state"
+            raise click.UsageError(f"--time-step is for positions without times: {path} {what}")
+        return replace(positions, time=positions.time * self.time_step, timed=True)
+
+
+def read_file(path: str, read: Callable[[Path], _Read]) -> _Read:
+    """What is read from a file; ends the command when it cannot be read."""
+    try:
+        return read(Path(path))
+    except OSError as error:
+        raise click.ClickException(f"{path}: {reason(error)}") from error
+
+
+def read_headings(given: Sequence[str]) -> dict[str, str]:
+    """The headings of columns of positions, from texts as `time="Time [s]",node=Node`; raises click.UsageError."""
+    headings: dict[str, str] = {}
+    for text in given:
+        place = 0
+        while place < len(text) or not text:
+            found = _MAPPING.match(text, place)
+            if found is None or not (heading := _unquoted(found[2])):
+                raise click.UsageError(f'--columns {text!r}: expected NAME=HEADING, as in node=Node,x="X [m]"')
+            name, place = found[1].lower(), found.end()
+            if name not in COLUMNS:
+                names = f"{', '.join(COLUMNS[:-1])} or {COLUMNS[-1]}"
+                raise click.UsageError(f"--columns: {found[1]!r} is not a column of positions: use {names}")
+            if name in headings:
+                raise click.UsageError(f"--columns gives {name} twice")
+            headings[name] = heading
+    return headings
+
+
+def _unquoted(text: str) -> str:
+    quoted = len(text) > 1 and text.startswith('"') and text.endswith('"')
+    return text[1:-1] if quoted else text

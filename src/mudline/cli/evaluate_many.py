@@ -1,0 +1,238 @@
+"""Many decks: evaluated here or in other processes, or taken over from an earlier run; a row for each, worst first."""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+from collections.abc import Generator, Iterator, Sequence
+from contextlib import closing, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+import click
+
+from mudline.cli import DONE, FOUND
+from mudline.cli.case_files import SUMMARY, Case, MissingPositionsError, PositionFiles, named_cases
+from mudline.cli.cases_text import print_cases
+from mudline.cli.evaluate_case import Done, Order, evaluate_case, failed
+from mudline.cli.evaluate_inputs import EvaluateInputs
+from mudline.cli.inputs import Inputs
+from mudline.cli.known_results import Kept, KnownResults
+from mudline.cli.processes import Effort, pays, pool, submitted
+from mudline.cli.result_files import is_installed
+from mudline.cli.streams import MOST_REPORTED, counted, emit, emit_json, notify, reason, write_text, writing
+from mudline.cli.view import Progress, View, wants_bar
+from mudline.files import remove_left
+from mudline.quantities import CASES, csv_lines
+from mudline.results.cases import CaseSummary, worst_first, write_parquet
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor, Future
+
+TRIED = 0.05
+"""Seconds of evaluating by which the remaining work is estimated."""
+
+_AHEAD = 4
+"""Decks for each process that are sent ahead."""
+
+
+@dataclass(frozen=True, slots=True)
+class ManyOptions:
+    """The options of a run over many decks; `form` is that of the files of results in the folder `output`."""
+
+    inputs: EvaluateInputs
+    units: str | None
+    positions: str | None
+    output: str | None
+    form: str
+    output_format: str
+    fail_on: str
+    spreadsheet: bool
+    jobs: int
+    anew: bool
+
+
+class Task(NamedTuple):
+    """A deck, what is known of it, if anything, and else the order to evaluate it; `key` is its key in the folder."""
+
+    case: Case
+    key: str = ""
+    order: Order | None = None
+    known: Kept | None = None
+
+
+def evaluate_many(decks: Inputs, options: ManyOptions, view: View) -> int:
+    """Evaluate decks, print a row for each and write their results; returns the exit code.
+
+    Raises click.ClickException: options that fit no deck, a folder that cannot be written to.
+    """
+    placed = PositionFiles(options.positions)
+    placed.check()
+    if not decks.files:
+        return decks.code
+    folder = None if options.output is None else Path(options.output)
+    common, cases = named_cases(decks.files, options.form if folder else "")
+    known = None if folder is None else KnownResults(folder, _spelled(options))
+    rows: list[Kept] = []
+    taken = 0
+    with _folder(folder, cases, known), Progress(len(cases), view, shown=wants_bar(view)) as progress:
+        tasks = _tasks(decks, cases, placed, options, known)
+        with closing(_evaluated(tasks, len(cases), Effort(options.jobs))) as results:
+            for task, done in results:
+                rows.append(done.kept)
+                taken += task.known is not None and not done.kept.row.failed
+                progress.advance()
+                if known is not None and task.known is None:
+                    _remember(known, task, done)
+        ranked = worst_first(one.row for one in rows)
+        written = None if folder is None else _write_summary(ranked, folder, spreadsheet=options.spreadsheet)
+    if not view.quiet:
+        _notify_warnings(rows)
+        _notify_written(rows, taken, folder, written)
+    if options.output_format == "json":
+        emit_json([row.row() for row in ranked])
+    elif options.output_format == "csv":
+        emit(_csv(ranked, spreadsheet=options.spreadsheet))
+    else:
+        print_cases(ranked, common, {case.file.name: case.inside for case in cases}, view)
+    failing = any(row.failed or (row.warnings and options.fail_on == "warning") for row in ranked)
+    return max(decks.code, FOUND if failing else DONE)
+
+
+def _spelled(options: ManyOptions) -> str:
+    """The options on which results depend besides the files."""
+    return repr((options.inputs, options.units, options.form, options.spreadsheet))
+
+
+# ------------------------------------------------------------------------------------------------- evaluating decks
+
+
+def _tasks(
+    decks: Inputs, cases: Sequence[Case], placed: PositionFiles, options: ManyOptions, known: KnownResults | None
+) -> Iterator[Task]:
+    """What is to do for each deck; a deck that cannot be read has failed."""
+    inputs, folder = options.inputs, options.output
+    for case in cases:
+        try:
+            data, positions = case.file.read(), placed.of(case)
+        except OSError as error:
+            decks.fail(f"{case.file.name}: {reason(error)}")
+            yield Task(case, known=failed(case.file.name, reason(error)))
+            continue
+        except MissingPositionsError as error:
+            yield Task(case, known=failed(case.file.name, str(error)))
+            continue
+        others = [path for path in (positions, inputs.elements) if path]
+        key = "" if known is None else known.key(case.file.name, data, others)
+        found = None if known is None or options.anew else known.find(key, case.result)
+        order = Order(case.file, data, positions, case.result, folder, inputs, options.units, options.spreadsheet)
+        yield Task(case, key, order, found)
+
+
+def _evaluated(tasks: Iterator[Task], count: int, effort: Effort) -> Generator[tuple[Task, Done], None, None]:
+    """Each deck in its order with what it gave. Processes are used once that pays."""
+    spent, done = 0.0, 0
+    for number, task in enumerate(tasks):
+        start = time.perf_counter()
+        made = _done(task)
+        if task.order is not None and task.known is None:
+            spent, done = spent + time.perf_counter() - start, done + 1
+        yield task, made
+        if done and spent >= TRIED and pays(spent / done * (count - number - 1), effort):
+            break
+    else:
+        return
+    with pool(effort.processes, "evaluated decks", __name__) as executor:
+        yield from _ahead(tasks, executor, _AHEAD * effort.processes)
+
+
+def _ahead(tasks: Iterator[Task], executor: Executor, most: int) -> Iterator[tuple[Task, Done]]:
+    """The decks in order, while the processes work on `most` of them."""
+    waiting: deque[tuple[Task, Future[Done] | None]] = deque()
+    for task in tasks:
+        order = None if task.known is not None else task.order
+        waiting.append((task, None if order is None else submitted(executor, evaluate_case, order)))
+        if len(waiting) > most:
+            first, made = waiting.popleft()
+            yield first, made.result() if made else _done(first)
+    for first, made in waiting:
+        yield first, made.result() if made else _done(first)
+
+
+def _done(task: Task) -> Done:
+    if task.known is not None or task.order is None:
+        return Done(task.known or failed(task.case.file.name, "not evaluated"))
+    return evaluate_case(task.order)
+
+
+# ----------------------------------------------------------------------------------------------------- the folder
+
+
+@contextmanager
+def _folder(folder: Path | None, cases: Sequence[Case], known: KnownResults | None) -> Iterator[None]:
+    """The folder of results while decks are evaluated: what is done is listed, also when the run is interrupted."""
+    if folder is None or known is None:
+        yield
+        return
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise click.ClickException(f"{folder.as_posix()}: cannot be created: {reason(error)}") from error
+    try:
+        yield
+    except BaseException:
+        for place in {(folder / case.result).parent for case in cases}:
+            remove_left(str(place))  # of processes that were ended
+        raise
+    finally:
+        try:
+            known.save()
+        except OSError as error:
+            notify(f"{folder.as_posix()}: the list of results cannot be written: {reason(error)}")
+
+
+def _remember(known: KnownResults, task: Task, done: Done) -> None:
+    if done.kept.row.failed:
+        known.drop(task.case.result)
+    else:
+        known.put(task.key, task.case.result, done.kept, done.read, done.written)
+
+
+def _write_summary(rows: Sequence[CaseSummary], folder: Path, *, spreadsheet: bool) -> Path:
+    """Write the rows of all decks: in Parquet where that is installed, else as CSV."""
+    if is_installed("parquet"):
+        path = folder / f"{SUMMARY}.parquet"
+        with writing(path) as stream:
+            write_parquet(rows, stream)
+    else:
+        path = folder / f"{SUMMARY}.csv"
+        write_text(path, _csv(rows, spreadsheet=spreadsheet))
+    return path
+
+
+def _csv(rows: Sequence[CaseSummary], *, spreadsheet: bool) -> Iterator[str]:
+    return csv_lines([CASES, *(row.row().values() for row in rows)], as_text=spreadsheet)
+
+
+# ---------------------------------------------------------------------------------------------------------- notes
+
+
+def _notify_warnings(rows: Sequence[Kept]) -> None:
+    """Report each warning once, with the first deck that has it and how many others do."""
+    decks: dict[str, list[str]] = {}
+    for one in rows:
+        for code, text in dict(one.warnings).items():
+            decks.setdefault(code, []).append(text)
+    for texts in list(decks.values())[:MOST_REPORTED]:
+        more = f" ({len(texts) - 1} more decks)" if len(texts) > 1 else ""
+        notify(f"warning: {texts[0]}{more}")
+
+
+def _notify_written(rows: Sequence[Kept], taken: int, folder: Path | None, summary: Path | None) -> None:
+    """Report how many results were taken over, and where they are."""
+    if folder is None or summary is None:
+        return
+    done = sum(not one.row.failed for one in rows)
+    notify(f"results of {counted(done, 'deck')} -> {folder.as_posix()}, {taken} taken over from an earlier run")
+    notify(f"summary -> {summary.as_posix()}")

@@ -1,0 +1,207 @@
+"""One deck: its evaluation on the terminal or in a file, the picture, and notes about what is doubtful or left out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
+
+import numpy as np
+
+from mudline.cli import DONE, FOUND
+from mudline.cli.evaluate_inputs import EvaluateInputs, read_file
+from mudline.cli.evaluate_text import print_comparison, print_evaluation, print_plan
+from mudline.cli.result_files import (
+    PICTURES,
+    PLOTS,
+    behind,
+    beside,
+    form_of_file,
+    has_library,
+    line_watch,
+    result_files,
+    suffix,
+)
+from mudline.cli.streams import MOST_REPORTED, counted, emit, emit_json, notify, writing
+from mudline.cli.view import Progress, View, wants_bar
+from mudline.contact import LawKind
+from mudline.contact.result import Part
+from mudline.deck.model import Deck
+from mudline.linting.output import visible
+from mudline.quantities import csv_lines
+from mudline.results.against import Comparison, read_reference
+from mudline.results.evaluation import Evaluation, Prepared
+from mudline.results.forms import ResultConsumer, Sink, Together, form_names, plan_rows, text_form
+from mudline.results.totals import PlotData, StepSummary
+from mudline.results.warnings import ContactWarning, ContactWatch, caption
+from mudline.short_repr import listed_numbers
+
+MOST_ROWS = 40
+"""Lines of a table on the terminal, unless more is asked for."""
+
+
+@dataclass(frozen=True, slots=True)
+class Outputs:
+    """Where the results of one deck go, and what is shown of them."""
+
+    output: str | None
+    picture: str | None
+    against: str | None
+    table: str
+    output_format: str
+    spreadsheet: bool
+    fail_on: str
+
+    def have_libraries(self) -> bool:
+        """Whether the libraries for the files are installed; reports one that is not. Raises click.UsageError."""
+        forms = (form_of_file(self.output, form_names()), form_of_file(self.picture, PICTURES))
+        return all(has_library(form) for form in forms if form)
+
+
+def evaluate_one(deck: Deck, inputs: EvaluateInputs, positions: str | None, outputs: Outputs, view: View) -> int:
+    """Evaluate a deck, print or write the results; returns the exit code. Raises DeckError, click.ClickException."""
+    evaluation = inputs.evaluation(deck, positions)
+    against, output, output_format = outputs.against, outputs.output, outputs.output_format
+    reference = read_file(against, lambda file: read_reference(file, evaluation)) if against else None
+    comparison = None if reference is None else Comparison(evaluation, reference)
+    if not view.quiet:
+        _notify_before(evaluation, comparison)
+    drawing = PlotData(evaluation) if outputs.picture else None
+    shown = "" if output else output_format
+    most = None if view.verbose else MOST_ROWS
+    digest = StepSummary(evaluation, most, outputs.table == "nodes") if shown == "text" else None
+    lines = line_watch(evaluation, shown or form_of_file(output, form_names()), most)
+    slow, watch = _SlowSuction(), ContactWatch.of(evaluation)
+    given = (comparison, drawing, digest, lines, slow, watch)
+    consumers: list[ResultConsumer] = [one for one in given if one is not None]
+    with _sink(evaluation, comparison, outputs, view) as sink:
+        _run(evaluation, [*consumers, sink], view, bar=shown in {"", "text"})
+        warnings = watch.warnings()
+        sink.finish(behind(evaluation, warnings, comparison, lines))
+    if outputs.picture and drawing is not None:
+        _draw(drawing, Path(outputs.picture), caption(warnings), view)
+    if not view.quiet:
+        _notify_warnings(warnings)
+        _notify_after(evaluation, slow, watch.note(), Path(output) if output else None)
+    if digest is not None and lines is not None:
+        print_evaluation(digest, lines, outputs.table, view)
+    if comparison is not None and output_format == "text":
+        print_comparison(comparison, view)
+    return FOUND if warnings and outputs.fail_on == "warning" else DONE
+
+
+def show_plan(prepared: Prepared, form: str, view: View) -> None:
+    """Print what a deck needs, and what is left out."""
+    rows = plan_rows(prepared.model.plan)
+    if form == "json":
+        emit_json({"units": prepared.scene.units, "plan": rows})
+    elif form == "csv":
+        emit(csv_lines([("stage", "active", "why"), *(row.values() for row in rows)]))
+    else:
+        print_plan(prepared.model.plan, view)
+
+
+def _sink(
+    evaluation: Evaluation, comparison: Comparison | None, outputs: Outputs, view: View
+) -> AbstractContextManager[Sink]:
+    """Where the rows go: files, standard output, or nowhere."""
+    elements = evaluation.element_table(None if comparison is None else comparison.others)
+    form, as_text = outputs.output_format, outputs.spreadsheet
+    if outputs.output:
+        return result_files(evaluation, elements, Path(outputs.output), view, as_text=as_text)
+    if form in {"json", "csv"}:
+        tables = {"nodes": evaluation.node_table, "summary": evaluation.line_table}
+        rows = tables[outputs.table]() if form == "csv" and outputs.table in tables else elements
+        return nullcontext(text_form(form, as_text=as_text)(evaluation, rows, emit))
+    return nullcontext(Together())
+
+
+def _run(evaluation: Evaluation, consumers: Sequence[ResultConsumer], view: View, *, bar: bool) -> None:
+    """Evaluate a few steps at a time and pass them on, with a bar on a terminal."""
+    with Progress(evaluation.steps, view, shown=bar and wants_bar(view)) as progress:
+        for part in evaluation.parts():
+            for consumer in consumers:
+                consumer.take(part)
+            for _ in range(part.count):
+                progress.advance()
+
+
+def _draw(data: PlotData, path: Path, doubt: str, view: View) -> None:
+    """Draw the results that were collected, and what is doubtful in them."""
+    with writing(path) as stream:
+        import_module(PLOTS).draw_evaluation(data, suffix(path), stream, visible, doubt)
+    if not view.quiet:
+        notify(f"plot -> {path.as_posix()}")
+
+
+# ----------------------------------------------------------------------------------------------------------- notes
+
+
+def _notify_before(evaluation: Evaluation, comparison: Comparison | None) -> None:
+    """Report what is left out, and what is guessed."""
+    missing = len(evaluation.present) - len(evaluation.nodes)
+    if missing:
+        notify(f"no positions for {counted(missing, 'node')}: {counted(evaluation.skipped, 'element')} left out")
+    if evaluation.lengths_from_positions:
+        notify(f"the length of {counted(evaluation.lengths_from_positions, 'element')} comes from the first positions")
+    if rigid := int((evaluation.scene.law == LawKind.RIGID).sum()):
+        notify(f"{counted(rigid, 'element')} on a rigid seabed: a constraint, whose reaction is not evaluated")
+    for stage, why in evaluation.model.input.left_out.items():
+        notify(f"{stage}: {why}")
+    if comparison is not None:
+        _notify_unmatched(comparison)
+
+
+class _SlowSuction:
+    """Counts the steps at which suction is pulled at velocities below REGULARISATION."""
+
+    def __init__(self) -> None:
+        self.steps = 0
+        self.element: int | None = None
+
+    def take(self, part: Part) -> None:
+        """Look at some steps."""
+        slow = part.result.regularised
+        if slow is None or not slow.any():
+            return
+        self.steps += int(slow.any(axis=1).sum())
+        if self.element is None:
+            self.element = int(np.argwhere(slow)[0, 1])
+
+
+def _notify_warnings(warnings: Sequence[ContactWarning]) -> None:
+    """Report what is doubtful in the results."""
+    for one in warnings[:MOST_REPORTED]:
+        notify(f"warning: {one}")
+    if len(warnings) > MOST_REPORTED:
+        notify(f"{len(warnings) - MOST_REPORTED} more warnings: JSON has all")
+
+
+def _notify_after(evaluation: Evaluation, slow: _SlowSuction, note: str, written: Path | None) -> None:
+    """Report which positions these are, where suction is less than its power law gives, and the files written."""
+    if note:
+        notify(note)
+    if slow.element is not None:
+        number = int(evaluation.scene.element_ids[slow.element])
+        when = f"at {slow.steps} of {counted(evaluation.steps, 'step')}, element {number} first"
+        notify(f"suction is pulled slower than REGULARISATION {when}: the force there is less than alpha v^n")
+    if written is None:
+        return
+    for table, file in beside(written).items():
+        notify(f"{table} -> {file.as_posix()}")
+    notify(f"{evaluation.scene.deck.file} -> {written.as_posix()}")
+
+
+def _notify_unmatched(comparison: Comparison) -> None:
+    """Report what is in one of the results only."""
+    file = comparison.reference.file
+    for numbers, thing, where in (
+        (comparison.reference.unknown.tolist(), "element", f"of {file} not in the deck"),
+        (comparison.missing.tolist(), "evaluated element", f"not in {file}"),
+        (comparison.reference.lost_times.tolist(), "time", f"of {file} not evaluated"),
+        (comparison.reference.missing_times.tolist(), "evaluated time", f"not in {file}"),
+    ):
+        if numbers:
+            notify(f"{counted(len(numbers), thing)} {where}: {listed_numbers(numbers)}")
