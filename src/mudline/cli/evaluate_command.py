@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext
 from dataclasses import replace
 from functools import partial
-from importlib import import_module
 from math import isfinite
 from pathlib import Path
 from types import ModuleType
@@ -15,9 +14,10 @@ from typing import TypeVar, cast
 import click
 import numpy as np
 
-from mudline.cli import DONE, FOUND, options
+from mudline.cli import DONE, FOUND, options, pictures
 from mudline.cli.evaluate_text import print_comparison, print_evaluation, print_plan
 from mudline.cli.inputs import GivenDeck, takes_deck
+from mudline.cli.pictures import Pictures
 from mudline.cli.streams import MOST_REPORTED, counted, emit, emit_json, notify, notify_missing, reason, writing
 from mudline.cli.view import Progress, View, tracked, wants_bar
 from mudline.contact import LawKind
@@ -25,13 +25,14 @@ from mudline.contact.columns import ElementTable
 from mudline.contact.result import Part
 from mudline.deck.model import Deck
 from mudline.diagnostics import DeckError
-from mudline.linting.output import visible
 from mudline.quantities import csv_lines
 from mudline.results.against import Comparison, read_reference
 from mudline.results.evaluation import Evaluation, Prepared, Tension, evaluate_scene, prepare
 from mudline.results.forms import Output, ResultConsumer, Sink, Together, form_module, form_names, plan_rows, text_form
 from mudline.results.lines import LineWatch
-from mudline.results.totals import PlotData, StepSummary
+from mudline.results.panels import ANIMATIONS, PICTURES
+from mudline.results.plot_data import PlotData
+from mudline.results.totals import StepSummary
 from mudline.results.warnings import ContactWarning, ContactWatch, caption
 from mudline.scene.csv_file import ExternalElements, read_external
 from mudline.scene.model import Scene, resolve
@@ -41,10 +42,8 @@ from mudline.short_repr import listed_numbers
 MOST_ROWS = 40
 """Lines of a table on the terminal, unless more is asked for."""
 
-_PICTURES = ("png", "svg")
-_PLOTS = "mudline.results.plots"
-_EXTRAS = {"parquet": ("pyarrow", "parquet"), "png": ("matplotlib", "plot"), "svg": ("matplotlib", "plot")}
-"""By form: the library that draws or writes it, and the extra that brings it."""
+_EXTRAS = {"parquet": ("pyarrow", "parquet")}
+"""By form: the library that writes it, and the extra that brings it."""
 _Read = TypeVar("_Read")
 
 
@@ -66,7 +65,16 @@ _Read = TypeVar("_Read")
     metavar=f"OUT.{'|'.join(form_names())}",
     help="Write the results; CSV and Parquet write OUT-nodes and OUT-summary beside it.",
 )
-@click.option("--plot", "picture", metavar="FILE.png|svg", help="Draw the results (needs the extra mudline[plot]).")
+@click.option(
+    "--plot",
+    "picture",
+    metavar=f"FILE.{'|'.join(PICTURES)}",
+    help="Draw the results (needs the extra mudline[plot]).",
+)
+@pictures.options
+@click.option(
+    "--animate", metavar=f"FILE.{'|'.join(ANIMATIONS)}", help="Draw the steps of a series as moving pictures."
+)
 @click.option("--plan", "plan_only", is_flag=True, help="Print what the deck needs and what is left out, and why.")
 @click.option(
     "--table",
@@ -95,6 +103,9 @@ def command(
     against: str | None,
     output: str | None,
     picture: str | None,
+    panels: str | None,
+    plot_elements: str | None,
+    animate: str | None,
     plan_only: bool,
     table: str,
     spreadsheet: bool,
@@ -108,9 +119,9 @@ def command(
     """
     if spreadsheet and "csv" not in (output_format, _suffix(Path(output or ""))):
         raise click.UsageError(options.CSV_ONLY)
-    for needed in (_form(output, form_names()), _form(picture, _PICTURES)):
-        if needed and not _has_library(needed):
-            return FOUND
+    wanted = Pictures.asked_for(picture, animate, panels, plot_elements, option="--plot")
+    if not _has_library(_form(output)) or not wanted.has_library():
+        return FOUND
     loaded = deck.load()
     pull = cast("Tension", tension)
     scene = _evaluable(loaded, _read(elements, read_external) if elements else None, pull)
@@ -121,13 +132,13 @@ def command(
     evaluation = evaluate_scene(scene, placed, pull)
     reference = _read(against, lambda file: read_reference(file, evaluation)) if against else None
     comparison = None if reference is None else Comparison(evaluation, reference)
+    drawing = wanted.data(partial(PlotData.of_evaluation, evaluation))
     if not view.quiet:
         _notify_before(evaluation, comparison)
-    drawing = PlotData(evaluation) if picture else None
     shown = "" if output else output_format
     most = None if view.verbose else MOST_ROWS
     digest = StepSummary(evaluation, most, table == "nodes") if shown == "text" else None
-    lines = _line_watch(evaluation, shown or _form(output, form_names()), most)
+    lines = _line_watch(evaluation, shown or _form(output), most)
     slow, watch = _SlowSuction(), ContactWatch.of(evaluation)
     given = (comparison, drawing, digest, lines, slow, watch)
     consumers: list[ResultConsumer] = [one for one in given if one is not None]
@@ -135,8 +146,8 @@ def command(
         _run(evaluation, [*consumers, sink], view, bar=shown in {"", "text"})
         warnings = watch.warnings()
         sink.finish(_behind(evaluation, warnings, comparison, lines))
-    if picture and drawing is not None:
-        _draw(drawing, Path(picture), caption(warnings), view)
+    if drawing is not None:
+        wanted.draw(drawing, caption(warnings), view)
     if not view.quiet:
         _notify_warnings(warnings)
         _notify_after(evaluation, slow, watch.note(), Path(output) if output else None)
@@ -213,14 +224,14 @@ def _read(path: str, read: Callable[[Path], _Read]) -> _Read:
 # --------------------------------------------------------------------------------------------- where the results go
 
 
-def _form(output: str | None, known: Sequence[str]) -> str:
-    """The form of a file by its suffix, "" without a file; raises click.UsageError."""
+def _form(output: str | None) -> str:
+    """The form of a file of results by its suffix, "" without a file; raises click.UsageError."""
     if output is None:
         return ""
     form = _suffix(Path(output))
-    if form not in known:
-        what = "a plot is a" if known is _PICTURES else "results are written as"
-        raise click.UsageError(f"{output}: {what} {', '.join(f'.{name}' for name in known[:-1])} or .{known[-1]}")
+    if form not in (known := form_names()):
+        forms = ", ".join(f".{name}" for name in known[:-1])
+        raise click.UsageError(f"{output}: results are written as {forms} or .{known[-1]}")
     return form
 
 
@@ -233,7 +244,7 @@ def _has_library(form: str) -> bool:
     if form not in _EXTRAS:
         return True
     try:
-        import_module(_PLOTS) if form in _PICTURES else form_module(form)
+        form_module(form)
     except ImportError:
         notify_missing(f".{form}", *_EXTRAS[form])
         return False
@@ -283,14 +294,6 @@ def _run(evaluation: Evaluation, consumers: Sequence[ResultConsumer], view: View
                 consumer.take(part)
             for _ in range(part.count):
                 progress.advance()
-
-
-def _draw(data: PlotData, path: Path, doubt: str, view: View) -> None:
-    """Draw the results that were collected, and what is doubtful in them."""
-    with writing(path) as stream:
-        import_module(_PLOTS).draw_evaluation(data, _suffix(path), stream, visible, doubt)
-    if not view.quiet:
-        notify(f"plot -> {path.as_posix()}")
 
 
 # ----------------------------------------------------------------------------------------------------------- notes
