@@ -19,7 +19,20 @@ settings.load_profile("mudline-ci" if os.environ.get("CI") else "mudline")
 
 
 Report = pytest.CollectReport
-OPTIONAL = ("jsonschema", "matplotlib", "mpmath", "numba", "pyarrow", "scipy")
+OPTIONAL = (
+    "duckdb",
+    "jsonschema",
+    "matplotlib",
+    "mpmath",
+    "numba",
+    "openpyxl",
+    "pandas",
+    "polars",
+    "pyarrow",
+    "scipy",
+    "xarray",
+    "xlsxwriter",
+)
 """Libraries without which the rest can be tested: what needs one that is not installed is skipped, and names it."""
 
 

@@ -8,12 +8,12 @@ from pathlib import Path
 import pytest
 
 import mudline
-from mudline.quantities import ELEMENTS, NODES, Quantity
+from mudline.quantities import ELEMENTS, LINES, NODES, Quantity
 from mudline.results.evaluation import Evaluation, evaluate_scene
 from tests.results.written import arrays_of, csv_of, json_of
 from tests.samples import SAMPLES
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[1]
 
 
 def evaluated() -> Evaluation:
@@ -28,10 +28,12 @@ def flat_names(quantities: dict[str, Quantity]) -> list[str]:
 def test_all_formats_have_the_quantities_in_their_order() -> None:
     evaluation = evaluated()
     written = json_of(evaluation)
+    assert csv_of(evaluation, "summary").splitlines()[0].split(",") == list(LINES)
     for key, quantities in (("elements", ELEMENTS), ("nodes", NODES)):
         assert list(written[key][0]) == list(quantities)
         assert csv_of(evaluation, key).splitlines()[0].split(",") == flat_names(quantities)
-    assert list(arrays_of(evaluation)) == [*ELEMENTS, *NODES]
+    of_nodes = [f"node_{name}" if name in ELEMENTS else name for name in NODES]
+    assert list(arrays_of(evaluation)) == [*ELEMENTS, *of_nodes, *(f"summary_{name}" for name in LINES)]
 
 
 def test_the_schema_requires_the_quantities() -> None:

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from mudline.contact import ContactModel, ContactResult, ContactState, Plan, PositionError
     from mudline.curves import CurveError, ForceCurve
     from mudline.diagnostics import DeckError, Diagnostic, Severity
+    from mudline.results.reading import read_result
     from mudline.results.warnings import ContactWarning, contact_warnings
     from mudline.scene.model import Scene
 
@@ -42,6 +43,7 @@ __all__ = [
     "from_yaml",
     "lint",
     "read",
+    "read_result",
 ]
 
 _HOMES = {
@@ -64,6 +66,7 @@ _HOMES = {
     "from_yaml": "api",
     "lint": "api",
     "read": "api",
+    "read_result": "results.reading",
 }
 
 

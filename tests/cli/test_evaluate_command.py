@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mudline.quantities import LINES
 from tests.builders.decks import BAD_NUMBER, CLEAN, CLEAN_WARNING, LINEAR, PULLING
 from tests.cli.conftest import Place
 from tests.cli.runner import SAMPLES, Json, assert_fits, run
@@ -45,6 +46,10 @@ def test_json() -> None:
     assert first == {
         "element": 1,
         "set": "Pipe",
+        "arc_length": 5.0,
+        "x": -0.1,
+        "y": 5.0,
+        "z": 0.0,
         "diameter": 0.5,
         "length": 10.0,
         "depth": 0.1,
@@ -55,6 +60,9 @@ def test_json() -> None:
         "stiffness": 10000.0,
         "law": "curve:Clay",
         "state": None,
+        "line": 1,
+        "node1": 1,
+        "node2": 2,
     }
     assert second["depth"] == pytest.approx(-0.1)
     assert (second["contact"], second["force"], second["stiffness"]) == (False, 0.0, 0.0)
@@ -62,6 +70,10 @@ def test_json() -> None:
     assert [node["reaction"] for node in found["nodes"]] == [[7500.0, 0.0, 0.0], [7500.0, 0.0, 0.0], [0.0, 0.0, 0.0]]
     assert found["nodes"][0] == {
         "node": 1,
+        "arc_length": 0.0,
+        "x": -0.1,
+        "y": 0.0,
+        "z": 0.0,
         "gap": -0.1,
         "normal": [1.0, 0.0, 0.0],
         "reaction": [7500.0, 0.0, 0.0],
@@ -70,7 +82,20 @@ def test_json() -> None:
         "lateral_force": 0.0,
         "axial_state": None,
         "lateral_state": None,
+        "line": 1,
     }
+    (line,) = found["summary"]
+    (point,) = line.pop("touchdown")
+    assert point == pytest.approx(
+        {"arc_length": 10.0 + 0.25 * LENGTH, "x": 0.0, "y": 12.5, "z": 0.0, "contact": "before"}
+    )
+    place = {"force": 1500.0, "element": 1, "arc_length": 5.0, "x": -0.1, "y": 5.0, "z": 0.0}
+    assert line["largest_force"] == place
+    assert line["largest_uplift"] is None
+    assert line["contact_length"] == pytest.approx(10.0 + 0.25 * LENGTH)
+    assert (line["time"], line["line"], line["first_element"], line["last_element"]) == (None, 1, 1, 2)
+    assert (line["length"], line["reaction"]) == (pytest.approx(10.0 + LENGTH), 15000.0)
+    assert line["ratio"] == pytest.approx(15000.0 / line["submerged_weight"])
 
 
 def test_linear_law() -> None:
@@ -127,6 +152,13 @@ def test_text(place: Place) -> None:
         "──────────────────────────────────────────────────────\n"
         "curve:Clay  Pipe         2        1      0.1     15000\n"
         "\n"
+        "Touchdown\n"
+        "                touchdown  length in  largest              total  submerged\n"
+        "                       at    contact    force           reaction     weight\n"
+        "line  elements        [m]        [m]    [N/m]  element       [N]        [N]    ratio\n"
+        "────────────────────────────────────────────────────────────────────────────────────\n"
+        "   1  1 to 2       12.502     12.502     1500        1     15000    3481.78  4.30814\n"
+        "\n"
         "Elements in contact\n"
         "                     depth         force  stiffness  length\n"
         "element  law           [m]  ratio  [N/m]     [N/m2]     [m]\n"
@@ -174,8 +206,8 @@ def test_like_elements_are_told_together(place: Place) -> None:
     lines = run("evaluate", place(deck)).out.splitlines()
     assert sum(line.startswith("1 to 59 ") for line in lines) == 1
     assert "22 more lines: -v shows all, -o writes all" in lines
-    every = run("evaluate", place(deck), "-v").out.splitlines()
-    assert sum("curve:Clay" in line for line in every) == 121
+    every = run("evaluate", place(deck), "-v").out.partition("Elements in contact")[2].splitlines()
+    assert sum("curve:Clay" in line for line in every) == 120
     assert not any(" to " in line for line in every)
 
 
@@ -187,24 +219,66 @@ def test_numbers_that_do_not_follow_each_other_are_told_apart(place: Place) -> N
     assert [line.split()[0] for line in lines[-3:-1]] == ["1", "5"]
 
 
-@pytest.mark.parametrize(("table", "count"), [("elements", 12), ("nodes", 13)])
+@pytest.mark.parametrize(("table", "count"), [("elements", 19), ("nodes", 18)])
 def test_csv(place: Place, table: str, count: int) -> None:
     outcome = run("evaluate", place(), "--output-format", "csv", "--table", table)
     rows = list(csv.DictReader(outcome.out.splitlines()))
     assert outcome.code == 0
     assert len(rows[0]) == count
     if table == "elements":
-        assert ",".join(rows[0]) == "element,set,diameter,length,depth,ratio,contact,force,slope,stiffness,law,state"
+        assert ",".join(rows[0]) == (
+            "element,set,arc_length,x,y,z,diameter,length,depth,ratio,contact,force,slope,stiffness,law,state,"
+            "line,node1,node2"
+        )
         assert list(rows[0].values()) == (
-            ["1", "Pipe", "0.5", "10.0", "0.1", "0.2", "true", "1500.0", "5000.0", "10000.0", "curve:Clay", ""]
+            [
+                "1",
+                "Pipe",
+                "5.0",
+                "-0.1",
+                "5.0",
+                "0.0",
+                "0.5",
+                "10.0",
+                "0.1",
+                "0.2",
+                "true",
+                "1500.0",
+                "5000.0",
+                "10000.0",
+                "curve:Clay",
+                "",
+                "1",
+                "1",
+                "2",
+            ]
         )
     else:
         assert ",".join(rows[0]) == (
-            "node,gap,normal_x,normal_y,normal_z,reaction_x,reaction_y,reaction_z,normal_force,axial_force,"
-            "lateral_force,axial_state,lateral_state"
+            "node,arc_length,x,y,z,gap,normal_x,normal_y,normal_z,reaction_x,reaction_y,reaction_z,normal_force,axial_force,"
+            "lateral_force,axial_state,lateral_state,line"
         )
         assert list(rows[0].values()) == (
-            ["1", "-0.1", "1.0", "0.0", "0.0", "7500.0", "0.0", "0.0", "7500.0", "0.0", "0.0", "", ""]
+            [
+                "1",
+                "0.0",
+                "-0.1",
+                "0.0",
+                "0.0",
+                "-0.1",
+                "1.0",
+                "0.0",
+                "0.0",
+                "7500.0",
+                "0.0",
+                "0.0",
+                "7500.0",
+                "0.0",
+                "0.0",
+                "",
+                "",
+                "1",
+            ]
         )
 
 
@@ -298,8 +372,13 @@ def test_npz_holds_the_same_numbers(place: Place, folder: Path) -> None:
     found = run("evaluate", name, "--output-format", "json").json()
     with np.load(folder / "out.npz", allow_pickle=False) as archive:
         arrays = dict(archive)
-    assert set(arrays) == set(found["elements"][0]) | set(found["nodes"][0])
+    element, node = set(found["elements"][0]), set(found["nodes"][0])
+    of_nodes = {f"node_{name}" if name in element else name for name in node}
+    lines = {name for name in arrays if name.startswith("summary_")}
+    assert set(arrays) == element | of_nodes | lines
+    assert lines == {f"summary_{name}" for name in LINES}
     for row, index in ((found["elements"][0], 0), (found["elements"][1], 1), (found["nodes"][2], 2)):
-        for key, value in row.items():
+        for name, value in row.items():
+            key = f"node_{name}" if "node" in row and name in element else name
             expected = "" if value is None else value
             assert np.array_equal(arrays[key][index], np.array(expected)), key

@@ -18,7 +18,7 @@ from tests.cli.runner import SAMPLES, assert_fits, no_constant, run
 TOY = """
 from contextlib import contextmanager
 
-SUMMARY, BESIDE = "a toy", False
+SUMMARY, BESIDE = "a toy", ()
 
 class Toy:
     steps = 0
@@ -59,7 +59,7 @@ def test_steps(place: Place, steps: str) -> None:
     found = outcome.json()
     assert (outcome.code, outcome.err) == (0, "")
     assert_fits(found, "evaluate")
-    assert set(found) == {"units", "plan", "steps", "positions", "warnings"}
+    assert set(found) == {"units", "plan", "steps", "summary", "positions", "warnings"}
     assert [step["time"] for step in found["steps"]] == [0.0, 2.5]
     first, second = found["steps"]
     single = run("evaluate", place(), "--output-format", "json").json()
@@ -88,6 +88,15 @@ def test_text_of_steps(place: Place, steps: str) -> None:
         "elements in contact      2         2.5\n"
         "depth                  0.1  m        0        1\n"
         "\n"
+        "Lines over all steps\n"
+        "                                 time           time\n"
+        "figure             unit   least   [s]  largest   [s]\n"
+        "────────────────────────────────────────────────────\n"
+        "touchdown point    m     12.502     0   12.502     0\n"
+        "length in contact  m     12.502     0   20.008   2.5\n"
+        "largest force      N/m     1000   2.5     1500     0\n"
+        "total reaction     N      15000     0    20008   2.5\n"
+        "\n"
     )
 
 
@@ -97,7 +106,7 @@ def test_text_of_many_steps(place: Place, folder: Path) -> None:
     lines = run("evaluate", place(), "--positions", "steps.npy").out.splitlines()
     assert "10 more steps: -v shows all, -o writes all" in lines
     assert lines[5].split() == ["0", "0", "-9", "0"]
-    assert len(run("evaluate", place(), "--positions", "steps.npy", "-v").out.splitlines()) == 64
+    assert len(run("evaluate", place(), "--positions", "steps.npy", "-v").out.splitlines()) == 71
 
 
 def test_csv_of_steps(place: Place, steps: str) -> None:
@@ -112,11 +121,16 @@ def test_csv_of_steps(place: Place, steps: str) -> None:
     ]
 
 
-def test_written_csv_has_a_table_of_nodes_beside_it(place: Place, steps: str, folder: Path) -> None:
+def test_written_csv_has_tables_of_nodes_and_lines_beside_it(place: Place, steps: str, folder: Path) -> None:
     outcome = run("evaluate", place(), "--positions", steps, "-o", "out.csv")
     assert (outcome.code, outcome.out) == (0, "")
-    assert outcome.err == "mudline: nodes -> out-nodes.csv\nmudline: deck.keyxm -> out.csv\n"
-    for name, options in (("out.csv", ()), ("out-nodes.csv", ("--table", "nodes"))):
+    assert outcome.err == (
+        "mudline: nodes -> out-nodes.csv\nmudline: summary -> out-summary.csv\nmudline: deck.keyxm -> out.csv\n"
+    )
+    for name, options in (
+        ("out.csv", ()),
+        *((f"out-{table}.csv", ("--table", table)) for table in ("nodes", "summary")),
+    ):
         printed = run("evaluate", place(), "--positions", steps, "--output-format", "csv", *options)
         assert (folder / name).read_bytes() == printed.output
 
@@ -144,9 +158,9 @@ def test_names_for_a_spreadsheet(place: Place) -> None:
     assert "--spreadsheet is for CSV" in wrong.err
 
 
-def test_quiet_writes_both_tables_and_says_nothing(place: Place, folder: Path) -> None:
+def test_quiet_writes_all_tables_and_says_nothing(place: Place, folder: Path) -> None:
     assert run("evaluate", place(), "-o", "out.csv", "-q").err == ""
-    assert sorted(path.name for path in folder.glob("*.csv")) == ["out-nodes.csv", "out.csv"]
+    assert sorted(path.name for path in folder.glob("*.csv")) == ["out-nodes.csv", "out-summary.csv", "out.csv"]
 
 
 def test_written_json_is_what_is_printed(place: Place, steps: str, folder: Path) -> None:

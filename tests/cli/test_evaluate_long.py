@@ -38,8 +38,11 @@ def test_parquet_holds_what_csv_does(place: Place, folder: Path, deck: str, text
     assert run("evaluate", *options, "-o", "out.csv", "-q").code == 0
     outcome = run("evaluate", *options, "-o", "out.parquet")
     warned = "" if text else CLEAN_WARNING
-    assert outcome.err == f"{warned}mudline: nodes -> out-nodes.parquet\nmudline: deck.keyxm -> out.parquet\n"
-    for name in ("out", "out-nodes"):
+    assert outcome.err == (
+        f"{warned}mudline: nodes -> out-nodes.parquet\nmudline: summary -> out-summary.parquet\n"
+        "mudline: deck.keyxm -> out.parquet\n"
+    )
+    for name in ("out", "out-nodes", "out-summary"):
         table = pq.read_table(folder / f"{name}.parquet")
         rows = list(csv.reader((folder / f"{name}.csv").read_text(encoding="utf-8").splitlines()))
         assert table.column_names == rows[0]

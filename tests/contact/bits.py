@@ -9,7 +9,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mudline.contact import ContactResult
+
 AnyArray = NDArray[Any]
+
+
+EVALUATED = {"given", "positions", "times"}
+"""What a result says of its evaluation, which is no part of what came out of it."""
 
 
 def arrays_of(part: object, name: str = "") -> Iterator[tuple[str, AnyArray | None]]:
@@ -18,6 +24,8 @@ def arrays_of(part: object, name: str = "") -> Iterator[tuple[str, AnyArray | No
         yield name, part
     elif is_dataclass(part):
         for field in fields(part):
+            if field.name in EVALUATED and isinstance(part, ContactResult):
+                continue
             yield from arrays_of(getattr(part, field.name), f"{name}.{field.name}".lstrip("."))
     else:
         assert part is None

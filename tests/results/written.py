@@ -43,9 +43,13 @@ def json_of(evaluation: Evaluation) -> Json:
 
 
 def csv_pieces(evaluation: Evaluation, table: str) -> Iterator[str]:
-    """The CSV of `elements` or `nodes` as it is written."""
-    make: Callable[[], Table] = evaluation.element_table if table == "elements" else evaluation.node_table
-    return pieces(evaluation, lambda write: text_form("csv")(evaluation, make(), write))
+    """The CSV of `elements`, `nodes` or `summary` as it is written."""
+    tables: dict[str, Callable[[], Table]] = {
+        "elements": evaluation.element_table,
+        "nodes": evaluation.node_table,
+        "summary": evaluation.line_table,
+    }
+    return pieces(evaluation, lambda write: text_form("csv")(evaluation, tables[table](), write))
 
 
 def csv_of(evaluation: Evaluation, table: str) -> str:

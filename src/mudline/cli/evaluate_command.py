@@ -28,7 +28,17 @@ from mudline.diagnostics import DeckError
 from mudline.quantities import csv_lines
 from mudline.results.against import Comparison, read_reference
 from mudline.results.evaluation import Evaluation, Prepared, Tension, evaluate_scene, prepare
-from mudline.results.forms import Output, ResultConsumer, Sink, Together, form_module, form_names, plan_rows, text_form
+from mudline.results.forms import (
+    Output,
+    ResultConsumer,
+    Sink,
+    Together,
+    form_module,
+    form_names,
+    plan_rows,
+    table_path,
+    text_form,
+)
 from mudline.results.lines import LineWatch
 from mudline.results.panels import ANIMATIONS, PICTURES
 from mudline.results.plot_data import PlotData
@@ -42,7 +52,7 @@ from mudline.short_repr import listed_numbers
 MOST_ROWS = 40
 """Lines of a table on the terminal, unless more is asked for."""
 
-_EXTRAS = {"parquet": ("pyarrow", "parquet")}
+_EXTRAS = {"parquet": ("pyarrow", "parquet"), "xlsx": ("xlsxwriter", "excel")}
 """By form: the library that writes it, and the extra that brings it."""
 _Read = TypeVar("_Read")
 
@@ -283,7 +293,7 @@ def _files(evaluation: Evaluation, elements: ElementTable, path: Path, view: Vie
 
 def _beside(path: Path, form: ModuleType) -> list[Path]:
     """The files of the other tables beside that of the elements."""
-    return [path.with_name(f"{path.stem}-{table}{path.suffix}") for table in form.BESIDE]
+    return [table_path(path, table) for table in form.BESIDE]
 
 
 def _run(evaluation: Evaluation, consumers: Sequence[ResultConsumer], view: View, *, bar: bool) -> None:

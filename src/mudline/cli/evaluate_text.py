@@ -187,6 +187,8 @@ def _print_lines(printer: Printer, lines: LineWatch) -> None:
         headed("submerged\nweight", names.force),
         "ratio",
     )
+    if not rows:
+        return
     note = f"{lines.left} more lines: -v shows all, -o writes all" if lines.left else ""
     printer.table("Touchdown", columns, rows, left=("elements",), note=note)
 

@@ -32,6 +32,7 @@ class Column:
         vector: whether a value has three components.
         over_steps: whether the column is one that a step may change, even if nothing does in this scene.
         blank: the whole number that stands for no value; None where every one is a value.
+        unit: name of the unit of the values; "" for none.
     """
 
     name: str
@@ -40,6 +41,7 @@ class Column:
     vector: bool = False
     over_steps: bool = True
     blank: int | None = None
+    unit: str = ""
 
     @property
     def steady(self) -> bool:
@@ -51,7 +53,10 @@ class Column:
         if not self.vector:
             return [self]
         axes = enumerate(("_x", "_y", "_z"))
-        return [Column(self.name + axis, self.values[..., i], over_steps=self.over_steps) for i, axis in axes]
+        return [
+            Column(self.name + axis, self.values[..., i], over_steps=self.over_steps, unit=self.unit)
+            for i, axis in axes
+        ]
 
     def cut(self, first: int, last: int) -> Values:
         """The values of some steps, also of a steady column, as (steps, rows) or (steps, rows, 3)."""
@@ -69,8 +74,9 @@ Others = Callable[[Part], Sequence[tuple[str, FloatArray]]]
 class Table(ABC):
     """Makes the columns of the elements or nodes with these indices for some steps."""
 
-    def __init__(self, chosen: IndexArray) -> None:
+    def __init__(self, given: ContactInput, chosen: IndexArray) -> None:
         self._chosen = chosen
+        self.units = given.units
 
     @property
     def rows(self) -> int:
@@ -96,6 +102,7 @@ class Table(ABC):
                 names.get(name, quantity.names),
                 quantity.vector,
                 quantity.over_steps,
+                unit=quantity.unit_name(self.units),
             )
             for name, quantity in quantities.items()
         ]
@@ -108,13 +115,15 @@ class ElementTable(Table):
     """
 
     def __init__(self, given: ContactInput, chosen: IndexArray, others: Others | None = None) -> None:
-        super().__init__(chosen)
+        super().__init__(given, chosen)
         self._others = others
         set_codes, sets = coded(given.law_sets)
         laws, names = coded(given.law_names)
         self._laws = laws[chosen]
         self._may_cut = given.tension == "cut"
-        self._names: dict[str, Names] = {"set": sets, "law": (*names[:-1], CUT, None)}
+        laws_named = names[:-1] if CUT in names else (*names[:-1], CUT)
+        self._cut_code = np.int32(laws_named.index(CUT))
+        self._names: dict[str, Names] = {"set": sets, "law": (*laws_named, None)}
         self._ends = given.element_nodes[chosen]
         self._fixed: dict[str, Values] = {
             "element": given.element_ids[chosen],
@@ -143,14 +152,14 @@ class ElementTable(Table):
     def _law(self, result: ContactResult) -> Values:
         if not self._may_cut:
             return self._laws
-        return np.where(kept(result.cut, self._chosen), np.int32(len(self._names["law"]) - 2), self._laws)
+        return np.where(kept(result.cut, self._chosen), self._cut_code, self._laws)
 
 
 class NodeTable(Table):
     """The nodes that have a position. Without friction its forces are 0 and its states none."""
 
     def __init__(self, given: ContactInput, chosen: IndexArray) -> None:
-        super().__init__(chosen)
+        super().__init__(given, chosen)
         self._fixed: dict[str, Values] = {
             "node": given.node_ids[chosen],
             "arc_length": given.lines.node_arc[chosen],

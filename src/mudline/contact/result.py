@@ -6,7 +6,9 @@ import math
 import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any, NoReturn
+from importlib import import_module
+from types import ModuleType
+from typing import TYPE_CHECKING, Any, Literal, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,8 +18,13 @@ from mudline.contact.input import ContactInput, ElementError, PositionError
 from mudline.contact.tables import Tables
 from mudline.short_repr import outline, short_repr
 
-if TYPE_CHECKING:
+if TYPE_CHECKING:  # each is imported when it is asked for
+    import pandas as pd
+    import pyarrow as pa
+    import xarray as xr
     from matplotlib.figure import Figure
+
+TableName = Literal["elements", "nodes", "summary"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -95,9 +102,59 @@ class ContactResult:
         """Return one step of a series, as views."""
         return self._cut(index)
 
+    def to_dataframe(self, table: TableName = "elements") -> pd.DataFrame:
+        """Return the elements, nodes or lines ("summary") as a pandas frame, a row for each at each step.
+
+        Columns are those of result files; in front `time`, or `step` for a series without times. `attrs` has `units`,
+        the unit system, and `unit`, the unit of each column that has one. No value is NaN, NA or None.
+
+        Raises:
+            ImportError: pandas is not installed; the extra `frames` brings it.
+            ValueError: there is no such table, or the result does not know what was evaluated.
+        """
+        found: pd.DataFrame = _frames().dataframe(self, table)
+        return found
+
+    def to_arrow(self, table: TableName = "elements") -> pa.Table:
+        """Return the elements, nodes or lines ("summary") as a pyarrow table with the columns of `to_dataframe`.
+
+        Each field has its `unit` as metadata, the table `mudline.format` and `mudline.units`; no value is null. Raises
+        what `to_dataframe` does, ImportError for want of pyarrow.
+        """
+        found: pa.Table = _frames().arrow_table(self, table)
+        return found
+
+    def __arrow_c_stream__(self, requested_schema: object = None) -> object:
+        """The elements for whatever takes Arrow streams: `polars.DataFrame(result)`, DuckDB, `pyarrow.table(result)`.
+
+        Raises what `to_arrow` does.
+        """
+        return self.to_arrow().__arrow_c_stream__(requested_schema)
+
+    def to_xarray(self) -> xr.Dataset:
+        """Return all elements and nodes as an xarray data set with the dimensions `time`, `element` and `node`.
+
+        Variables are named as the arrays of NPZ files, `node_` before what elements have too; vectors have a dimension
+        `axis`. Numbers, sets, laws, lines and arc lengths are coordinates. The unit of each is its attribute `units`. A
+        single state has no `time`, except as a number where it is one of a series. Raises what `to_dataframe` does,
+        ImportError for want of xarray.
+        """
+        found: xr.Dataset = _frames().dataset(self)
+        return found
+
+    @property
+    def known(self) -> ContactInput:
+        """What was evaluated.
+
+        Raises ValueError for a result that does not know it.
+        """
+        if self.given is None:
+            raise ValueError("the result does not know its nodes and elements: evaluate them with a ContactModel")
+        return self.given
+
     def as_series(self) -> ContactResult:
-        """Return a single state as a series of one step, as views."""
-        return self._each(lambda values: np.asarray(values)[None])
+        """Return a single state as a series of one step, as views; a series as it is."""
+        return self if self.depth.ndim == 2 else self._each(lambda values: np.asarray(values)[None])
 
     def steps(self, start: int, stop: int) -> ContactResult:
         """Return the steps start <= step < stop of a series, as views."""
@@ -136,6 +193,11 @@ class ContactResult:
         arrays = ((name, getattr(self, name)) for name in _BY_STEP)
         of_steps: dict[str, Any] = {name: None if values is None else cut(values) for name, values in arrays}
         return ContactResult(**of_steps, **{name: getattr(self, name) for name in _OF_ALL_STEPS})
+
+
+def _frames() -> ModuleType:
+    """The module of tables of results: it knows results, which know it only when a table is asked for."""
+    return import_module("mudline.contact.frames")
 
 
 @dataclass(frozen=True, slots=True)

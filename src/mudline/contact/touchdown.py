@@ -73,12 +73,15 @@ class LineSummary:
 
     def row(self) -> dict[str, object]:
         """The line as JSON has it."""
-        places = ("largest_force", "largest_uplift")
-        values: dict[str, object] = {name: getattr(self, name) for name in self.__slots__}
-        for name in places:
-            found: ElementForce | None = getattr(self, name)
-            values[name] = None if found is None else found._asdict()
-        return values | {"touchdown": [point._asdict() for point in self.touchdown]}
+        found: dict[str, object] = {name: _bounded(getattr(self, name)) for name in self.__slots__}
+        return found | {"touchdown": [_bounded(point) for point in self.touchdown]}
+
+
+def _bounded(value: object) -> object:
+    """A value as JSON can hold it: None for what overflowed."""
+    if isinstance(value, TouchdownPoint | ElementForce):
+        return {name: _bounded(each) for name, each in value._asdict().items()}
+    return finite(value) if isinstance(value, float) else value
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -250,7 +253,7 @@ class LineTable(Table):
 
     def __init__(self, given: ContactInput, elements: IndexArray) -> None:
         lines = np.unique(given.lines.of_element[elements])
-        super().__init__(lines)
+        super().__init__(given, lines)
         self.finder = Touchdown(given)
         ids, along = given.element_ids, [given.lines.elements[line] for line in lines.tolist()]
         with np.errstate(over="ignore", invalid="ignore"):
@@ -276,6 +279,7 @@ class LineTable(Table):
                 values[name],
                 over_steps=quantity.over_steps,
                 blank=NO_ELEMENT if name.startswith("largest") and name.endswith("element") else None,
+                unit=quantity.unit_name(self.units),
             )
             for name, quantity in LINES.items()
         ]
@@ -314,10 +318,7 @@ def line_summaries(result: ContactResult) -> list[LineSummary]:
 
     Raises ValueError for a result that does not know what was evaluated.
     """
-    if result.given is None:
-        raise ValueError("the result does not know its nodes and elements: evaluate them with a ContactModel")
-    series = result if result.depth.ndim == 2 else result.as_series()
-    finder, part = Touchdown(result.given), Part(0, series)
+    finder, part = Touchdown(result.known), Part(0, result.as_series())
     return list(finder.summaries(part, finder.series(part)))
 
 

@@ -1,7 +1,8 @@
 """The forms of result files, a module each with the name of the suffix, imported when it is asked for.
 
 A module is a form by being here: `SUMMARY` says in the documentation what is in a file, `opened(output)` is a context
-with the `Sink` that writes it, and `BESIDE` names the tables that go to files of their own. Results come a few steps at
+with the `Sink` that writes it, `BESIDE` names the tables that go to files of their own, and `read(path)` is what a file
+holds, as `Stored`. Results come a few steps at
 a time and are written as they come: a long series is never in memory as text.
 """
 
@@ -23,7 +24,9 @@ from pydantic_core import to_json
 from mudline.contact import Plan
 from mudline.contact.columns import Column, Table, Values
 from mudline.contact.result import Part
+from mudline.diagnostics import DeckError
 from mudline.results.evaluation import Evaluation
+from mudline.scene.csv_file import data_error
 
 _BLOCK = 16384
 """Rows spelled at a time: the texts of a large model are never all in memory."""
@@ -96,6 +99,16 @@ class Output:
 def form_names() -> list[str]:
     """Return the name of every form, found without importing one."""
     return sorted(found.name for found in iter_modules(__path__))
+
+
+def table_path(path: Path, table: str) -> Path:
+    """Return the file of another table beside that of the elements."""
+    return path.with_name(f"{path.stem}-{table}{path.suffix}")
+
+
+def lacks_nodes(path: Path, beside: Path) -> DeckError:
+    """Return the error about a file of elements without that of the nodes."""
+    return data_error(path.as_posix(), f"the nodes are missing: expected them in {beside.name} beside it")
 
 
 def form_module(name: str) -> ModuleType:

@@ -2,17 +2,41 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import csv
+import re
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
+from itertools import islice
+from pathlib import Path
 
-from mudline.contact.columns import Table
+import numpy as np
+
+from mudline.contact.columns import Column, Table, Values
 from mudline.contact.result import Part
-from mudline.quantities import csv_lines
+from mudline.keywords.text import shown
+from mudline.quantities import RESULT_FORMAT, Kind, csv_lines
 from mudline.results.evaluation import Evaluation
-from mudline.results.forms import More, Output, Sink, Spelling, Together, Write, batched, step_rows, text_into
+from mudline.results.forms import (
+    More,
+    Output,
+    Sink,
+    Spelling,
+    Together,
+    Write,
+    batched,
+    lacks_nodes,
+    step_rows,
+    table_path,
+    text_into,
+)
+from mudline.results.stored import Coder, Stacked, Stored, StoredTable, Texts, checked_units, flat_kinds, require_names
+from mudline.scene.csv_file import data_error
 
 SUMMARY = "elements; the nodes in `...-nodes.csv`, the lines in `...-summary.csv`"
 BESIDE = ("nodes", "summary")
+
+_BLOCK = 16384
+"""Rows read at a time."""
 
 
 def _spelling(*, as_text: bool) -> Spelling:
@@ -27,12 +51,102 @@ def opened(output: Output) -> AbstractContextManager[Sink]:
     return nullcontext(Together(made))
 
 
+def read(path: Path) -> Stored:
+    """What the file of the elements and that of the nodes beside it hold. Raises OSError, DeckError."""
+    elements, units = _read_table(path, "elements")
+    beside = table_path(path, "nodes")
+    try:
+        nodes, units_beside = _read_table(beside, "nodes")
+    except FileNotFoundError as error:
+        raise lacks_nodes(path, beside) from error
+    return Stored(checked_units(path.as_posix(), units or units_beside), elements, nodes)
+
+
+def _read_table(path: Path, table: str) -> tuple[StoredTable, str | None]:
+    """A table and its units, None where it has no row."""
+    file = path.as_posix()
+    try:
+        with path.open(encoding="utf-8-sig", newline="") as stream:
+            return _Reader(file, table, csv.reader(stream)).read()
+    except UnicodeDecodeError as error:
+        raise data_error(file, f"not a UTF-8 text file ({error.reason} at byte {error.start})") from error
+    except csv.Error as error:
+        raise data_error(file, f"not a CSV file: {error}") from error
+
+
+class _Reader:
+    """Reads the rows of a table some at a time, so that its texts are never all in memory."""
+
+    def __init__(self, file: str, table: str, rows: Iterator[list[str]]) -> None:
+        self._file, self._rows = file, rows
+        self._header = [name.strip() for name in next(rows, [])]
+        require_names(file, table, self._header)
+        if "units" not in self._header:
+            raise data_error(file, f"no column units: expected the columns of {RESULT_FORMAT}; evaluate the deck again")
+        self._kinds = flat_kinds(table)
+        if "time" in self._header:
+            self._kinds = {"time": "number", **self._kinds}
+        self._coders = {name: Coder() for name, kind in self._kinds.items() if kind == "text"}
+
+    def read(self) -> tuple[StoredTable, str | None]:
+        """The table and its units."""
+        found: dict[str, list[Values]] = {name: [] for name in self._kinds}
+        units: set[str] = set()
+        line = 2
+        while block := list(islice(self._rows, _BLOCK)):
+            self._require_widths(block, line)
+            columns = dict(zip(self._header, zip(*block, strict=True), strict=True))
+            units.update(columns["units"])
+            for name, parts in found.items():
+                parts.append(self._column(name, columns[name], line))
+            line += len(block)
+        if len(units) > 1:
+            several = " and ".join(sorted(units)[:2])
+            raise data_error(self._file, f"units: {several} in one file, expected one system")
+        joined = {name: np.concatenate(parts) if parts else np.zeros(0) for name, parts in found.items()}
+        times = joined.pop("time", None)
+        columns_of: dict[str, Stacked] = {
+            name: Texts(values.astype(np.int32), self._coders[name].names) if name in self._coders else values
+            for name, values in joined.items()
+        }
+        return StoredTable(self._file, columns_of, times), next(iter(units), None)
+
+    def _require_widths(self, block: list[list[str]], line: int) -> None:
+        width = len(self._header)
+        if set(map(len, block)) != {width}:
+            row = next(row for row, fields in enumerate(block) if len(fields) != width)
+            message = f"{len(block[row])} fields, the header has {width}: the file is cut off or edited"
+            raise data_error(self._file, message, line + row)
+
+    def _column(self, name: str, texts: Sequence[str], line: int) -> Values:
+        if name in self._coders:
+            return self._coders[name].coded(texts)
+        kind = self._kinds[name]
+        for row, text in enumerate(texts):
+            if not (_SPELLED[kind](text) or (kind == "number" and not text)):
+                raise data_error(self._file, f"{name}: {shown(text)} is not {_EXPECTED[kind]}", line + row)
+        if kind == "number":
+            return np.array([float(text or "nan") for text in texts])
+        if kind == "whole":
+            return np.array([int(text) for text in texts], np.int64)
+        return np.array([text == "true" for text in texts], np.bool_)
+
+
+_SPELLED: dict[Kind, Callable[[str], object]] = {
+    "number": re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII).fullmatch,
+    "whole": re.compile(r"[+-]?\d{1,18}", re.ASCII).fullmatch,
+    "flag": {"true", "false"}.__contains__,
+}
+_EXPECTED: dict[Kind, str] = {"number": "a number", "whole": "a whole number", "flag": "true or false"}
+
+
 class Text:
     """The rows of a table as CSV, with a column `time` in front when there are times."""
 
     def __init__(self, evaluation: Evaluation, table: Table, write: Write, *, as_text: bool = False) -> None:
         self._table, self._write, self._spelling = table, write, _spelling(as_text=as_text)
         self._times = None if evaluation.time is None else evaluation.time.tolist()
+        self._units = Column("units", np.zeros(table.rows, np.int32), (table.units, None), over_steps=False)
 
     def take(self, part: Part) -> None:
         """Write some steps; before the first, the names of the columns."""
@@ -42,7 +156,7 @@ class Text:
         """Write nothing: a table has no place for more."""
 
     def _steps(self, part: Part) -> Iterator[str]:
-        columns = self._table.columns(part)
+        columns = [*self._table.columns(part), self._units]
         if part.start == 0:
             names = [flat.name for column in columns for flat in column.flat()]
             yield ",".join(names if self._times is None else ["time", *names]) + "\n"

@@ -4,16 +4,33 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import ExitStack, closing, contextmanager
+from functools import partial
+from pathlib import Path
 from typing import BinaryIO
 
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from mudline.contact.columns import Column, Table
+from mudline.contact.columns import Table
+from mudline.contact.frames import FORMAT_KEY, UNITS_KEY, arrow_of
 from mudline.contact.result import Part
+from mudline.quantities import Kind
 from mudline.results.evaluation import Evaluation
-from mudline.results.forms import More, Output, Sink, Together
+from mudline.results.forms import More, Output, Sink, Together, lacks_nodes, table_path
+from mudline.results.stored import (
+    Stacked,
+    Stored,
+    StoredTable,
+    Texts,
+    array_column,
+    checked_format,
+    checked_units,
+    flat_kinds,
+    require_names,
+)
+from mudline.scene.csv_file import data_error
+from mudline.short_repr import cut
 
 SUMMARY = (
     "the same columns, in groups of rows; the nodes in `...-nodes.parquet`, the lines in `...-summary.parquet`; "
@@ -44,10 +61,8 @@ class ParquetFile:
     def take(self, part: Part) -> None:
         """Write some steps. Raises OSError."""
         flat = [column for vector in self._table.columns(part) for column in vector.flat()]
-        fields = {column.name: _array(column, part.count) for column in flat}
-        if self._times is not None:
-            fields = {"time": pa.array(np.repeat(self._times[part.steps], self._table.rows)), **fields}
-        self._waiting.append(pa.table(fields))
+        times = {} if self._times is None else {"time": np.repeat(self._times[part.steps], self._table.rows)}
+        self._waiting.append(arrow_of(flat, part.count, times, self._table.units))
         if sum(len(table) for table in self._waiting) >= GROUP:
             self._flush()
 
@@ -70,11 +85,50 @@ class ParquetFile:
             self._waiting = []
 
 
-def _array(column: Column, steps: int) -> pa.Array:
-    values = column.cut(0, steps).ravel()
-    if column.blank is not None:
-        return pa.array(values, mask=values == column.blank)
-    if not column.names:
-        return pa.array(values, from_pandas=True)  # NaN is no value
-    codes = pa.array(values.astype(np.int32), mask=values < 0)
-    return pa.DictionaryArray.from_arrays(codes, pa.array(column.names[:-1], pa.string()))
+def read(path: Path) -> Stored:
+    """What the file of the elements and that of the nodes beside it hold. Raises OSError, DeckError."""
+    elements, units = _read_table(path, "elements")
+    beside = table_path(path, "nodes")
+    try:
+        nodes, _ = _read_table(beside, "nodes")
+    except FileNotFoundError as error:
+        raise lacks_nodes(path, beside) from error
+    return Stored(units, elements, nodes)
+
+
+def _read_table(path: Path, table: str) -> tuple[StoredTable, str]:
+    """A table and its units."""
+    file = path.as_posix()
+    with path.open("rb") as stream:
+        try:
+            opened_file = pq.ParquetFile(stream)
+            schema = opened_file.schema_arrow
+            checked_format(file, _said(schema, FORMAT_KEY))
+            units = checked_units(file, _said(schema, UNITS_KEY))
+            require_names(file, table, schema.names)
+            kinds = flat_kinds(table)
+            if "time" in schema.names:
+                kinds = {"time": "number", **kinds}
+            held = opened_file.read(columns=list(kinds))
+            columns = {name: _column(file, name, held.column(name), kind) for name, kind in kinds.items()}
+        except (pa.ArrowException, OSError, MemoryError) as error:
+            why = (str(error).splitlines() or [type(error).__name__])[0]
+            raise data_error(file, f"not a Parquet file that can be read: {cut(why, 100)}") from error
+    times = columns.pop("time", None)
+    return StoredTable(file, columns, None if times is None else np.asarray(times)), units
+
+
+def _said(schema: pa.Schema, key: bytes) -> str | None:
+    found = (schema.metadata or {}).get(key)
+    return None if found is None else found.decode(errors="replace")
+
+
+def _column(file: str, name: str, column: pa.ChunkedArray, kind: Kind) -> Stacked:
+    if kind == "text":
+        texts = column.cast(pa.string()).combine_chunks()
+        whole = pa.concat_arrays(texts.chunks) if isinstance(texts, pa.ChunkedArray) else texts
+        coded = whole.dictionary_encode()
+        return Texts(coded.indices.fill_null(-1).to_numpy(zero_copy_only=False), tuple(coded.dictionary.to_pylist()))
+    if kind != "number" and column.null_count:
+        raise data_error(file, f"{name}: a value is missing")
+    return array_column(column.to_numpy(), kind, name, partial(data_error, file))

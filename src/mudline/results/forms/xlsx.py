@@ -1,0 +1,244 @@
+"""Results as a workbook of spreadsheets; needs the extra `excel`."""
+
+from __future__ import annotations
+
+import math
+import zipfile
+import zlib
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from functools import partial
+from itertools import chain, islice
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+from xml.etree.ElementTree import ParseError
+
+import numpy as np
+import xlsxwriter
+from xlsxwriter.exceptions import XlsxWriterException
+from xlsxwriter.worksheet import Worksheet
+
+from mudline.contact.columns import Column, Table
+from mudline.contact.result import Part
+from mudline.diagnostics import DeckError
+from mudline.quantities import RESULT_FORMAT, Kind, time_unit
+from mudline.results.evaluation import Evaluation
+from mudline.results.forms import More, Output, Sink
+from mudline.results.stored import (
+    TABLES,
+    Stored,
+    StoredTable,
+    checked_format,
+    checked_units,
+    column_of,
+    flat_kinds,
+    require_names,
+)
+from mudline.scene.csv_file import data_error
+from mudline.short_repr import cut
+
+SUMMARY = (
+    "sheets `elements`, `nodes` and `summary`, with units below the names of the columns; "
+    "`pip install 'mudline[excel]'`"
+)
+BESIDE = ()
+
+MOST_ROWS = 1_048_576
+"""Rows of a sheet."""
+_HEADINGS = 2
+"""Rows of them: names and units."""
+_LONGEST = 32_767
+"""Characters of a cell."""
+_NARROW, _WIDE = 10, 40
+"""Widths of columns in characters."""
+_BLOCK = 4096
+"""Rows written at a time."""
+
+_FORMAT, _UNITS = "mudline.format", "mudline.units"
+"""Properties of the workbook."""
+
+
+@contextmanager
+def opened(output: Output) -> Iterator[Sink]:
+    """What takes the results. Raises DeckError where a sheet has no place for all rows of a table."""
+    for name, table in output.tables.items():
+        _require_place(output.evaluation, name, table)
+    with TemporaryDirectory(prefix=".mudline-", dir=output.folder, ignore_cleanup_errors=True) as folder:
+        options = {"constant_memory": True, "tmpdir": folder}
+        book = xlsxwriter.Workbook(output.streams[0], options)
+        try:
+            yield Workbook(book, output)
+        finally:
+            for sheet in book.worksheets():
+                sheet.row_data_fh.close()
+            book.fileclosed = True  # after a fault it must not write itself when it is thrown away
+
+
+def _require_place(evaluation: Evaluation, name: str, table: Table) -> None:
+    rows = evaluation.steps * table.rows
+    if rows > MOST_ROWS - _HEADINGS:
+        what = f"{rows} rows of {name}: a sheet of a workbook holds {MOST_ROWS - _HEADINGS}; write .parquet instead"
+        raise evaluation.scene.refusal(what)
+
+
+class Workbook:
+    """A sheet of each table: names, units, then the rows; `time` in front when there are times.
+
+    Texts are texts whatever they begin with, numbers read back to the same double; no value is an empty cell. The rows
+    are in temporary files in the folder of the output until the end.
+    """
+
+    def __init__(self, book: Any, output: Output) -> None:  # noqa: ANN401 - xlsxwriter has no types
+        self._book, self._tables, self._times = book, output.tables, output.evaluation.time
+        book.use_zip64()
+        book.set_custom_property(_FORMAT, RESULT_FORMAT)
+        book.set_custom_property(_UNITS, output.elements.units)
+        self._bold, self._plain = book.add_format({"bold": True}), book.add_format({"italic": True})
+        self._sheets = {name: book.add_worksheet(name, worksheet_class=_Sheet) for name in self._tables}
+        self._rows = dict.fromkeys(self._tables, _HEADINGS)
+
+    def take(self, part: Part) -> None:
+        """Write some steps. Raises OSError."""
+        for name, table in self._tables.items():
+            flat = [column for vector in table.columns(part) for column in vector.flat()]
+            if self._times is not None:
+                times = np.repeat(self._times[part.steps, np.newaxis], table.rows, axis=1)
+                flat.insert(0, Column("time", times, unit=time_unit(table.units)))
+            if part.start == 0:
+                self._head(self._sheets[name], flat)
+            cells = chain.from_iterable(
+                zip(*(_cells(column, step, block) for column in flat), strict=True)
+                for step in range(part.count)
+                for block in _blocks(table.rows)
+            )
+            for row in cells:
+                _write_row(self._sheets[name], self._rows[name], row)
+                self._rows[name] += 1
+
+    def finish(self, more: More) -> None:
+        """Write the workbook; it has no place for more. Raises OSError."""
+        del more
+        try:
+            self._book.close()
+        except XlsxWriterException as error:
+            raise OSError(str(error)) from error
+
+    def _head(self, sheet: Any, columns: Sequence[Column]) -> None:  # noqa: ANN401 - as above
+        for place, column in enumerate(columns):
+            longest = max((len(name) for name in column.names if name), default=_NARROW)
+            sheet.set_column(place, place, min(max(_NARROW, len(column.name), longest) + 2, _WIDE))
+            sheet.write_string(0, place, column.name, self._bold)
+        for place, column in enumerate(columns):
+            if column.unit:
+                sheet.write_string(1, place, f"[{column.unit}]", self._plain)
+        sheet.freeze_panes(_HEADINGS, 1 + (self._times is not None))
+
+
+class _Sheet(Worksheet):  # type: ignore[misc] # xlsxwriter has no types
+    """A sheet whose numbers have all their digits; those of xlsxwriter have 16."""
+
+    def _xml_number_element(self, number: float, attributes: Sequence[tuple[str, object]] = ()) -> None:
+        about = "".join(f' {key}="{value}"' for key, value in attributes)
+        self.fh.write(f"<c{about}><v>{number!r}</v></c>")
+
+
+def _blocks(rows: int) -> Iterator[slice]:
+    return (slice(start, start + _BLOCK) for start in range(0, rows, _BLOCK))
+
+
+def _cells(column: Column, step: int, block: slice) -> Sequence[object]:
+    """The values of some rows of a step; None for no value."""
+    values: list[Any] = column.cut(step, step + 1)[0, block].tolist()
+    if column.names:
+        texts = [None if name is None else _text(name) for name in column.names]
+        return [texts[code] for code in values]
+    if column.blank is not None:
+        return [None if value == column.blank else value for value in values]
+    return values
+
+
+def _text(name: str) -> str:
+    """A name as a cell can hold it; half a surrogate pair is escaped."""
+    return cut(name.encode("utf-8", "backslashreplace").decode(), _LONGEST)
+
+
+def _write_row(sheet: Any, row: int, values: Sequence[object]) -> None:  # noqa: ANN401 - as above
+    for place, value in enumerate(values):
+        if isinstance(value, bool):
+            sheet.write_boolean(row, place, value)
+        elif isinstance(value, str):
+            sheet.write_string(row, place, value)
+        elif value is not None and not math.isnan(value):  # type: ignore[arg-type] # it is a number
+            sheet.write_number(row, place, value)
+
+
+# -------------------------------------------------------------------------------------------------------- reading
+
+
+def read(path: Path) -> Stored:
+    """What a workbook holds. Raises OSError, DeckError."""
+    import openpyxl  # noqa: PLC0415 - results are written without it
+    from openpyxl.utils.exceptions import InvalidFileException  # noqa: PLC0415 - as above
+
+    file = path.as_posix()
+    unreadable = (
+        ArithmeticError,
+        AttributeError,
+        EOFError,
+        InvalidFileException,
+        LookupError,
+        MemoryError,
+        NotImplementedError,
+        OSError,
+        ParseError,
+        RuntimeError,
+        TypeError,
+        ValueError,
+        zipfile.BadZipFile,
+        zlib.error,
+    )
+    with path.open("rb") as stream:
+        try:
+            book = openpyxl.load_workbook(stream, read_only=True, data_only=True)
+            about = {each.name: each.value for each in book.custom_doc_props.props}
+            checked_format(file, about.get(_FORMAT))
+            units = checked_units(file, about.get(_UNITS))
+            if missing := [name for name in TABLES if name not in book.sheetnames]:
+                raise data_error(file, f"no sheet {missing[0]}: expected those of {RESULT_FORMAT}")
+            return Stored(units, *(_stored_table(file, name, book[name]) for name in TABLES))
+        except DeckError:
+            raise
+        except unreadable as error:
+            raise data_error(file, f"not a workbook that can be read: {cut(str(error), 100)}") from error
+
+
+def _stored_table(file: str, table: str, sheet: Any) -> StoredTable:  # noqa: ANN401 - openpyxl has no types
+    sheet.reset_dimensions()
+    rows = sheet.iter_rows(values_only=True)
+    names = [str(name) for name in next(rows, ())]
+    require_names(file, table, names)
+    kinds: dict[str, Kind] = flat_kinds(table)
+    if "time" in names:
+        kinds = {"time": "number", **kinds}
+    held = list(islice(rows, 1, None))
+    places = {name: names.index(name) for name in kinds}
+
+    def fault(name: str, row: int, message: str) -> DeckError:
+        cell = f"{_letters(places[name])}{row + 1 + _HEADINGS}"
+        return data_error(file, f"sheet {table}, cell {cell}: {message}", row + 1 + _HEADINGS, places[name] + 1)
+
+    columns = {
+        name: column_of(
+            [row[place] if place < len(row) else None for row in held], kinds[name], name, partial(fault, name)
+        )
+        for name, place in places.items()
+    }
+    times = columns.pop("time", None)
+    return StoredTable(file, columns, None if times is None else np.asarray(times))
+
+
+def _letters(place: int) -> str:
+    """The letters of a column from its place, from 0."""
+    before, last = divmod(place, 26)
+    return (_letters(before - 1) if before else "") + chr(ord("A") + last)
