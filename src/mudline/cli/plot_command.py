@@ -7,9 +7,11 @@ from pathlib import Path
 import click
 
 from mudline.cli import DONE, FOUND, options, pictures
+from mudline.cli.inputs import refuses_bad_decks
 from mudline.cli.pictures import Pictures
 from mudline.cli.streams import notify, reason
 from mudline.cli.view import View
+from mudline.diagnostics import DeckError
 from mudline.results.panels import ANIMATIONS, PICTURES
 from mudline.results.plot_data import PlotData
 
@@ -23,8 +25,9 @@ from mudline.results.plot_data import PlotData
     help="The picture; .gif and .html are animations of a series.",
 )
 @pictures.options
-@options.common
 @click.argument("result", metavar="RESULT", shell_complete=options.complete_files)
+@options.common
+@refuses_bad_decks
 def command(*, result: str, output: str, panels: str | None, plot_elements: str | None, view: View) -> int:
     """Draw a result file that evaluate wrote, without its deck (needs the extra mudline[plot])."""
     moving = Path(output).suffix.lower().removeprefix(".") in ANIMATIONS
@@ -38,9 +41,13 @@ def command(*, result: str, output: str, panels: str | None, plot_elements: str 
         found = read_result(Path(result))
     except OSError as error:
         raise click.ClickException(f"{result}: {reason(error)}") from error
-    except ValueError as error:
+    except ImportError as error:
         notify(str(error))
         return FOUND
+    except DeckError:
+        raise
+    except ValueError as error:
+        raise click.UsageError(str(error)) from error
     data = wanted.data(lambda elements, frames: PlotData.of_result(found, elements, frames))
     if data is not None:
         wanted.draw(data, "", view)

@@ -200,11 +200,9 @@ class PlotData:
 
         Raises ValueError for a result that does not know what was evaluated, and as the class does.
         """
-        if result.given is None:
-            raise ValueError("the result does not know its nodes and elements: evaluate them with a ContactModel")
-        series = result if result.depth.ndim == 2 else result.as_series()
+        series = result.as_series()
         data = cls(
-            result.given,
+            result.known,
             series.evaluated,
             series.present,
             len(series.depth),

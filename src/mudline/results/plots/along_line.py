@@ -18,6 +18,7 @@ from mudline.results.plot_data import Chosen, Envelope, PlotData
 from mudline.results.plots.style import (
     COLORS,
     LIGHT,
+    MOST,
     SEABED,
     STATE_STYLES,
     Style,
@@ -35,8 +36,8 @@ MOST_LINES = 6
 """Lines that are drawn."""
 _BESIDE = 0.15
 """Part of the stretch in contact that is drawn on both sides of it."""
-HIGHEST = 25.0
-"""How high above the seabed a line is drawn, as a multiple of the deepest embedment."""
+_HIGHEST = (25.0, 5.0)
+"""How high above the seabed a line is drawn, as a multiple of the deepest embedment and of the largest diameter."""
 _LABELLED_POINTS = 3
 """Touchdown points whose arc length is written beside them, if there are no more."""
 
@@ -123,7 +124,6 @@ def line(axes: Axes, data: PlotData, stretch: Stretch) -> None:
     """Draw the lines on the seabed, thick where they touch it, with their touchdown points."""
     chosen = _chosen(data)
     heights, seabed = chosen.heights, chosen.seabed
-    contact = chosen.result.contact
     for place, number in enumerate(stretch.lines):
         nodes, arcs = stretch.nodes(number)
         drawn = thinned(chosen.result.gap[nodes])
@@ -132,7 +132,7 @@ def line(axes: Axes, data: PlotData, stretch: Stretch) -> None:
         axes.plot(
             arcs[drawn], heights[nodes[drawn]], color=style.color, linestyle=style.linestyle, linewidth=1.1, zorder=3
         )
-        _thick(axes, data, heights, stretch.elements(number), contact, style)
+        _thick(axes, data, heights, number, stretch, style)
     _crop(axes, data, chosen, stretch)
     _touchdown_points(axes, data, chosen, stretch)
     if len(stretch.lines) == 1:
@@ -149,9 +149,8 @@ def line(axes: Axes, data: PlotData, stretch: Stretch) -> None:
 
 def _crop(axes: Axes, data: PlotData, chosen: Chosen, stretch: Stretch) -> None:
     """Leave out what hangs so high that nothing would be seen of how the line lies on the seabed."""
-    deepest = float(np.nan_to_num(data.depth.most).max(initial=0.0))
     nodes = np.concatenate([stretch.nodes(number)[0] for number in stretch.lines])
-    near = nodes[chosen.result.gap[nodes] <= HIGHEST * deepest]
+    near = nodes[chosen.result.gap[nodes] <= highest(data)]
     if not near.size:
         return
     drawn = np.concatenate([chosen.heights[near], chosen.seabed[near]])
@@ -160,23 +159,26 @@ def _crop(axes: Axes, data: PlotData, chosen: Chosen, stretch: Stretch) -> None:
         axes.set_ylim(low - 0.05 * (high - low), high)
 
 
-def _thick(axes: Axes, data: PlotData, heights: Floats, elements: Indices, contact: Mask, style: Style) -> None:
+def highest(data: PlotData) -> float:
+    """How high above the seabed a line is drawn, if something touches the seabed."""
+    sizes = (np.nan_to_num(data.depth.most), np.nan_to_num(data.given.diameter))
+    return max(times * float(values.max(initial=0.0)) for times, values in zip(_HIGHEST, sizes, strict=True))
+
+
+def _thick(axes: Axes, data: PlotData, heights: Floats, number: int, stretch: Stretch, style: Style) -> None:
     """Draw the elements of a line that touch the seabed over it."""
-    touching = elements[contact[elements]]
-    if not touching.size:
-        return
     lines = data.given.lines
-    half = 0.5 * data.given.length[touching]
-    middle = lines.element_arc[touching]
-    ends = data.given.element_nodes[touching]
-    along = lines.node_arc[ends[:, 0]] <= lines.node_arc[ends[:, 1]]
-    first, second = np.where(along, ends[:, 0], ends[:, 1]), np.where(along, ends[:, 1], ends[:, 0])
-    none = np.full(len(touching), np.nan)
-    x = np.column_stack([middle - half, middle + half, none]).ravel()
-    y = np.column_stack([heights[first], heights[second], none]).ravel()
-    kept = thinned(np.nan_to_num(y[::3]), 2 * len(touching))
-    rows = (3 * kept[:, np.newaxis] + np.arange(3)).ravel()
-    axes.plot(x[rows], y[rows], color=style.color, linewidth=3.5, solid_capstyle="butt", zorder=2)
+    shown = np.zeros(len(data.given.element_ids), np.bool_)
+    shown[stretch.elements(number)] = True
+    shown &= _chosen(data).result.contact
+    here = np.flatnonzero(shown[lines.elements[number]])
+    if not here.size:
+        return
+    arcs, along = lines.node_arcs(number, data.given.length), heights[lines.nodes[number]]
+    here = here[thinned(np.nan_to_num(along[here]), MOST)]
+    none = np.full(len(here), np.nan)
+    x, y = (np.column_stack([values[here], values[here + 1], none]).ravel() for values in (arcs, along))
+    axes.plot(x, y, color=style.color, linewidth=3.5, solid_capstyle="butt", zorder=2)
 
 
 def _touchdown_points(axes: Axes, data: PlotData, chosen: Chosen, stretch: Stretch) -> None:

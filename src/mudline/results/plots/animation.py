@@ -19,7 +19,7 @@ from PIL import Image
 
 from mudline.quantities import ELEMENTS, NODES
 from mudline.results.plot_data import Frame, PlotData
-from mudline.results.plots.along_line import HIGHEST, Stretch
+from mudline.results.plots.along_line import Stretch, highest
 from mudline.results.plots.style import SEABED, SETTINGS, Spelled, above, finish, is_number, style_of, when
 from mudline.scene.numbering import Floats, Indices
 
@@ -59,8 +59,8 @@ class _Pictures:
         self._rows = [_Rows(data, stretch, place, number) for place, number in enumerate(stretch.lines)]
         for place, rows in enumerate(self._rows):
             rows.begin(line, force, None if place else "seabed")
-        highest = HIGHEST * float(np.nan_to_num(data.depth.most).max(initial=0.0))
-        _limits(line, [values for rows in self._rows for frame in data.frames for values in rows.seen(frame, highest)])
+        most = highest(data)
+        _limits(line, [values for rows in self._rows for frame in data.frames for values in rows.seen(frame, most)])
         _limits(force, [rows.forces(frame) for rows in self._rows for frame in data.frames])
         line.set_ylabel(NODES["x"].axis(data.given.units))
         force.set_ylabel(ELEMENTS["force"].axis(data.given.units))
@@ -109,11 +109,11 @@ class _Rows:
         """Those of the seabed and of the line."""
         return frame.seabed[self._nodes], frame.height[self._nodes]
 
-    def seen(self, frame: Frame, highest: float) -> tuple[Floats, Floats]:
+    def seen(self, frame: Frame, most: float) -> tuple[Floats, Floats]:
         """Those of the seabed, and of the line where it is not too far above; all of it, where nothing is near."""
         seabed, height = self.heights(frame)
-        near = height - seabed <= highest
-        return seabed, height[near] if highest > 0.0 and near.any() else height
+        near = height - seabed <= most
+        return seabed, height[near] if near.any() else height
 
     def forces(self, frame: Frame) -> Floats:
         """Those of the elements."""

@@ -44,7 +44,7 @@ def traces(rows: Sequence[Axes], data: PlotData) -> None:
         band(axes, data, data.traces[name], Style(COLORS[0], "-", "o"), None)
         axes.set_ylabel(headed(STEPS[name].label, STEPS[name].unit_name(data.given.units)))
         if name == "touching":
-            axes.yaxis.set_major_locator(MaxNLocator(nbins=3, integer=True))
+            axes.yaxis.set_major_locator(MaxNLocator(nbins=3, integer=True, steps=[1, 2, 5, 10]))
     time_axis(rows, data)
 
 
