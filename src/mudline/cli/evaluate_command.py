@@ -10,15 +10,17 @@ from typing import cast
 import click
 from click.core import ParameterSource
 
-from mudline.cli import DONE, FOUND, options
+from mudline.cli import DONE, FOUND, options, pictures
 from mudline.cli.evaluate_inputs import EvaluateInputs, read_headings
 from mudline.cli.evaluate_many import ManyOptions, evaluate_many
 from mudline.cli.evaluate_one import Outputs, evaluate_one, show_plan
 from mudline.cli.inputs import STDIN, GivenDeck, collect, refuses_bad_decks
+from mudline.cli.pictures import Pictures
 from mudline.cli.result_files import has_library, is_installed, suffix
 from mudline.cli.view import View
 from mudline.results.evaluation import Tension
 from mudline.results.forms import form_names
+from mudline.results.panels import ANIMATIONS, PICTURES
 
 
 @click.command("evaluate")
@@ -59,7 +61,16 @@ from mudline.results.forms import form_names
     "--jobs", type=click.IntRange(min=0), default=0, help="Processes for several decks; 0: one for each processor."
 )
 @click.option("--no-cache", "anew", is_flag=True, help="Evaluate every deck again, whatever -o DIR holds from before.")
-@click.option("--plot", "picture", metavar="FILE.png|svg", help="Draw the results (needs the extra mudline[plot]).")
+@click.option(
+    "--plot",
+    "picture",
+    metavar=f"FILE.{'|'.join(PICTURES)}",
+    help="Draw the results (needs the extra mudline[plot]).",
+)
+@pictures.options
+@click.option(
+    "--animate", metavar=f"FILE.{'|'.join(ANIMATIONS)}", help="Draw the steps of a series as moving pictures."
+)
 @click.option("--plan", "plan_only", is_flag=True, help="Print what the deck needs and what is left out, and why.")
 @click.option(
     "--table",
@@ -100,6 +111,9 @@ def command(
     against: str | None,
     output: str | None,
     picture: str | None,
+    panels: str | None,
+    plot_elements: str | None,
+    animate: str | None,
     plan_only: bool,
     table: str,
     spreadsheet: bool,
@@ -129,7 +143,8 @@ def command(
         raise click.UsageError("--form is for several decks: the suffix of -o gives the form of the results of one")
     if spreadsheet and "csv" not in (output_format, suffix(Path(output or ""))):
         raise click.UsageError(options.CSV_ONLY)
-    outputs = Outputs(output, picture, against, table, output_format, spreadsheet, fail_on)
+    wanted = Pictures.asked_for(picture, animate, panels, plot_elements, option="--plot")
+    outputs = Outputs(output, wanted, against, table, output_format, spreadsheet, fail_on)
     if not outputs.have_libraries():
         return FOUND
     deck = GivenDeck(decks[0], stdin_name, units).load()
@@ -139,7 +154,15 @@ def command(
     return evaluate_one(deck, inputs, positions, outputs, view)
 
 
-_OF_ONE = {"against": "--against", "picture": "--plot", "plan_only": "--plan", "table": "--table"}
+_OF_ONE = {
+    "against": "--against",
+    "picture": "--plot",
+    "panels": "--panels",
+    "plot_elements": "--plot-elements",
+    "animate": "--animate",
+    "plan_only": "--plan",
+    "table": "--table",
+}
 
 
 def _are_many(decks: Sequence[str]) -> bool:

@@ -72,7 +72,7 @@ def evaluate_many(decks: Inputs, options: ManyOptions, view: View) -> int:
     if not decks.files:
         return decks.code
     folder = None if options.output is None else Path(options.output)
-    common, cases = named_cases(decks.files, options.form if folder else "")
+    common, cases = named_cases([*decks.files], options.form if folder else "")
     known = None if folder is None else KnownResults(folder, _spelled(options))
     rows: list[Kept] = []
     taken = 0

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
-from importlib import import_module
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -13,28 +13,26 @@ import numpy as np
 from mudline.cli import DONE, FOUND
 from mudline.cli.evaluate_inputs import EvaluateInputs, read_file
 from mudline.cli.evaluate_text import print_comparison, print_evaluation, print_plan
+from mudline.cli.pictures import Pictures
 from mudline.cli.result_files import (
-    PICTURES,
-    PLOTS,
     behind,
     beside,
     form_of_file,
     has_library,
     line_watch,
     result_files,
-    suffix,
 )
-from mudline.cli.streams import MOST_REPORTED, counted, emit, emit_json, notify, writing
+from mudline.cli.streams import MOST_REPORTED, counted, emit, emit_json, notify
 from mudline.cli.view import Progress, View, wants_bar
 from mudline.contact import LawKind
 from mudline.contact.result import Part
 from mudline.deck.model import Deck
-from mudline.linting.output import visible
 from mudline.quantities import csv_lines
 from mudline.results.against import Comparison, read_reference
 from mudline.results.evaluation import Evaluation, Prepared
-from mudline.results.forms import ResultConsumer, Sink, Together, form_names, plan_rows, text_form
-from mudline.results.totals import PlotData, StepSummary
+from mudline.results.forms import ResultConsumer, Sink, Together, plan_rows, text_form
+from mudline.results.plot_data import PlotData
+from mudline.results.totals import StepSummary
 from mudline.results.warnings import ContactWarning, ContactWatch, caption
 from mudline.short_repr import listed_numbers
 
@@ -47,7 +45,7 @@ class Outputs:
     """Where the results of one deck go, and what is shown of them."""
 
     output: str | None
-    picture: str | None
+    pictures: Pictures
     against: str | None
     table: str
     output_format: str
@@ -56,8 +54,8 @@ class Outputs:
 
     def have_libraries(self) -> bool:
         """Whether the libraries for the files are installed; reports one that is not. Raises click.UsageError."""
-        forms = (form_of_file(self.output, form_names()), form_of_file(self.picture, PICTURES))
-        return all(has_library(form) for form in forms if form)
+        form = form_of_file(self.output)
+        return (not form or has_library(form)) and self.pictures.has_library()
 
 
 def evaluate_one(deck: Deck, inputs: EvaluateInputs, positions: str | None, outputs: Outputs, view: View) -> int:
@@ -66,13 +64,13 @@ def evaluate_one(deck: Deck, inputs: EvaluateInputs, positions: str | None, outp
     against, output, output_format = outputs.against, outputs.output, outputs.output_format
     reference = read_file(against, lambda file: read_reference(file, evaluation)) if against else None
     comparison = None if reference is None else Comparison(evaluation, reference)
+    drawing = outputs.pictures.data(partial(PlotData.of_evaluation, evaluation))
     if not view.quiet:
         _notify_before(evaluation, comparison)
-    drawing = PlotData(evaluation) if outputs.picture else None
     shown = "" if output else output_format
     most = None if view.verbose else MOST_ROWS
     digest = StepSummary(evaluation, most, outputs.table == "nodes") if shown == "text" else None
-    lines = line_watch(evaluation, shown or form_of_file(output, form_names()), most)
+    lines = line_watch(evaluation, shown or form_of_file(output), most)
     slow, watch = _SlowSuction(), ContactWatch.of(evaluation)
     given = (comparison, drawing, digest, lines, slow, watch)
     consumers: list[ResultConsumer] = [one for one in given if one is not None]
@@ -80,8 +78,8 @@ def evaluate_one(deck: Deck, inputs: EvaluateInputs, positions: str | None, outp
         _run(evaluation, [*consumers, sink], view, bar=shown in {"", "text"})
         warnings = watch.warnings()
         sink.finish(behind(evaluation, warnings, comparison, lines))
-    if outputs.picture and drawing is not None:
-        _draw(drawing, Path(outputs.picture), caption(warnings), view)
+    if drawing is not None:
+        outputs.pictures.draw(drawing, caption(warnings), view)
     if not view.quiet:
         _notify_warnings(warnings)
         _notify_after(evaluation, slow, watch.note(), Path(output) if output else None)
@@ -126,14 +124,6 @@ def _run(evaluation: Evaluation, consumers: Sequence[ResultConsumer], view: View
                 consumer.take(part)
             for _ in range(part.count):
                 progress.advance()
-
-
-def _draw(data: PlotData, path: Path, doubt: str, view: View) -> None:
-    """Draw the results that were collected, and what is doubtful in them."""
-    with writing(path) as stream:
-        import_module(PLOTS).draw_evaluation(data, suffix(path), stream, visible, doubt)
-    if not view.quiet:
-        notify(f"plot -> {path.as_posix()}")
 
 
 # ----------------------------------------------------------------------------------------------------------- notes

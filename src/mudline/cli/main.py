@@ -33,6 +33,7 @@ COMMANDS = {
     "show": "Summarise a deck: sections, keywords, sets, curves, diameters.",
     "curves": "Show the force-embedment curves of a deck as they are evaluated.",
     "evaluate": "Evaluate the contact forces and stiffnesses of a deck.",
+    "plot": "Draw the results in a file that evaluate wrote.",
     "study": "Measure precision, stability and cost on a deck.",
     "rules": "List the rules, or explain one.",
     "schema": "Print the JSON Schema of a deck in JSON or YAML.",

@@ -43,14 +43,14 @@ units = click.option(
     help="Unit system of the deck, instead of that of its suffix, *UNITS or gravity.",
 )
 
-_files = click.Path().shell_complete
+complete_files = click.Path().shell_complete
 """What a shell completes; paths are not checked here, so that every fault of one is worded the same way."""
 
-deck = click.argument("deck", metavar="DECK", shell_complete=_files)
+deck = click.argument("deck", metavar="DECK", shell_complete=complete_files)
 
-decks = click.argument("decks", nargs=-1, required=True, metavar="DECKS...", shell_complete=_files)
+decks = click.argument("decks", nargs=-1, required=True, metavar="DECKS...", shell_complete=complete_files)
 
-paths = click.argument("paths", nargs=-1, required=True, metavar="PATHS...", shell_complete=_files)
+paths = click.argument("paths", nargs=-1, required=True, metavar="PATHS...", shell_complete=complete_files)
 
 
 def complete_rules(_context: click.Context, _parameter: click.Parameter, incomplete: str) -> list[str]:

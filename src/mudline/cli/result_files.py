@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from functools import partial
-from importlib import import_module
 from pathlib import Path
 
 import click
@@ -15,29 +14,22 @@ from mudline.cli.view import View, tracked
 from mudline.contact.columns import ElementTable
 from mudline.results.against import Comparison
 from mudline.results.evaluation import Evaluation
-from mudline.results.forms import Output, Sink, form_module, table_path
+from mudline.results.forms import Output, Sink, form_module, form_names, table_path
 from mudline.results.lines import LineWatch
 from mudline.results.warnings import ContactWarning
 
-PICTURES = ("png", "svg")
-PLOTS = "mudline.results.plots"
-_EXTRAS = {
-    "parquet": ("pyarrow", "parquet"),
-    "png": ("matplotlib", "plot"),
-    "svg": ("matplotlib", "plot"),
-    "xlsx": ("xlsxwriter", "excel"),
-}
-"""By form: the library that draws or writes it, and the extra that brings it."""
+_EXTRAS = {"parquet": ("pyarrow", "parquet"), "xlsx": ("xlsxwriter", "excel")}
+"""By form: the library that writes it, and the extra that brings it."""
 
 
-def form_of_file(path: str | None, known: Sequence[str]) -> str:
-    """The form of a file by its suffix, "" without a file; raises click.UsageError."""
+def form_of_file(path: str | None) -> str:
+    """The form of a file of results by its suffix, "" without a file; raises click.UsageError."""
     if path is None:
         return ""
     form = suffix(Path(path))
-    if form not in known:
-        what = "a plot is a" if known is PICTURES else "results are written as"
-        raise click.UsageError(f"{path}: {what} {', '.join(f'.{name}' for name in known[:-1])} or .{known[-1]}")
+    if form not in (known := form_names()):
+        forms = ", ".join(f".{name}" for name in known[:-1])
+        raise click.UsageError(f"{path}: results are written as {forms} or .{known[-1]}")
     return form
 
 
@@ -49,7 +41,7 @@ def suffix(path: Path) -> str:
 def is_installed(form: str) -> bool:
     """Whether the library for a form of files is installed."""
     try:
-        import_module(PLOTS) if form in PICTURES else form_module(form)
+        form_module(form)
     except ImportError:
         return False
     return True

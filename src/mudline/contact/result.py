@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+import os
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
 from importlib import import_module
 from types import ModuleType
@@ -21,6 +22,7 @@ if TYPE_CHECKING:  # each is imported when it is asked for
     import pandas as pd
     import pyarrow as pa
     import xarray as xr
+    from matplotlib.figure import Figure
 
 TableName = Literal["elements", "nodes", "summary"]
 
@@ -162,6 +164,32 @@ class ContactResult:
     def steps(self, start: int, stop: int) -> ContactResult:
         """Return the steps start <= step < stop of a series, as views."""
         return self._cut(slice(start, stop))
+
+    def plot(
+        self,
+        path: str | os.PathLike[str] | None = None,
+        *,
+        panels: Sequence[str] | None = None,
+        elements: Sequence[int] = (),
+    ) -> Figure:
+        """Return a figure of the results, as `mudline evaluate --plot` draws it.
+
+        Args:
+            path: a file to write, .png, .svg or .pdf by its suffix.
+            panels: names of panels in their order; None: those that the results have something to show in.
+            elements: numbers of elements whose force over penetration is drawn.
+
+        Raises:
+            ValueError: the suffix, a panel or an element is unknown, the results have nothing for a panel, or do not
+                know what was evaluated.
+            OSError: the file cannot be written.
+            ImportError: matplotlib is not installed.
+        """
+        try:
+            from mudline.results.plots import plot_result  # noqa: PLC0415 - matplotlib is an extra; see pyproject.toml
+        except ImportError as error:
+            raise ImportError("a plot needs matplotlib: pip install 'mudline[plot]'") from error
+        return plot_result(self, path, panels=panels, elements=elements)
 
     def _cut(self, key: int | slice) -> ContactResult:
         return self._each(lambda values: values[key])

@@ -1,4 +1,4 @@
-"""What is kept of an evaluation whose steps come and go: totals by law and set, by step, the largest; for a picture.
+"""What is kept of an evaluation whose steps come and go: totals by law and set, by step, the largest of all steps.
 
 Memory does not grow with the number of steps, but for the figures of the steps themselves.
 """
@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mudline.contact import ContactResult, LawKind
+from mudline.contact import ContactResult
 from mudline.contact.result import Part
 from mudline.quantities import SLIDING, STATES, Names, finite
 from mudline.results.evaluation import Evaluation
@@ -170,11 +170,11 @@ class Trace(NamedTuple):
     elements: Indices | None = None
 
 
-def traces(evaluation: Evaluation, part: Part) -> dict[str, Trace]:
+def traces(part: Part) -> dict[str, Trace]:
     """The figures of the steps of a part by the names of `STEPS`."""
-    result, chosen = part.result, evaluation.elements
+    result, chosen = part.result, np.flatnonzero(part.result.evaluated)
     with np.errstate(over="ignore", invalid="ignore"):
-        reaction = result.normal_force[:, evaluation.nodes].sum(axis=1)
+        reaction = result.normal_force[:, result.present].sum(axis=1)
     force = result.force[:, chosen]
     return {
         "reaction": Trace(reaction),
@@ -238,7 +238,7 @@ class StepSummary:
                 self.nodes.append(_node_step(self.evaluation, time, result))
             else:
                 self.steps.append(_step(self.evaluation, time, result))
-        for name, (values, elements) in traces(self.evaluation, part).items():
+        for name, (values, elements) in traces(part).items():
             sizes = np.abs(values) if name == "force" else values
             if np.isnan(sizes).all():
                 continue
@@ -247,86 +247,3 @@ class StepSummary:
             if before is None or sizes[step] > (abs(before.value) if name == "force" else before.value):
                 element = None if elements is None else int(self.evaluation.scene.element_ids[elements[step]])
                 self.peaks[name] = Peak(float(values[step]), part.start + step, element)
-
-
-# ----------------------------------------------------------------------------------------------- data of a picture
-
-_BINS = 2000
-"""Pieces of time of which the least and the largest value are drawn."""
-_POINTS = 4000
-"""Evaluated points that are drawn on the curves."""
-TRACED = ("reaction", "force", "touching", "deepest")
-"""Figures of a step that are drawn over time."""
-
-
-class Points(NamedTuple):
-    """Evaluated points of elements on a curve: its index, ratio and force."""
-
-    curve: Indices
-    ratio: Floats
-    force: Floats
-
-
-@dataclass(frozen=True, slots=True)
-class Chosen:
-    """The step that is drawn, its result, and the positions (n, 3)."""
-
-    step: int
-    result: ContactResult
-    positions: Floats
-
-
-class PlotData:
-    """The step with the largest total reaction, points on the curves, and traces over time."""
-
-    def __init__(self, evaluation: Evaluation) -> None:
-        self.evaluation = evaluation
-        self.chosen: Chosen | None = None
-        self.points: list[Points] = []
-        bins = min(_BINS, evaluation.steps)
-        self.traces = {name: (np.full(bins, np.inf), np.full(bins, -np.inf)) for name in TRACED}
-        self._largest = -np.inf
-        curves = evaluation.model.input.law[evaluation.elements] == LawKind.CURVE
-        self.on_curve: Indices = evaluation.elements[curves]
-        """The evaluated elements with a curve."""
-        self._every = max(1, evaluation.steps * len(self.on_curve) // _POINTS)
-        self._seen = 0
-
-    @property
-    def bin_times(self) -> Floats:
-        """The time of the first step of each bin."""
-        bins = len(self.traces["reaction"][0])
-        first = -(-np.arange(bins) * self.evaluation.steps // bins)
-        return np.zeros(0) if self.evaluation.time is None else self.evaluation.time[first]
-
-    def take(self, part: Part) -> None:
-        """Look at some steps."""
-        of_part = traces(self.evaluation, part)
-        steps = np.arange(part.start, part.start + part.count)
-        where = steps * len(self.traces["reaction"][0]) // self.evaluation.steps
-        for name, (least, most) in self.traces.items():
-            values = of_part[name].values
-            np.minimum.at(least, where, np.where(np.isnan(values), np.inf, values))
-            np.maximum.at(most, where, np.where(np.isnan(values), -np.inf, values))
-        reaction = of_part["reaction"].values
-        step = int(np.argmax(reaction))
-        if self.chosen is None or reaction[step] > self._largest:
-            self._largest = float(reaction[step])
-            places = np.array(self.evaluation.positions[part.start + step], dtype=np.float64)
-            self.chosen = Chosen(part.start + step, part.result.step(step), places)
-        self._sample(part)
-
-    def _sample(self, part: Part) -> None:
-        """Evaluated points at even distances; those of the chosen step are drawn anyway."""
-        size = part.count * len(self.on_curve)
-        taken = np.arange(-self._seen % self._every, size, self._every)
-        self._seen += size
-        if taken.size:
-            step, row = np.divmod(taken, len(self.on_curve))
-            self.points.append(self.points_at(part.result, step, self.on_curve[row]))
-
-    def points_at(self, result: ContactResult, step: Indices | tuple[()], element: Indices) -> Points:
-        """Points of elements at steps of a series, or of one step."""
-        at = (element,) if isinstance(step, tuple) else (step, element)
-        curve = self.evaluation.model.input.curve_index[element]
-        return Points(curve.astype(np.intp), result.ratio[at], result.force[at])

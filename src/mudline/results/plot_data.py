@@ -1,0 +1,353 @@
+"""What is kept of an evaluation whose steps come and go, to draw it: memory does not grow with the number of steps.
+
+One step whole, the extents of all steps, and bins of what changes over time; nothing here needs matplotlib.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mudline.contact import ContactInput, ContactResult
+from mudline.contact.result import Part
+from mudline.contact.touchdown import Touchdown
+from mudline.curves import ForceCurve
+from mudline.results.evaluation import Evaluation
+from mudline.results.totals import traces
+from mudline.scene.numbering import Floats, Indices, Mask
+from mudline.short_repr import listed_numbers
+
+_BINS = 2000
+"""Pieces of time of which the least and the largest value are drawn."""
+_POINTS = 4000
+"""Evaluated points that are drawn on the curves."""
+_LOOP_STEPS = 5000
+"""Steps of a force-penetration loop that are drawn."""
+_FRAME_NODES = 2000
+"""Nodes of a frame of an animation that are drawn."""
+_FOLLOWED_LINES = 64
+"""Lines whose touchdown is followed over time."""
+MOST_LOOPS = 6
+"""Elements whose force-penetration loop can be asked for."""
+TRACED = ("reaction", "force", "touching", "deepest")
+"""Figures of a step that are drawn over time."""
+TOUCHDOWN = ("first", "last", "contact_length")
+"""Figures of a line (`LineSeries`) that are drawn over time."""
+_ON_CURVE = "curve:"
+
+
+class Points(NamedTuple):
+    """Evaluated points of elements on a curve: its index, ratio, force, and the step."""
+
+    curve: Indices
+    ratio: Floats
+    force: Floats
+    step: Indices
+
+
+class Chosen(NamedTuple):
+    """A step that is drawn, and its result."""
+
+    step: int
+    result: ContactResult
+
+    @property
+    def heights(self) -> Floats:
+        """The heights (n,) of the nodes, NaN where they are not known."""
+        if self.result.positions is None:
+            return np.full(self.result.gap.shape, np.nan)
+        return np.asarray(self.result.positions[:, 0], dtype=np.float64)
+
+    @property
+    def seabed(self) -> Floats:
+        """The height (n,) of the seabed right below each node."""
+        return _below(self.heights, self.result)
+
+
+def _below(heights: Floats, result: ContactResult) -> Floats:
+    with np.errstate(all="ignore"):
+        found: Floats = heights - result.gap / result.normal[..., 0]
+    return found
+
+
+class Band:
+    """The least and the largest value of each bin of steps, NaN where there is none."""
+
+    def __init__(self, bins: int) -> None:
+        self.least = np.full(bins, np.nan)
+        self.most = np.full(bins, np.nan)
+
+    def take(self, bins: Indices, values: Floats) -> None:
+        """Look at the values of some steps, which belong to these bins."""
+        np.fmin.at(self.least, bins, values)
+        np.fmax.at(self.most, bins, values)
+
+
+class Envelope:
+    """The least, largest and mean value of each element over the steps; NaN where there is none."""
+
+    def __init__(self, elements: int) -> None:
+        self.least = np.full(elements, np.nan)
+        self.most = np.full(elements, np.nan)
+        self._total = np.zeros(elements)
+        self._count = np.zeros(elements, np.intp)
+
+    @property
+    def mean(self) -> Floats:
+        """The mean (m,) over the steps."""
+        with np.errstate(invalid="ignore"):
+            found: Floats = np.where(self._count > 0, self._total / np.maximum(self._count, 1), np.nan)
+        return found
+
+    def take(self, values: Floats) -> None:
+        """Look at values (steps, m)."""
+        self.least = np.fmin(self.least, np.fmin.reduce(values, axis=0))
+        self.most = np.fmax(self.most, np.fmax.reduce(values, axis=0))
+        with np.errstate(over="ignore", invalid="ignore"):
+            self._total += np.nansum(values, axis=0)
+        self._count += np.count_nonzero(~np.isnan(values), axis=0)
+
+
+class Loop(NamedTuple):
+    """Penetration and force per unit length of chosen elements (steps, k); their suction states, None without."""
+
+    penetration: Floats
+    force: Floats
+    state: NDArray[np.int8] | None
+
+
+class Frame(NamedTuple):
+    """A step of an animation: heights of its nodes and of the seabed below them, and forces of its elements."""
+
+    step: int
+    height: Floats
+    seabed: Floats
+    force: Floats
+
+
+class PlotData:
+    """What is drawn of results: the step with the largest total reaction, envelopes, points on curves, times, loops.
+
+    Parts are given to `take` in the order of the steps.
+
+    Attributes:
+        given: what was evaluated.
+        steps, times: number of steps, and their times (steps,); None for a single state without a time.
+        elements, nodes: indices of those that are evaluated.
+        looped: indices of the elements whose force-penetration loop is kept.
+        chosen: the step with the largest total reaction; pulled: that with the largest pull of an element, None
+            without one; slid: that with the largest friction on a node, None without friction.
+        touched: (m,) elements that are in contact at some step.
+        frame_nodes, frame_elements: indices of those that a frame has.
+    """
+
+    def __init__(  # noqa: PLR0913 - what is evaluated, and what of it is wanted
+        self,
+        given: ContactInput,
+        evaluated: Mask,
+        present: Mask,
+        steps: int,
+        times: Floats | None = None,
+        *,
+        elements: Sequence[int] = (),
+        frames: int = 0,
+    ) -> None:
+        """Prepare for the results of an input.
+
+        `elements` are the numbers of those whose loop is wanted, `frames` how many steps an animation has at most.
+        Raises ValueError for numbers that no evaluated element has, and for too many of them.
+        """
+        self.given = given
+        self.steps = steps
+        self.times = times
+        self.elements: Indices = np.flatnonzero(evaluated)
+        self.nodes: Indices = np.flatnonzero(present)
+        self.looped = self._looped(elements)
+        self.chosen: Chosen | None = None
+        self.pulled: Chosen | None = None
+        self.slid: Chosen | None = None
+        self.touched: Mask = np.zeros(len(evaluated), np.bool_)
+        self.force, self.depth = Envelope(len(evaluated)), Envelope(len(evaluated))
+        self._begin_curves()
+        bins = min(_BINS, steps)
+        self.traces = {name: Band(bins) for name in TRACED}
+        self.lines: list[int] = np.unique(given.lines.of_element[self.elements]).tolist()[:_FOLLOWED_LINES]
+        self.more_lines = len(np.unique(given.lines.of_element[self.elements])) - len(self.lines)
+        self.touchdown = {(line, name): Band(bins) for line in self.lines for name in TOUCHDOWN} if steps > 1 else {}
+        self._finder = Touchdown(given)
+        self._every_loop = max(1, -(-steps // _LOOP_STEPS))
+        self._loops: list[Loop] = []
+        self._frame_steps = np.unique(np.linspace(0, steps - 1, min(frames, steps)).round().astype(np.intp))
+        self.frame_nodes = self.nodes[thinned_evenly(len(self.nodes), _FRAME_NODES)]
+        self.frame_elements = self.elements[thinned_evenly(len(self.elements), _FRAME_NODES)]
+        self.frames: list[Frame] = []
+        self._largest, self._pull, self._friction = -np.inf, 0.0, 0.0
+
+    @classmethod
+    def of_evaluation(cls, evaluation: Evaluation, elements: Sequence[int] = (), frames: int = 0) -> PlotData:
+        """Prepare for the parts of an evaluation; raises as the class does."""
+        present = evaluation.present
+        evaluated: Mask = np.all(present[evaluation.scene.element_nodes], axis=1)
+        given = evaluation.model.input
+        return cls(given, evaluated, present, evaluation.steps, evaluation.time, elements=elements, frames=frames)
+
+    @classmethod
+    def of_result(cls, result: ContactResult, elements: Sequence[int] = (), frames: int = 0) -> PlotData:
+        """Return the data of a whole result, of a state or a series.
+
+        Raises ValueError for a result that does not know what was evaluated, and as the class does.
+        """
+        series = result.as_series()
+        data = cls(
+            result.known,
+            series.evaluated,
+            series.present,
+            len(series.depth),
+            series.times,
+            elements=elements,
+            frames=frames,
+        )
+        data.take(Part(0, series))
+        return data
+
+    def _looped(self, elements: Sequence[int]) -> Indices:
+        places = {number: index for index, number in enumerate(self.given.element_ids.tolist())}
+        known = set(self.elements.tolist())
+        wanted = list(dict.fromkeys(elements))
+        unknown = [number for number in wanted if places.get(number) not in known]
+        if unknown:
+            numbers = listed_numbers(unknown)
+            raise ValueError(f"no evaluated element has the number {numbers}: give numbers of elements in the results")
+        if len(wanted) > MOST_LOOPS:
+            raise ValueError(f"{len(wanted)} elements are too many to draw: give at most {MOST_LOOPS}")
+        return np.array([places[number] for number in wanted], np.intp)
+
+    def _begin_curves(self) -> None:
+        """Which evaluated elements have a curve: by its object, or by the name of their law in results of a file."""
+        names, laws = list[str](), np.full(len(self.given.element_ids), -1, np.intp)
+        self.curves: Sequence[ForceCurve | None]
+        if self.given.has("curve"):
+            laws, self.curves = self.given.curve_index, self.given.curves
+            names = [str(curve.name) for curve in self.given.curves]
+        else:
+            codes: dict[str, int] = {}
+            for index, name in enumerate(self.given.law_names):
+                if name.startswith(_ON_CURVE):
+                    laws[index] = codes.setdefault(name.removeprefix(_ON_CURVE), len(codes))
+            names, self.curves = list(codes), [None] * len(codes)
+        self.curve_names = names
+        self._curve_of = laws
+        self.on_curve: Indices = self.elements[laws[self.elements] >= 0]
+        self.points: list[Points] = []
+        self._every = max(1, self.steps * len(self.on_curve) // _POINTS)
+        self._seen = 0
+
+    # ------------------------------------------------------------------------------------------- as the parts come
+
+    def take(self, part: Part) -> None:
+        """Look at some steps."""
+        of_part = traces(part)
+        bins = np.arange(part.start, part.start + part.count) * min(_BINS, self.steps) // self.steps
+        for name, band in self.traces.items():
+            band.take(bins, of_part[name].values)
+        self._choose(part, of_part["reaction"].values, of_part["pull"].values)
+        self.touched |= part.result.contact.any(axis=0) & part.result.evaluated
+        self.force.take(part.result.force)
+        self.depth.take(part.result.depth)
+        if self.touchdown:
+            for line in self._finder.series(part):
+                for name in TOUCHDOWN if line.number in self.lines else ():
+                    self.touchdown[line.number, name].take(bins, getattr(line, name))
+        self._sample(part)
+        self._take_loop(part)
+        for step in self._frame_steps[
+            (self._frame_steps >= part.start) & (self._frame_steps < part.steps.stop)
+        ].tolist():
+            self.frames.append(self._frame(step, part.result.step(step - part.start)))
+
+    def _choose(self, part: Part, reaction: Floats, pull: Floats) -> None:
+        step = int(np.argmax(reaction))
+        if self.chosen is None or reaction[step] > self._largest:
+            self._largest = float(reaction[step])
+            self.chosen = Chosen(part.start + step, part.result.step(step))
+        step = int(np.argmax(np.nan_to_num(pull)))
+        if pull[step] > self._pull:
+            self._pull = float(pull[step])
+            self.pulled = Chosen(part.start + step, part.result.step(step))
+        if part.result.friction is not None:
+            friction = np.nan_to_num(np.abs(part.result.friction)).max(axis=(1, 2), initial=0.0)
+            step = int(np.argmax(friction))
+            if friction[step] > self._friction:
+                self._friction = float(friction[step])
+                self.slid = Chosen(part.start + step, part.result.step(step))
+
+    def _sample(self, part: Part) -> None:
+        """Evaluated points at even distances; those of the chosen step are drawn anyway."""
+        size = part.count * len(self.on_curve)
+        taken = np.arange(-self._seen % self._every, size, self._every)
+        self._seen += size
+        if taken.size:
+            step, row = np.divmod(taken, len(self.on_curve))
+            element = self.on_curve[row]
+            result = part.result
+            found = result.ratio[step, element], result.force[step, element]
+            self.points.append(Points(self._curve_of[element], *found, part.start + step))
+
+    def points_of(self, chosen: Chosen) -> Points:
+        """The points of a step on the curves: of all elements, or of some at even distances."""
+        element = self.on_curve[thinned_evenly(len(self.on_curve), _POINTS)]
+        step = np.full(len(element), chosen.step, np.intp)
+        return Points(self._curve_of[element], chosen.result.ratio[element], chosen.result.force[element], step)
+
+    def _take_loop(self, part: Part) -> None:
+        if not self.looped.size:
+            return
+        steps = np.arange(-part.start % self._every_loop, part.count, self._every_loop)
+        at = np.ix_(steps, self.looped)
+        states = part.result.state
+        self._loops.append(Loop(part.result.depth[at], part.result.force[at], None if states is None else states[at]))
+
+    @property
+    def loop(self) -> Loop:
+        """The loops of the chosen elements."""
+        depth, force = (np.concatenate([getattr(one, name) for one in self._loops]) for name in Loop._fields[:2])
+        states = [one.state for one in self._loops if one.state is not None]
+        return Loop(depth, force, np.concatenate(states) if states else None)
+
+    def _frame(self, step: int, result: ContactResult) -> Frame:
+        whole = Chosen(step, result)
+        nodes = self.frame_nodes
+        return Frame(step, whole.heights[nodes], whole.seabed[nodes], result.force[self.frame_elements].copy())
+
+    # ------------------------------------------------------------------------------------------------ what there is
+
+    @property
+    def bin_times(self) -> Floats:
+        """The time of the first step of each bin; the number of the step where there are no times."""
+        bins = min(_BINS, self.steps)
+        first = -(-np.arange(bins) * self.steps // bins)
+        return first.astype(np.float64) if self.times is None else self.times[first]
+
+    @property
+    def pulls(self) -> bool:
+        """Whether a law, or a curve, can hold an element down; once there are results, whether one does."""
+        if self.given.has("suction", "suction spring") or self.pulled is not None:
+            return True
+        if self.chosen is not None:
+            return self.chosen.result.state is not None
+        return any(bool((curve.forces < 0.0).any()) for curve in self.given.curves)
+
+    @property
+    def slides(self) -> bool:
+        """Whether there is friction, or a lateral spring."""
+        if self.chosen is not None:
+            return self.chosen.result.friction is not None
+        return self.given.has("friction", "lateral")
+
+
+def thinned_evenly(count: int, most: int) -> Indices:
+    """Rows of so many, at even distances, at most `most`."""
+    return np.arange(0, count, max(1, -(-count // most)))

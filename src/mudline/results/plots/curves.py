@@ -1,0 +1,168 @@
+"""Force-embedment curves: the picture of `mudline curves`, and the panel with evaluated points on their curves."""
+
+from __future__ import annotations
+
+from typing import Any, BinaryIO
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from mudline.quantities import ELEMENTS, labelled, unit_names
+from mudline.results.plot_data import PlotData, Points
+from mudline.results.plots.style import Spelled, plain_texts, style_of, write
+from mudline.scene.numbering import Floats, Indices
+from mudline.short_repr import cut
+
+_MARGIN = 0.15
+"""Part of its largest ratio by which a curve is drawn beyond its last point."""
+_CYCLE = 10
+"""Colours that matplotlib gives one after the other."""
+_MARKERS = ("o", "s", "^", "v", "P")
+"""The next one when the colours are used up."""
+_MOST_MARKED = 60
+"""Points of longer curves are not marked one by one."""
+
+_DASHED = Line2D([], [], color="0.3", linestyle="--", linewidth=1.2)
+_ASKED = Line2D([], [], color="0.3", linestyle="none", marker="x", markersize=8, markeredgewidth=1.5)
+_STATIC = Line2D([], [], color="0.3", linestyle="none", marker="D", markersize=7, markerfacecolor="none")
+
+
+def draw_curves(rows: list[dict[str, Any]], units: str, form: str, stream: BinaryIO) -> None:
+    """Write a picture ("png", "svg" or "pdf") of all curves, dashed beyond their points, with the values asked for."""
+    write(lambda: _curves(rows, units), form, stream)
+
+
+def _curves(rows: list[dict[str, Any]], units: str) -> Figure:
+    figure = Figure(figsize=(8, max(5.0, 1.5 + 0.21 * len(rows))), layout="constrained", dpi=150)
+    axes = figure.add_subplot()
+    handles = [_curve(axes, row, _MARKERS[index // _CYCLE % len(_MARKERS)]) for index, row in enumerate(rows)]
+    axes.axhline(0.0, color="0.4", linewidth=0.8, zorder=1)
+    axes.axvline(0.0, color="0.4", linewidth=0.8, zorder=1)
+    unit = unit_names(units).line_force or "force per length"
+    axes.set_xlabel(labelled(ELEMENTS["ratio"].label, "-"))
+    axes.set_ylabel(f"seabed reaction per unit length [{unit}]")
+    axes.set_title("Force-embedment curves")
+    axes.grid(visible=True, alpha=0.3)
+    _legend(figure, handles, rows)
+    return figure
+
+
+def _curve(axes: Axes, row: dict[str, Any], shape: str) -> Line2D:
+    """One curve with its marks; returns what stands for it in the legend."""
+    ratios, forces = np.array(row["points"]).T
+    marker = shape if len(ratios) <= _MOST_MARKED else None
+    (line,) = axes.plot(ratios, forces, marker=marker, markersize=3.5)
+    color = line.get_color()
+    static = [(each["ratio"], each["force"]) for each in row.get("static", [])]
+    asked = [(each["ratio"], each["force"]) for each in row["at"]]
+    marked = [ratio for ratio, _ in (*static, *asked)]
+    ends = (
+        (ratios[0], forces[0], row["segments"][0]["slope"], min([0.0, *marked])),
+        (ratios[-1], forces[-1], row["segments"][-1]["slope"], max([ratios[-1] * (1.0 + _MARGIN), *marked])),
+    )
+    for (ratio, force, slope, to), outward in zip(ends, (-1.0, 1.0), strict=True):
+        with np.errstate(over="ignore"):
+            end = force + slope * (to - ratio)
+        if outward * (to - ratio) > 0.0 and np.isfinite(end):
+            axes.plot([ratio, to], [force, end], color=color, linestyle="--", linewidth=1)
+    for points, mark in ((asked, _ASKED), (static, _STATIC)):
+        for ratio, force in points:
+            axes.plot(ratio, force, color=color, **_marker(mark))
+    return line
+
+
+def _marker(mark: Line2D) -> dict[str, Any]:
+    return {
+        "marker": mark.get_marker(),
+        "markersize": mark.get_markersize(),
+        "markeredgewidth": mark.get_markeredgewidth(),
+        "markerfacecolor": mark.get_markerfacecolor(),
+    }
+
+
+def _legend(figure: Figure, handles: list[Line2D], rows: list[dict[str, Any]]) -> None:
+    """Beside the axes, where it covers nothing; a name is plain text, whatever is in it."""
+    entries = [(handle, cut(row["name"], 40)) for handle, row in zip(handles, rows, strict=True)]
+    entries.append((_DASHED, "beyond the points"))
+    if any(row["at"] for row in rows):
+        entries.append((_ASKED, "values asked for"))
+    if any(row.get("static") for row in rows):
+        entries.append((_STATIC, "static embedment"))
+    shapes = [shape for shape, _ in entries]
+    legend = figure.legend(shapes, ["x"] * len(shapes), loc="outside right upper", fontsize="small")
+    plain_texts(legend)
+    for text, (_, name) in zip(legend.get_texts(), entries, strict=True):
+        text.set_text(name)
+
+
+# ------------------------------------------------------------------------------------------- with evaluated points
+
+_MOST_CURVES = 8
+_PALEST = 0.65
+"""How much of the colour of a point is white at the first step; none is at the last."""
+
+
+def on_curves(axes: Axes, data: PlotData, spelled: Spelled) -> None:
+    """Draw the curves with the evaluated points on them, which darken in the order of the steps.
+
+    `spelled` makes names of curves fit to be shown. A curve that only results in a file name is its points alone.
+    """
+    every = _points(data)
+    used = np.unique(every.curve)
+    for place, index in enumerate(used.tolist()):
+        style = style_of(place)
+        mine = np.flatnonzero(every.curve == index)
+        mine = mine[np.argsort(every.step[mine], kind="stable")]
+        ratio, force = every.ratio[mine], every.force[mine]
+        curve = data.curves[index]
+        line = ""
+        if curve is not None:
+            far = max(float(ratio.max(initial=0.0)), float(curve.ratios[-1]))
+            knots = curve.ratios[(curve.ratios > 0.0) & (curve.ratios < far)]
+            knots = np.unique(np.concatenate([knots, [0.0, far]]))
+            axes.plot(
+                knots, curve.evaluate(knots)[0], color=style.color, linestyle=style.linestyle, linewidth=1.2, zorder=2
+            )
+            line = style.linestyle
+        axes.scatter(
+            ratio,
+            force,
+            s=16,
+            c=_shades(style.color, every.step[mine], data.steps),
+            marker=style.marker,
+            edgecolors=style.color,
+            linewidths=0.3,
+            zorder=3,
+            rasterized=len(mine) > 1000,
+        )
+        name = data.curve_names[index]
+        label = cut(spelled(str(name)), 30) if place < _MOST_CURVES else None
+        axes.plot([], [], color=style.color, linestyle=line, marker=style.marker, markersize=4, label=label)
+    if len(used) > _MOST_CURVES:
+        axes.plot([], [], " ", label=f"and {len(used) - _MOST_CURVES} more curves")
+    axes.set_xlabel(labelled(ELEMENTS["ratio"].label, "-"))
+    axes.set_ylabel(ELEMENTS["force"].axis(data.given.units))
+    title = "curves, evaluated points" + ("\npale: first steps, dark: last steps" if data.steps > 1 else "")
+    plain_texts(axes.legend(loc="best", fontsize="small", title=title, title_fontsize="small"))
+
+
+def _points(data: PlotData) -> Points:
+    """Points in contact of the drawn step, and some of all steps."""
+    chosen = data.chosen
+    found = [*data.points, *([] if chosen is None else [data.points_of(chosen)])]
+    every = Points(*(np.concatenate(columns) for columns in zip(*found, strict=True)))
+    known = ~np.isnan(every.ratio) & ((every.ratio > 0.0) | (every.force != 0.0))
+    if not known.any():
+        known = ~np.isnan(every.ratio)
+    return Points(*(column[known] for column in every))
+
+
+def _shades(color: str, steps: Indices, count: int) -> Floats:
+    """The colour (k, 3) of each point: pale at the first step, full at the last."""
+    part = steps / max(1, count - 1) if count > 1 else np.ones(len(steps))
+    pale = _PALEST * (1.0 - part[:, np.newaxis])
+    shades: Floats = pale + (1.0 - pale) * np.array(to_rgb(color))
+    return shades
