@@ -31,7 +31,7 @@ COMMANDS = {
     "migrate": "Rewrite the legacy seabed keywords as the new family.",
     "show": "Summarise a deck: sections, keywords, sets, curves, diameters.",
     "curves": "Show the force-embedment curves of a deck as they are evaluated.",
-    "evaluate": "Evaluate the contact forces and stiffnesses of a deck.",
+    "evaluate": "Evaluate the contact forces and stiffnesses of decks.",
     "study": "Measure precision, stability and cost on a deck.",
     "rules": "List the rules, or explain one.",
     "schema": "Print the JSON Schema of a deck in JSON or YAML.",
