@@ -104,3 +104,8 @@ def test_names_of_the_api_are_loaded_when_used() -> None:
     program = "import sys, mudline; mudline.ForceCurve([(0, 0), (1, 1)]); print(*sys.modules, file=sys.stderr)"
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=TIMEOUT, check=True)
     assert heavy(set(done.stderr.split())) == {"numpy"}
+
+
+def test_evaluating_one_deck_needs_nothing_of_many(place: Place) -> None:
+    names = modules("evaluate", place(), "-q", "--output-format", "json")
+    assert not names & {"mudline.cli.evaluate_many", "mudline.linting.cache", "multiprocessing", "pyarrow"}

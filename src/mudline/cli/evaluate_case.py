@@ -73,7 +73,7 @@ def _kept(order: Order, path: Path | None) -> Kept:
         quiet, elements = View(quiet=True), evaluation.element_table()
         lines = line_watch(evaluation, suffix(path), None)
         consumers += [] if lines is None else [lines]
-        with result_files(evaluation, elements, path, quiet, as_text=order.as_text) as sink:
+        with result_files(evaluation, elements, path, quiet, as_text=order.as_text, synced=False) as sink:
             _run(evaluation.parts(), [*consumers, sink])
             sink.finish(behind(evaluation, watch.warnings(), None, lines))
     warnings = watch.warnings()

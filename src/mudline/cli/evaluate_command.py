@@ -12,7 +12,6 @@ from click.core import ParameterSource
 
 from mudline.cli import DONE, FOUND, options, pictures
 from mudline.cli.evaluate_inputs import EvaluateInputs, read_headings
-from mudline.cli.evaluate_many import ManyOptions, evaluate_many
 from mudline.cli.evaluate_one import Outputs, evaluate_one, show_plan
 from mudline.cli.inputs import STDIN, GivenDeck, collect, refuses_bad_decks
 from mudline.cli.pictures import Pictures
@@ -131,6 +130,8 @@ def command(
     inputs = EvaluateInputs(cast("Tension", tension), elements, time_step, read_headings(columns))
     inputs.check(positions)
     if _are_many(decks):
+        from mudline.cli.evaluate_many import ManyOptions, evaluate_many  # noqa: PLC0415 - one deck starts quicker
+
         _refuse_options_of_one()
         form = form or ("parquet" if is_installed("parquet") else "npz")
         if output is not None and not has_library(form):

@@ -32,7 +32,7 @@ COMMANDS = {
     "migrate": "Rewrite the legacy seabed keywords as the new family.",
     "show": "Summarise a deck: sections, keywords, sets, curves, diameters.",
     "curves": "Show the force-embedment curves of a deck as they are evaluated.",
-    "evaluate": "Evaluate the contact forces and stiffnesses of a deck.",
+    "evaluate": "Evaluate the contact forces and stiffnesses of decks.",
     "plot": "Draw the results in a file that evaluate wrote.",
     "study": "Measure precision, stability and cost on a deck.",
     "rules": "List the rules, or explain one.",

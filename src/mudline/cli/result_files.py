@@ -57,12 +57,15 @@ def has_library(form: str) -> bool:
 
 @contextmanager
 def result_files(
-    evaluation: Evaluation, elements: ElementTable, path: Path, view: View, *, as_text: bool
+    evaluation: Evaluation, elements: ElementTable, path: Path, view: View, *, as_text: bool, synced: bool = True
 ) -> Iterator[Sink]:
-    """The file of an evaluation by its suffix, or several files; they exist when all is written, or not at all."""
+    """The file of an evaluation by its suffix, or several files; they exist when all is written, or not at all.
+
+    Files with a digest of their content, by which a lost one is found, need not be `synced`.
+    """
     form = form_module(suffix(path))
     with ExitStack() as stack:
-        streams = [stack.enter_context(writing(one)) for one in (path, *beside(path).values())]
+        streams = [stack.enter_context(writing(one, synced=synced)) for one in (path, *beside(path).values())]
         output = Output(evaluation, elements, streams, path.parent, partial(tracked, view=view), as_text)
         yield stack.enter_context(form.opened(output))
 

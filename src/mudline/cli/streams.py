@@ -111,12 +111,15 @@ def reason(error: OSError) -> str:
 
 
 @contextmanager
-def writing(path: Path) -> Iterator[BinaryIO]:
-    """A stream whose content becomes the file in one step; ends the command when that is not possible."""
+def writing(path: Path, *, synced: bool = True) -> Iterator[BinaryIO]:
+    """A stream whose content becomes the file in one step; ends the command when that is not possible.
+
+    What is not `synced` is not waited for until it is on the disk, as in `replacement`.
+    """
     from mudline.files import replacement  # noqa: PLC0415 - help and faults of usage write no file
 
     try:
-        with replacement(path) as stream:
+        with replacement(path, synced=synced) as stream:
             yield stream
     except OSError as error:
         raise click.ClickException(f"{path}: cannot be written: {reason(error)}") from error

@@ -1,0 +1,86 @@
+"""What is worst in the results of a deck, against its lines at all steps."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import pytest
+
+import mudline
+from mudline.contact.result import Part
+from mudline.contact.touchdown import line_summaries
+from mudline.results.cases import CaseSummary, CaseWatch, worst_first
+from mudline.results.evaluation import Evaluation, evaluate_scene
+from mudline.scene.positions import read_positions
+from tests.samples import SAMPLES
+
+
+def heave() -> Evaluation:
+    scene = mudline.read(SAMPLES / "scr-touchdown.keyxm").scene()
+    return evaluate_scene(scene, read_positions(SAMPLES / "positions.csv", scene.nodes))
+
+
+def single_steps(evaluation: Evaluation) -> Iterator[Part]:
+    """The same steps, one at a time."""
+    for part in evaluation.parts():
+        for step in range(part.count):
+            only = part.result.step(step).as_series()
+            times = None if evaluation.time is None else evaluation.time[part.start + step : part.start + step + 1]
+            yield Part(part.start + step, replace(only, times=times))
+
+
+def test_row_is_the_worst_of_the_lines() -> None:
+    evaluation = heave()
+    watch = CaseWatch(evaluation)
+    lines = []
+    for part in evaluation.parts():
+        watch.take(part)
+        lines += line_summaries(part.result)
+    found = watch.summary("deck", [], None)
+    pushes = [(line.largest_force, line.time) for line in lines if line.largest_force is not None]
+    force, time = max(pushes, key=lambda each: each[0].force)
+    assert (found.largest_force, found.largest_force_element, found.largest_force_time) == (
+        force.force,
+        force.element,
+        time,
+    )
+    arcs = [point.arc_length for line in lines for point in line.touchdown]
+    assert (found.touchdown_from, found.touchdown_to) == (min(arcs), max(arcs))
+    assert found.contact_length == max(line.contact_length for line in lines)
+    heaviest = max(lines, key=lambda line: line.reaction or 0.0)
+    assert (found.reaction, found.ratio) == (heaviest.reaction, heaviest.ratio)
+    assert (found.steps, found.in_contact, found.largest_uplift) == (8, 30, None)
+
+
+def test_row_does_not_depend_on_how_many_steps_come_at_a_time() -> None:
+    evaluation = heave()
+    watches = CaseWatch(evaluation), CaseWatch(evaluation)
+    for watch, parts in zip(watches, (evaluation.parts(), single_steps(evaluation)), strict=True):
+        for part in parts:
+            watch.take(part)
+    found, single = (watch.summary("deck", [], None) for watch in watches)
+    assert found.ratio == pytest.approx(single.ratio, rel=1e-14)  # numpy adds up weights in another order
+    assert replace(found, ratio=None) == replace(single, ratio=None)
+
+
+def test_order_of_rows() -> None:
+    rows = [
+        CaseSummary("none", "evaluated", units="metric"),
+        CaseSummary("small", "evaluated", units="metric", largest_force=100.0),
+        CaseSummary("imperial", "evaluated", units="imperial", largest_force=10.0),
+        CaseSummary("second", "failed", "why"),
+        CaseSummary("own", "evaluated", units="user", largest_force=120.0),
+        CaseSummary("first", "failed", "why"),
+    ]
+    assert [row.deck for row in worst_first(rows)] == ["second", "first", "imperial", "own", "small", "none"]
+
+
+@pytest.mark.parametrize("change", [{"steps": "1"}, {"steps": True}, {"ratio": 1}, {"deck": 1}])
+def test_row_with_other_types_is_refused(change: dict[str, object]) -> None:
+    row = CaseSummary("deck", "evaluated").row()
+    assert CaseSummary.of_row(row) == CaseSummary("deck", "evaluated")
+    with pytest.raises(ValueError, match=next(iter(change))):
+        CaseSummary.of_row(row | change)
+    with pytest.raises(ValueError, match="columns"):
+        CaseSummary.of_row(change)
