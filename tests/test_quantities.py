@@ -28,12 +28,13 @@ def flat_names(quantities: dict[str, Quantity]) -> list[str]:
 def test_all_formats_have_the_quantities_in_their_order() -> None:
     evaluation = evaluated()
     written = json_of(evaluation)
-    assert csv_of(evaluation, "summary").splitlines()[0].split(",") == list(LINES)
+    assert csv_of(evaluation, "summary").splitlines()[0].split(",") == [*LINES, "units"]
     for key, quantities in (("elements", ELEMENTS), ("nodes", NODES)):
         assert list(written[key][0]) == list(quantities)
-        assert csv_of(evaluation, key).splitlines()[0].split(",") == flat_names(quantities)
+        assert csv_of(evaluation, key).splitlines()[0].split(",") == [*flat_names(quantities), "units"]
     of_nodes = [f"node_{name}" if name in ELEMENTS else name for name in NODES]
-    assert list(arrays_of(evaluation)) == [*ELEMENTS, *of_nodes, *(f"summary_{name}" for name in LINES)]
+    of_lines = [f"summary_{name}" for name in LINES]
+    assert list(arrays_of(evaluation)) == [*ELEMENTS, *of_nodes, *of_lines, "units", "format"]
 
 
 def test_the_schema_requires_the_quantities() -> None:
@@ -56,5 +57,5 @@ def test_a_new_row_is_enough_for_all_formats(monkeypatch: pytest.MonkeyPatch) ->
     monkeypatch.setitem(ELEMENTS, "cut", Quantity("cut", "whether a pulling curve was cut"))
     evaluation = evaluated()
     assert json_of(evaluation)["elements"][0]["cut"] is False
-    assert csv_of(evaluation, "elements").splitlines()[0].endswith(",cut")
+    assert csv_of(evaluation, "elements").splitlines()[0].endswith(",cut,units")
     assert arrays_of(evaluation)["cut"].dtype == bool

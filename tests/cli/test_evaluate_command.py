@@ -219,7 +219,7 @@ def test_numbers_that_do_not_follow_each_other_are_told_apart(place: Place) -> N
     assert [line.split()[0] for line in lines[-3:-1]] == ["1", "5"]
 
 
-@pytest.mark.parametrize(("table", "count"), [("elements", 19), ("nodes", 18)])
+@pytest.mark.parametrize(("table", "count"), [("elements", 20), ("nodes", 19)])
 def test_csv(place: Place, table: str, count: int) -> None:
     outcome = run("evaluate", place(), "--output-format", "csv", "--table", table)
     rows = list(csv.DictReader(outcome.out.splitlines()))
@@ -228,7 +228,7 @@ def test_csv(place: Place, table: str, count: int) -> None:
     if table == "elements":
         assert ",".join(rows[0]) == (
             "element,set,arc_length,x,y,z,diameter,length,depth,ratio,contact,force,slope,stiffness,law,state,"
-            "line,node1,node2"
+            "line,node1,node2,units"
         )
         assert list(rows[0].values()) == (
             [
@@ -251,12 +251,13 @@ def test_csv(place: Place, table: str, count: int) -> None:
                 "1",
                 "1",
                 "2",
+                "metric",
             ]
         )
     else:
         assert ",".join(rows[0]) == (
             "node,arc_length,x,y,z,gap,normal_x,normal_y,normal_z,reaction_x,reaction_y,reaction_z,normal_force,axial_force,"
-            "lateral_force,axial_state,lateral_state,line"
+            "lateral_force,axial_state,lateral_state,line,units"
         )
         assert list(rows[0].values()) == (
             [
@@ -278,6 +279,7 @@ def test_csv(place: Place, table: str, count: int) -> None:
                 "",
                 "",
                 "1",
+                "metric",
             ]
         )
 
@@ -375,7 +377,8 @@ def test_npz_holds_the_same_numbers(place: Place, folder: Path) -> None:
     element, node = set(found["elements"][0]), set(found["nodes"][0])
     of_nodes = {f"node_{name}" if name in element else name for name in node}
     lines = {name for name in arrays if name.startswith("summary_")}
-    assert set(arrays) == element | of_nodes | lines
+    assert set(arrays) == element | of_nodes | lines | {"units", "format"}
+    assert (str(arrays["units"]), str(arrays["format"])) == ("metric", found["format"])
     assert lines == {f"summary_{name}" for name in LINES}
     for row, index in ((found["elements"][0], 0), (found["elements"][1], 1), (found["nodes"][2], 2)):
         for name, value in row.items():

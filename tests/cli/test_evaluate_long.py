@@ -45,7 +45,8 @@ def test_parquet_holds_what_csv_does(place: Place, folder: Path, deck: str, text
     for name in ("out", "out-nodes", "out-summary"):
         table = pq.read_table(folder / f"{name}.parquet")
         rows = list(csv.reader((folder / f"{name}.csv").read_text(encoding="utf-8").splitlines()))
-        assert table.column_names == rows[0]
+        assert [*table.column_names, "units"] == rows[0]
+        assert {row.pop() for row in rows} == {"units", "metric"}
         for column, *texts in zip(*rows, strict=True):
             values = table[column].to_pylist()
             spelled = [_spelled(value) for value in values]

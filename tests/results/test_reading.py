@@ -30,6 +30,7 @@ EXTENSIONS = (
 )
 RIGID = CLEAN.partition("*SEABED PROPERTIES")[0] + "*SEABED PROPERTIES\n TYPE=RIGID\n SET=ALL\n"
 HOSTILE = CLEAN.replace("SET=Pipe", 'SET=@1+1 "x"').replace("Clay", "+Löss <b>")
+BED = "*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=ALL\n STIFFNESS=50000\n"
 FORMS = form_names()
 _NOT_KEPT = frozenset({"given", "regularised", "times"})
 
@@ -134,6 +135,28 @@ def test_what_is_written_is_read(case: str, form: str, tmp_path: Path) -> None:
             assert (getattr(found, each.name) is None) == (value is None), each.name
             if value is not None:
                 assert np.array_equal(getattr(found, each.name), value, equal_nan=value.dtype.kind == "f"), each.name
+
+
+def test_lines_of_a_part_keep_their_arc_lengths(tmp_path: Path) -> None:
+    """Node 4 of a line of 8 has no position, and a branch leaves at node 2, whose first element has none either."""
+    nodes = "".join(f" {number}, {0.05 * (number - 6.5)}, {10.0 * number}\n" for number in range(1, 9))
+    elements = "".join(f" {number}, {number}, {number + 1}\n" for number in range(1, 8))
+    branch = " 20, 0.2, 20.0, 10.0\n", " 20, 20, 2\n"
+    text = f"$MODEL\n*NODE\n{nodes}{branch[0]}*ELEMENT\n{elements}{branch[1]}{BED}"
+    scene = scene_of(text)
+    present = tuple(index for index, number in enumerate(scene.node_ids.tolist()) if number not in {1, 4})
+    evaluation = evaluate_scene(scene, moved(scene, 2, present))
+    found, expected = mudline.read_result(written(evaluation, tmp_path / "out.npz")), whole(evaluation)
+    rows, own = found.to_dataframe(), expected.to_dataframe()
+    assert (own["line"].tolist(), rows["line"].tolist()) == ([2, 2, 2, 2, 3] * 2, [2, 4, 4, 4, 3] * 2)
+    assert rows.drop(columns="line").equals(own.drop(columns="line"))
+    assert rows["arc_length"].tolist() == own["arc_length"].tolist()
+    ends = found.to_dataframe("summary")
+    for which in ("first_touchdown", "first_touchdown_y"):
+        theirs = expected.to_dataframe("summary")[which].dropna().tolist()
+        assert ends[which].dropna().tolist() == pytest.approx(theirs, rel=1e-12)
+    total = ends.groupby("time")["reaction"].sum().tolist()
+    assert total == pytest.approx(expected.to_dataframe("summary").groupby("time")["reaction"].sum().tolist())
 
 
 @pytest.fixture(params=FORMS)

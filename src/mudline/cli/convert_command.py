@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
 from pathlib import Path, PurePath
 
 import click
 import numpy as np
 
-from mudline.cli import DONE
+from mudline.cli import DONE, FOUND
 from mudline.cli.inputs import STDIN, SUFFIXES, GivenDeck, takes_deck
-from mudline.cli.streams import emit, notify, write_text
+from mudline.cli.streams import emit, notify, notify_missing, write_text
 from mudline.cli.view import View
 from mudline.deck.forms import form_names, form_of
 from mudline.deck.loading import dump
@@ -18,23 +19,34 @@ from mudline.keywords.model import Comment
 from mudline.keywords.table import Table
 
 _FORMS = click.Choice(form_names())
+WORKBOOK = "xlsx"
+_SOURCES = click.Choice([*form_names(), WORKBOOK])
+_WORKBOOKS = {".xlsx", ".xlsm"}
+_OTHER_SHEETS = {".xls", ".xlsb", ".ods"}
 
 
 @click.command("convert")
 @click.option("-o", "--output", metavar="OUT", help="File to write; without it, or with -, standard output.")
-@click.option("--from", "source", type=_FORMS, help="Format of DECK, instead of that of its suffix.")
+@click.option(
+    "--from",
+    "source",
+    type=_SOURCES,
+    help="Format of DECK, instead of that of its suffix.",
+)
 @click.option("--to", "target", type=_FORMS, help="Format to write, instead of that of the suffix of OUT.")
 @click.option("--sorted", "in_order", is_flag=True, help="Write curves with their points sorted by ratio.")
 @takes_deck
 def command(
     *, deck: GivenDeck, output: str | None, source: str | None, target: str | None, in_order: bool, view: View
 ) -> int:
-    """Convert a deck between keyword text, JSON and YAML.
+    """Convert a deck between keyword text, JSON and YAML; curves of a workbook (.xlsx) to a deck.
 
     Only blank lines and the spelling of numbers are lost.
     """
     form = target or _form_of_output(output)
-    read = deck.load(source).require()
+    read = _curves(deck) if _is_workbook(deck, source) else deck.load(source).require()
+    if read is None:
+        return FOUND
     if in_order:
         for name in sort_curves(read):
             notify(f"curve {name} keeps its order: a ratio in it is an equation")
@@ -47,6 +59,28 @@ def command(
     if not view.quiet:
         notify(f"{read.file} -> {path.as_posix()}")
     return DONE
+
+
+def _is_workbook(deck: GivenDeck, source: str | None) -> bool:
+    """Whether curves of a workbook are to be read; raises click.UsageError for sheets of another form."""
+    suffix = PurePath(deck.path).suffix.lower()
+    if source is None and suffix in _OTHER_SHEETS:
+        raise click.UsageError(f"{deck.path}: {suffix} is not read: save it as .xlsx in the spreadsheet program")
+    return source == WORKBOOK or (source is None and suffix in _WORKBOOKS)
+
+
+def _curves(deck: GivenDeck) -> Deck | None:
+    """The deck of a workbook's curves; None without the library, which is reported. Raises DeckError."""
+    if find_spec("openpyxl") is None:
+        notify_missing(".xlsx", "openpyxl", "excel")
+        return None
+    from mudline.scene.curve_sheets import read_curve_sheets  # noqa: PLC0415 - only workbooks need it
+
+    data, name = deck.content()
+    found = read_curve_sheets(data, name, deck.units)
+    for sheet in found.left_out:
+        notify(f"sheet {sheet} is left out: no columns ratio and force")
+    return found.deck
 
 
 def _form_of_output(output: str | None) -> str:

@@ -179,18 +179,29 @@ class GivenDeck:
     stdin_name: str
     units: str | None
 
+    def content(self) -> tuple[bytes, str]:
+        """The content of the file and its name in messages; ends the command when the path cannot be read."""
+        file = self._file()
+        return self._bytes(file), file.name
+
     def load(self, form: str | None = None) -> Deck:
         """Read the deck; ends the command when the path cannot be read. Raises DeckError."""
-        if os.path.isdir(self.path):  # noqa: PTH112 - as above
-            raise click.ClickException(f"{self.path} is a directory: this command takes one deck")
-        file = _single(self.path, self.stdin_name)
-        try:
-            data = file.read()
-        except OSError as error:
-            raise click.ClickException(f"{self.path}: {reason(error)}") from error
+        file = self._file()
+        data = self._bytes(file)
         from mudline.deck.loading import load_bytes  # noqa: PLC0415 - what only looks for files reads no deck
 
         return load_bytes(data, file.name, form=form, units=self.units, folder=file.folder)
+
+    def _file(self) -> Input:
+        if os.path.isdir(self.path):  # noqa: PTH112 - as above
+            raise click.ClickException(f"{self.path} is a directory: this command takes one deck")
+        return _single(self.path, self.stdin_name)
+
+    def _bytes(self, file: Input) -> bytes:
+        try:
+            return file.read()
+        except OSError as error:
+            raise click.ClickException(f"{self.path}: {reason(error)}") from error
 
 
 def takes_deck(command: options.Command) -> options.Command:

@@ -11,8 +11,10 @@ import numpy as np
 
 from mudline.contact.columns import Column, ElementTable, NodeTable, Table, Values
 from mudline.contact.result import ContactResult, Part, TableName
-from mudline.contact.touchdown import LineTable
-from mudline.quantities import ELEMENTS, RESULT_FORMAT, time_unit
+from mudline.contact.touchdown import LineTable, line_summaries
+from mudline.html_repr import MOST_ROWS, html_page, html_table
+from mudline.quantities import ELEMENTS, LINES, RESULT_FORMAT, labelled, time_unit
+from mudline.short_repr import counted
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -26,6 +28,16 @@ UNIT_KEY = b"unit"
 
 _COORDINATES = frozenset({"set", "law", "line", "arc_length", "diameter", "length", "node1", "node2"})
 """What tells elements and nodes apart, beside their numbers."""
+
+_SHOWN = (
+    "first_touchdown",
+    "contact_length",
+    "largest_force",
+    "largest_force_element",
+    "reaction",
+    "submerged_weight",
+)
+"""Quantities of lines that notebooks show."""
 
 
 def dataframe(result: ContactResult, table: TableName) -> pd.DataFrame:
@@ -76,6 +88,34 @@ def dataset(result: ContactResult) -> xr.Dataset:
         coordinates["time"] = (() if single else ("time",), np.asarray(result.times), _given(about))
     found: xr.Dataset = xarray.Dataset(variables, coordinates, {"units": result.known.units, "format": RESULT_FORMAT})
     return found
+
+
+def html(result: ContactResult) -> str:
+    """Return the touchdown of lines at the first steps as a table for notebooks."""
+    series = result.as_series()
+    counts = [("step", len(series.depth)), ("element", series.depth.shape[1]), ("node", series.gap.shape[1])]
+    summary = ", ".join(counted(number, kind) for kind, number in counts[result.depth.ndim == 1 :])
+    if result.given is None:
+        return html_page("ContactResult", summary)
+    units = result.given.units
+    lines = _table(result, "summary").rows
+    shown = line_summaries(series.steps(0, -(-MOST_ROWS // max(lines, 1))))
+    headings = [labelled("time", time_unit(units)), "line"]
+    headings += [labelled(each.label or name, each.unit_name(units)) for name, each in LINES.items() if name in _SHOWN]
+    rows = (
+        (
+            one.time,
+            one.line,
+            ", ".join(f"{point.arc_length:.6g}" for point in one.touchdown),
+            one.contact_length,
+            None if one.largest_force is None else one.largest_force.force,
+            None if one.largest_force is None else one.largest_force.element,
+            one.reaction,
+            one.submerged_weight,
+        )
+        for one in shown
+    )
+    return html_page("ContactResult", f"{summary}, {units}", html_table(headings, rows, len(series.depth) * lines))
 
 
 def array_name(table: str, column: str) -> str:

@@ -87,6 +87,11 @@ class ContactResult:
         shapes = f"elements {self.depth.shape}, nodes {self.gap.shape}"
         return outline("ContactResult", shapes, f"with {present}" if present else "")
 
+    def _repr_html_(self) -> str:
+        """How large it is, and the touchdown of its lines at the first steps, for notebooks."""
+        found: str = _frames().html(self)
+        return found
+
     @property
     def restrained(self) -> BoolArray | None:
         """Nodes (..., n) that a rigid seabed restrains along their `normal`: its own, at the seabed or below it."""

@@ -34,7 +34,7 @@ from mudline.curves.points import (
     real_numbers,
 )
 from mudline.curves.search import BLOCK, Knots, Search, Workspace, blocks, search_for, workspace
-from mudline.short_repr import cut
+from mudline.short_repr import counted, cut
 
 Backend = Literal["auto", "numpy", "fast"]
 
@@ -230,6 +230,14 @@ class ForceCurve:
             pairs = repr(list(zip(self.ratios.tolist(), self.forces.tolist(), strict=True)))
             shown = pairs if len(pairs) <= 120 else shown
         return f"ForceCurve({shown}, name={self.name if self.name is None else cut(self.name, 60)!r})"
+
+    def _repr_html_(self) -> str:
+        """The points with the slopes behind them, for notebooks."""
+        from mudline.html_repr import MOST_ROWS, html_page, html_table  # noqa: PLC0415 - only notebooks ask for it
+
+        columns = (array[:MOST_ROWS].tolist() for array in (self.ratios, self.forces, np.append(self.slopes, np.nan)))
+        table = html_table(("ratio", "force", "slope"), zip(*columns, strict=True), len(self.ratios))
+        return html_page("ForceCurve", f"{self.name or ''} {counted(len(self.ratios), 'point')}".strip(), table)
 
 
 def _checked_out(out: tuple[FloatArray, FloatArray], shape: tuple[int, ...]) -> tuple[FloatArray, FloatArray]:

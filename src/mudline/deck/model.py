@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -132,6 +133,16 @@ class Deck:
         if errors := len(self.errors()):
             parts.append(counted(errors, "error"))
         return outline(f"{type(self).__name__} {cut(self.file, 80)!r}", ", ".join(parts))
+
+    def _repr_html_(self) -> str:
+        """The keywords of each section with their numbers, for notebooks."""
+        from mudline.html_repr import html_page, html_table  # noqa: PLC0415 - only notebooks ask for it
+
+        found = Counter((section.name, block.keyword) for section in self.sections for block in section.blocks)
+        rows = [(section, keyword, number) for (section, keyword), number in found.items()]
+        errors = [counted(len(self.errors()), "error")] if self.errors() else []
+        summary = ", ".join([self.file, self.units, *errors])
+        return html_page(type(self).__name__, summary, html_table(("section", "keyword", "blocks"), rows, len(rows)))
 
     def __dir__(self) -> list[str]:
         return [name for name in super().__dir__() if name not in _INTERNAL]

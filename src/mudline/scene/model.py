@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal
@@ -76,6 +77,31 @@ class Scene(ResolvedDeck):
         if errors := len(self.errors()):
             counts.append(counted(errors, "error"))
         return outline(f"Scene of {cut(self.deck.file, 80)!r}", ", ".join([self.units, *counts]))
+
+    def _repr_html_(self) -> str:
+        """Counts, laws, curves and sets, for notebooks."""
+        from mudline.html_repr import html_page, html_table  # noqa: PLC0415 - only notebooks ask for it
+
+        counts = (
+            (kind, len(things))
+            for kind, things in (
+                ("nodes", self.node_ids),
+                ("elements", self.element_ids),
+                ("sets", self.sets),
+                ("curves", self.curves),
+            )
+        )
+        laws = Counter(self.law_names)
+        curves = ((name, len(curve.ratios), float(curve.forces.max())) for name, curve in self.curves.items())
+        sets = ((name, len(numbers)) for name, numbers in self.sets.items())
+        return html_page(
+            "Scene",
+            f"{self.deck.file}, {self.units}",
+            html_table(("", "number"), counts, 4),
+            html_table(("law", "elements"), laws.items(), len(laws)),
+            html_table(("curve", "points", "largest force"), curves, len(self.curves)),
+            html_table(("set", "elements"), sets, len(self.sets)),
+        )
 
     def __dir__(self) -> list[str]:
         return [name for name in super().__dir__() if name not in _INTERNAL]

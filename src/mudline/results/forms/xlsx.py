@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-import zipfile
-import zlib
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
@@ -12,7 +10,6 @@ from itertools import chain, islice
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
-from xml.etree.ElementTree import ParseError
 
 import numpy as np
 import xlsxwriter
@@ -36,6 +33,7 @@ from mudline.results.stored import (
     require_names,
 )
 from mudline.scene.csv_file import data_error
+from mudline.scene.workbook import cell_fault, opened_workbook
 from mudline.short_repr import cut
 
 SUMMARY = (
@@ -177,40 +175,15 @@ def _write_row(sheet: Any, row: int, values: Sequence[object]) -> None:  # noqa:
 
 
 def read(path: Path) -> Stored:
-    """What a workbook holds. Raises OSError, DeckError."""
-    import openpyxl  # noqa: PLC0415 - results are written without it
-    from openpyxl.utils.exceptions import InvalidFileException  # noqa: PLC0415 - as above
-
+    """What a workbook holds. Raises OSError, DeckError, ImportError."""
     file = path.as_posix()
-    unreadable = (
-        ArithmeticError,
-        AttributeError,
-        EOFError,
-        InvalidFileException,
-        LookupError,
-        MemoryError,
-        NotImplementedError,
-        OSError,
-        ParseError,
-        RuntimeError,
-        TypeError,
-        ValueError,
-        zipfile.BadZipFile,
-        zlib.error,
-    )
-    with path.open("rb") as stream:
-        try:
-            book = openpyxl.load_workbook(stream, read_only=True, data_only=True)
-            about = {each.name: each.value for each in book.custom_doc_props.props}
-            checked_format(file, about.get(_FORMAT))
-            units = checked_units(file, about.get(_UNITS))
-            if missing := [name for name in TABLES if name not in book.sheetnames]:
-                raise data_error(file, f"no sheet {missing[0]}: expected those of {RESULT_FORMAT}")
-            return Stored(units, *(_stored_table(file, name, book[name]) for name in TABLES))
-        except DeckError:
-            raise
-        except unreadable as error:
-            raise data_error(file, f"not a workbook that can be read: {cut(str(error), 100)}") from error
+    with path.open("rb") as stream, opened_workbook(stream, file) as book:
+        about = {each.name: each.value for each in book.custom_doc_props.props}
+        checked_format(file, about.get(_FORMAT))
+        units = checked_units(file, about.get(_UNITS))
+        if missing := [name for name in TABLES if name not in book.sheetnames]:
+            raise data_error(file, f"no sheet {missing[0]}: expected those of {RESULT_FORMAT}")
+        return Stored(units, *(_stored_table(file, name, book[name]) for name in TABLES))
 
 
 def _stored_table(file: str, table: str, sheet: Any) -> StoredTable:  # noqa: ANN401 - openpyxl has no types
@@ -225,8 +198,7 @@ def _stored_table(file: str, table: str, sheet: Any) -> StoredTable:  # noqa: AN
     places = {name: names.index(name) for name in kinds}
 
     def fault(name: str, row: int, message: str) -> DeckError:
-        cell = f"{_letters(places[name])}{row + 1 + _HEADINGS}"
-        return data_error(file, f"sheet {table}, cell {cell}: {message}", row + 1 + _HEADINGS, places[name] + 1)
+        return cell_fault(file, table, (row + 1 + _HEADINGS, places[name] + 1), message)
 
     columns = {
         name: column_of(
@@ -236,9 +208,3 @@ def _stored_table(file: str, table: str, sheet: Any) -> StoredTable:  # noqa: AN
     }
     times = columns.pop("time", None)
     return StoredTable(file, columns, None if times is None else np.asarray(times))
-
-
-def _letters(place: int) -> str:
-    """The letters of a column from its place, from 0."""
-    before, last = divmod(place, 26)
-    return (_letters(before - 1) if before else "") + chr(ord("A") + last)

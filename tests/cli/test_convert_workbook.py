@@ -1,0 +1,140 @@
+"""`mudline convert curves.xlsx`: force-embedment curves from sheets."""
+
+from __future__ import annotations
+
+import datetime as dt
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import pytest
+from openpyxl import Workbook
+
+import mudline
+from tests.cli.runner import run
+
+Rows = Sequence[Sequence[object]]
+UNCALCULATED = "a formula that was never calculated: open the workbook in a spreadsheet program and save it"
+CLAY: Rows = [("ratio", "force"), (0.0, 0.0), (0.1, 1200.5), (0.5, 10000)]
+SAND: Rows = [("Force [N/m]", "Ratio", "source"), (0, 0, "lab"), (None, None, None), (5000.25, 0.3, None)]
+
+
+def book(sheets: Mapping[str, Rows], name: str = "curves.xlsx") -> str:
+    """Write a workbook into the current folder."""
+    made = Workbook()
+    del made["Sheet"]
+    for title, rows in sheets.items():
+        sheet = made.create_sheet(title)
+        for row in rows:
+            sheet.append(row)
+    made.save(name)
+    return name
+
+
+def fault(rows: Rows, sheet: str = "Clay", *others: str) -> str:
+    """What is said of a sheet, behind the name of the file; nothing may be written."""
+    outcome = run("convert", book({sheet: rows}), "-o", "curves.keyxm", *others)
+    assert (outcome.code, outcome.out, Path("curves.keyxm").exists()) == (1, "", False)
+    assert outcome.err.startswith("curves.xlsx:")
+    return outcome.err.partition("DAT001 ")[2].removesuffix("\n")
+
+
+def test_each_sheet_is_a_curve(folder: Path) -> None:
+    outcome = run(
+        "convert", book({"Clay": CLAY, "Notes": [("from the lab",)], "Dense Sand": SAND}), "-o", "curves.keyxm"
+    )
+    assert (outcome.code, outcome.out) == (0, "")
+    assert outcome.err == (
+        "mudline: sheet Notes is left out: no columns ratio and force\nmudline: curves.xlsx -> curves.keyxm\n"
+    )
+    assert (folder / "curves.keyxm").read_text(encoding="utf-8") == (
+        "$MODEL\n*SEABED STIFFNESS\n CURVE=Clay\n 0.0, 0.0\n 0.1, 1200.5\n 0.5, 10000.0\n"
+        " CURVE=Dense Sand\n 0.0, 0.0\n 0.3, 5000.25\n"
+    )
+    deck = mudline.read("curves.keyxm")
+    (block,) = deck.sections[0].blocks
+    for form in ("json", "yaml"):
+        assert run("convert", "curves.xlsx", "-o", f"curves.{form}", "-q").code == 0
+        again = mudline.read(f"curves.{form}")
+        assert (again.sections[0].blocks, again.units) == ([block], "metric")
+
+
+def test_a_column_names_the_curves(folder: Path) -> None:
+    rows = [("curve", "ratio", "force [lbf/ft]"), ("b", 0.2, 9.0), ("a", 0, 0), ("B", 0, 0), ("a", 1, 2)]
+    assert run("convert", book({"All": rows}), "--sorted", "-o", "curves.json", "-q").code == 0
+    deck = mudline.read(folder / "curves.json")
+    curves = next(deck.blocks("SEABED STIFFNESS"))[1].curves
+    assert deck.units == "imperial"
+    assert [(curve.name, curve.points.values.tolist()) for curve in curves] == [
+        ("b", [[0.0, 0.0], [0.2, 9.0]]),
+        ("a", [[0.0, 0.0], [1.0, 2.0]]),
+    ]
+
+
+def test_units_that_are_given_and_standard_input() -> None:
+    data = Path(book({"Clay": CLAY})).read_bytes()
+    outcome = run("convert", "-", "--from", "xlsx", "--to", "json", "--units", "user", stdin=data)
+    assert (outcome.code, outcome.json()["units"]) == (0, "user")
+
+
+@pytest.mark.parametrize(
+    ("row", "message"),
+    [
+        ((0.2, "abc"), "sheet Clay, cell B5: expected a number, found 'abc'"),
+        (
+            (0.2, "0,5"),
+            "sheet Clay, cell B5: expected a number, found '0,5'; it is a text, format the cell as a number",
+        ),
+        ((None, 3.0), "sheet Clay, cell A5: expected a number, found nothing"),
+        ((0.2, True), "sheet Clay, cell B5: expected a number, found True"),
+        ((dt.date(2026, 1, 2), 1.0), "sheet Clay, cell A5: expected a number, found 2026-01-02 00:00:00"),
+        (
+            (0.2, "=B2*2"),
+            f"sheet Clay, cell B5: expected a number, found {UNCALCULATED}",
+        ),
+        ((0.2, "#DIV/0!"), "sheet Clay, cell B5: expected a number, found '#DIV/0!'"),
+    ],
+)
+def test_cells_that_are_no_numbers(row: Sequence[object], message: str) -> None:
+    assert fault([*CLAY, row]) == message
+
+
+def test_headings_and_curves_that_do_not_fit() -> None:
+    assert fault([("ratio", "kN"), (0, 0)]) == (
+        "sheet Clay, cell A1: a column ratio and none headed force: expected both in the first row"
+    )
+    assert (
+        fault([("hello",), (0, 0)]) == "no curve: expected a sheet with the headings ratio and force in its first row"
+    )
+    assert fault([("ratio", "force", "force")]).startswith("sheet Clay, cell C1: a second column force: ")
+    assert fault([("ratio", "force [kN/m]")]) == "sheet Clay, cell B1: expected the unit N/m or lbf/ft, found 'kN/m'"
+    assert fault([*CLAY, (0.1, 7.0)]).startswith("sheet Clay, cell A5: ")
+    assert fault(CLAY[:2]).startswith("sheet Clay, cell A1: ")
+    assert fault([("curve", "ratio", "force"), ("a", 0, 0), (None, 1, 1)]) == (
+        "sheet Clay, cell A3: expected the name of a curve, found nothing"
+    )
+
+
+def test_a_name_twice_and_two_systems() -> None:
+    named = [("curve", "ratio", "force"), ("clay", 0, 0), ("clay", 1, 1)]
+    outcome = run("convert", book({"Clay": CLAY, "More": named}), "-o", "out.keyxm")
+    assert "sheet More, cell A2: the curve 'clay' is also on the sheet Clay: rename one" in outcome.err
+    imperial = [("ratio", "force [lbf/ft]"), (0, 0), (1, 1)]
+    outcome = run("convert", book({"Feet": imperial, "Sand": SAND}), "-o", "out.keyxm")
+    assert "the forces have different units: imperial on 'Feet' and metric on 'Sand'" in outcome.err
+
+
+def test_files_that_are_no_workbooks(folder: Path) -> None:
+    for data in (b"", b"ratio,force\n0,0\n", Path(book({"Clay": CLAY})).read_bytes()[:-200]):
+        (folder / "curves.xlsx").write_bytes(data)
+        outcome = run("convert", "curves.xlsx", "-o", "out.keyxm")
+        assert (outcome.code, (folder / "out.keyxm").exists()) == (1, False)
+        assert "DAT001 not a workbook that can be read: " in outcome.err
+    assert run("convert", "nowhere.xlsx", "-o", "out.keyxm").code == 2
+    outcome = run("convert", "curves.xls", "-o", "out.keyxm")
+    assert (outcome.code, "save it as .xlsx" in outcome.err) == (2, True)
+
+
+def test_without_openpyxl(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("mudline.cli.convert_command.find_spec", lambda _: None)
+    outcome = run("convert", book({"Clay": CLAY}), "-o", "out.keyxm")
+    assert (outcome.code, outcome.err) == (1, "mudline: .xlsx needs openpyxl: pip install 'mudline[excel]'\n")
