@@ -9,30 +9,13 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
 import mudline
-from mudline.contact.laws.suction import SuctionState
+from mudline.results.plots.loop import Path as Cycle
+from mudline.results.plots.loop import draw_path
 from mudline.scene.positions import read_positions
 
-Floats = NDArray[np.float64]
-
-_COLOURS = {
-    SuctionState.FREE: "#7f7f7f",
-    SuctionState.COMPRESSION: "#1f4e9c",
-    SuctionState.SUCTION: "#d1495b",
-    SuctionState.HOLD: "#e8a33d",
-    SuctionState.BROKEN: "#3d8b5f",
-}
 _ELEMENT = 0
-
-
-class Cycle(NamedTuple):
-    """One element over the steps: penetration in mm, force in kN/m, states."""
-
-    penetration: Floats
-    force: Floats
-    state: NDArray[np.int8]
 
 
 class Note(NamedTuple):
@@ -54,12 +37,10 @@ NOTES = (
 )
 _FINER = 5
 """Places evaluated for each step of the file."""
-_EVERY = 13 * _FINER
-"""Places between two arrow heads."""
 
 
 def cycle(samples: Path) -> Cycle:
-    """Evaluate the sample, with places between those of its file."""
+    """Evaluate the sample, with places between those of its file: penetration in mm, force in kN/m, states."""
     scene = mudline.read(samples / "full-cycle.keyxm").scene()
     given = read_positions(samples / "full-cycle.csv", scene.nodes)
     assert given.time is not None
@@ -83,11 +64,8 @@ def draw(path: Cycle, form: str, stream: BinaryIO) -> None:
 
 
 def _panel(axes: Axes, path: Cycle) -> None:
-    axes.axhline(0.0, color="black", linewidth=0.6)
-    axes.axvline(0.0, color="black", linewidth=0.8, linestyle=":")
-    axes.text(-1.0, 4.95, "mudline", rotation=90.0, ha="right", va="top", fontsize=8.0)
-    for state, colour in _COLOURS.items():
-        _of_state(axes, path, state, colour)
+    axes.text(-1.0, 4.95, "seabed", rotation=90.0, ha="right", va="top", fontsize=8.0)
+    draw_path(axes, path)
     line = {"arrowstyle": "-", "color": "#555555", "linewidth": 0.7}
     for note in NOTES:
         axes.annotate(note.text, note.point, note.at, arrowprops=line, fontsize=9.0)
@@ -98,19 +76,3 @@ def _panel(axes: Axes, path: Cycle) -> None:
     axes.set_ylim(-1.6, 5.0)
     axes.grid(color="#dddddd", linewidth=0.5)
     axes.legend(title="state", loc="lower left", ncols=3)
-
-
-def _of_state(axes: Axes, path: Cycle, state: SuctionState, colour: str) -> None:
-    """The way to each step of a state, from the step before; a stop is a point."""
-    here = np.flatnonzero(path.state == state)
-    back = np.maximum(here - 1, 0)
-    gap = np.full(len(here), np.nan)
-    ways = (np.column_stack([values[back], values[here], gap]).ravel() for values in (path.penetration, path.force))
-    stops = state is SuctionState.HOLD
-    axes.plot(*ways, color=colour, linewidth=2.2, marker="o" if stops else "", markevery=[-2], zorder=3 if stops else 2)
-    axes.plot([], [], color=colour, linewidth=2.2, marker="o" if stops else "", label=state.name.lower())
-    for at in here[1:-1]:
-        if at % _EVERY == 0 and path.penetration[at + 1] != path.penetration[at]:
-            ends = ((path.penetration[k], path.force[k]) for k in (at, at + 1))
-            start, end = ends
-            axes.annotate("", end, start, arrowprops={"arrowstyle": "-|>", "color": colour, "mutation_scale": 14.0})

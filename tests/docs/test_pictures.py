@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from mudline.contact.laws.suction import SuctionState
-from tests.docs.full_cycle import NOTES, Cycle, cycle, draw
+from mudline.results.plots.loop import Path as Cycle
+from tests.docs.full_cycle import NOTES, cycle, draw
 from tests.docs.pictures import IMAGES, ROOT, write
 
 
@@ -20,6 +21,7 @@ def path() -> Cycle:
 
 
 def test_the_cycle_goes_through_all_states_in_order(path: Cycle) -> None:
+    assert path.state is not None
     states = [SuctionState(state).name for state, _ in groupby(path.state.tolist())]
     assert states == ["FREE", "COMPRESSION", "SUCTION", "HOLD", "SUCTION", "BROKEN", "FREE", "COMPRESSION"]
 

@@ -21,7 +21,7 @@ def series(name: str, positions: str) -> ContactResult:
     scene = mudline.read(SAMPLES / name).scene()
     given = read_positions(SAMPLES / positions, scene.nodes)
     assert given.time is not None
-    return scene.contact().evaluate(given.values, present=given.present, times=given.time)
+    return scene.contact().evaluate(given.whole, present=given.present, times=given.time)
 
 
 @pytest.fixture(scope="module")
@@ -96,6 +96,14 @@ def test_a_long_series_keeps_its_extremes_in_bins(cycle: ContactResult) -> None:
     assert sum(len(points.ratio) for points in data.points) <= 4100
 
 
+def test_an_animation_has_steps_at_even_distances(cycle: ContactResult) -> None:
+    data = PlotData.of_result(cycle, frames=100)
+    steps = [frame.step for frame in data.frames]
+    assert (len(steps), steps[0], steps[-1]) == (100, 0, len(cycle.depth) - 1)
+    assert set(np.diff(steps).tolist()) <= {2, 3}
+    assert data.frames[40].force.tolist() == cycle.force[steps[40]].tolist()
+
+
 def test_a_state_has_no_panels_over_time(heave: ContactResult) -> None:
     data = PlotData.of_result(heave.step(2))
     assert usual(data) == ("line", "force", "friction", "embedment", "stiffness", "curves")
@@ -119,7 +127,7 @@ def test_a_series_has_what_it_has_laws_for(heave: ContactResult, cycle: ContactR
 
 def test_a_line_above_the_seabed_has_no_empty_panels() -> None:
     scene = mudline.read(SAMPLES / "scr-touchdown.keyxm").scene()
-    high = np.stack([scene.coordinates + np.array([height, 0.0, 0.0]) for height in (100.0, 101.0)])
+    high = scene.coordinates + np.array([[[100.0, 0.0, 0.0]], [[101.0, 0.0, 0.0]]])
     assert usual(PlotData.of_result(scene.contact().evaluate(high, times=[0.0, 1.0]))) == (
         "line",
         "embedment",

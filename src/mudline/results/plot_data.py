@@ -325,6 +325,13 @@ class PlotData:
     # ------------------------------------------------------------------------------------------------ what there is
 
     @property
+    def drawn(self) -> Chosen:
+        """The chosen step; ValueError before there are results."""
+        if self.chosen is None:
+            raise ValueError("there are no results to draw yet")
+        return self.chosen
+
+    @property
     def bin_times(self) -> Floats:
         """The time of the first step of each bin; the number of the step where there are no times."""
         bins = min(_BINS, self.steps)

@@ -1,248 +1,37 @@
-"""Panels over the arc length of the lines, all over the same stretch: that which touches the seabed and a bit more."""
+"""Panels over the arc length of the lines: forces, embedment and stiffness of a step, and envelopes of all steps."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from mudline.contact.result import Part
-from mudline.contact.touchdown import Touchdown
-from mudline.quantities import ELEMENTS, NODES, SLIDING, labelled, unit_names
+from mudline.quantities import ELEMENTS, SLIDING, labelled, unit_names
 from mudline.results.plot_data import Chosen, Envelope, PlotData
+from mudline.results.plots.stretch import Stretch
 from mudline.results.plots.style import (
-    COLORS,
-    LIGHT,
-    MOST,
     SEABED,
     STATE_STYLES,
-    Style,
     above,
     is_number,
+    legend_above,
     marked,
     style_of,
     thinned,
     when,
     widen,
 )
-from mudline.scene.numbering import Floats, Indices, Mask
+from mudline.scene.numbering import Floats
 
-MOST_LINES = 6
-"""Lines that are drawn."""
-_BESIDE = 0.15
-"""Part of the stretch in contact that is drawn on both sides of it."""
-_HIGHEST = (25.0, 5.0)
-"""How high above the seabed a line is drawn, as a multiple of the deepest embedment and of the largest diameter."""
-_LABELLED_POINTS = 3
-"""Touchdown points whose arc length is written beside them, if there are no more."""
-
-
-@dataclass(frozen=True)
-class Stretch:
-    """The lines that are drawn, and the stretch of arc length that all panels along them show."""
-
-    data: PlotData
-
-    @cached_property
-    def lines(self) -> list[int]:
-        """The numbers, from 0, of the lines that are drawn: those that touch the seabed first."""
-        data = self.data
-        of_touched = set(data.given.lines.of_element[data.touched].tolist())
-        ranked = sorted(data.lines, key=lambda line: (line not in of_touched, line))
-        return sorted(ranked[:MOST_LINES])
-
-    @property
-    def left_out(self) -> int:
-        """The number of lines that are not drawn."""
-        return self.data.more_lines + len(self.data.lines) - len(self.lines)
-
-    @cached_property
-    def limits(self) -> tuple[float, float]:
-        """The least and the largest arc length that is drawn."""
-        given, lines = self.data.given, self.data.given.lines
-        drawn = np.isin(lines.of_element, self.lines) & self._evaluated
-        half = 0.5 * given.length
-        begin, end = lines.element_arc - half, lines.element_arc + half
-        first, last = float(begin[drawn].min()), float(end[drawn].max())
-        touching = drawn & self.data.touched
-        if not touching.any():
-            return first, last
-        low, high = float(begin[touching].min()), float(end[touching].max())
-        beside = max(_BESIDE * (high - low), 2.0 * float(given.length[touching].max()))
-        return max(first, low - beside), min(last, high + beside)
-
-    def elements(self, line: int) -> Indices:
-        """The evaluated elements of a line within the stretch and one beside it, along the line."""
-        lines = self.data.given.lines
-        along = lines.elements[line]
-        along = along[self._evaluated[along]]
-        return along[self._within(lines.element_arc[along])]
-
-    def nodes(self, line: int) -> tuple[Indices, Floats]:
-        """The nodes of a line within the stretch and one beside it, along the line, and their arc lengths."""
-        lines = self.data.given.lines
-        arcs = lines.node_arcs(line, self.data.given.length)
-        within = self._within(arcs)
-        return lines.nodes[line][within], arcs[within]
-
-    def name(self, line: int) -> str:
-        """What a line is called in a legend."""
-        ids = self.data.given.element_ids[self.data.given.lines.elements[line]]
-        return f"line {line + 1}: elements {ids[0]} to {ids[-1]}"
-
-    @cached_property
-    def _evaluated(self) -> Mask:
-        found = np.zeros(len(self.data.given.element_ids), np.bool_)
-        found[self.data.elements] = True
-        return found
-
-    def _within(self, arcs: Floats) -> slice:
-        low, high = self.limits
-        inside = np.flatnonzero((arcs >= low) & (arcs <= high))
-        if not inside.size:
-            return slice(0, 0)
-        return slice(max(0, int(inside[0]) - 1), int(inside[-1]) + 2)
-
-    def show(self, axes: Axes) -> None:
-        """Set the horizontal axis."""
-        low, high = self.limits
-        beside = 0.01 * (high - low) or 0.5
-        if is_number(low) and is_number(high):
-            axes.set_xlim(low - beside, high + beside)
-        axes.set_xlabel(labelled("arc length along the line", unit_names(self.data.given.units).length))
-
-
-# ------------------------------------------------------------------------------------------------- line on the seabed
-
-
-def line(axes: Axes, data: PlotData, stretch: Stretch) -> None:
-    """Draw the lines on the seabed, thick where they touch it, with their touchdown points."""
-    chosen = _chosen(data)
-    heights, seabed = chosen.heights, chosen.seabed
-    for place, number in enumerate(stretch.lines):
-        nodes, arcs = stretch.nodes(number)
-        drawn = thinned(chosen.result.gap[nodes])
-        axes.plot(arcs[drawn], seabed[nodes[drawn]], color=SEABED, linewidth=1.2, linestyle="-", zorder=1)
-        style = _line_style(stretch, place)
-        axes.plot(
-            arcs[drawn], heights[nodes[drawn]], color=style.color, linestyle=style.linestyle, linewidth=1.1, zorder=3
-        )
-        _thick(axes, data, heights, number, stretch, style)
-    _crop(axes, data, chosen, stretch)
-    _touchdown_points(axes, data, chosen, stretch)
-    if len(stretch.lines) == 1:
-        _soil(axes, chosen, stretch)
-    axes.set_ylabel(NODES["x"].axis(data.given.units))
-    handles: list[Artist] = [*_line_handles(stretch)]
-    handles += [
-        Line2D([], [], color=_line_style(stretch, 0).color, linewidth=3.5, label="in contact"),
-        Line2D([], [], color=SEABED, linewidth=1.2, label="seabed"),
-    ]
-    handles += axes.get_legend_handles_labels()[0]
-    _legend(axes, handles)
-
-
-def _crop(axes: Axes, data: PlotData, chosen: Chosen, stretch: Stretch) -> None:
-    """Leave out what hangs so high that nothing would be seen of how the line lies on the seabed."""
-    nodes = np.concatenate([stretch.nodes(number)[0] for number in stretch.lines])
-    near = nodes[chosen.result.gap[nodes] <= highest(data)]
-    if not near.size:
-        return
-    drawn = np.concatenate([chosen.heights[near], chosen.seabed[near]])
-    low, high = float(np.nanmin(drawn)), float(np.nanmax(drawn))
-    if len(near) < len(nodes) and is_number(low) and is_number(high) and high > low:
-        axes.set_ylim(low - 0.05 * (high - low), high)
-
-
-def highest(data: PlotData) -> float:
-    """How high above the seabed a line is drawn, if something touches the seabed."""
-    sizes = (np.nan_to_num(data.depth.most), np.nan_to_num(data.given.diameter))
-    return max(times * float(values.max(initial=0.0)) for times, values in zip(_HIGHEST, sizes, strict=True))
-
-
-def _thick(axes: Axes, data: PlotData, heights: Floats, number: int, stretch: Stretch, style: Style) -> None:
-    """Draw the elements of a line that touch the seabed over it."""
-    lines = data.given.lines
-    shown = np.zeros(len(data.given.element_ids), np.bool_)
-    shown[stretch.elements(number)] = True
-    shown &= _chosen(data).result.contact
-    here = np.flatnonzero(shown[lines.elements[number]])
-    if not here.size:
-        return
-    arcs, along = lines.node_arcs(number, data.given.length), heights[lines.nodes[number]]
-    here = here[thinned(np.nan_to_num(along[here]), MOST)]
-    none = np.full(len(here), np.nan)
-    x, y = (np.column_stack([values[here], values[here + 1], none]).ravel() for values in (arcs, along))
-    axes.plot(x, y, color=style.color, linewidth=3.5, solid_capstyle="butt", zorder=2)
-
-
-def _touchdown_points(axes: Axes, data: PlotData, chosen: Chosen, stretch: Stretch) -> None:
-    """Mark where the lines come down on the seabed or leave it."""
-    series = chosen.result.as_series()
-    finder, part = Touchdown(data.given), Part(chosen.step, series)
-    wanted = [one for one in finder.series(part) if one.number in stretch.lines]
-    points = [point for summary in finder.summaries(part, wanted) for point in summary.touchdown]
-    low, high = stretch.limits
-    points = [point for point in points if low <= point.arc_length <= high]
-    if not points:
-        return
-    x, y = [point.arc_length for point in points], [point.x for point in points]
-    size = 8.0 if len(points) <= 12 else 5.0
-    axes.plot(
-        x,
-        y,
-        linestyle="none",
-        marker="v",
-        markersize=size,
-        color="black",
-        markerfacecolor="white",
-        zorder=5,
-        label="touchdown point",
-    )
-    if len(points) > _LABELLED_POINTS:
-        return
-    unit = unit_names(data.given.units).length
-    for point in points:
-        right = point.arc_length < 0.5 * (low + high)
-        axes.annotate(
-            f"TDP {point.arc_length:.5g} {unit}".rstrip(),
-            (point.arc_length, point.x),
-            (8.0 if right else -8.0, 9.0),
-            textcoords="offset points",
-            ha="left" if right else "right",
-            fontsize="small",
-            bbox={"boxstyle": "square,pad=0.15", "facecolor": "white", "edgecolor": "none", "alpha": 0.8},
-            zorder=6,
-        )
-
-
-def _soil(axes: Axes, chosen: Chosen, stretch: Stretch) -> None:
-    """Fill what lies below the seabed."""
-    nodes, arcs = stretch.nodes(stretch.lines[0])
-    drawn = thinned(chosen.result.gap[nodes])
-    level = chosen.seabed[nodes[drawn]]
-    if not np.isfinite(level).any():
-        return
-    lowest, highest = axes.get_ylim()
-    least = float(np.nanmin(level))
-    bottom = min(lowest, least - 0.12 * (highest - least))
-    if not (is_number(bottom) and is_number(highest)):
-        return
-    axes.fill_between(arcs[drawn], level, bottom, color=LIGHT, linewidth=0.0, zorder=0)
-    axes.set_ylim(bottom, highest + 0.04 * (highest - bottom))
-
-
-# ------------------------------------------------------------------------------------------------- values of a step
+_MOST_SLIPPING = 80
+"""Slipping nodes of a line that are marked."""
 
 
 def force(axes: Axes, data: PlotData, stretch: Stretch) -> None:
     """Draw the seabed reaction of the elements; that on the nodes, where only springs of nodes act."""
-    result = _chosen(data).result
+    result = data.drawn.result
     units = data.given.units
     if not np.nan_to_num(result.force).any() and np.nan_to_num(result.normal_force).any():
         _of_nodes(axes, result.normal_force, stretch)
@@ -255,14 +44,14 @@ def force(axes: Axes, data: PlotData, stretch: Stretch) -> None:
 
 def embedment(axes: Axes, data: PlotData, stretch: Stretch) -> None:
     """Draw the embedment of the elements, downwards."""
-    depth = _chosen(data).result.depth
+    depth = data.drawn.result.depth
     _of_elements(axes, data, depth, stretch)
     _downwards(axes, data)
 
 
 def stiffness(axes: Axes, data: PlotData, stretch: Stretch) -> None:
     """Draw the stiffness of the seabed under the elements."""
-    _of_elements(axes, data, _chosen(data).result.stiffness, stretch)
+    _of_elements(axes, data, data.drawn.result.stiffness, stretch)
     axes.set_ylabel(ELEMENTS["stiffness"].axis(data.given.units))
 
 
@@ -280,7 +69,7 @@ def _downwards(axes: Axes, data: PlotData) -> None:
 
 def suction(axes: Axes, data: PlotData, stretch: Stretch) -> None:
     """Draw what holds the line down per unit length, with the states of suction, when the pull is largest."""
-    chosen = data.pulled or _chosen(data)
+    chosen = data.pulled or data.drawn
     pull = np.maximum(0.0 - chosen.result.force, 0.0)
     _of_elements(axes, data, pull, stretch, mark=False)
     states = chosen.result.state
@@ -308,10 +97,11 @@ def suction(axes: Axes, data: PlotData, stretch: Stretch) -> None:
 
 def friction(axes: Axes, data: PlotData, stretch: Stretch) -> None:
     """Draw the axial and the lateral force on the nodes, crossed where they slip, when the largest of them acts."""
-    chosen = data.slid or _chosen(data)
+    chosen = data.slid or data.drawn
     result = chosen.result
     if result.friction is None:
         return
+    slips = 0
     for side, name in enumerate(("axial", "lateral")):
         style = style_of(side)
         for place, number in enumerate(stretch.lines):
@@ -320,19 +110,16 @@ def friction(axes: Axes, data: PlotData, stretch: Stretch) -> None:
             drawn = thinned(values)
             label = name if place == 0 else None
             axes.plot(arcs[drawn], values[drawn], color=style.color, linestyle=style.linestyle, label=label)
-            slips = result.friction_state_of(side)[nodes] == SLIDING.index("slip")
-            at = np.flatnonzero(slips)
-            at = at[:: max(1, len(at) // MOST_SLIPPING)]
+            at = np.flatnonzero(result.friction_state_of(side)[nodes] == SLIDING.index("slip"))
+            slips += len(at)
+            at = at[:: max(1, len(at) // _MOST_SLIPPING)]
             axes.plot(arcs[at], values[at], linestyle="none", marker="x", markersize=4, color=style.color)
-    axes.plot([], [], linestyle="none", marker="x", markersize=4, color="0.2", label="slips")
+    if slips:
+        axes.plot([], [], linestyle="none", marker="x", markersize=4, color="0.2", label="slips")
     _step_note(axes, data, chosen)
     axes.axhline(0.0, color="0.4", linewidth=0.8, zorder=1)
     axes.set_ylabel(labelled("friction on a node", unit_names(data.given.units).force).replace(" [", "\n["))
     above(axes)
-
-
-MOST_SLIPPING = 80
-"""Slipping nodes of a line that are marked."""
 
 
 def _of_elements(axes: Axes, data: PlotData, values: Floats, stretch: Stretch, *, mark: bool = True) -> None:
@@ -341,7 +128,7 @@ def _of_elements(axes: Axes, data: PlotData, values: Floats, stretch: Stretch, *
     for place, number in enumerate(stretch.lines):
         elements = stretch.elements(number)
         drawn = elements[thinned(values[elements])]
-        style = _line_style(stretch, place)
+        style = stretch.style(place)
         points = style.marker if mark and marked(len(drawn)) else ""
         axes.plot(
             data.given.lines.element_arc[drawn],
@@ -361,7 +148,7 @@ def _of_nodes(axes: Axes, values: Floats, stretch: Stretch) -> None:
     for place, number in enumerate(stretch.lines):
         nodes, arcs = stretch.nodes(number)
         drawn = thinned(values[nodes])
-        style = _line_style(stretch, place)
+        style = stretch.style(place)
         points = style.marker if marked(len(drawn)) else ""
         axes.plot(
             arcs[drawn],
@@ -383,7 +170,7 @@ def envelope(rows: Sequence[Axes], data: PlotData, stretch: Stretch) -> None:
     _extents(first, data, data.force, stretch)
     first.axhline(0.0, color="0.4", linewidth=0.8, zorder=1)
     first.set_ylabel(labelled("reaction per unit\nlength, all steps", unit_names(data.given.units).line_force))
-    _legend(
+    legend_above(
         first,
         [
             Line2D([], [], color="0.2", linestyle="-", linewidth=1.3, label="largest"),
@@ -400,14 +187,11 @@ def _extents(axes: Axes, data: PlotData, found: Envelope, stretch: Stretch) -> N
     for place, number in enumerate(stretch.lines):
         elements = stretch.elements(number)
         drawn = elements[thinned(found.most[elements])]
-        color = _line_style(stretch, place).color
+        color = stretch.style(place).color
         arcs = data.given.lines.element_arc[drawn]
         axes.fill_between(arcs, found.least[drawn], found.most[drawn], color=color, alpha=0.12, linewidth=0.0)
         for values, linestyle in ((found.most, "-"), (found.mean, "--"), (found.least, ":")):
             axes.plot(arcs, values[drawn], color=color, linestyle=linestyle, linewidth=1.3)
-
-
-# ------------------------------------------------------------------------------------------------------------ shared
 
 
 def _step_note(axes: Axes, data: PlotData, chosen: Chosen) -> None:
@@ -415,48 +199,3 @@ def _step_note(axes: Axes, data: PlotData, chosen: Chosen) -> None:
     if data.steps > 1:
         text = f"at {when(data, chosen.step)}"
         axes.text(1.0, 1.02, text, transform=axes.transAxes, ha="right", va="bottom", fontsize="small")
-
-
-def _chosen(data: PlotData) -> Chosen:
-    if data.chosen is None:
-        raise ValueError("there are no results to draw yet")
-    return data.chosen
-
-
-def _line_style(stretch: Stretch, place: int) -> Style:
-    """A single line is drawn solid and dark; several differ in colour, style and marker."""
-    return style_of(place) if len(stretch.lines) > 1 else Style(COLORS[0], "-", "o")
-
-
-def _line_handles(stretch: Stretch) -> list[Line2D]:
-    """What a legend has of the lines: nothing for a single one."""
-    handles = []
-    for place, number in enumerate(stretch.lines if len(stretch.lines) > 1 else ()):
-        style = _line_style(stretch, place)
-        handles.append(
-            Line2D(
-                [],
-                [],
-                color=style.color,
-                linestyle=style.linestyle,
-                marker=style.marker,
-                markersize=4,
-                label=stretch.name(number),
-            )
-        )
-    if stretch.left_out:
-        handles.append(Line2D([], [], linestyle="none", label=f"and {stretch.left_out} more lines"))
-    return handles
-
-
-def _legend(axes: Axes, handles: Sequence[Artist]) -> None:
-    axes.legend(
-        handles=list(handles),
-        loc="lower left",
-        bbox_to_anchor=(0.0, 1.0),
-        ncols=3 if len(handles) <= 3 else 2,
-        fontsize="small",
-        frameon=False,
-        borderaxespad=0.1,
-        handlelength=2.6,
-    )

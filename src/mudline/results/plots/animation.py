@@ -19,8 +19,9 @@ from PIL import Image
 
 from mudline.quantities import ELEMENTS, NODES
 from mudline.results.plot_data import Frame, PlotData
-from mudline.results.plots.along_line import Stretch, highest
-from mudline.results.plots.style import SEABED, SETTINGS, Spelled, above, finish, is_number, style_of, when
+from mudline.results.plots.profile import highest
+from mudline.results.plots.stretch import Stretch
+from mudline.results.plots.style import SEABED, SETTINGS, Spelled, above, finish, is_number, when
 from mudline.scene.numbering import Floats, Indices
 
 _DPI = 90
@@ -92,7 +93,7 @@ class _Rows:
         elements = stretch.elements(number)
         self._elements, kept = _among(data.frame_elements, elements)
         self._middles = lines.element_arc[elements[kept]]
-        self._style = style_of(place)
+        self._style = stretch.style(place)
         self._name = stretch.name(number) if len(stretch.lines) > 1 else "line"
         self._drawn: list[Line2D] = []
 

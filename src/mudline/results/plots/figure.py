@@ -13,9 +13,9 @@ from matplotlib.gridspec import GridSpec
 from mudline.results import panels as known
 from mudline.results.panels import PANELS
 from mudline.results.plot_data import TRACED, PlotData
-from mudline.results.plots import along_line, loop, over_time
-from mudline.results.plots.along_line import Stretch
+from mudline.results.plots import along_line, loop, over_time, profile
 from mudline.results.plots.curves import on_curves
+from mudline.results.plots.stretch import Stretch
 from mudline.results.plots.style import SETTINGS, Spelled, finish, when, write
 
 _WIDTH = 8.0
@@ -121,7 +121,7 @@ def _fill(figure: Figure, cells: _Cells, panels: Sequence[tuple[str, _Shown]], s
 def _shown(name: str, data: PlotData, stretch: Stretch, spelled: Spelled) -> _Shown:
     """How high a panel is, and what draws it."""
     return {
-        "line": _Shown([2.9], lambda axes: along_line.line(axes[0], data, stretch)),
+        "line": _Shown([2.9], lambda axes: profile.line(axes[0], data, stretch)),
         "force": _Shown([1.9], lambda axes: along_line.force(axes[0], data, stretch)),
         "suction": _Shown([1.9], lambda axes: along_line.suction(axes[0], data, stretch)),
         "friction": _Shown([1.9], lambda axes: along_line.friction(axes[0], data, stretch)),

@@ -10,8 +10,8 @@ from matplotlib.ticker import MaxNLocator
 
 from mudline.quantities import STEPS, headed, labelled, unit_names
 from mudline.results.plot_data import TRACED, Band, PlotData
-from mudline.results.plots.along_line import Stretch
-from mudline.results.plots.style import COLORS, Style, above, style_of, time_label, widen
+from mudline.results.plots.stretch import Stretch
+from mudline.results.plots.style import COLORS, Style, above, time_label, widen
 
 
 def touchdown(rows: Sequence[Axes], data: PlotData, stretch: Stretch) -> None:
@@ -19,7 +19,7 @@ def touchdown(rows: Sequence[Axes], data: PlotData, stretch: Stretch) -> None:
     points, contact = rows
     several = len(stretch.lines) > 1
     for place, number in enumerate(stretch.lines):
-        style = style_of(place) if several else Style(COLORS[0], "-", "o")
+        style = stretch.style(place)
         name = stretch.name(number) if several else "touchdown point"
         first, last = (data.touchdown[number, end] for end in ("first", "last"))
         two = not np.array_equal(first.most, last.most, equal_nan=True)

@@ -9,6 +9,7 @@ from typing import Any, BinaryIO, Literal, NamedTuple
 
 import matplotlib as mpl
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.legend import Legend
@@ -131,6 +132,20 @@ def above(axes: Axes, columns: int = 4) -> None:
         handlelength=2.6,
     )
     plain_texts(legend)
+
+
+def legend_above(axes: Axes, handles: Sequence[Artist]) -> None:
+    """A legend of these above the axes."""
+    axes.legend(
+        handles=list(handles),
+        loc="lower left",
+        bbox_to_anchor=(0.0, 1.0),
+        ncols=3 if len(handles) <= 3 else 2,
+        fontsize="small",
+        frameon=False,
+        borderaxespad=0.1,
+        handlelength=2.6,
+    )
 
 
 def time_label(data: PlotData) -> str:

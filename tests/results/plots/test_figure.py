@@ -1,0 +1,303 @@
+"""Figures of results: which axes there are, that they share their ranges, and that what is drawn is the result."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+pytest.importorskip("matplotlib")
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+import mudline
+from mudline.contact import ContactInput, ContactModel, ContactResult, LawAssignment
+from mudline.contact.touchdown import line_summaries
+from mudline.results.panels import PANELS, PanelError, usual
+from mudline.results.plot_data import PlotData
+from mudline.results.plots import figure_of
+from mudline.results.plots.loop import Path as Cycle
+from mudline.results.plots.loop import draw_path
+from mudline.results.plots.over_time import traces
+from mudline.results.plots.stretch import Stretch
+from mudline.results.plots.style import PlainFormatter, thinned, widened
+from mudline.scene.positions import read_positions
+from tests.samples import SAMPLES
+
+
+@cache
+def result(name: str, positions: str) -> ContactResult:
+    scene = mudline.read(SAMPLES / name).scene()
+    given = read_positions(SAMPLES / positions, scene.nodes)
+    return scene.contact().evaluate(given.whole, present=given.present, times=given.time)
+
+
+def heave() -> ContactResult:
+    return result("scr-touchdown.keyxm", "positions.csv")
+
+
+def cycle() -> ContactResult:
+    return result("full-cycle.keyxm", "full-cycle.csv")
+
+
+def drawn(axes: Axes) -> list[Line2D]:
+    """The curves with more than two points."""
+    return [line for line in axes.get_lines() if len(np.asarray(line.get_xydata())) > 2]
+
+
+def labels(figure: Figure) -> list[str]:
+    return [axes.get_ylabel().replace("\n", " ") for axes in figure.axes]
+
+
+def test_every_panel_of_a_series_has_a_label_with_a_unit() -> None:
+    data = PlotData.of_result(cycle(), [1])
+    figure = figure_of(data, str, "", [*usual(data), "stiffness", "touchdown"])
+    assert labels(figure) == [
+        "height X [m]",
+        "seabed reaction per unit length [N/m]",
+        "suction per unit length [N/m]",
+        "embedment [m]",
+        "reaction per unit length, all steps [N/m]",
+        "embedment, all steps [m]",
+        "seabed stiffness per unit length [N/m2]",
+        "seabed reaction per unit length [N/m]",
+        "seabed reaction per unit length [N/m]",
+        "total reaction [N]",
+        "largest force per length [N/m]",
+        "elements in contact",
+        "deepest embedment [m]",
+        "arc length of touchdown [m]",
+        "length in contact [m]",
+    ]
+    assert "when the total reaction is largest" in figure.get_suptitle()
+
+
+def test_panels_along_the_line_share_their_range_and_those_over_time_theirs() -> None:
+    figure = figure_of(PlotData.of_result(heave()), str)
+    along = [axes for axes in figure.axes if axes.get_ylabel().startswith(("height", "embedment", "friction"))]
+    assert len({axes.get_xlim() for axes in along}) == 1
+    over_time = [axes for axes in figure.axes if axes.get_ylabel().startswith(("total", "deepest", "length"))]
+    assert len({axes.get_xlim() for axes in over_time}) == 1
+    shown = [axes.get_xlabel() for axes in figure.axes if axes.get_xlabel()]
+    assert shown == ["arc length along the line [m]", "embedment ratio, depth / diameter [-]", "time [s]"]
+
+
+def test_what_is_drawn_is_the_result() -> None:
+    state = heave().step(6)
+    figure = figure_of(PlotData.of_result(state), str, "", ["force", "embedment", "stiffness"])
+    arcs = state.known.lines.element_arc
+    for axes, values in zip(figure.axes, (state.force, state.depth, state.stiffness), strict=True):
+        x, y = drawn(axes)[0].get_data()
+        here = np.searchsorted(arcs, x)
+        assert np.array_equal(arcs[here], x)
+        assert np.array_equal(values[here], y)
+        touching = np.flatnonzero(state.contact & state.evaluated)
+        assert set(touching.tolist()) <= set(here.tolist())
+
+
+def test_the_line_has_its_touchdown_point_and_lies_on_its_nodes() -> None:
+    state = heave().step(0)
+    (axes,) = figure_of(PlotData.of_result(state), str, "", ["line"]).axes
+    point = line_summaries(state)[0].touchdown[0]
+    marks = [line for line in axes.get_lines() if line.get_label() == "touchdown point"]
+    assert np.asarray(marks[0].get_xydata()).tolist() == [[point.arc_length, point.x]]
+    assert f"TDP {point.arc_length:.5g} m" in [text.get_text() for text in axes.texts]
+    assert state.positions is not None
+    pipe = drawn(axes)[1]
+    assert set(np.asarray(pipe.get_ydata()).tolist()) <= set(state.positions[state.present, 0].tolist())
+
+
+def test_envelopes_and_touchdown_over_time_are_those_of_the_arrays() -> None:
+    found = heave()
+    data = PlotData.of_result(found)
+    force, depth, touchdown, _ = figure_of(data, str, "", ["envelope", "touchdown"]).axes
+    for axes, values in ((force, found.force), (depth, found.depth)):
+        most, mean, least = (line.get_ydata() for line in drawn(axes)[:3])
+        here = np.searchsorted(found.known.lines.element_arc, drawn(axes)[0].get_xdata())
+        assert np.array_equal(most, values[:, here].max(axis=0))
+        assert mean == pytest.approx(values[:, here].mean(axis=0))
+        assert np.array_equal(least, values[:, here].min(axis=0))
+    times, arcs = drawn(touchdown)[0].get_data()
+    assert found.times is not None
+    assert np.array_equal(times, found.times)
+    assert np.asarray(arcs).tolist() == [line.touchdown[0].arc_length for line in line_summaries(found)]
+
+
+def test_panels_come_in_the_order_asked_for_and_refuse_what_is_missing() -> None:
+    data = PlotData.of_result(heave())
+    figure = figure_of(data, str, "a doubt", ["embedment", "line"])
+    assert labels(figure) == ["embedment [m]", "height X [m]"]
+    assert figure.get_suptitle().endswith("a doubt")
+    with pytest.raises(PanelError, match="the panel suction cannot be drawn"):
+        figure_of(data, str, "", ["line", "suction"])
+
+
+def test_a_loop_has_its_states_and_arrows() -> None:
+    (axes,) = figure_of(PlotData.of_result(cycle(), [2]), str, "", ["loop"]).axes
+    names = [line.get_label() for line in axes.get_lines() if not str(line.get_label()).startswith("_")]
+    assert names == ["free", "compression", "suction", "hold", "broken"]
+    assert axes.get_xlabel() == "penetration of element 2 [m]"
+    assert len(axes.texts) >= 6, "arrows"
+    places = {tuple(point) for line in axes.get_lines() for point in np.asarray(line.get_xydata()).tolist()}
+    path = set(zip(cycle().depth[:, 1].tolist(), cycle().force[:, 1].tolist(), strict=True))
+    assert path <= places
+
+
+def test_a_path_without_states_goes_down_and_up() -> None:
+    axes = Figure().add_subplot()
+    draw_path(axes, Cycle(np.array([0.0, 0.1, 0.2, 0.1, np.nan]), np.array([0.0, 5.0, 9.0, 1.0, np.nan]), None))
+    assert axes.get_legend_handles_labels()[1] == ["moving down", "moving up"]
+    still = Figure().add_subplot()
+    draw_path(still, Cycle(np.full(3, np.nan), np.full(3, np.nan), None))
+
+
+def lines(count: int, elements: int = 4) -> ContactResult:
+    """Lines beside each other that rise from a linear seabed."""
+    nodes = count * (elements + 1)
+    coordinates = np.zeros((nodes, 3))
+    for line in range(count):
+        rows = slice(line * (elements + 1), (line + 1) * (elements + 1))
+        coordinates[rows] = [
+            [-0.1 + 0.2 * i / elements - 0.01 * line, 5.0 * i, 20.0 * line] for i in range(elements + 1)
+        ]
+    first = np.concatenate([np.arange(elements) + line * (elements + 1) for line in range(count)])
+    size = len(first)
+    law = LawAssignment("linear", np.arange(size), {"stiffness": 1e4})
+    return ContactModel(
+        ContactInput(
+            np.arange(1, nodes + 1),
+            coordinates,
+            np.arange(1, size + 1),
+            np.column_stack([first, first + 1]),
+            np.full(size, 5.0),
+            np.full(size, 0.5),
+            (law,),
+        )
+    ).evaluate()
+
+
+def test_several_lines_differ_without_colours() -> None:
+    axes = figure_of(PlotData.of_result(lines(3)), str, "", ["force"]).axes[0]
+    found = drawn(axes)
+    assert len(found) == 3
+    for look in (Line2D.get_color, Line2D.get_linestyle, Line2D.get_marker):
+        assert len({look(line) for line in found}) == 3
+    line = figure_of(PlotData.of_result(lines(3)), str, "", ["line"]).axes[0]
+    legend = line.get_legend()
+    assert legend is not None
+    texts = [text.get_text() for text in legend.get_texts()]
+    assert texts[:3] == ["line 1: elements 1 to 4", "line 2: elements 5 to 8", "line 3: elements 9 to 12"]
+
+
+def test_of_many_lines_some_are_drawn_and_the_rest_counted() -> None:
+    data = PlotData.of_result(lines(70, 1))
+    stretch = Stretch(data)
+    assert (len(stretch.lines), stretch.left_out) == (6, 64)
+    axes = figure_of(data, str, "", ["line"]).axes[0]
+    legend = axes.get_legend()
+    assert legend is not None
+    assert "and 64 more lines" in [text.get_text() for text in legend.get_texts()]
+
+
+def test_four_elements_are_marked_and_a_long_line_is_thinned() -> None:
+    short = drawn(figure_of(PlotData.of_result(lines(1)), str, "", ["force"]).axes[0])[0]
+    assert short.get_marker() == "o"
+    long = drawn(figure_of(PlotData.of_result(lines(1, 9000)), str, "", ["stiffness"]).axes[0])[0]
+    assert str(long.get_marker()) in {"", "None"}
+    assert len(np.asarray(long.get_xydata())) <= 4002
+
+
+def test_springs_of_nodes_have_forces_on_nodes() -> None:
+    scene = lines(1).known
+    law = LawAssignment("nodal", np.arange(5), {"stiffness": 1e4})
+    given = ContactInput(
+        scene.node_ids, scene.coordinates, scene.element_ids, scene.element_nodes, scene.length, scene.diameter, (law,)
+    )
+    found = ContactModel(given).evaluate()
+    (axes,) = figure_of(PlotData.of_result(found), str, "", ["force"]).axes
+    assert axes.get_ylabel() == "seabed reaction\non a node"
+    assert np.asarray(drawn(axes)[0].get_ydata()).tolist() == found.normal_force.tolist()
+
+
+@pytest.mark.parametrize("name", ["picture.png", "picture.svg", "picture.pdf"])
+def test_a_result_draws_itself_the_same_each_time(tmp_path: Path, name: str) -> None:
+    state = heave().step(0)
+    state.plot(tmp_path / name, panels=["force"])
+    first = (tmp_path / name).read_bytes()
+    state.plot(tmp_path / name, panels=["force"])
+    assert (tmp_path / name).read_bytes() == first
+    assert b"/Type3" not in first
+
+
+def test_a_result_refuses_what_it_cannot_draw(tmp_path: Path) -> None:
+    state = heave().step(0)
+    with pytest.raises(ValueError, match=r"a plot is a \.png, \.svg or \.pdf"):
+        state.plot(tmp_path / "picture.jpg")
+    with pytest.raises(ValueError, match="no panel is called 'lines'"):
+        state.plot(panels=["lines"])
+    with pytest.raises(ValueError, match="no evaluated element has the number 1000"):
+        state.plot(elements=[1000])
+    with pytest.raises(OSError, match="No such file"):
+        state.plot(tmp_path / "nowhere" / "picture.png", panels=["force"])
+    assert not list(tmp_path.iterdir())
+
+
+def test_every_panel_is_drawn_by_something() -> None:
+    data = PlotData.of_result(heave(), [int(heave().known.element_ids[heave().evaluated][0])])
+    for name, panel in PANELS.items():
+        if not panel.missing(data):
+            assert figure_of(data, str, "", [name]).axes, name
+
+
+# ------------------------------------------------------------------------------------------------------------ scales
+
+
+@pytest.mark.parametrize(
+    ("values", "wanted"),
+    [
+        ([485.0, 485.001], (482.5755, 487.4255)),
+        ([-200.0, -200.0], (-201.0, -199.0)),
+        ([100.0, 150.0], (100.0, 150.0)),
+        ([0.0, 0.0], (0.0, 0.0)),
+        ([-1.7e308, 1.7e308], (-1.7e308, 1.7e308)),
+    ],
+)
+def test_a_scale_spans_a_hundredth_of_its_values(values: list[float], wanted: tuple[float, float]) -> None:
+    assert widened(np.array(values)) == pytest.approx(wanted, rel=1e-6)
+
+
+def test_traces_that_hardly_change_are_flat() -> None:
+    rows = Figure().subplots(4)
+    traces(list(rows), PlotData.of_result(result("slope-friction.keyxm", "slope-friction.csv")))
+    for axes, low, high in ((rows[0], 57_948.0, 58_531.0), (rows[1], 482.6, 487.5), (rows[2], 56.7, 63.3)):
+        assert axes.get_ylim() == pytest.approx((low, high), rel=2e-3)
+
+
+@pytest.mark.parametrize(
+    ("ticks", "texts"),
+    [
+        ([0.0, 0.025, 0.05], ["0.000", "0.025", "0.050"]),
+        ([-0.2, 0.0, 0.2], ["\u22120.2", "0.0", "0.2"]),
+        ([0.0, 500_000.0, 1_000_000.0], ["0", "500,000", "1,000,000"]),
+        ([310.0001, 310.0002], ["310.0001", "310.0002"]),
+        ([0.0, 2e150], ["0", "2e+150"]),
+        ([], []),
+    ],
+)
+def test_ticks_are_plain_numbers(ticks: list[float], texts: list[str]) -> None:
+    form = PlainFormatter()
+    form.set_locs(ticks)
+    assert [form(tick) for tick in ticks] == texts
+
+
+def test_thinning_keeps_ends_and_extremes() -> None:
+    values = np.sin(np.arange(100_000) * 0.01)
+    values[777] = 5.0
+    kept = thinned(values, 200)
+    assert len(kept) <= 402
+    assert {0, 777, 99_999} <= set(kept.tolist())
+    assert thinned(values[:50], 200).tolist() == list(range(50))
