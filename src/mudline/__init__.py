@@ -12,7 +12,7 @@ from __future__ import annotations
 TYPE_CHECKING = False  # as in typing, whose import would take longer than `mudline --version` does otherwise
 
 if TYPE_CHECKING:
-    from mudline.api import Deck, from_json, from_keyword, from_yaml, lint, read
+    from mudline.api import Deck, from_json, from_keyword, from_yaml, lint, read, read_positions
     from mudline.contact import ContactModel, ContactResult, ContactState, Plan, PositionError
     from mudline.curves import CurveError, ForceCurve
     from mudline.diagnostics import DeckError, Diagnostic, Severity
@@ -42,6 +42,7 @@ __all__ = [
     "from_yaml",
     "lint",
     "read",
+    "read_positions",
 ]
 
 _HOMES = {
@@ -64,6 +65,7 @@ _HOMES = {
     "from_yaml": "api",
     "lint": "api",
     "read": "api",
+    "read_positions": "api",
 }
 
 

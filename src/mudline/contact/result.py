@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, fields
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,9 @@ from mudline.contact.arrays import BoolArray, FloatArray, IdArray, StateArray
 from mudline.contact.input import ContactInput, ElementError, PositionError
 from mudline.contact.tables import Tables
 from mudline.short_repr import outline, short_repr
+
+if TYPE_CHECKING:
+    from mudline.contact.touchdown import LineSummary
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -90,6 +93,15 @@ class ContactResult:
     def step(self, index: int) -> ContactResult:
         """Return one step of a series, as views."""
         return self._cut(index)
+
+    def summary(self) -> list[LineSummary]:
+        """Return every line at each step: touchdown points, length in contact, largest forces, total reaction.
+
+        Raises ValueError for a result that does not know what was evaluated.
+        """
+        from mudline.contact.touchdown import line_summaries  # noqa: PLC0415 - forces alone do without it
+
+        return line_summaries(self)
 
     def as_series(self) -> ContactResult:
         """Return a single state as a series of one step, as views."""
