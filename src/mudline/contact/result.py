@@ -94,6 +94,14 @@ class ContactResult:
         """Return one step of a series, as views."""
         return self._cut(index)
 
+    def as_series(self) -> ContactResult:
+        """Return a single state as a series of one step, as views."""
+        return self._each(lambda values: np.asarray(values)[None])
+
+    def steps(self, start: int, stop: int) -> ContactResult:
+        """Return the steps start <= step < stop of a series, as views."""
+        return self._cut(slice(start, stop))
+
     def summary(self) -> list[LineSummary]:
         """Return every line at each step: touchdown points, length in contact, largest forces, total reaction.
 
@@ -102,14 +110,6 @@ class ContactResult:
         from mudline.contact.touchdown import line_summaries  # noqa: PLC0415 - forces alone do without it
 
         return line_summaries(self)
-
-    def as_series(self) -> ContactResult:
-        """Return a single state as a series of one step, as views."""
-        return self._each(lambda values: np.asarray(values)[None])
-
-    def steps(self, start: int, stop: int) -> ContactResult:
-        """Return the steps start <= step < stop of a series, as views."""
-        return self._cut(slice(start, stop))
 
     def _cut(self, key: int | slice) -> ContactResult:
         return self._each(lambda values: values[key])
