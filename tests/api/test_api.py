@@ -47,12 +47,11 @@ def test_public_name_resolves_and_is_documented(name: str) -> None:
 
 
 CONTRACT = "read lint from_keyword from_json from_yaml Deck DeckError Diagnostic Severity Scene ForceCurve CurveError"
-POSITIONS = "read_positions"
 CONTACT = "ContactModel ContactResult ContactState ContactWarning Plan PositionError contact_warnings"
 
 
 def test_names_are_those_of_the_contract() -> None:
-    assert {*CONTRACT.split(), POSITIONS, *CONTACT.split(), "__version__"} == set(mudline.__all__)
+    assert {*CONTRACT.split(), "read_positions", *CONTACT.split(), "__version__"} == set(mudline.__all__)
     assert dir(mudline) == mudline.__all__ == sorted(mudline.__all__)
     assert mudline.__version__.count(".") == 2
 
