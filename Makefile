@@ -13,7 +13,7 @@ CORE := $(addprefix tests/,syntax expression keywords curves contact scene compa
 ARGS ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help install demo test test-fast test-lowest lint format typecheck docs pictures studies bench build clean
+.PHONY: help install demo test test-fast test-lowest lint format typecheck docs tutorials pictures studies bench build clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-10s %s\n", $$1, $$2 }' Makefile
@@ -91,6 +91,9 @@ format: $(VENV)/.developer ## put the code into its canonical layout
 
 docs: $(VENV)/.developer ## regenerate what docs/ takes from the program
 	$(BIN)/python -m tests.docs.make
+
+tutorials: $(VENV)/.developer ## execute the notebooks of docs/tutorials anew
+	$(BIN)/python -m tests.docs.tutorials
 
 pictures: $(VENV)/.developer ## redraw the pictures of docs/images
 	$(BIN)/python -m tests.docs.pictures

@@ -12,7 +12,7 @@ from __future__ import annotations
 TYPE_CHECKING = False  # as in typing, whose import would take longer than `mudline --version` does otherwise
 
 if TYPE_CHECKING:
-    from mudline.api import Deck, from_json, from_keyword, from_yaml, lint, read
+    from mudline.api import Deck, from_json, from_keyword, from_yaml, lint, read, read_positions
     from mudline.contact import ContactModel, ContactResult, ContactState, Plan, PositionError
     from mudline.curves import CurveError, ForceCurve
     from mudline.diagnostics import DeckError, Diagnostic, Severity
@@ -43,13 +43,14 @@ __all__ = [
     "from_yaml",
     "lint",
     "read",
+    "read_positions",
     "read_result",
 ]
 
 _HOMES = {
     name: home
     for home, names in {
-        "api": ["Deck", "from_json", "from_keyword", "from_yaml", "lint", "read"],
+        "api": ["Deck", "from_json", "from_keyword", "from_yaml", "lint", "read", "read_positions"],
         "contact": ["ContactModel", "ContactResult", "ContactState", "Plan", "PositionError"],
         "curves": ["CurveError", "ForceCurve"],
         "diagnostics": ["DeckError", "Diagnostic", "Severity"],

@@ -6,6 +6,7 @@ import os
 import re
 from collections.abc import Iterable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from mudline.deck import model
 from mudline.deck.forms import KEYWORD
@@ -14,6 +15,9 @@ from mudline.diagnostics import Diagnostic
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import select as _chosen
 from mudline.scene.model import Scene, resolve
+
+if TYPE_CHECKING:
+    from mudline.scene.positions import Positions
 
 _KEYWORD = re.compile(r"\s*[$*][A-Z][A-Z &/-]*\s*", re.IGNORECASE)
 _SECTION = re.compile(r"^\s*\$[A-Z]", re.IGNORECASE | re.MULTILINE)
@@ -65,6 +69,22 @@ def read(path: str | os.PathLike[str], *, units: str | None = None) -> Deck:
         TypeError: `path` is no path.
     """
     return _public(load_path(_path(path), units=units))
+
+
+def read_positions(path: str | os.PathLike[str], scene: Scene) -> Positions:
+    """Read positions of a scene's nodes, at one or more times, from a CSV, NPZ or NPY file, by its suffix.
+
+    Args:
+        path: the file; a CSV has the columns `[time,]node,x,y,z[,vx,vy,vz]`, in the units of the deck.
+        scene: whose nodes they are. Nodes that the file lacks are NaN, and False in `.present`.
+
+    Raises:
+        OSError: the file cannot be read.
+        DeckError: it has faults, or nodes that the scene lacks.
+    """
+    from mudline.scene import positions  # noqa: PLC0415 - decks alone do without it
+
+    return positions.read_positions(Path(path), scene.nodes)
 
 
 def from_keyword(text: str | bytes, *, units: str | None = None) -> Deck:

@@ -51,7 +51,7 @@ CONTACT = "ContactModel ContactResult ContactState ContactWarning Plan PositionE
 
 
 def test_names_are_those_of_the_contract() -> None:
-    assert {*CONTRACT.split(), *CONTACT.split(), "__version__"} == set(mudline.__all__)
+    assert {*CONTRACT.split(), "read_positions", *CONTACT.split(), "__version__"} == set(mudline.__all__)
     assert dir(mudline) == mudline.__all__ == sorted(mudline.__all__)
     assert mudline.__version__.count(".") == 2
 
@@ -280,6 +280,26 @@ def test_both_backends_of_a_scene_with_history(path: Path) -> None:
     np.testing.assert_allclose(fast.force, plain.force, rtol=1e-13)
     with pytest.raises(ValueError, match="backend must be auto, numpy or fast"):
         scene.contact(backend="quick")  # type: ignore[arg-type]  # that is what is tried
+
+
+def test_positions_of_a_scene(path: Path, tmp_path: Path) -> None:
+    scene = mudline.read(path).scene()
+    file = tmp_path / "positions.csv"
+    file.write_text("time,node,x,y,z\n0,1,-0.5,0,0\n0,2,-0.5,5,0\n2.5,1,0.5,0,0\n2.5,2,0.5,5,0\n", encoding="utf-8")
+    positions = mudline.read_positions(str(file), scene)
+    assert positions.present.tolist() == [number in {1, 2} for number in scene.node_ids]
+    result = scene.contact().evaluate(positions.values, present=positions.present, times=positions.time)
+    assert result.contact.any(axis=1).tolist() == [True, False]
+    assert [line.time for line in result.summary()] == [0.0, 2.5]
+    plain = tmp_path / "positions.npy"
+    np.save(plain, np.stack([scene.coordinates, np.add(scene.coordinates, [5.0, 0.0, 0.0])]))
+    read = mudline.read_positions(plain, scene)
+    moved = scene.contact().evaluate(read.values, present=read.present, times=read.time)
+    assert np.array_equal(moved.force[0], scene.contact().evaluate().force)
+    assert not moved.contact[1].any()
+    file.write_text("node,x,y,z\n99,0,0,0\n", encoding="utf-8")
+    with pytest.raises(mudline.DeckError, match="99"):
+        mudline.read_positions(file, scene)
 
 
 def test_scene_of_a_deck_with_errors(path: Path) -> None:

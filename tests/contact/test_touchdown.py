@@ -101,7 +101,8 @@ def test_a_series_has_a_row_for_each_step_and_its_time() -> None:
     given = line_input(3)
     series = np.stack([at_heights(-1.0, -1.0, 1.0), at_heights(-1.0, -1.0, 3.0), at_heights(1.0, 1.0, 1.0)])
     result = ContactModel(given).evaluate(series, times=[0.0, 0.5, 2.0])
-    rows = line_summaries(result)
+    rows = result.summary()
+    assert rows == line_summaries(result)
     assert [row.time for row in rows] == [0.0, 0.5, 2.0]
     assert [[point.arc_length for point in row.touchdown] for row in rows] == [[15.0], [12.5], []]
     assert [row.contact_length for row in rows] == [15.0, 12.5, 0.0]

@@ -68,7 +68,7 @@ class ContactModel:
 
     def evaluate(
         self,
-        positions: ArrayLike | None = None,
+        positions: ArrayLike | StepReader | None = None,
         *,
         present: ArrayLike | None = None,
         velocities: ArrayLike | None = None,
@@ -90,11 +90,12 @@ class ContactModel:
                 velocities nor times.
         """
         given = self.input.coordinates if positions is None else positions
-        if np.ndim(given) == 2:
+        single = not isinstance(given, StepReader) and np.ndim(given) == 2
+        if single:
             given = np.array(given)  # a copy, which the result keeps: the caller may write the next positions into it
         parts = list(self.stream(given, present=present, velocities=velocities, times=times, together=True))
         result = parts[0].result
-        return result if np.ndim(given) == 3 else result.step(0)
+        return result.step(0) if single else result
 
     def stream(
         self,

@@ -24,6 +24,8 @@ if TYPE_CHECKING:  # each is imported when it is asked for
     import xarray as xr
     from matplotlib.figure import Figure
 
+    from mudline.contact.touchdown import LineSummary
+
 TableName = Literal["elements", "nodes", "summary"]
 
 
@@ -190,6 +192,15 @@ class ContactResult:
         except ImportError as error:
             raise ImportError("a plot needs matplotlib: pip install 'mudline[plot]'") from error
         return plot_result(self, path, panels=panels, elements=elements)
+
+    def summary(self) -> list[LineSummary]:
+        """Return every line at each step: touchdown points, length in contact, largest forces, total reaction.
+
+        Raises ValueError for a result that does not know what was evaluated.
+        """
+        from mudline.contact.touchdown import line_summaries  # noqa: PLC0415 - forces alone do without it
+
+        return line_summaries(self)
 
     def _cut(self, key: int | slice) -> ContactResult:
         return self._each(lambda values: values[key])
