@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import json
 import multiprocessing
 import os
 from pathlib import Path
@@ -132,8 +133,8 @@ def test_only_the_first_of_many_rows_are_listed(place: Place, monkeypatch: pytes
     monkeypatch.setattr("mudline.cli.cases_text.MOST_ROWS", 2)
     for name in "abc":
         place(CLEAN, f"decks/{name}.keyxm")
-    assert "1 more decks: -v shows all\n" in run("evaluate", "decks").out
-    assert "more decks" not in run("evaluate", "decks", "-v").out
+    assert "1 more deck: -v shows all\n" in run("evaluate", "decks").out
+    assert "more deck" not in run("evaluate", "decks", "-v").out
 
 
 def test_narrow_terminal_leaves_columns_out(four: str, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -141,7 +142,7 @@ def test_narrow_terminal_leaves_columns_out(four: str, monkeypatch: pytest.Monke
     outcome = run("evaluate", four, "--color", "never", terminal=True)
     lines = outcome.out.splitlines()
     assert all(len(line) <= 70 for line in lines)
-    assert "not shown for want of columns: in contact" in outcome.out
+    assert "left out on a narrow terminal: in contact" in outcome.out
 
 
 # ------------------------------------------------------------------------------------------------------- exit codes
@@ -153,7 +154,7 @@ def test_warnings_fail_only_when_that_is_asked_for(place: Place) -> None:
     outcome = run(*arguments, "--fail-on", "warning")
     assert outcome.code == 1
     assert outcome.err.count("RUN003") == 1
-    assert outcome.err.endswith("(1 more decks)\n")
+    assert outcome.err.endswith("(1 more deck)\n")
 
 
 def test_path_that_is_missing_has_a_row(place: Place) -> None:
@@ -163,6 +164,14 @@ def test_path_that_is_missing_has_a_row(place: Place) -> None:
         ("nowhere.keyxm", "no such file or directory"),
         ("deck.keyxm", None),
     ]
+
+
+def test_deck_that_is_given_twice_has_one_row(place: Place) -> None:
+    found = run(
+        "evaluate", place(), "./deck.keyxm", ".", "--output-format", "json", "-o", "out", "--form", "json"
+    ).json()
+    assert [(row["deck"], row["result"]) for row in found] == [("deck.keyxm", "deck.json")]
+    assert_fits(json.loads(Path("out/deck.json").read_bytes()), "evaluate")
 
 
 def test_folder_without_a_deck(folder: Path) -> None:

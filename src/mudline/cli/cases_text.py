@@ -67,9 +67,10 @@ def _lines(
         else:
             yield _row(deck + padding, first, [texts[number] for texts in cells.values()], widths)
     if left := len(rows) - len(listed):
-        yield _dim(f"{left} more decks: -v shows all", printer)
+        yield _dim(f"{counted(left, 'more deck')}: -v shows all", printer)
     if dropped:
-        yield _dim(f"not shown for want of columns: {', '.join(dropped)}", printer)
+        note = f"left out on a narrow terminal: {', '.join(dropped)}"
+        yield from (_dim(text, printer) for text in textwrap.wrap(note, max(printer.width, _SHORTEST)))
     yield ""
     yield _total(rows, printer)
 

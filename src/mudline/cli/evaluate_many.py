@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import time
 from collections import deque
-from collections.abc import Generator, Iterator, Sequence
+from collections.abc import Generator, Iterable, Iterator, Sequence
 from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,7 +18,7 @@ from mudline.cli.case_files import SUMMARY, Case, MissingPositionsError, Positio
 from mudline.cli.cases_text import print_cases
 from mudline.cli.evaluate_case import Done, Order, evaluate_case, failed
 from mudline.cli.evaluate_inputs import EvaluateInputs
-from mudline.cli.inputs import Inputs
+from mudline.cli.inputs import Input, Inputs
 from mudline.cli.known_results import Kept, KnownResults
 from mudline.cli.processes import Effort, pays, pool, submitted
 from mudline.cli.result_files import is_installed
@@ -72,7 +73,7 @@ def evaluate_many(decks: Inputs, options: ManyOptions, view: View) -> int:
     if not decks.files:
         return decks.code
     folder = None if options.output is None else Path(options.output)
-    common, cases = named_cases([*decks.files], options.form if folder else "")
+    common, cases = named_cases(_once(decks.files), options.form if folder else "")
     known = None if folder is None else KnownResults(folder, _spelled(options))
     rows: list[Kept] = []
     taken = 0
@@ -98,6 +99,14 @@ def evaluate_many(decks: Inputs, options: ManyOptions, view: View) -> int:
         print_cases(ranked, common, {case.file.name: case.inside for case in cases}, view)
     failing = any(row.failed or (row.warnings and options.fail_on == "warning") for row in ranked)
     return max(decks.code, FOUND if failing else DONE)
+
+
+def _once(files: Iterable[Input]) -> list[Input]:
+    """Each file once, by whatever names it was given."""
+    found: dict[str, Input] = {}
+    for file in files:
+        found.setdefault(os.path.abspath(file.path or file.name), file)  # noqa: PTH100 - links stay what they are called
+    return list(found.values())
 
 
 def _spelled(options: ManyOptions) -> str:
@@ -225,7 +234,7 @@ def _notify_warnings(rows: Sequence[Kept]) -> None:
         for code, text in dict(one.warnings).items():
             decks.setdefault(code, []).append(text)
     for texts in list(decks.values())[:MOST_REPORTED]:
-        more = f" ({len(texts) - 1} more decks)" if len(texts) > 1 else ""
+        more = f" ({counted(len(texts) - 1, 'more deck')})" if len(texts) > 1 else ""
         notify(f"warning: {texts[0]}{more}")
 
 
