@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import tomllib
 from collections.abc import Iterable, Iterator
 from graphlib import TopologicalSorter
 from itertools import pairwise
@@ -19,8 +20,20 @@ _STYLE = "font-family:sans-serif;font-size:13px"
 Graph = dict[str, set[str]]
 
 
+def upwards() -> set[tuple[str, str]]:
+    """The packages of imports that the order of the layers leaves out, as its contract in pyproject.toml lists them."""
+    settings = tomllib.loads((ROOT.parents[1] / "pyproject.toml").read_text(encoding="utf-8"))
+    (layers,) = (one for one in settings["tool"]["importlinter"]["contracts"] if one["id"] == "layers")
+    pairs = (one.split(" -> ") for one in layers.get("ignore_imports", ()))
+    return {(importer.split(".")[1], imported.split(".")[1]) for importer, imported in pairs}
+
+
 def packages() -> Graph:
-    """Return for each package the packages that it imports; the small modules beside them are one."""
+    """Return for each package the packages that it imports; the small modules beside them are one.
+
+    The imports `upwards` are left out.
+    """
+    left_out = upwards()
     folders = {path.parent.name for path in ROOT.glob("*/__init__.py")}
     small = {path.stem for path in ROOT.glob("*.py")} - {"__init__", "__main__", *API} | {"codes"}
     names = {name: name for name in folders} | dict.fromkeys(small, BASE) | dict.fromkeys(API, ", ".join(API))
@@ -30,7 +43,7 @@ def packages() -> Graph:
         importer = names.get(inside.parts[0].removesuffix(".py"))
         for imported in _imported(path):
             target = names.get(imported)
-            if importer and target and importer != target:
+            if importer and target and importer != target and (importer, target) not in left_out:
                 graph[importer].add(target)
     return graph
 
