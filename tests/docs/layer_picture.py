@@ -4,7 +4,11 @@ from __future__ import annotations
 
 import ast
 import tomllib
+<<<<<<< HEAD
 from collections.abc import Container, Iterable, Iterator
+=======
+from collections.abc import Iterable, Iterator
+>>>>>>> wpics
 from graphlib import TopologicalSorter
 from itertools import pairwise
 from pathlib import Path
@@ -20,8 +24,20 @@ _STYLE = "font-family:sans-serif;font-size:13px"
 Graph = dict[str, set[str]]
 
 
+def upwards() -> set[tuple[str, str]]:
+    """The packages of imports that the order of the layers leaves out, as its contract in pyproject.toml lists them."""
+    settings = tomllib.loads((ROOT.parents[1] / "pyproject.toml").read_text(encoding="utf-8"))
+    (layers,) = (one for one in settings["tool"]["importlinter"]["contracts"] if one["id"] == "layers")
+    pairs = (one.split(" -> ") for one in layers.get("ignore_imports", ()))
+    return {(importer.split(".")[1], imported.split(".")[1]) for importer, imported in pairs}
+
+
 def packages() -> Graph:
-    """Return for each package the packages that it imports; the small modules beside them are one."""
+    """Return for each package the packages that it imports; the small modules beside them are one.
+
+    The imports `upwards` are left out.
+    """
+    left_out = upwards()
     folders = {path.parent.name for path in ROOT.glob("*/__init__.py")}
     small = {path.stem for path in ROOT.glob("*.py")} - {"__init__", "__main__", *API} | {"codes"}
     names = {name: name for name in folders} | dict.fromkeys(small, BASE) | dict.fromkeys(API, ", ".join(API))
@@ -32,7 +48,7 @@ def packages() -> Graph:
         importer = names.get(inside.parts[0].removesuffix(".py"))
         for imported in _imported(path, set(ignored.get(_name(inside), ()))):
             target = names.get(imported)
-            if importer and target and importer != target:
+            if importer and target and importer != target and (importer, target) not in left_out:
                 graph[importer].add(target)
     return graph
 

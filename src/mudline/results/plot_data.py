@@ -214,6 +214,8 @@ class PlotData:
         return data
 
     def _looped(self, elements: Sequence[int]) -> Indices:
+        if not elements:
+            return np.zeros(0, np.intp)
         places = {number: index for index, number in enumerate(self.given.element_ids.tolist())}
         known = set(self.elements.tolist())
         wanted = list(dict.fromkeys(elements))
