@@ -87,6 +87,6 @@ def test_without_xlsxwriter(place: Place, monkeypatch: pytest.MonkeyPatch) -> No
     def missing(name: str) -> None:
         raise ImportError(name)
 
-    monkeypatch.setattr("mudline.cli.evaluate_command.form_module", missing)
+    monkeypatch.setattr("mudline.cli.result_files.form_module", missing)
     outcome = run("evaluate", place(), "-o", "out.xlsx")
     assert (outcome.code, outcome.err) == (1, "mudline: .xlsx needs xlsxwriter: pip install 'mudline[excel]'\n")

@@ -4,11 +4,7 @@ from __future__ import annotations
 
 import ast
 import tomllib
-<<<<<<< HEAD
-from collections.abc import Container, Iterable, Iterator
-=======
 from collections.abc import Iterable, Iterator
->>>>>>> wpics
 from graphlib import TopologicalSorter
 from itertools import pairwise
 from pathlib import Path
@@ -42,42 +38,22 @@ def packages() -> Graph:
     small = {path.stem for path in ROOT.glob("*.py")} - {"__init__", "__main__", *API} | {"codes"}
     names = {name: name for name in folders} | dict.fromkeys(small, BASE) | dict.fromkeys(API, ", ".join(API))
     graph: Graph = {name: set() for name in names.values()}
-    ignored = _ignored()
     for path in ROOT.rglob("*.py"):
         inside = path.relative_to(ROOT)
         importer = names.get(inside.parts[0].removesuffix(".py"))
-        for imported in _imported(path, set(ignored.get(_name(inside), ()))):
+        for imported in _imported(path):
             target = names.get(imported)
             if importer and target and importer != target and (importer, target) not in left_out:
                 graph[importer].add(target)
     return graph
 
 
-def _name(inside: Path) -> str:
-    """The name of a module by its path in the package."""
-    return ".".join(("mudline", *inside.with_suffix("").parts)).removesuffix(".__init__")
-
-
-def _ignored() -> dict[str, list[str]]:
-    """The imports that pyproject.toml excepts from the order of the layers: modules imported, by importer."""
-    settings = tomllib.loads((ROOT.parents[1] / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["importlinter"]
-    found: dict[str, list[str]] = {}
-    for contract in settings["contracts"]:
-        if contract["type"] == "layers":
-            for line in contract.get("ignore_imports", ()):
-                importer, _, imported = line.partition(" -> ")
-                found.setdefault(importer, []).append(imported)
-    return found
-
-
-def _imported(path: Path, ignored: Container[str]) -> Iterator[str]:
+def _imported(path: Path) -> Iterator[str]:
     """The packages or modules of the top level that a module imports, types and lazy imports included."""
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.ImportFrom) and node.module == "mudline":
             yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom) and node.module and node.module.startswith("mudline."):
-            if node.module in ignored:
-                continue
             yield node.module.split(".")[1]
 
 

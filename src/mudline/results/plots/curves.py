@@ -139,7 +139,8 @@ def on_curves(axes: Axes, data: PlotData, spelled: Spelled) -> None:
             rasterized=len(mine) > 1000,
         )
         name = data.curve_names[index]
-        label = cut(spelled(str(name)), 30) if place < _MOST_CURVES else None
+        text = cut(spelled(str(name)), 30)
+        label = (f" {text}" if text.startswith("_") else text) if place < _MOST_CURVES else None  # _ hides from legends
         axes.plot([], [], color=style.color, linestyle=line, marker=style.marker, markersize=4, label=label)
     if len(used) > _MOST_CURVES:
         axes.plot([], [], " ", label=f"and {len(used) - _MOST_CURVES} more curves")
