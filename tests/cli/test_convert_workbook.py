@@ -94,7 +94,7 @@ def test_units_that_are_given_and_standard_input() -> None:
         ((0.2, "#DIV/0!"), "sheet Clay, cell B5: expected a number, found '#DIV/0!'"),
     ],
 )
-def test_cells_that_are_no_numbers(row: Sequence[object], message: str) -> None:
+def test_cells_without_numbers(row: Sequence[object], message: str) -> None:
     assert fault([*CLAY, row]) == message
 
 
@@ -123,7 +123,7 @@ def test_a_name_twice_and_two_systems() -> None:
     assert "the forces have different units: imperial on 'Feet' and metric on 'Sand'" in outcome.err
 
 
-def test_files_that_are_no_workbooks(folder: Path) -> None:
+def test_files_that_are_not_workbooks(folder: Path) -> None:
     for data in (b"", b"ratio,force\n0,0\n", Path(book({"Clay": CLAY})).read_bytes()[:-200]):
         (folder / "curves.xlsx").write_bytes(data)
         outcome = run("convert", "curves.xlsx", "-o", "out.keyxm")

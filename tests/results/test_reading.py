@@ -242,6 +242,9 @@ def test_edited_tables(tmp_path: Path) -> None:
     assert edited(tmp_path, "\n0.1,", "\n0.9,") == "times must rise: 0.5 follows 0.9"
     assert edited(tmp_path, "true", "yes") == "contact: 'yes' is not true or false"
     assert edited(tmp_path, "10.0", "1e999").endswith("expected finite numbers")
+    assert edited(tmp_path, "10.0", "1-0") == "length: '1-0' is not a number"
+    assert edited(tmp_path, "10.0", "nan") == "length: 'nan' is not a number"
+    assert edited(tmp_path, ",2,metric", ",99999999999999999999,metric").endswith(" is not a whole number")
     assert edited(tmp_path, ",metric", ",parsecs") == "units: expected metric, imperial or user, found 'parsecs'"
     assert edited(tmp_path, "time,", "moment,") == "element 1 is given 3 times: expected a column time"
     assert edited(tmp_path, "node2", "nod2") == (

@@ -179,7 +179,7 @@ def _array(arrow: ModuleType, column: Column, steps: int) -> pa.Array:
     if column.blank is not None:
         return arrow.array(values, mask=values == column.blank)
     if not column.names:
-        return arrow.array(values, from_pandas=True)  # NaN is no value
+        return arrow.array(values, from_pandas=True)  # NaN means no value
     codes = arrow.array(values.astype(np.int32), mask=values < 0)
     return arrow.DictionaryArray.from_arrays(codes, arrow.array(column.names[:-1], arrow.string()))
 

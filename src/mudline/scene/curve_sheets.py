@@ -61,7 +61,7 @@ def read_curve_sheets(data: bytes, file: str, units: str | None = None) -> Curve
     in brackets, else metric.
 
     Raises:
-        DeckError: it is no workbook, or something in it cannot be a curve; the message names sheet and cell.
+        DeckError: it is not a workbook, or something in it cannot be a curve; the message names sheet and cell.
         ImportError: openpyxl is not installed.
     """
     curves: dict[str, SheetCurve] = {}
@@ -196,7 +196,7 @@ def _is_number(text: str) -> bool:
 
 
 def _checked(file: str, curve: SheetCurve) -> StiffnessCurve:
-    """A curve of the deck; raises DeckError where its points make none, or its name cannot stand in a deck."""
+    """A curve of the deck; raises DeckError where its points make none, or a deck cannot hold its name."""
     values = np.array(curve.points, np.float64).reshape(-1, 2)
     try:
         ForceCurve(values)

@@ -35,7 +35,7 @@ _UNREADABLE = (
 def opened_workbook(stream: BinaryIO, file: str, *, formulas: bool = False) -> Iterator[Any]:
     """The workbook in a stream: the values that formulas had, or with `formulas` their texts.
 
-    Raises DeckError for what is no workbook, also in the block, where its sheets are read; ImportError without
+    Raises DeckError for what is not a workbook, also in the block, where its sheets are read; ImportError without
     openpyxl.
     """
     from openpyxl import load_workbook  # noqa: PLC0415 - only who reads a workbook needs it

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import re
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import AbstractContextManager, nullcontext, suppress
 from itertools import islice
 from pathlib import Path
 
@@ -122,16 +122,24 @@ class _Reader:
         if name in self._coders:
             return self._coders[name].coded(texts)
         kind = self._kinds[name]
-        for row, text in enumerate(texts):
-            if not (_SPELLED[kind](text) or (kind == "number" and not text)):
-                raise data_error(self._file, f"{name}: {shown(text)} is not {_EXPECTED[kind]}", line + row)
-        if kind == "number":
-            return np.array([float(text or "nan") for text in texts])
-        if kind == "whole":
-            return np.array([int(text) for text in texts], np.int64)
-        return np.array([text == "true" for text in texts], np.bool_)
+        letters, convert = _READ[kind]
+        with suppress(ValueError, LookupError, OverflowError):
+            if letters.issuperset("".join(texts)):
+                return convert(texts)
+        blank = kind == "number"
+        row = next(row for row, text in enumerate(texts) if not (_SPELLED[kind](text) or (blank and not text)))
+        raise data_error(self._file, f"{name}: {shown(texts[row])} is not {_EXPECTED[kind]}", line + row)
 
 
+_READ: dict[Kind, tuple[frozenset[str], Callable[[Sequence[str]], Values]]] = {
+    "number": (frozenset("0123456789+-.eE"), lambda texts: np.array([float(text or "nan") for text in texts])),
+    "whole": (frozenset("0123456789+-"), lambda texts: np.array([int(text) for text in texts], np.int64)),
+    "flag": (
+        frozenset("truefalse"),
+        lambda texts: np.array([{"true": True, "false": False}[text] for text in texts], np.bool_),
+    ),
+}
+"""The letters that the values of a kind may have, and what reads them; it raises where they have another form."""
 _SPELLED: dict[Kind, Callable[[str], object]] = {
     "number": re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII).fullmatch,
     "whole": re.compile(r"[+-]?\d{1,18}", re.ASCII).fullmatch,
