@@ -93,7 +93,8 @@ def test_deck_without_a_curve(place: Place, folder: Path) -> None:
 
 def test_no_matplotlib(place: Place, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "matplotlib", None)
-    monkeypatch.delitem(sys.modules, "mudline.results.plots", raising=False)
+    for name in [name for name in sys.modules if name.startswith("mudline.results.plots")]:
+        monkeypatch.delitem(sys.modules, name)
     outcome = run("curves", place(), "--plot", "out.png")
     assert (outcome.code, outcome.out) == (1, "")
     assert outcome.err == "mudline: --plot needs matplotlib: pip install 'mudline[plot]'\n"
