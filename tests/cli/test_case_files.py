@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import pytest
 
-from mudline.cli.case_files import named_cases
+from mudline.cli.cases import named_cases
 from mudline.cli.inputs import Input
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from mudline.cli import evaluate_case, known_results
+from mudline.cli import cases, known_results
 from mudline.results.cases import CaseSummary
 from tests.builders.decks import BAD_NUMBER, CLEAN
 from tests.cli.conftest import Place
@@ -87,7 +87,7 @@ def test_second_run_takes_over_what_has_not_changed(place: Place, monkeypatch: p
     before = {name: Path("out", name).read_bytes() for name in files()}
     assert taken(first) == 0
     with monkeypatch.context() as patch:
-        patch.setattr(evaluate_case, "load_bytes", None)  # nothing is read again
+        patch.setattr(cases, "load_bytes", None)  # nothing is read again
         second = evaluated()
     assert (taken(second), second.out) == (2, first.out)
     assert {name: Path("out", name).read_bytes() for name in files()} == before
@@ -214,15 +214,15 @@ def test_other_decks_stay_known(place: Place) -> None:
 
 @pytest.mark.usefixtures("decks")
 def test_interrupted_run_keeps_what_is_done(monkeypatch: pytest.MonkeyPatch) -> None:
-    work = evaluate_case._kept
+    work = cases._kept
 
-    def second_is_interrupted(order: evaluate_case.Order, path: Path | None) -> known_results.Kept:
+    def second_is_interrupted(order: cases.Order, path: Path | None) -> known_results.Kept:
         if order.file.name.endswith("b.keyxm"):
             signal.raise_signal(signal.SIGINT)
         return work(order, path)
 
     with monkeypatch.context() as patch:
-        patch.setattr(evaluate_case, "_kept", second_is_interrupted)
+        patch.setattr(cases, "_kept", second_is_interrupted)
         outcome = evaluated()
     assert (outcome.code, outcome.out) == (130, "")
     assert files() == {"a.csv", "a-nodes.csv", "a-summary.csv", known_results.LIST}

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from mudline.cli import evaluate_many, processes
-from mudline.cli.evaluate_case import Done, Order, failed
+from mudline.cli.cases import Done, Order, failed
 from mudline.quantities import CASES
 from tests.builders.decks import BAD_NUMBER, CLEAN, PULLING
 from tests.cli.conftest import Place

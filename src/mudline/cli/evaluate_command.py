@@ -59,7 +59,7 @@ from mudline.results.panels import ANIMATIONS, PICTURES
 @click.option(
     "--jobs", type=click.IntRange(min=0), default=0, help="Processes for several decks; 0: one for each processor."
 )
-@click.option("--no-cache", "anew", is_flag=True, help="Evaluate every deck again, whatever -o DIR holds from before.")
+@click.option("--no-cache", is_flag=True, help="Evaluate every deck again, whatever -o DIR holds from before.")
 @click.option(
     "--plot",
     "picture",
@@ -101,7 +101,7 @@ def command(
     every_file: bool,
     form: str | None,
     jobs: int,
-    anew: bool,
+    no_cache: bool,
     positions: str | None,
     columns: tuple[str, ...],
     time_step: float | None,
@@ -138,7 +138,7 @@ def command(
             return FOUND
         if spreadsheet and "csv" not in (output_format, form):
             raise click.UsageError(options.CSV_ONLY)
-        many = ManyOptions(inputs, units, positions, output, form, output_format, fail_on, spreadsheet, jobs, anew)
+        many = ManyOptions(inputs, units, positions, output, form, output_format, fail_on, spreadsheet, jobs, no_cache)
         return evaluate_many(collect(decks, gitignore=not every_file), many, view)
     if form is not None:
         raise click.UsageError("--form is for several decks: the suffix of -o gives the form of the results of one")

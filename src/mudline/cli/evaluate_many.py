@@ -14,9 +14,18 @@ from typing import TYPE_CHECKING, NamedTuple
 import click
 
 from mudline.cli import DONE, FOUND
-from mudline.cli.case_files import SUMMARY, Case, MissingPositionsError, PositionFiles, named_cases
+from mudline.cli.cases import (
+    SUMMARY,
+    Case,
+    Done,
+    MissingPositionsError,
+    Order,
+    PositionFiles,
+    evaluate_case,
+    failed,
+    named_cases,
+)
 from mudline.cli.cases_text import print_cases
-from mudline.cli.evaluate_case import Done, Order, evaluate_case, failed
 from mudline.cli.evaluate_inputs import EvaluateInputs
 from mudline.cli.inputs import Input, Inputs
 from mudline.cli.known_results import Kept, KnownResults
@@ -51,7 +60,7 @@ class ManyOptions:
     fail_on: str
     spreadsheet: bool
     jobs: int
-    anew: bool
+    no_cache: bool
 
 
 class Task(NamedTuple):
@@ -134,7 +143,7 @@ def _tasks(
             continue
         others = [path for path in (positions, inputs.elements) if path]
         key = "" if known is None else known.key(case.file.name, data, others)
-        found = None if known is None or options.anew else known.find(key, case.result)
+        found = None if known is None or options.no_cache else known.find(key, case.result)
         order = Order(case.file, data, positions, case.result, folder, inputs, options.units, options.spreadsheet)
         yield Task(case, key, order, found)
 

@@ -81,7 +81,7 @@ class Batch:
 
 @dataclass(slots=True)
 class Files:
-    """The files of a run in their order, each made anew whenever it is asked for."""
+    """The files of a run in their order, each made when it is asked for."""
 
     parts: list[list[Input] | Batch] = field(default_factory=list)
 

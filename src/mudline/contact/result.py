@@ -24,7 +24,7 @@ if TYPE_CHECKING:  # each is imported when it is asked for
     import xarray as xr
     from matplotlib.figure import Figure
 
-    from mudline.contact.touchdown import LineSummary
+    from mudline.contact.line_summary import LineSummary
 
 TableName = Literal["elements", "nodes", "summary"]
 
@@ -91,7 +91,7 @@ class ContactResult:
 
     def _repr_html_(self) -> str:
         """How large it is, and the touchdown of its lines at the first steps, for notebooks."""
-        found: str = _frames().html(self)
+        found: str = _module("mudline.contact.frames").html(self)
         return found
 
     @property
@@ -119,7 +119,7 @@ class ContactResult:
             ImportError: pandas is not installed; the extra `frames` brings it.
             ValueError: there is no such table, or the result does not know what was evaluated.
         """
-        found: pd.DataFrame = _frames().dataframe(self, table)
+        found: pd.DataFrame = _module("mudline.contact.frames").dataframe(self, table)
         return found
 
     def to_arrow(self, table: TableName = "elements") -> pa.Table:
@@ -128,7 +128,7 @@ class ContactResult:
         Each field has its `unit` as metadata, the table `mudline.format` and `mudline.units`; no value is null. Raises
         what `to_dataframe` does, ImportError for want of pyarrow.
         """
-        found: pa.Table = _frames().arrow_table(self, table)
+        found: pa.Table = _module("mudline.contact.frames").arrow_table(self, table)
         return found
 
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:
@@ -146,7 +146,7 @@ class ContactResult:
         single state has no `time`, except as a number where it is one of a series. Raises what `to_dataframe` does,
         ImportError for want of xarray.
         """
-        found: xr.Dataset = _frames().dataset(self)
+        found: xr.Dataset = _module("mudline.contact.frames").dataset(self)
         return found
 
     @property
@@ -188,19 +188,19 @@ class ContactResult:
             ImportError: matplotlib is not installed.
         """
         try:
-            from mudline.results.plots import plot_result  # noqa: PLC0415 - matplotlib is an extra; see pyproject.toml
+            plots = _module("mudline.results.plots")
         except ImportError as error:
             raise ImportError("a plot needs matplotlib: pip install 'mudline[plot]'") from error
-        return plot_result(self, path, panels=panels, elements=elements)
+        found: Figure = plots.plot_result(self, path, panels=panels, elements=elements)
+        return found
 
     def summary(self) -> list[LineSummary]:
         """Return every line at each step: touchdown points, length in contact, largest forces, total reaction.
 
         Raises ValueError for a result that does not know what was evaluated.
         """
-        from mudline.contact.touchdown import line_summaries  # noqa: PLC0415 - forces alone do without it
-
-        return line_summaries(self)
+        found: list[LineSummary] = _module("mudline.contact.touchdown").line_summaries(self)
+        return found
 
     def _cut(self, key: int | slice) -> ContactResult:
         return self._each(lambda values: values[key])
@@ -211,9 +211,9 @@ class ContactResult:
         return ContactResult(**of_steps, **{name: getattr(self, name) for name in _OF_ALL_STEPS})
 
 
-def _frames() -> ModuleType:
-    """The module of tables of results: it knows results, which know it only when a table is asked for."""
-    return import_module("mudline.contact.frames")
+def _module(name: str) -> ModuleType:
+    """A module that knows results, and draws them or makes tables of them; results know it when it is asked for."""
+    return import_module(name)
 
 
 @dataclass(frozen=True, slots=True)

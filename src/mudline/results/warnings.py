@@ -21,8 +21,7 @@ from mudline.contact.result import Part
 from mudline.diagnostics import Code, DeckError, Diagnostic, Problem, Severity, Where
 from mudline.quantities import shown, unit_names
 from mudline.results.evaluation import Evaluation, evaluate_scene
-from mudline.results.missing_laws import UnknownKeyword, missing_laws, unknown_keywords
-from mudline.results.unused_curves import unused_curves
+from mudline.results.laws_in_use import UnknownKeyword, missing_laws, unknown_keywords, unused_curves
 from mudline.scene.model import Scene
 from mudline.scene.numbering import Floats, Indices, Mask
 from mudline.scene.vertical_axis import height_along_z

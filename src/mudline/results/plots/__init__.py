@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from mudline.results.plots.animation import draw_animation
 from mudline.results.plots.curves import draw_curves
-from mudline.results.plots.figure import draw_evaluation, figure_of
-from mudline.results.plots.result import plot_result
+from mudline.results.plots.figure import draw_evaluation, figure_of, plot_result
 
 __all__ = ["draw_animation", "draw_curves", "draw_evaluation", "figure_of", "plot_result"]

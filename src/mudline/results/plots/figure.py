@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
 import matplotlib as mpl
@@ -10,10 +12,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.gridspec import GridSpec
 
+from mudline.contact import ContactResult
+from mudline.files import replacement
 from mudline.results import panels as known
-from mudline.results.panels import PANELS
+from mudline.results.panels import PANELS, PICTURES
 from mudline.results.plot_data import TRACED, PlotData
-from mudline.results.plots import along_line, loop, over_time, profile
+from mudline.results.plots import along_line, over_time, profile
 from mudline.results.plots.curves import on_curves
 from mudline.results.plots.stretch import Stretch
 from mudline.results.plots.style import SETTINGS, Spelled, finish, when, write
@@ -137,7 +141,7 @@ def _shown(name: str, data: PlotData, stretch: Stretch, spelled: Spelled) -> _Sh
 
 def _loops(rows: Sequence[Axes], data: PlotData) -> None:
     for place, axes in enumerate(rows):
-        loop.loop(axes, data, place)
+        over_time.loop(axes, data, place)
 
 
 def _title(data: PlotData, names: Sequence[str], spelled: Spelled) -> str:
@@ -150,3 +154,23 @@ def _title(data: PlotData, names: Sequence[str], spelled: Spelled) -> str:
         return title
     which = "along the line: at " if data.steps > 1 else "at "
     return f"{title}\n{which}{at}" + (", when the total reaction is largest" if data.steps > 1 else "")
+
+
+def plot_result(
+    result: ContactResult,
+    path: str | os.PathLike[str] | None = None,
+    *,
+    panels: Sequence[str] | None = None,
+    elements: Sequence[int] = (),
+) -> Figure:
+    """Return the figure of a result, and write it to a file if a path is given; see `ContactResult.plot`."""
+    form = "" if path is None else Path(path).suffix.lower().removeprefix(".")
+    if path is not None and form not in PICTURES:
+        raise ValueError(f"{path}: a plot is a .{', .'.join(PICTURES[:-1])} or .{PICTURES[-1]}")
+    data = PlotData.of_result(result, elements)
+    with mpl.rc_context(SETTINGS):
+        figure = figure_of(data, str, "", panels)
+        if path is not None:
+            with replacement(Path(path)) as stream:
+                write(lambda: figure, form, stream)
+    return figure

@@ -104,9 +104,9 @@ def finish(axes: Axes) -> None:
         axis.set_major_formatter(PlainFormatter())
     axes.xaxis.set_major_locator(MaxNLocator(nbins=7, steps=[1, 2, 2.5, 5, 10]))
     figure = axes.get_figure(root=True)
-    room = axes.get_position().height * (4.0 if figure is None else figure.get_figheight())  # inch
+    height = axes.get_position().height * (4.0 if figure is None else figure.get_figheight())  # inch
     if isinstance(axes.yaxis.get_major_locator(), AutoLocator):
-        ticks = max(3, min(8, round(4.0 * room)))
+        ticks = max(3, min(8, round(4.0 * height)))
         axes.yaxis.set_major_locator(MaxNLocator(nbins=ticks, steps=[1, 2, 2.5, 5, 10]))
     axes.grid(visible=True, color="0.88", linewidth=0.6)
     axes.set_axisbelow(True)
