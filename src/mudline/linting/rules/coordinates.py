@@ -105,7 +105,7 @@ def _longest_of_neighbours(scene: Scene) -> Iterator[tuple[int, float]]:
     shortest = np.minimum.reduce(length, initial=np.inf)
     if not shortest > 0.0:  # or not known
         shortest = length.min(where=length > 0.0, initial=np.inf)
-    if not np.fmax.reduce(length, initial=0.0) > LONGEST_ELEMENT * shortest:
+    if not np.fmax.reduce(length, initial=0.0) > LONGEST_ELEMENT * float(shortest):
         return
     usable = np.flatnonzero((ends >= 0).all(axis=1) & np.isfinite(length) & (length > 0.0))
     order = usable[np.argsort(length[usable], kind="stable")]
