@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
+from unittest.mock import patch
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import select
+from mudline.linting.rules import coordinates, seabed_position
 from tests.linting.findings import PIPE, PROPERTIES, RESTART, found, messages
 
 LAW = PROPERTIES + " STIFFNESS=60000.0\n"
@@ -264,3 +268,29 @@ def test_the_lines_of_a_law_under_another_keyword_are_reported_there() -> None:
     law = "*HYDRODYNAMIC SETS\n SET=ALL, TYPE=CONSTANT\n 1.2, 0.0, 2.0, 1.0, 0.0\n" + LAW.partition("\n")[2]
     assert [line for _, line, _ in found(PIPE + law, "SBD006")] == [PIPE.count("\n") + 4]
     assert found(PIPE + law.replace("HYDRODYNAMIC SETS", "UNHEARD OF"), "SBD006")[0][1] != PIPE.count("\n") + 4
+
+
+HEIGHTS = st.sampled_from(["-0.05", "-2.0", "0.0", "-0.0", "30.0", "1e150", "=[nothing]"])
+PLACES = st.sampled_from(["0.0", "5.0", "10.0", "15.0", "20.0", "-1e150", "1e150", "1e-170", "", "=[nothing]"])
+
+
+@settings(max_examples=150, deadline=None)
+@given(
+    st.lists(st.tuples(HEIGHTS, PLACES, PLACES), min_size=2, max_size=7),
+    st.lists(st.tuples(st.integers(1, 8), st.integers(1, 8)), max_size=7),
+)
+def test_a_look_at_the_whole_line_changes_no_finding(
+    nodes: list[tuple[str, str, str]], ends: list[tuple[int, int]]
+) -> None:
+    rows = "".join(f" {number}, {x}, {y}, {z}\n" for number, (x, y, z) in enumerate(nodes, 1))
+    pairs = [*((number, number + 1) for number in range(1, len(nodes))), *ends]
+    elements = "".join(f" {number}, {a}, {b}\n" for number, (a, b) in enumerate(pairs, 1))
+    pipe = "*GEOMETRIC SETS" + PIPE.partition("*GEOMETRIC SETS")[2]
+    deck = f"$MODEL\n*NODE\n{rows}*ELEMENT\n{elements}{pipe}{LAW}{OCEAN}".encode()
+    chosen = select(("UNT006", "SBD022", "GEO005", "CRV014", "STB003"))
+    quick = lint_bytes(deck, "deck.keyxm", chosen)
+    with (
+        patch.object(coordinates, "_goes_forward", lambda *_: False),
+        patch.object(seabed_position, "_is_level", lambda _: False),
+    ):
+        assert lint_bytes(deck, "deck.keyxm", chosen) == quick

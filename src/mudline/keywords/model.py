@@ -352,6 +352,11 @@ def _leads_to(slot: FieldSpec, what: Names) -> bool:
     return any(_naming(part, what) for part in (slot.row, *slot.record.values()) if part)
 
 
+def may_name(part: type[Part], what: Names) -> bool:
+    """Whether a part has fields for names of a kind."""
+    return bool(_naming(part, what))
+
+
 def names_given(part: Part, what: Names) -> Iterator[tuple[tuple[str | int, ...], str]]:
     """The names of things of a kind that a part gives, with their paths; what is not a text is not a name."""
     for slot in _naming(type(part), what):

@@ -349,10 +349,13 @@ def checked_by_parts(schema: CoreSchema) -> CoreSchema:
 
 def _by_parts(given: object, check: core_schema.ValidatorFunctionWrapHandler) -> list[object]:
     """All entries, or the faults of the first part that has any. Entries may be made as they are checked."""
-    if not isinstance(given, list | Iterator) or (isinstance(given, list) and len(given) <= _ENTRIES_AT_ONCE):
+    if isinstance(given, list):
+        if len(given) <= _ENTRIES_AT_ONCE:
+            return cast("list[object]", check(given))
+    elif not isinstance(given, Iterator):
         return cast("list[object]", check(given))
     made: list[object] = []
-    entries = iter(given)
+    entries: Iterator[object] = iter(given)
     while part := list(islice(entries, _ENTRIES_AT_ONCE)):
         try:
             made += check(part)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import isnan
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
@@ -12,7 +13,7 @@ from mudline.diagnostics import MOST_REPORTED, Where
 from mudline.keywords.table import Table
 from mudline.keywords.text import shown
 from mudline.scene.context import Context
-from mudline.scene.numbering import Floats, Indices, Mask, side_by_side
+from mudline.scene.numbering import Floats, Indices, Mask, identity, side_by_side
 from mudline.short_repr import short_repr
 
 if TYPE_CHECKING:
@@ -85,16 +86,14 @@ def set_name(context: Context, name: str | None, where: Where) -> str | None:
 def _curve(context: Context, name: str | None, table: Table, where: Where, *, embedment: bool) -> SceneCurve:
     if name is None and not embedment:
         context.unread.add("SEABED STIFFNESS")
-    points = side_by_side(table.column(0), table.column(1))
-    rows = ((table.lengths == 2) & ~(np.isnan(points[:, 0]) | np.isnan(points[:, 1]))).nonzero()[0]
-    points = points[rows]
+    points, rows = _points(table)
     clashing, _ = clashes_and_repeats(points)
     unread = len(rows) < len(table) or context.has_read_errors(where)
     whole = not unread and not clashing.size
-    keep = np.arange(len(points))
-    if clashing.size:
-        keep = np.setdiff1d(keep, clashing, assume_unique=True)
-    curve, error = _made(points[keep], name or "")
+    keep = (
+        np.setdiff1d(np.arange(len(points)), clashing, assume_unique=True) if clashing.size else identity(len(points))
+    )
+    curve, error = _made(points[keep] if clashing.size else points, name or "")
     found = SceneCurve(name or "", points, rows, where, curve, whole, embedment, name is not None)
     for index in clashing[: MOST_REPORTED + 1].tolist():
         ratio, force = points[index].tolist()
@@ -107,6 +106,17 @@ def _curve(context: Context, name: str | None, table: Table, where: Where, *, em
         has = "one distinct point" if len(points) else "no point"
         context.report(CRV001, f"curve {shown(found.name)} has {has}: it needs at least two", where)
     return found
+
+
+def _points(table: Table) -> tuple[Floats, Indices]:
+    """The points (n, 2) of a table, those that have two numbers, and their rows."""
+    values = table.values
+    full = values.shape[1] == 2 and np.minimum.reduce(table.lengths, initial=2) == 2
+    if full and not isnan(np.minimum.reduce(values, axis=None, initial=0.0)):
+        return values.copy(), identity(len(values))
+    points = side_by_side(table.column(0), table.column(1))
+    rows = ((table.lengths == 2) & ~(np.isnan(points[:, 0]) | np.isnan(points[:, 1]))).nonzero()[0]
+    return points[rows], rows
 
 
 def _made(points: Floats, name: str) -> tuple[ForceCurve | None, CurveError | None]:

@@ -271,6 +271,10 @@ def _lengths(ends: Indices, coordinates: Floats) -> Floats:
     """Distances between the nodes, NaN where one is not known."""
     length = np.full(len(ends), np.nan)
     for block in blocks_of(len(ends)):
+        if np.minimum.reduce(ends[block], axis=None) >= 0:
+            first, last = coordinates.take(ends[block].T, axis=0)  # `take` takes a fifth of the time of an index
+            length[block] = distances(first, last)
+            continue
         first, last = ends[block].T
         known = ((first >= 0) & (last >= 0)).nonzero()[0]
         length[block][known] = distances(coordinates[first[known]], coordinates[last[known]])

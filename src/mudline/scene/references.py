@@ -13,10 +13,10 @@ import numpy as np
 from mudline.codes.fields import SYN003
 from mudline.codes.lines import SYN001, SYN005
 from mudline.codes.references import REF001, REF005, REF006, REF010
-from mudline.deck.model import Deck
+from mudline.deck.model import Deck, Opaque
 from mudline.deck.parameters import folded
 from mudline.diagnostics import MOST_REPORTED, Code, Severity, Where
-from mudline.keywords.model import Block, names_given
+from mudline.keywords.model import Block, may_name, names_given
 from mudline.keywords.text import shown
 from mudline.keywords.values import Label, Names
 from mudline.scene.context import Context
@@ -50,9 +50,9 @@ def given_names(deck: Deck, what: Names) -> Iterator[tuple[type[Block], Where, s
     """The names of a kind that the fields of a deck give: the class of their block, their place and the name."""
     for i, section in enumerate(deck.sections):
         for j, block in enumerate(section.blocks):
-            if isinstance(block, Block):
+            if type(block) is not Opaque and may_name(type(block), what):
                 for path, name in names_given(block, what):
-                    yield type(block), Where(i, j, path), name
+                    yield cast("type[Block]", type(block)), Where(i, j, path), name
 
 
 def check_soil(context: Context, nodes: Numbered) -> None:

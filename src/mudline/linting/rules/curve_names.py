@@ -70,6 +70,8 @@ def unused_curve(context: LintContext) -> Iterator[Problem]:
             unused[name].append(curve)
         elif not scene.context.near(name, unknown):  # else it is misspelt where it is used, which is reported there
             unused[name] = [curve]
+    if not unused:
+        return
     places = [curve.where for curves in unused.values() for curve in curves]
     repairs = removals(context.text, places) if context.text else {}
     soils = {_without_estimate(name) for name in scene.laws.referenced}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import isfinite
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
@@ -44,7 +45,7 @@ def depths(context: LintContext) -> Floats:
             return _below_planes(floor, x, y, z)
         if floor.kind in (SeabedKind.FLAT, SeabedKind.SLOPING):
             slope = np.radians(floor.slope)
-            level = floor.slope == 0.0 and floor.direction == 0.0
+            level = _is_level(floor)
             found = np.empty(len(x))
             for block in blocks_of(len(x)):
                 if level:
@@ -58,6 +59,12 @@ def depths(context: LintContext) -> Floats:
         if floor.kind is SeabedKind.SURFACE:
             return np.asarray(floor.points[:, 0].min() - x)
         return _below_profile(floor, x, _along(floor.direction, y, z))
+
+
+def _is_level(floor: SeabedShape) -> bool:
+    """Whether a seabed is X = 0."""
+    kind = floor.kind
+    return (kind is SeabedKind.FLAT or kind is SeabedKind.SLOPING) and floor.slope == 0.0 and floor.direction == 0.0
 
 
 def _is_bed(scene: Scene) -> bool:
@@ -85,15 +92,21 @@ class Bounds(NamedTuple):
 
 def bounds_of(context: LintContext) -> Bounds:
     """What is computed once for the rules that most decks pass by such bounds alone; they ask `context.once`."""
-    scene, depth = context.scene, context.once(depths)
-    x, _, z = scene.coordinates.T
-    least, most = np.minimum.reduce, np.maximum.reduce
+    scene = context.scene
+    lowest, left, first = np.minimum.reduce(scene.coordinates, axis=0, initial=np.inf).tolist()
+    top, right, last = np.maximum.reduce(scene.coordinates, axis=0, initial=-np.inf).tolist()
+    if _is_level(scene.seabed) and isfinite(left + right + first + last):
+        highest, deepest = top, -lowest
+    else:
+        depth = context.once(depths)
+        highest = -float(np.minimum.reduce(depth, initial=np.inf))
+        deepest = float(np.maximum.reduce(depth, initial=-np.inf))
     return Bounds(
-        -float(least(depth, initial=np.inf)),
-        float(most(depth, initial=-np.inf)),
-        float(least(x, initial=np.inf)),
-        float(least(z, initial=np.inf)),
-        float(most(z, initial=-np.inf)),
+        highest,
+        deepest,
+        lowest,
+        first,
+        last,
         float(np.fmin.reduce(scene.diameter, initial=np.inf)),
         float(np.fmax.reduce(scene.diameter, initial=0.0)),
     )
@@ -191,9 +204,10 @@ def deep_node(context: LintContext) -> Iterator[Problem]:
     scene = context.scene
     if not (scene.laws.types or scene.laws.set_laws) or context.in_soil:
         return
-    depth, bounds = context.once(depths), context.once(bounds_of)
+    bounds = context.once(bounds_of)
     if bounds.thinnest > 0.0 and bounds.deepest <= DEEPEST * bounds.thinnest:
         return
+    depth = context.once(depths)
     with np.errstate(over="ignore", invalid="ignore"):
         limit = DEEPEST * _widest(scene)
         deep = np.flatnonzero((limit > 0.0) & (depth > limit))

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 
 from mudline.codes.references import REF015
-from mudline.deck.model import Deck
+from mudline.deck.model import Deck, Opaque
 from mudline.deck.parameters import Parameters
 from mudline.diagnostics import MOST_REPORTED, Blocks, Code, Problem, Severity, Where
 from mudline.keywords.catalogue import ZERO_LENGTH
-from mudline.keywords.model import Block, FieldSpec, ListRow, Part, Rows, names_given, record_schema
+from mudline.keywords.model import FieldSpec, ListRow, Part, Rows, may_name, names_given, record_schema
 from mudline.keywords.table import Table
 from mudline.keywords.text import shown
 from mudline.keywords.values import Names
@@ -56,7 +56,7 @@ def negative_property(scene: ResolvedDeck) -> Iterator[Problem]:
         if section.name != "MODEL":
             continue
         for j, block in enumerate(section.blocks):
-            if isinstance(block, Block):
+            if type(block) is not Opaque and _checked_slots(type(block)):
                 for path, message in _faults(block):
                     if _GEOMETRY not in path[2:3] or block.keyword != "SEABED TRENCH":
                         yield Problem(SBD010, message, where=Where(i, j, path))
@@ -155,7 +155,7 @@ def _files(deck: Deck) -> Iterator[tuple[Where, str]]:
     """Every field of a keyword with a model that names a file."""
     for i, section in enumerate(deck.own_sections):
         for j, block in enumerate(section.blocks):
-            if isinstance(block, Block):
+            if type(block) is not Opaque and may_name(type(block), Names.FILE):
                 yield from ((Where(i, j, path), name) for path, name in names_given(block, Names.FILE) if name)
 
 
