@@ -49,6 +49,7 @@ def print_evaluation(digest: StepSummary, lines: LineWatch, which: str, view: Vi
             return
     if which == "summary":
         _print_lines(printer, lines)
+        _print_extents(printer, lines)
         return
     if digest.evaluation.time is not None:
         _print_steps(printer, digest)
@@ -214,9 +215,14 @@ def _print_lines(printer: Printer, lines: LineWatch) -> None:
 
 
 def _touchdown(row: LineSummary) -> str:
-    """The arc lengths of the touchdown points, or where all of the line is."""
-    if not row.touchdown:  # a line of which only a part has a gap may lie on the seabed there without a point
-        return "all on the seabed" if row.contact_length > (1.0 - _SLACK) * row.length else "none"
+    """The arc lengths of the touchdown points, or where all of the line is; "" where that is not known.
+
+    A line of which only a part has a gap may lie on the seabed there without a touchdown point.
+    """
+    if not row.touchdown and not row.contact_length:
+        return "none"
+    if not row.touchdown:
+        return "all on the seabed" if row.contact_length > (1.0 - _SLACK) * row.length else ""
     found = ", ".join(shown(point.arc_length) for point in row.touchdown[:_MOST_POINTS])
     more = len(row.touchdown) - _MOST_POINTS
     return f"{found}, {more} more" if more > 0 else found
