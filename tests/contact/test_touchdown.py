@@ -162,6 +162,17 @@ def test_json_has_no_value_for_what_overflowed() -> None:
     assert row["touchdown"] == [{"arc_length": None, "x": 0.0, "y": 0.0, "z": 0.0, "contact": "after"}]
 
 
+@pytest.mark.filterwarnings("error")
+def test_lengths_that_overflow_warn_of_nothing() -> None:
+    given = replace(line_input(4, weight=None), length=np.full(3, 1.5e308))
+    result = ContactModel(replace(given, laws=())).evaluate(at_heights(-1.0, -1.0, -1.0, 1.0))
+    (row,) = line_summaries(result)
+    columns = LineTable(given, np.arange(3)).columns(Part(0, result.as_series()))
+    values = {column.name: column.cut(0, 1)[0, 0] for column in columns}
+    assert row.length == values["length"] == np.inf
+    assert row.row()["contact_length"] is None
+
+
 def test_a_result_without_its_input_is_refused() -> None:
     result = replace(ContactModel(line_input(2)).evaluate(), given=None)
     with pytest.raises(ValueError, match="does not know its nodes"):

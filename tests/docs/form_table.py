@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from mudline.linting.output import TEXT, TEXT_SUMMARY, form_module, form_names
-from mudline.quantities import CASES, ELEMENTS, NODES, Quantity
+from mudline.quantities import CASES, ELEMENTS, LINES, NODES, Quantity
 from mudline.results.forms import form_module as result_module
 from mudline.results.forms import form_names as result_names
 
@@ -17,6 +17,7 @@ _RESULTS = "| suffix | holds |\n| --- | --- |\n"
 _ELEMENT = "An element:\n\n| key | holds | unit |\n| --- | --- | --- |\n"
 _NODE = "A node:\n\n| key | holds | unit |\n| --- | --- | --- |\n"
 _CASE = "A deck among many:\n\n| key | holds | unit |\n| --- | --- | --- |\n"
+_LINES = "the first and the last:\n\n| column | holds | unit |\n| --- | --- | --- |\n"
 _AGAINST = (
     "| `force_against`, `stiffness_against`, `ratio_against` "
     "| only with `--against`: the value in the file, or `null` | as ours |\n"
@@ -52,6 +53,7 @@ def pages_with_tables() -> dict[str, str]:
             _ELEMENT: _ELEMENT + quantity_rows(ELEMENTS.values()) + _AGAINST,
             _NODE: _NODE + quantity_rows(NODES.values()),
             _CASE: _CASE + quantity_rows(CASES.values()),
+            _LINES: _LINES + quantity_rows(LINES.values()),
         },
     }
     return {page: _with_tables(page, of_page) for page, of_page in tables.items()}

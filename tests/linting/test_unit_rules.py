@@ -342,6 +342,22 @@ def test_a_decimal_comma_in_a_coordinate(row: str, expected: list[int]) -> None:
     assert [one[1] for one in found] == expected
 
 
+def test_whole_numbers_with_zeros_in_front_are_no_decimal_commas() -> None:
+    rows = "".join(f" {node:03}, 000, {10 * node:03}, {5 * (node > 2):02}\n" for node in range(5))
+    assert told("$MODEL\n*NODE\n" + rows + CHAIN + STEEL) == []
+
+
+def test_a_long_element_may_end_at_a_tee_where_no_node_is_nearer() -> None:
+    main = "".join(f" {node}, 0.0, {5.0 * node}\n" for node in range(9))
+    first = " 21, 0.0, 20.0, 55.0\n 22, 0.0, 20.0, 50.0\n 23, 0.0, 20.0, 45.0\n"
+    second = " 31, 0.0, 30.0, {}\n 32, 0.0, 30.0, {}\n"
+    ends = [*((node, node + 1) for node in range(8)), (21, 22), (22, 23), (23, 4), (31, 32), (32, 6)]
+    listed = "".join(f" {row}, {one}, {other}\n" for row, (one, other) in enumerate(ends, 1))
+    text = f"$MODEL\n*NODE\n{main}{first}{second}*ELEMENT\n{listed}{STEEL}"
+    assert told(text.format(10.0, 5.0)) == []
+    assert [one[0] for one in told(text.format(45.0, 40.0))] == ["UNT006"]
+
+
 def test_an_element_of_another_section_may_be_long() -> None:
     text = NODES.format(0, 10, 1010, 1020, 1030) + CHAIN + "*ELEMENT SETS\n SET=Tether\n 2\n" + STEEL
     assert len(told(text)) == 1

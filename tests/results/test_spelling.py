@@ -31,6 +31,12 @@ def test_numbers_come_back_to_the_last_bit(values: list[float]) -> None:
     assert json.loads(f"[{','.join(JSON.column(column))}]") == [None if math.isnan(v) else v for v in values]
 
 
+def test_what_overflowed_is_no_value() -> None:
+    column = np.array([1.5, math.inf, -math.inf])
+    assert CSV.column(column) == ["1.5", "", ""]
+    assert JSON.column(column) == ["1.5", "null", "null"]
+
+
 @given(st.lists(st.integers(-(2**63), 2**63 - 1), min_size=1))
 def test_whole_numbers(values: list[int]) -> None:
     assert JSON.column(np.array(values, dtype=np.int64)) == [str(value) for value in values]

@@ -49,6 +49,7 @@ def print_evaluation(digest: StepSummary, lines: LineWatch, which: str, view: Vi
             return
     if which == "summary":
         _print_lines(printer, lines)
+        _print_extents(printer, lines)
         return
     if digest.evaluation.time is not None:
         _print_steps(printer, digest)
@@ -176,6 +177,8 @@ def _print_peaks(printer: Printer, digest: StepSummary) -> None:
 
 _MOST_POINTS = 3
 """Touchdown points that a cell shows."""
+_SLACK = 1e-9
+"""Part of a line by which the sums of its lengths may differ."""
 
 
 def _print_lines(printer: Printer, lines: LineWatch) -> None:
@@ -212,9 +215,14 @@ def _print_lines(printer: Printer, lines: LineWatch) -> None:
 
 
 def _touchdown(row: LineSummary) -> str:
-    """The arc lengths of the touchdown points, or where all of the line is."""
+    """The arc lengths of the touchdown points, or where all of the line is; "" where that is not known.
+
+    A line of which only a part has a gap may lie on the seabed there without a touchdown point.
+    """
+    if not row.touchdown and not row.contact_length:
+        return "none"
     if not row.touchdown:
-        return "all on the seabed" if row.contact_length else "none"
+        return "all on the seabed" if row.contact_length > (1.0 - _SLACK) * row.length else ""
     found = ", ".join(shown(point.arc_length) for point in row.touchdown[:_MOST_POINTS])
     more = len(row.touchdown) - _MOST_POINTS
     return f"{found}, {more} more" if more > 0 else found
@@ -235,15 +243,20 @@ def _print_extents(printer: Printer, lines: LineWatch) -> None:
         return
     several = len({line for line, _ in lines.extents}) > 1
     rows = []
-    for (line, name), extent in sorted(lines.extents.items(), key=lambda each: each[0][0]):
+    order = {name: place for place, name in enumerate(figures)}
+    for (line, name), extent in sorted(lines.extents.items(), key=lambda each: (each[0][0], order[each[0][1]])):
         if name == "last" and lines.extents.get((line, "first")) == extent:
             continue
         what, unit = figures[name]
         low, high = float(times[extent.least_step]), float(times[extent.largest_step])
         number = (line + 1,) if several else ()
         rows.append((*number, what, unit, extent.least, low, extent.largest, high))
-    columns = ("figure", "unit", "least", _time(names), "largest", _time(names))
-    printer.table("Lines over all steps", ("line", *columns) if several else columns, rows, left=("figure", "unit"))
+    columns: Cells = ("figure", "unit", "least", _time(names), "largest", _time(names))
+    if several:
+        columns = ("line", *columns)
+    left = len(rows) - len(rows[: lines.most])
+    note = f"{left} more rows: -v shows all" if left else ""
+    printer.table("Lines over all steps", columns, rows[: lines.most], left=("figure", "unit"), note=note)
 
 
 def _time(names: UnitNames) -> str:

@@ -39,8 +39,9 @@ class Lines(NamedTuple):
         return short_repr(self)
 
     def node_arcs(self, line: int, length: FloatArray) -> FloatArray:
-        """Arc lengths (k + 1,) of the nodes along a line, from the lengths (m,) of all elements."""
-        arcs: FloatArray = np.append(0.0, np.cumsum(length[self.elements[line]]))
+        """Arc lengths (k + 1,) of the nodes along a line, from the lengths (m,) of all elements; inf beyond numbers."""
+        with np.errstate(over="ignore"):
+            arcs: FloatArray = np.append(0.0, np.cumsum(length[self.elements[line]]))
         return arcs if self.start is None else arcs + self.start[line]
 
 

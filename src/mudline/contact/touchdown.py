@@ -67,6 +67,10 @@ class Touchdown:
         with np.errstate(over="ignore", invalid="ignore"):
             self._weights = None if given.weight is None else given.weight * given.length
 
+    def length(self, line: int) -> float:
+        """Length of a line; infinite where it overflows."""
+        return float(self._arcs[line][-1])
+
     def series(self, part: Part) -> list[LineSeries]:
         """Return what each line does over some steps; lines without an evaluated element are left out."""
         result = part.result
@@ -137,7 +141,9 @@ class Touchdown:
         ends = [np.searchsorted(one.found.step, np.arange(part.count + 1)).tolist() for one in found]
         for step in range(part.count):
             for one, cuts in zip(found, ends, strict=True):
-                yield self._summary(one, part.result, step, slice(cuts[step], cuts[step + 1]))
+                with np.errstate(over="ignore", invalid="ignore"):
+                    row = self._summary(one, part.result, step, slice(cuts[step], cuts[step + 1]))
+                yield row
 
     def _summary(self, one: LineSeries, result: ContactResult, step: int, cut: slice) -> LineSummary:
         elements = self.lines.elements[one.number]
@@ -149,7 +155,7 @@ class Touchdown:
             line=one.number + 1,
             first_element=int(ids[elements[0]]),
             last_element=int(ids[elements[-1]]),
-            length=float(self._arcs[one.number][-1]),
+            length=self.length(one.number),
             touchdown=tuple(self._points(one, result, step, cut)),
             contact_length=float(one.contact_length[step]),
             largest_force=self._place(float(one.force[step]), int(one.force_at[step]), result, step),
@@ -190,18 +196,17 @@ class LineTable(Table):
         super().__init__(given, lines)
         self.finder = Touchdown(given)
         ids, along = given.element_ids, [given.lines.elements[line] for line in lines.tolist()]
-        with np.errstate(over="ignore", invalid="ignore"):
-            length = np.array([given.length[each].sum() for each in along])
         self._fixed: dict[str, Values] = {
             "line": lines + 1,
             "first_element": np.array([ids[each[0]] for each in along], np.int64),
             "last_element": np.array([ids[each[-1]] for each in along], np.int64),
-            "length": length.reshape(len(along)),
+            "length": np.array([self.finder.length(line) for line in lines.tolist()], np.float64),
         }
 
     def columns(self, part: Part) -> list[Column]:
         """Return the columns of `LINES`."""
-        found = [self._values(one, part.result) for one in self.finder.series(part)]
+        with np.errstate(over="ignore", invalid="ignore"):
+            found = [self._values(one, part.result) for one in self.finder.series(part)]
         values = self._fixed | {
             name: np.stack([each[name] for each in found], axis=1) if found else np.zeros((part.count, 0))
             for name in LINES

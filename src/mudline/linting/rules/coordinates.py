@@ -211,9 +211,10 @@ def _skipping(scene: Scene) -> Iterator[Problem]:
     for element in found.tolist():
         (start, end), (begin, following) = ends[element].tolist(), ends[element + 1].tolist()
         way = float(np.linalg.norm(places[end] - places[start]))
-        around = float(np.linalg.norm(places[begin] - places[start]) + np.linalg.norm(places[end] - places[begin]))
-        usual = max(scene.length[element - 1], scene.length[element + 1])
-        if way > LONGEST_SKIP * usual or (end == following and around <= AROUND * way):
+        meant = float(np.linalg.norm(places[begin] - places[start]))
+        around = meant + float(np.linalg.norm(places[end] - places[begin]))
+        longest = LONGEST_SKIP * max(scene.length[element - 1], scene.length[element + 1])
+        if (way > longest >= meant) or (end == following and around <= AROUND * way):
             ids = scene.node_ids
             message = (
                 f"element {scene.element_ids[element]} ends at node {ids[end]}, and nothing joins it to node "
@@ -261,7 +262,9 @@ def _split_rows(text: TextOrigin, table: Table, where: Where) -> list[tuple[Wher
             beside = [other for other in (row - 1, row + 1) if 0 <= other < len(table) and table.lengths[other] == 3]
             pointed = all(field.count(".") for other in beside for field in _fields(text, where.inside(other))[1:])
             number = float(halves.replace(",", "."))
-            if _begins_with_zero(fields[column + 1]) or (
+            others = fields[: column + 1] + fields[column + 2 :]
+            padded = any(map(_begins_with_zero, others))  # whole numbers with zeros in front, as programs write them
+            if (_begins_with_zero(fields[column + 1]) and not padded) or (
                 few and beside and _fits(table, row, column, number, beside, times=1.0 if pointed else BETTER)
             ):
                 found.append((where.inside(row), names, halves))
@@ -275,8 +278,8 @@ def _fields(text: TextOrigin, place: Where) -> list[str]:
     return [] if span is None else [field.strip() for field in text.source.unified[slice(*span)].split(",")]
 
 
-def _begins_with_zero(half: str) -> bool:
-    return half[0] == "0" and len(half) > 1
+def _begins_with_zero(field: str) -> bool:
+    return re.match("[-+]?0[0-9]", field) is not None
 
 
 def _fits(table: Table, row: int, column: int, number: float, beside: list[int], *, times: float) -> bool:

@@ -141,7 +141,7 @@ class Spelling:
     nothing: str
 
     def column(self, values: Values, names: tuple[str | None, ...] = (), blank: int | None = None) -> list[str]:
-        """The values of a column; numbers read back to the same double, NaN and `blank` are no value."""
+        """The values of a column; numbers read back to the same double; NaN, inf and `blank` are no value."""
         if not values.size:
             return []
         if blank is not None:
@@ -150,7 +150,7 @@ class Spelling:
             spelled = [self.nothing if name is None else self.name(name) for name in names]
             return [spelled[code] for code in values.tolist()]
         numbers = to_json(values.tolist(), inf_nan_mode="null")[1:-1].decode().split(",")
-        if self.nothing == "null" or values.dtype.kind != "f" or not np.isnan(values).any():
+        if self.nothing == "null" or values.dtype.kind != "f" or np.isfinite(values).all():
             return numbers
         return [self.nothing if text == "null" else text for text in numbers]
 
