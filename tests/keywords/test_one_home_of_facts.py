@@ -33,7 +33,7 @@ EXCEPTIONS = {
     "migration/migrating.py": "the blocks whose laws a migrated surface would meet",
     "migration/refusals.py": "names what a seabed or a deck before has instead",
     "migration/rewriting.py": "writes these blocks",
-    "results/missing_laws.py": "inner pipes need no law of the seabed",
+    "results/laws_in_use.py": "inner pipes need no law of the seabed",
     "results/warnings.py": "what is not read and makes a line heavier",
     "results/summary.py": "says which of two blocks a curve came from",
     "scene/checks/fields.py": "leaves the geometry of a trench to EXT003, which has words of its own for it",
