@@ -92,7 +92,7 @@ format: $(VENV)/.developer ## put the code into its canonical layout
 docs: $(VENV)/.developer ## regenerate what docs/ takes from the program
 	$(BIN)/python -m tests.docs.make
 
-tutorials: $(VENV)/.developer ## execute the notebooks of docs/tutorials anew
+tutorials: $(VENV)/.developer ## execute the notebooks of docs/tutorials again
 	$(BIN)/python -m tests.docs.tutorials
 
 pictures: $(VENV)/.developer ## redraw the pictures of docs/images

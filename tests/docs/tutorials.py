@@ -1,4 +1,4 @@
-"""The notebooks of docs/tutorials, executed on a copy of the samples. `make tutorials` writes their outputs anew."""
+"""The notebooks of docs/tutorials, executed on a copy of the samples. `make tutorials` writes their outputs again."""
 
 from __future__ import annotations
 
