@@ -9,13 +9,13 @@ of the stiffness damps (Rayleigh). Drag and added mass are left out.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import numpy as np
 
 import mudline
 from mudline.contact import ContactModel
 from mudline.contact.arrays import FloatArray
+from mudline.scene.deck_values import number
 from tests.benchmarks.runner import ROOT
 
 DECKS = ROOT / "docs" / "studies" / "benchmark"
@@ -90,7 +90,7 @@ def read_beam(name: str) -> Beam:
     section = scene.section_table.sections[0].entry.flexible
     if section is None:
         raise ValueError(f"{name} has no flexible section")
-    bending, axial = float(section.eiyy), float(section.ea)
+    bending, axial = number(section, "eiyy"), number(section, "ea")
     contact = in_line_order(scene.contact())
     start = np.array(contact.input.coordinates, np.float64)
     nodes, length = len(start), float(contact.input.length[0])

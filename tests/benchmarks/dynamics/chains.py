@@ -1,8 +1,8 @@
 """A mooring chain at three depths: equilibrium with the evaluator's forces, the elastic catenary, and MoorDyn.
 
 The chain is made of straight elastic elements with their weight at the nodes, as MoorDyn's is. Its equilibrium is found
-by Newton's method with the evaluator's consistent tangent, first without friction; then the fairlead is pulled away from
-the anchor in small moves with friction, each from the history of the one before.
+by Newton's method with the evaluator's consistent tangent, first without friction; then the fairlead is pulled away
+from the anchor in small moves with friction, each from the history of the one before.
 """
 
 from __future__ import annotations

@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from tests.benchmarks.dynamics.chains import PULLS
+from tests.benchmarks.dynamics.beam import read_beam
+from tests.benchmarks.dynamics.bouncing import DECK
+from tests.benchmarks.dynamics.chains import CASES, PULLS, catenary, read_chain
 from tests.benchmarks.dynamics.peers import HELD, PULLED, REST
 from tests.benchmarks.dynamics.tables import Row, load
-from tests.benchmarks.dynamics.words import mm, percent, table
+from tests.benchmarks.dynamics.words import mm, percent, table, wrapped
 
 _ENDS = ("fairlead [kN]", "anchor [kN]")
 
@@ -16,46 +18,50 @@ _CHAINS = """\
 ## The same chain in {program}
 
 A mooring chain in three depths: line, seabed and published tensions are those of a public test of MoorDyn
-(`tests/quasi_static_chain.cpp` with `tests/Mooring/WD0050_Chain.txt`, `WD0200` and `WD0600`), which allows a difference of
-10 % to "quasi-static codes". The decks [`chain-050`](benchmark/chain-050.keyxm), [`-200`](benchmark/chain-200.keyxm) and
-[`-600`](benchmark/chain-600.keyxm) hold the same data. mudline does not look for equilibrium; the benchmark does, by Newton's
-method with the evaluator's forces and tangents on straight elastic elements. {program} finds its own by dynamic relaxation.
-The third opinion is the elastic catenary with friction on a rigid seabed, in closed form (Jonkman 2007).
+(`tests/quasi_static_chain.cpp` with `tests/Mooring/WD0050_Chain.txt`, `WD0200` and `WD0600`), which allows a
+difference of 10 % to "quasi-static codes". The decks [`chain-050`](benchmark/chain-050.keyxm),
+[`-200`](benchmark/chain-200.keyxm) and [`-600`](benchmark/chain-600.keyxm) hold the same data. mudline does not look
+for equilibrium; the benchmark does, by Newton's method with the evaluator's forces and tangents on straight elastic
+elements. {program} finds its own by dynamic relaxation. The third opinion is the elastic catenary with friction on a
+rigid seabed, in closed form (Jonkman 2007).
 
 At rest, without friction, tensions in kN:
 """
 
 _SINKING = """\
-* mudline and MoorDyn have the same masses, springs and seabed and differ by {relaxation} at most: MoorDyn's line still moves
-  a little when its relaxation ends.
-* Both differ from the catenary by up to {catenary}. The catenary lies on a rigid seabed, while a chain of 3.32 kN/m sinks by
-  0.13 m on 25.2 kN/m per m, and it is no polygon: in {deepest} m one element has {element:.1f} m.
-* The published tensions differ from the catenary by up to {published}, most in {shallow} m, where 1 % of tension is 0.2 m of
-  depth. How the codes behind them measured the depth is not said; the difference T(fairlead) - T(anchor), which the weight
-  of the suspended line fixes, asks for {heights} m less height. In the limits of their own test, all agree.
+* mudline and MoorDyn have the same masses, springs and seabed and differ by {relaxation} at most: MoorDyn's line
+  still moves a little when its relaxation ends.
+* Both differ from the catenary by up to {catenary}. The catenary lies on a rigid seabed, while a chain of
+  {weight:.2f} kN/m sinks by {sinks:.2f} m on {spring:.1f} kN/m per m; and it is no polygon: in {deepest} m one
+  element has {element:g} m.
+* The published tensions differ from the catenary by up to {published}, most in {shallow} m, where 1 % of the
+  fairlead's tension is {centimetres:.0f} cm of depth. How the codes behind them measured the depth is not said. The
+  difference of both tensions, which the weight of the suspended line fixes, is that of a line hanging {heights} m
+  less high. All are far inside the limit of their own test.
 
 Then the fairlead is pulled away from the anchor, so far that all of the chain on the seabed slips ({pulls}). With
-friction, the anchor feels less:
+friction the anchor feels less. Tensions in kN; MoorDyn with its default friction:
 """
 
 _FRICTION = """\
-* With Coulomb friction (0.5) mudline's anchor tension is within {friction} of the catenary's, which takes off the whole
-  limit of what lies on the seabed. Near the anchor, which is held at the mudline, the chain has not sunk in yet and
-  presses less; the polygon does the rest.
-* MoorDyn's friction is another law: a force that grows with the velocity, `FricDamp` times it, up to the Coulomb limit. With
-  its default of 200 N s/m it is not felt in a slow pull: its anchor has the tension of a chain without friction, within
-  {default}. With a ramp as steep as a step of 0.1 ms allows (3e7) the anchor has {ramp:.0f} kN at the end of the pull,
-  between {smooth:.0f} without and {rough:.0f} with Coulomb friction, and {held:.0f} kN after the pull has stood still for 100 s: a law
-  of velocity holds nothing at rest. **Who needs the friction that stays in a line at rest needs a spring with a stick point.**
+* With Coulomb friction (0.5) mudline's anchor tension is within {friction} of the catenary's, which takes off the
+  whole limit of what lies on the seabed. Near the anchor, which is held at the mudline, the chain has not sunk in yet
+  and presses less; the polygon does the rest.
+* MoorDyn's friction is another law: a force that grows with the velocity, `FricDamp` times it, up to the Coulomb
+  limit. With its default of 200 N s/m it is not felt in a slow pull: its anchor has the tension of a chain without
+  friction, within {default}. With a ramp as steep as a step of 0.1 ms allows (3e7) the anchor has {ramp:.0f} kN at
+  the end of the pull, between {smooth:.0f} without and {rough:.0f} with Coulomb friction, and {held:.0f} kN after the
+  pull has stood still for 100 s: a law of velocity holds nothing at rest. **Who needs the friction that stays in a
+  line at rest needs a spring with a stick point.**
 """
 
 _BOUNCES = """\
 ## A bouncing beam in {program}
 
-[`bouncing-beam.keyxm`](benchmark/bouncing-beam.keyxm) is a free beam of 12 m that falls, tilted, on springs of 50 kN/m below
-its 13 nodes and bounces for 2 s, at first its low end, then the other, with whipping between. Twice Exudyn: with the
-same masses and springs, its own contact (limit stops with its own switching) and its own integrator (Newmark); and with its own
-beam element (ANCF `Cable2D`: cubic, consistent mass, large rotations).
+[`bouncing-beam.keyxm`](benchmark/bouncing-beam.keyxm) is a free beam of 12 m that falls, tilted, on springs of 50
+kN/m below its 13 nodes and bounces for 2 s, at first its low end, then the other, with whipping between. Twice
+Exudyn: with the same masses and springs, its own contact (limit stops with its own switching) and its own integrator
+(Newmark); and with its own beam element (ANCF `Cable2D`: cubic, consistent mass, large rotations).
 
 ![Height of the last node over time](benchmark-bouncing.png)
 
@@ -63,20 +69,21 @@ Largest difference of the height of any of the 13 nodes up to a time:
 """
 
 _BOUNCED = """\
-* On the same masses and springs Exudyn meets the reference within {finest} over 2 s of bouncing, with errors that fall as its
-  step does: mudline's nodal springs and the located events of the reference are right.
-* The beam element differs by {cable} in 0.5 s. That is the beam, not the contact: a chain of 12 lumped masses has a
-  rotary inertia that is 1.4 % too large and no cubic shape. Cutting each element in two, with the springs where they are, leaves
-  {refined}. After seconds of bouncing small differences are large ones, in every program: compare single impacts.
+* On the same masses and springs Exudyn meets the reference within {finest} over 2 s of bouncing, with errors that
+  fall as its step does: mudline's nodal springs and the located events of the reference are right.
+* The beam element differs by {cable} in 0.5 s. That is the beam, not the contact: {parts} elements with lumped masses
+  have a rotary inertia that is {inertia} too large and no cubic shape. Cutting each element in two, with the springs
+  where they are, leaves {refined}. After seconds of bouncing small differences are large ones, in every program:
+  compare single impacts.
 """
 
 _END = """\
 ## What is left out
 
-Water (drag, added mass), large displacements of the lifted line and its axial tension: they would change all numbers, but not
-which scheme follows the contact. The seabed of the benchmark is flat and its normal law linear. Suction has no counterpart in
-MoorDyn or Exudyn; its independent check is the energy balance of the reference, and that two integrators which share nothing
-but the evaluator, the reference and RK4, converge to the same motion.
+Water (drag, added mass), large displacements of the lifted line and its axial tension: they would change all numbers,
+but not which scheme follows the contact. The seabed of the benchmark is flat and its normal law linear. Suction has
+no counterpart in MoorDyn or Exudyn; its independent check is the energy balance of the reference, and that two
+integrators which share nothing but the evaluator, the reference and RK4, converge to the same motion.
 """
 
 
@@ -84,9 +91,9 @@ def peer_bullets(folder: Path) -> Iterator[str]:
     """What the other programs say, in short."""
     chains, bounces = load("chains", folder), load("bouncing", folder)
     close = max(_off(chains, depth, "mudline", "MoorDyn") for depth in PULLS)
-    yield (
-        f"* {_program(chains)} has the same static tensions within {percent(close)} in three depths; {bounces[0]['program']} the same"
-        f" bouncing beam within {mm(_finest(bounces)['to 2 s [m]'])} after 2 s."
+    yield wrapped(
+        f"* {_program(chains)} has the same static tensions within {percent(close)} in three depths;",
+        f"{bounces[0]['program']} the same bouncing beam within {mm(_finest(bounces)['to 2 s [m]'])} over 2 s.",
     )
 
 
@@ -94,24 +101,33 @@ def peer_parts(folder: Path) -> Iterator[str]:
     """The text, by paragraphs and tables."""
     chains, bounces = load("chains", folder), load("bouncing", folder)
     yield _CHAINS.format(program=_program(chains))
-    yield _chain_table(chains, REST, "no", ("published", "catenary", "mudline", "MoorDyn"))
+    yield _chain_table(chains, REST, ("published", "catenary", "mudline", "MoorDyn"))
     yield _sinking(chains)
     yield _chain_table(
-        chains, PULLED, "", ("no: catenary", "no: mudline", "FricDamp 200: MoorDyn", "yes: catenary", "yes: mudline")
+        chains, PULLED, ("no: catenary", "no: mudline", "FricDamp 200: MoorDyn", "yes: catenary", "yes: mudline")
     )
     yield _friction(chains)
     yield _BOUNCES.format(program=bounces[0]["program"])
     heads = ("to 0.5 s [m]", "to 1 s [m]", "to 2 s [m]")
+    shown = [head.replace("[m]", "[mm]") for head in heads]
     yield table(
-        ["Exudyn's model", "parts of an element", "step [ms]", "compared with", *(head.replace("[m]", "[mm]") for head in heads)],
+        ["Exudyn's model", "parts of an element", "step [ms]", "compared with", *shown],
         [
-            [row["model"], row["parts of an element"], f"{1000 * float(row['step [s]']):.3g}", row["compared with"],
-             *(f"{1000 * float(row[head]):.2g}" if row[head] else row["failure"] for head in heads)]
+            [
+                row["model"],
+                row["parts of an element"],
+                f"{1000 * float(row['step [s]']):.3g}",
+                row["compared with"],
+                *(f"{1000 * float(row[head]):.2g}" if row[head] else row["failure"] for head in heads),
+            ]
             for row in bounces
         ],
-    )  # fmt: skip
+    )
     cables = {row["parts of an element"]: row for row in bounces if row["model"] == "cable"}
+    parts = len(read_beam(DECK).start) - 1
     yield _BOUNCED.format(
+        parts=parts,
+        inertia=percent(2.0 / parts**2),
         finest=mm(_finest(bounces)["to 2 s [m]"]),
         cable=mm(cables["1"]["to 0.5 s [m]"]),
         refined=mm(cables["2"]["to 0.5 s [m]"]),
@@ -145,7 +161,7 @@ def _off(chains: list[Row], depth: int, one: str, other: str) -> float:
     return max(abs(float(rows[0][end]) / float(rows[1][end]) - 1.0) for end in _ENDS)
 
 
-def _chain_table(chains: list[Row], when: str, friction: str, sources: tuple[str, ...]) -> str:
+def _chain_table(chains: list[Row], when: str, sources: tuple[str, ...]) -> str:
     rows = []
     for depth in PULLS:
         for end in _ENDS:
@@ -154,14 +170,17 @@ def _chain_table(chains: list[Row], when: str, friction: str, sources: tuple[str
                 kind, _, name = source.rpartition(": ")
                 cells.append(f"{float(_find(chains, depth, when, name, kind or '')[end]):.1f}")
             rows.append([f"{depth} m, {end.removesuffix(' [kN]')}", *cells])
-    del friction
     heads = [f"{name}, friction {kind}" if kind else name for kind, _, name in (s.rpartition(": ") for s in sources)]
     return table(["", *heads], rows)
 
 
 def _sinking(chains: list[Row]) -> str:
     shallow, deepest = min(PULLS), max(PULLS)
-    lower = []
+    case, deep = CASES[0], read_chain(CASES[-1])
+    spring = float(deep.contact.input.assigned["nodal"].parameters["stiffness"][1]) / float(deep.length[0])
+    line, lower = read_chain(case), []
+    low, high = (catenary(line, height, case.distance, 0.0).fairlead for height in (case.depth, case.depth + 0.01))
+    steeper = 100.0 * (high / low - 1.0)
     for depth in PULLS:
         rows = [_find(chains, depth, REST, source) for source in ("published", "catenary")]
         drops = [float(row[_ENDS[0]]) - float(row[_ENDS[1]]) for row in rows]
@@ -171,8 +190,12 @@ def _sinking(chains: list[Row]) -> str:
         catenary=percent(max(_off(chains, depth, "mudline", "catenary") for depth in PULLS)),
         published=percent(max(_off(chains, depth, "published", "catenary") for depth in PULLS)),
         shallow=shallow,
+        weight=deep.weight / 1e3,
+        spring=spring / 1e3,
+        sinks=deep.weight / spring,
         deepest=deepest,
-        element=10.0,
+        element=float(deep.length[0]),
+        centimetres=1.0 / steeper,
         heights=f"{min(lower):.2f} to {max(lower):.2f}",
         pulls=", ".join(f"{pull:g} m in {depth} m" for depth, pull in PULLS.items()),
     )

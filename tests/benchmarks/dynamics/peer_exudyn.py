@@ -12,13 +12,18 @@ import sys
 import warnings
 from importlib import import_module
 from importlib.metadata import version
-from typing import Any
+from itertools import pairwise
+from types import ModuleType
+from typing import Any, TypeAlias
+
+System: TypeAlias = Any
+"""Exudyn ships no types."""
 
 _NOWHERE = 1e9
 """Metres: the upper stop, which is not there."""
 
 
-def stops(items: Any, system: Any, markers: list[int], levels: list[float], stiffness: float) -> None:
+def stops(items: ModuleType, system: System, markers: list[int], levels: list[float], stiffness: float) -> None:
     """A stop below each of the coordinates, at these levels."""
     ground = system.AddNode(items.NodePointGround())
     fixed = system.AddMarker(items.MarkerNodeCoordinate(nodeNumber=ground, coordinate=0))
@@ -36,7 +41,7 @@ def stops(items: Any, system: Any, markers: list[int], levels: list[float], stif
         )
 
 
-def masses(items: Any, system: Any, given: dict[str, Any]) -> tuple[list[int], list[int], list[float]]:
+def masses(items: ModuleType, system: System, given: dict[str, Any]) -> tuple[list[int], list[int], list[float]]:
     """The model of matrices: its one node, the markers of its heights, and where these have their stops."""
     import numpy as np  # noqa: PLC0415 - there it is Exudyn's
 
@@ -63,7 +68,7 @@ def masses(items: Any, system: Any, given: dict[str, Any]) -> tuple[list[int], l
     return [node], markers, [0.0] * count
 
 
-def cable(items: Any, system: Any, given: dict[str, Any]) -> tuple[list[int], list[int], list[float]]:
+def cable(items: ModuleType, system: System, given: dict[str, Any]) -> tuple[list[int], list[int], list[float]]:
     """The model of beam elements: its nodes, the markers of their vertical displacements, and their stops."""
     heights, along = given["heights"], given["along"]
     rise, run = heights[1] - heights[0], along[1] - along[0]
@@ -72,7 +77,7 @@ def cable(items: Any, system: Any, given: dict[str, Any]) -> tuple[list[int], li
         system.AddNode(items.Point2DS1(referenceCoordinates=[y, x, run / length, rise / length]))
         for x, y in zip(heights, along, strict=True)
     ]
-    for pair in zip(nodes[:-1], nodes[1:], strict=True):
+    for pair in pairwise(nodes):
         element = system.AddObject(
             items.Cable2D(
                 physicsLength=length,

@@ -13,7 +13,11 @@ from importlib import import_module
 from importlib.metadata import version
 from math import cos, pi, sin
 from pathlib import Path
-from typing import Any
+from types import ModuleType
+from typing import Any, TypeAlias
+
+System: TypeAlias = Any
+"""MoorDyn ships no types."""
 
 _STEP = 0.5
 """Seconds between two places of the fairlead; MoorDyn interpolates and takes its own steps."""
@@ -49,7 +53,7 @@ ID LineType AttachA AttachB UnstrLen NumSegs Outputs
 """
 
 
-def tensions(system: Any, moordyn: Any) -> list[float]:
+def tensions(system: System, moordyn: ModuleType) -> list[float]:
     """Of the line at the fairlead and at the anchor, kN."""
     line = moordyn.GetLine(system, 1)
     last = moordyn.GetLineNumberNodes(line) - 1

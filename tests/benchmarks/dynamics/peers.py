@@ -103,7 +103,7 @@ def _moordyn(place: Environment, case: Case) -> list[tuple[Cell, ...]]:
 
 
 def for_moordyn(chain: Chain, case: Case, damping: float, step: float) -> dict[str, Any]:
-    """What `peer_moordyn` takes: all from the deck but the damping of the seabed, which is that of the published test."""
+    """What `peer_moordyn` takes: all from the deck, but the published damping of the seabed."""
     length = float(chain.length[0])
     spring = float(chain.contact.input.assigned["nodal"].parameters["stiffness"][1])
     seabed = spring / length / chain.diameter

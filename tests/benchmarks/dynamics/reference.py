@@ -7,8 +7,8 @@ takes the history of the step's begin, so a step of the reference is exact as lo
 * the stick point of a slipping node moves one way, and
 * the velocity of a lifting element grows, or is below its largest so far.
 
-Each step therefore ends at the first event in it, found by bisection of the step's interpolant down to the resolution of
-time, with the history taken there. Between two events forces are smooth functions of positions and velocities.
+Each step therefore ends at the first event in it, found by bisection of the step's interpolant down to 1e-13 s, with
+the history taken there. Between two events forces are smooth functions of positions and velocities.
 """
 
 from __future__ import annotations
@@ -69,6 +69,12 @@ class Path:
     events: int = 0
     evaluations: int = 0
 
+    @classmethod
+    def blank(cls, moments: int, nodes: int) -> Path:
+        """So many moments of which nothing is known yet."""
+        both, gaps = (np.full((moments, width), np.nan) for width in (2 * nodes, nodes))
+        return cls(both, both.copy(), np.full((moments, 3), np.nan), np.full((moments, 2), np.nan), gaps)
+
 
 @dataclass(slots=True)
 class Reference:
@@ -87,7 +93,7 @@ class Reference:
     def run(self, times: FloatArray) -> Path:
         """Integrate from rest at 0 through the `times` (s,), which ascend from 0."""
         size = 2 * self.lifting.beam.nodes
-        found = Path(*(np.zeros((len(times), width)) for width in (size, size, 3, 2, self.lifting.beam.nodes)))
+        found = Path.blank(len(times), self.lifting.beam.nodes)
         solver = self._solver(0.0, np.zeros(2 * size + 3), times[-1])
         mode = self._mode(0.0, solver.y)
         self._keep(found, 0, 0.0, solver.y)
@@ -117,7 +123,7 @@ class Reference:
     def _solver(self, time: float, values: FloatArray, end: float) -> DOP853:
         tolerance = self.tolerance
         return DOP853(
-            self._rates,
+            self._rates,  # type: ignore[arg-type]  # the stubs want one that takes complex numbers too
             time,
             values,
             end + 1e-3,

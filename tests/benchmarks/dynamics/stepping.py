@@ -26,7 +26,7 @@ _BOUND = 100.0
 """Metres: what has moved farther has diverged."""
 
 
-class Diverged(ArithmeticError):
+class DivergedError(ArithmeticError):
     """The run cannot go on; the message says when and why."""
 
 
@@ -46,7 +46,7 @@ class Timed:
     def forces(self, position: FloatArray, velocity: FloatArray, history: History) -> Forces:
         """See `System`; without derivatives, which explicit schemes do not look at."""
         if not (np.isfinite(velocity).all() and np.abs(position).max() < _BOUND):
-            raise Diverged("the motion grew without bound")
+            raise DivergedError("the motion grew without bound")
         self.evaluations += 1
         found = self.lifting.forces(position[-1], position[:-1], velocity[:-1], history)
         return Forces(np.append(found.total, 0.0), position, velocity, found.state)
@@ -64,7 +64,7 @@ class Timed:
 def implicit_step(scheme: OneStep, system: Timed, motion: Motion, dt: float) -> tuple[Motion, int]:
     """The motion after a step, and its Newton iterations.
 
-    Raises Diverged where they do not converge.
+    Raises DivergedError where they do not converge.
     """
     (p0, p1), (q0, q1), (i0, i1), (g0, g1) = scheme.position, scheme.velocity, scheme.inertia, scheme.load
     mass, old = system.mass, motion.acceleration
@@ -94,7 +94,7 @@ def implicit_step(scheme: OneStep, system: Timed, motion: Motion, dt: float) -> 
                 break
             share *= 0.5
         new, left, found = new - share * change, tried, seen
-    raise Diverged(f"Newton's method left {float(np.abs(left).max()):.2g} N after {_MOST} iterations")
+    raise DivergedError(f"Newton's method left {float(np.abs(left).max()):.2g} N after {_MOST} iterations")
 
 
 @dataclass(slots=True)
@@ -119,7 +119,7 @@ def run(scheme: Scheme, lifting: Lifting, times: FloatArray, steps: int) -> Run:
     """Step through the equally spaced `times` (s,), from rest, with so many steps between two of them."""
     beam, system, size = lifting.beam, Timed(lifting), 2 * lifting.beam.nodes
     dt = float(times[1] - times[0]) / steps
-    path = Path(*(np.full((len(times), width), np.nan) for width in (size, size, 3, 2, beam.nodes)))
+    path = Path.blank(len(times), beam.nodes)
     rest = np.zeros(size + 1)
     motion = Motion.start(system, rest, np.append(rest[:-1], 1.0), beam.contact.initial_state())
     works, most, failure = np.zeros(3), 0, ""
@@ -135,7 +135,7 @@ def run(scheme: Scheme, lifting: Lifting, times: FloatArray, steps: int) -> Run:
                 now = _powers(lifting, motion)
                 works = works + _work(before, now)
                 before = now
-        except Diverged as error:
+        except DivergedError as error:
             failure = f"{motion.position[-1]:.2f} s: {error}"
             break
         _record(path, row, lifting, motion, works)
