@@ -11,7 +11,7 @@ from tests.benchmarks.dynamics.beam import DECKS
 from tests.benchmarks.dynamics.bouncing import TIMES, fall
 from tests.benchmarks.dynamics.chains import CASES, read_chain
 from tests.benchmarks.dynamics.lifting import touchdown
-from tests.benchmarks.dynamics.peers import CHAINS, EXUDYN, MOORDYN, for_moordyn, own_rows
+from tests.benchmarks.dynamics.peers import CHAINS, EXUDYN, MOORDYN, for_moordyn, own
 from tests.benchmarks.dynamics.reference import Reference, Tolerance
 from tests.benchmarks.dynamics.schemes import RUNS, Truth, lifting, limits, look, measure, row
 from tests.benchmarks.dynamics.schemes import TIMES as MOMENTS
@@ -53,7 +53,7 @@ def test_what_limits_a_step_is_as_in_the_table() -> None:
 def test_a_chain_comes_out_as_it_is_in_the_table() -> None:
     case = CASES[1]
     kept = [row for row in load("chains") if row["depth [m]"] == str(case.depth) and "MoorDyn" not in row["source"]]
-    for found, one in zip(own_rows(case), kept, strict=True):
+    for found, one in zip(own(case)[0], kept, strict=True):
         assert [str(cell) for cell in found[:4]] == [one[heading] for heading in CHAINS[:4]]
         assert found[4:] == pytest.approx([float(one[heading]) for heading in CHAINS[4:]], rel=1e-6)
 

@@ -46,7 +46,9 @@ def main() -> None:
             done.append(schemes.row(name, steps, *schemes.measure(name, steps), truth))
             save("schemes", schemes.RUNS, done)
     if "chains" in given.only:
-        save("chains", peers.CHAINS, peers.chains(say, place(peers.MOORDYN), load("chains")))
+        tensions, shares = peers.chains(say, place(peers.MOORDYN), load("chains"))
+        save("chains", peers.CHAINS, tensions)
+        save("anchor", peers.ANCHOR, shares)
     if "bouncing" in given.only:
         exudyn = place(peers.EXUDYN)
         if exudyn.reason:

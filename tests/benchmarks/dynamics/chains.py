@@ -18,6 +18,7 @@ import mudline
 from mudline.contact import ContactModel
 from mudline.contact.arrays import FloatArray
 from mudline.contact.tables import ContactState
+from mudline.scene.sections import surroundings
 from tests.benchmarks.dynamics.beam import DECKS, in_line_order
 
 PULLS = {50: 3.0, 200: 15.0, 600: 40.0}
@@ -59,6 +60,7 @@ class Chain:
         weight: submerged, N/m.
         friction: the coefficient along the line.
         mass, diameter: kg/m, m.
+        gravity: m/s2.
     """
 
     contact: ContactModel
@@ -68,6 +70,7 @@ class Chain:
     friction: float
     mass: float
     diameter: float
+    gravity: float
 
     def smooth(self) -> Chain:
         """The same chain on a seabed without friction."""
@@ -92,6 +95,7 @@ def read_chain(case: Case) -> Chain:
         friction,
         float(scene.mass_per_length[0]),
         float(contact.input.diameter[0]),
+        surroundings(scene.deck).gravity,
     )
 
 
@@ -209,6 +213,13 @@ class Equilibrium:
         stretched = np.linalg.norm(np.diff(self.places, axis=0), axis=1)
         tension = self.chain.axial * (stretched / self.chain.length - 1.0) / 1e3
         return Tensions(float(tension[-1]), float(tension[0]))
+
+    def pressing(self) -> FloatArray:
+        """The normal force of each node (n,), as a share of the weight that it has."""
+        share = np.convolve(self.chain.length, [0.5, 0.5])
+        result, _ = self.chain.contact.step(self.places, None, self.state)
+        found: FloatArray = result.normal_force / (self.chain.weight * share)
+        return found
 
     def with_friction(self, chain: Chain) -> Equilibrium:
         """The same places on the seabed of `chain`: its stick points are where the nodes are."""

@@ -10,8 +10,10 @@ from tests.benchmarks.dynamics.bouncing import DECK
 from tests.benchmarks.dynamics.chains import CASES, PULLS, catenary, read_chain
 from tests.benchmarks.dynamics.peers import HELD, PULLED, REST
 from tests.benchmarks.dynamics.tables import Row, load
-from tests.benchmarks.dynamics.words import mm, percent, table, wrapped
+from tests.benchmarks.dynamics.words import mm, percent, short, table, wrapped
 
+_STANDARD = 9.80665
+"""Standard gravity, m/s2, which MoorDyn takes if none is given."""
 _ENDS = ("fairlead [kN]", "anchor [kN]")
 
 _CHAINS = """\
@@ -29,8 +31,8 @@ At rest, without friction, tensions in kN:
 """
 
 _SINKING = """\
-* mudline and MoorDyn have the same masses, springs and seabed and differ by {relaxation} at most: MoorDyn's line
-  still moves a little when its relaxation ends.
+* mudline and MoorDyn have the same masses, springs and seabed and differ by {relaxation} at most. Gravity is given to
+  MoorDyn as the deck has it, {gravity:g} m/s2: its default of {usual:g} alone would make {gravities}.
 * Both differ from the catenary by up to {catenary}. The catenary lies on a rigid seabed, while a chain of
   {weight:.2f} kN/m sinks by {sinks:.2f} m on {spring:.1f} kN/m per m; and it is no polygon: in {deepest} m one
   element has {element:g} m.
@@ -44,9 +46,10 @@ friction the anchor feels less. Tensions in kN; MoorDyn with its default frictio
 """
 
 _FRICTION = """\
-* With Coulomb friction (0.5) mudline's anchor tension is within {friction} of the catenary's, which takes off the
-  whole limit of what lies on the seabed. Near the anchor, which is held at the mudline, the chain has not sunk in yet
-  and presses less; the polygon does the rest.
+* With Coulomb friction ({coefficient:g}) mudline's anchor tension is within {friction} of the catenary's, which takes
+  off the whole limit of what lies on the seabed. mudline's nodes press less next to the anchor: it is held at the
+  mudline, and the chain needs some length to sink in. In {shallow} m the first five nodes press with {pressing} of
+  their weight.
 * MoorDyn's friction is another law: a force that grows with the velocity, `FricDamp` times it, up to the Coulomb
   limit. With its default of 200 N s/m it is not felt in a slow pull: its anchor has the tension of a chain without
   friction, within {default}. With a ramp as steep as a step of 0.1 ms allows (3e7) the anchor has {ramp:.0f} kN at
@@ -82,8 +85,8 @@ _END = """\
 
 Water (drag, added mass), large displacements of the lifted line and its axial tension: they would change all numbers,
 but not which scheme follows the contact. The seabed of the benchmark is flat and its normal law linear. Suction has
-no counterpart in MoorDyn or Exudyn; its independent check is the energy balance of the reference, and that two
-integrators which share nothing but the evaluator, the reference and RK4, converge to the same motion.
+no counterpart in MoorDyn or Exudyn; its independent check is the energy balance of the reference, and that all
+schemes of second order converge to it.
 """
 
 
@@ -106,7 +109,7 @@ def peer_parts(folder: Path) -> Iterator[str]:
     yield _chain_table(
         chains, PULLED, ("no: catenary", "no: mudline", "FricDamp 200: MoorDyn", "yes: catenary", "yes: mudline")
     )
-    yield _friction(chains)
+    yield _friction(chains, folder)
     yield _BOUNCES.format(program=bounces[0]["program"])
     heads = ("to 0.5 s [m]", "to 1 s [m]", "to 2 s [m]")
     shown = [head.replace("[m]", "[mm]") for head in heads]
@@ -118,7 +121,7 @@ def peer_parts(folder: Path) -> Iterator[str]:
                 row["parts of an element"],
                 f"{1000 * float(row['step [s]']):.3g}",
                 row["compared with"],
-                *(f"{1000 * float(row[head]):.2g}" if row[head] else row["failure"] for head in heads),
+                *((short(1000 * float(row[head])) for head in heads) if not row["failure"] else ("failed", "", "")),
             ]
             for row in bounces
         ],
@@ -170,7 +173,9 @@ def _chain_table(chains: list[Row], when: str, sources: tuple[str, ...]) -> str:
                 kind, _, name = source.rpartition(": ")
                 cells.append(f"{float(_find(chains, depth, when, name, kind or '')[end]):.1f}")
             rows.append([f"{depth} m, {end.removesuffix(' [kN]')}", *cells])
-    heads = [f"{name}, friction {kind}" if kind else name for kind, _, name in (s.rpartition(": ") for s in sources)]
+    heads = [
+        source.replace("no: ", "no friction, ").replace("yes: ", "friction, ").replace(": ", ", ") for source in sources
+    ]
     return table(["", *heads], rows)
 
 
@@ -186,6 +191,9 @@ def _sinking(chains: list[Row]) -> str:
         drops = [float(row[_ENDS[0]]) - float(row[_ENDS[1]]) for row in rows]
         lower.append(depth * (1.0 - drops[0] / drops[1]))
     return _SINKING.format(
+        gravity=deep.gravity,
+        usual=_STANDARD,
+        gravities=percent(1.0 - _STANDARD / deep.gravity),
         relaxation=percent(max(_off(chains, depth, "mudline", "MoorDyn") for depth in PULLS)),
         catenary=percent(max(_off(chains, depth, "mudline", "catenary") for depth in PULLS)),
         published=percent(max(_off(chains, depth, "published", "catenary") for depth in PULLS)),
@@ -201,14 +209,19 @@ def _sinking(chains: list[Row]) -> str:
     )
 
 
-def _friction(chains: list[Row]) -> str:
+def _friction(chains: list[Row], folder: Path) -> str:
     anchor = _ENDS[1]
+    near = (row for row in load("anchor", folder) if row["depth [m]"] == str(min(PULLS)))
+    shares = [f"{float(row['share of its weight']):.2f}" for row in near]
 
     def ratio(depth: int, one: tuple[str, str], other: tuple[str, str]) -> float:
         first, second = (_find(chains, depth, PULLED, source, kind) for source, kind in (one, other))
         return abs(float(first[anchor]) / float(second[anchor]) - 1.0)
 
     return _FRICTION.format(
+        coefficient=read_chain(CASES[0]).friction,
+        shallow=min(PULLS),
+        pressing=", ".join(shares),
         friction=percent(max(ratio(depth, ("mudline", "yes"), ("catenary", "yes")) for depth in PULLS)),
         default=percent(max(ratio(depth, ("MoorDyn", "FricDamp 200"), ("mudline", "no")) for depth in PULLS)),
         ramp=float(_find(chains, 200, PULLED, "MoorDyn", "FricDamp 3e7")[anchor]),

@@ -49,6 +49,7 @@ ID LineType AttachA AttachB UnstrLen NumSegs Outputs
 1.0e-5 threshIC
 {friction} FrictionCoefficient
 {friction_damping} FricDamp
+{gravity} g
 ---
 """
 

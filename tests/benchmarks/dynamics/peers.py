@@ -25,6 +25,7 @@ MOORDYN = Peer("moordyn", ("moordyn==2.7.2", "numpy==2.4.6"), "static chain, and
 EXUDYN = Peer("exudyn", ("exudyn==1.13.6", "numpy==2.4.6"), "bouncing beam")
 
 CHAINS = ("depth [m]", "when", "friction", "source", "fairlead [kN]", "anchor [kN]")
+ANCHOR = ("depth [m]", "node", "share of its weight")
 BOUNCES = ("model", "parts of an element", "step [s]", "compared with", "program", "to 0.5 s [m]", "to 1 s [m]",
            "to 2 s [m]", "failure")  # fmt: skip
 BOUNCE_PATH = ("time [s]", "reference, first node [m]", "last node [m]", "Exudyn masses, last node [m]",
@@ -52,25 +53,32 @@ def ask(place: Environment, script: str, given: dict[str, Any]) -> dict[str, Any
 # ------------------------------------------------------------------------------------------------------------- chains
 
 
-def chains(progress: Callable[[str], None], place: Environment, before: list[Row]) -> list[tuple[Cell, ...]]:
-    """The rows of `CHAINS`."""
+def chains(
+    progress: Callable[[str], None], place: Environment, before: list[Row]
+) -> tuple[list[tuple[Cell, ...]], list[tuple[Cell, ...]]]:
+    """The rows of `CHAINS` and of `ANCHOR`."""
     rows: list[tuple[Cell, ...]] = []
+    pressing: list[tuple[Cell, ...]] = []
     for case in CASES:
         progress(f"chain in {case.depth} m")
-        rows += own_rows(case)
+        tensions, shares = own(case)
+        rows, pressing = rows + tensions, pressing + shares
         if place.reason:
             rows += [tuple(row.values()) for row in before if _of_moordyn(row, case)]
         else:
             rows += _moordyn(place, case)
-    return rows
+    return rows, pressing
 
 
 def _of_moordyn(row: Row, case: Case) -> bool:
     return row["source"].startswith("MoorDyn") and row["depth [m]"] == str(case.depth)
 
 
-def own_rows(case: Case) -> list[tuple[Cell, ...]]:
-    """Published, by the evaluator's forces, and of the catenary: at rest, then with the fairlead pulled."""
+def own(case: Case) -> tuple[list[tuple[Cell, ...]], list[tuple[Cell, ...]]]:
+    """Rows of `CHAINS`: published, by the evaluator's forces, and of the catenary; at rest, then pulled.
+
+    And those of `ANCHOR`: how the nodes next to the anchor press in the end.
+    """
     chain, pull = read_chain(case), PULLS[case.depth]
     free = Equilibrium.hanging(chain.smooth(), case.depth, case.distance)
     found = [
@@ -83,7 +91,11 @@ def own_rows(case: Case) -> list[tuple[Cell, ...]]:
         line.pull(pull)
         found.append((PULLED, friction, "mudline", line.tensions()))
         found.append((PULLED, friction, "catenary", catenary(chain, case.depth, case.distance + pull, coefficient)))
-    return [(case.depth, when, friction, source, *tensions) for when, friction, source, tensions in found]
+    shares = held.pressing()[1:6]
+    return (
+        [(case.depth, when, friction, source, *tensions) for when, friction, source, tensions in found],
+        [(case.depth, node, float(share)) for node, share in enumerate(shares, start=2)],
+    )
 
 
 def _moordyn(place: Environment, case: Case) -> list[tuple[Cell, ...]]:
@@ -119,6 +131,7 @@ def for_moordyn(chain: Chain, case: Case, damping: float, step: float) -> dict[s
         "seabed_damping": 0.1 * seabed,
         "friction": chain.friction,
         "friction_damping": damping,
+        "gravity": chain.gravity,
         "step": step,
         "pull": PULLS[case.depth],
         "over": _OVER,
