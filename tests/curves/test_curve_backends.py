@@ -12,8 +12,7 @@ import pytest
 from hypothesis import given, reject, settings
 from hypothesis import strategies as st
 
-from mudline.curves import CurveError, ForceCurve, QueryError, compiled
-from mudline.curves.curve import Backend, Law, NumpyLaw, _loads, law_for
+from mudline.curves import Backend, CurveError, ForceCurve, Law, NumpyLaw, QueryError, _loads, compiled, law_for
 from mudline.curves.points import FloatArray
 from mudline.curves.search import BLOCK, BucketTable, Workspace
 from tests.curves.plain import POINTS, near, plain_values, steps
