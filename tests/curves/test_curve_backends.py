@@ -144,16 +144,19 @@ def test_the_loops_mean_the_same_before_they_are_compiled() -> None:
 
 def test_a_place_without_a_cache_compiles_anyway(monkeypatch: pytest.MonkeyPatch) -> None:
     options: list[bool] = []
+    more: list[object] = []
 
-    def njit(*, cache: bool = False, **_: object) -> Callable[[object], object]:
+    def njit(*, cache: bool = False, **others: object) -> Callable[[object], object]:
         options.append(cache)
+        more.append(others.get("no_cfunc_wrapper"))
         if cache:
             raise RuntimeError("cannot cache function: no locator available")
         return lambda function: (function, "made")
 
     monkeypatch.setattr(numba, "njit", njit)
-    found: object = compiled._compiled(abs)
+    found: object = compiled.compiled(abs, no_cfunc_wrapper=True)
     assert options == [True, False]
+    assert more == [True, True]
     assert found == (abs, "made")
 
 

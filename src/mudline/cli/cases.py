@@ -17,13 +17,13 @@ from mudline.cli.evaluate_inputs import EvaluateInputs
 from mudline.cli.evaluate_one import MOST_ROWS
 from mudline.cli.inputs import Input
 from mudline.cli.known_results import Kept
-from mudline.cli.result_files import behind, beside, line_watch, result_files, suffix
+from mudline.cli.result_files import behind, beside, line_watch, result_files
 from mudline.cli.streams import counted, reason
 from mudline.cli.view import View
 from mudline.contact.result import Part
 from mudline.deck.loading import load_bytes
 from mudline.diagnostics import DeckError, Diagnostic
-from mudline.files import recording_looks
+from mudline.files import recording_looks, suffix_of
 from mudline.quantities import CASES, shown
 from mudline.results.cases import CaseSummary, CaseWatch
 from mudline.results.forms import ResultConsumer, form_module
@@ -192,7 +192,7 @@ def _kept(order: Order, path: Path | None) -> Kept:
     else:
         path.parent.mkdir(parents=True, exist_ok=True)
         quiet, elements = View(quiet=True), evaluation.element_table()
-        lines = line_watch(evaluation, suffix(path), None)
+        lines = line_watch(evaluation, suffix_of(path), None)
         consumers += [] if lines is None else [lines]
         with result_files(evaluation, elements, path, quiet, as_text=order.as_text, synced=False) as sink:
             _run(evaluation.parts(), [*consumers, sink])

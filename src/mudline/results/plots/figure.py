@@ -16,7 +16,7 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from mudline.contact import ContactResult
-from mudline.files import replacement
+from mudline.files import replacement, suffix_of
 from mudline.quantities import STATES, STEPS, headed, labelled, unit_names
 from mudline.results import panels as known
 from mudline.results.panels import PANELS, PICTURES
@@ -181,7 +181,7 @@ def plot_result(
     elements: Sequence[int] = (),
 ) -> Figure:
     """Return the figure of a result, and write it to a file if a path is given; see `ContactResult.plot`."""
-    form = "" if path is None else Path(path).suffix.lower().removeprefix(".")
+    form = "" if path is None else suffix_of(path)
     if path is not None and form not in PICTURES:
         raise ValueError(f"{path}: a plot is a .{', .'.join(PICTURES[:-1])} or .{PICTURES[-1]}")
     data = PlotData.of_result(result, elements)
