@@ -275,7 +275,7 @@ def _copies(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]
             continue
         begin, end = (text.source.position(at)[0] for at in (first.start, last.end - 1))
         original = text.source.position(run[0][1].head.span.start)[0]
-        message = f"lines {begin} to {end} repeat what stands from line {original} on, word for word: remove them"
+        message = f"lines {begin} to {end} repeat the lines from {original} on word for word: remove them"
         edits = tuple(TextEdit(whole(block), "") for block, _ in run)
         yield Correction(cause, edits, Span(first.start, last.end), message)
 

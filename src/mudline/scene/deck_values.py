@@ -227,5 +227,5 @@ def _groups(line: str) -> Iterator[tuple[str, list[str]]]:
 
 
 def data_lines(lines: Iterable[str]) -> Iterator[str]:
-    """The lines that are no comments. One with C and a letter in column 1 is one: no key that counts here begins so."""
+    """The lines that are not comments. One with C and a letter in column 1 is one: no key of interest begins so."""
     return (line for line in lines if not _COMMENT.match(line))

@@ -227,7 +227,7 @@ def _pieces(text: str, span: Span, size: int = _PIECE) -> Iterator[Span]:
 
 
 def line_spans(text: str, span: Span) -> Iterator[Span]:
-    """The lines of a run without their ends; blank ones are no rows."""
+    """The lines of a run without their ends; blank ones are not rows."""
     start = span.start
     while start < span.end:
         stop = text.find("\n", start, span.end)

@@ -42,7 +42,7 @@ from mudline.scene.numbering import Floats, Indices, Mask
 _WIDTH = 8.0
 _WIDTH_OF_TWO = 14.0
 _UNEVEN = 1.0
-"""How much higher, inch, the right column may be for panels along the line that stand in it."""
+"""How much higher, inch, the right column may be for panels along the line in it."""
 _STRETCHED = 1.5
 """How much higher a panel may become so that both columns are equally high; beyond it, the rest stays empty."""
 
