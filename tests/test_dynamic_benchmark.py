@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
 import mudline
+from mudline.study.schemes import SCHEMES
 from tests.benchmarks.dynamics import page as pages
 from tests.benchmarks.dynamics.beam import DECKS
 from tests.benchmarks.dynamics.bouncing import TIMES, fall
@@ -43,6 +46,21 @@ def test_the_reference_comes_out_as_it_is_in_the_table() -> None:
     assert seen.touchdown == pytest.approx(column(kept, "touchdown [m]"), abs=1e-5)
     assert seen.force[:, 0] == pytest.approx(column(kept, "hoist up [N]"), abs=0.05)
     assert seen.works.sum(axis=1) == pytest.approx(seen.energy, abs=1e-4)
+
+
+def test_what_the_page_says_in_words_holds_in_its_tables() -> None:
+    runs = {(one["scheme"], round(1e6 * float(one["step [s]"]))): one for one in load("schemes") if not one["failure"]}
+    off = {run: float(one["touchdown rms [m]"]) for run, one in runs.items()}
+    steps = (40000, 20000, 10000, 5000, 2500)
+    damped = ("newmark", "generalised-alpha-0.5", "generalised-alpha-0", "backward-euler")
+    assert all(off[one, step] < off[other, step] for one, other in pairwise(damped) for step in steps)
+    assert max(float(runs["newmark", step]["energy balance"]) for step in steps) < 1e-10
+    assert off["velocity-verlet", 2500] < 1.1 * off["rk4", 10000]
+    assert off["velocity-verlet", 1250] < off["rk4", 5000]
+    assert {name for name, _ in runs} == set(SCHEMES) - {"forward-euler"}
+    limit = {one["what"]: float(one["explicit limit [s]"]) for one in load("limits")}
+    assert min(limit, key=limit.__getitem__) == "EA of the line"
+    assert min((what for what in limit if "line" not in what), key=limit.__getitem__) == "suction, damping"
 
 
 def test_what_limits_a_step_is_as_in_the_table() -> None:

@@ -19,13 +19,13 @@ _ENDS = ("fairlead [kN]", "anchor [kN]")
 _CHAINS = """\
 ## The same chain in {program}
 
-A mooring chain in three depths: line, seabed and published tensions are those of a public test of MoorDyn
-(`tests/quasi_static_chain.cpp` with `tests/Mooring/WD0050_Chain.txt`, `WD0200` and `WD0600`), which allows a
-difference of 10 % to "quasi-static codes". The decks [`chain-050`](benchmark/chain-050.keyxm),
-[`-200`](benchmark/chain-200.keyxm) and [`-600`](benchmark/chain-600.keyxm) hold the same data. mudline does not look
-for equilibrium; the benchmark does, by Newton's method with the evaluator's forces and tangents on straight elastic
-elements. {program} finds its own by dynamic relaxation. The third opinion is the elastic catenary with friction on a
-rigid seabed, in closed form (Jonkman 2007).
+A mooring chain in three depths: line, seabed and published tensions are those of one of MoorDyn's own tests
+(`quasi_static_chain`, with the lines `WD0050_Chain`, `WD0200_Chain` and `WD0600_Chain`), which allows a difference of
+10 % to "quasi-static codes". The decks [`chain-050`](benchmark/chain-050.keyxm), [`-200`](benchmark/chain-200.keyxm)
+and [`-600`](benchmark/chain-600.keyxm) hold the same data. mudline does not look for equilibrium; the benchmark does,
+by Newton's method with the evaluator's forces and tangents on straight elastic elements. {program} finds its own by
+dynamic relaxation. The third opinion is the elastic catenary with friction on a rigid seabed, in closed form (Jonkman
+2007).
 
 At rest, without friction, tensions in kN:
 """
