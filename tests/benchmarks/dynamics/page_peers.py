@@ -33,16 +33,16 @@ At rest, without friction, tensions in kN:
 _SINKING = """\
 * mudline and MoorDyn have the same masses, springs and seabed and differ by {relaxation} at most. Gravity is given to
   MoorDyn as the deck has it, {gravity:g} m/s2: its default of {usual:g} alone would make {gravities}.
-* Both differ from the catenary by up to {catenary}. The catenary lies on a rigid seabed, while a chain of
-  {weight:.2f} kN/m sinks by {sinks:.2f} m on {spring:.1f} kN/m per m; and it is no polygon: in {deepest} m one
-  element has {element:g} m.
+* Both differ from the catenary by up to {catenary}. It lies on a rigid seabed, while a chain of {weight:.2f} kN/m
+  sinks by {sinks:.2f} m on {spring:.1f} kN/m per m; and the tension of their last element is that of its middle, half
+  an element below the fairlead (an element has {element:g} m in {deepest} m).
 * The published tensions differ from the catenary by up to {published}, most in {shallow} m, where 1 % of the
   fairlead's tension is {centimetres:.0f} cm of depth. How the codes behind them measured the depth is not said. The
   difference of both tensions, which the weight of the suspended line fixes, is that of a line hanging {heights} m
   less high. All are far inside the limit of their own test.
 
 Then the fairlead is pulled away from the anchor, so far that all of the chain on the seabed slips ({pulls}). With
-friction the anchor feels less. Tensions in kN; MoorDyn with its default friction:
+friction the anchor feels less. Tensions in kN; MoorDyn with its default friction, 100 s after the pull:
 """
 
 _FRICTION = """\
@@ -50,12 +50,12 @@ _FRICTION = """\
   off the whole limit of what lies on the seabed. mudline's nodes press less next to the anchor: it is held at the
   mudline, and the chain needs some length to sink in. In {shallow} m the first five nodes press with {pressing} of
   their weight.
-* MoorDyn's friction is another law: a force that grows with the velocity, `FricDamp` times it, up to the Coulomb
-  limit. With its default of 200 N s/m it is not felt in a slow pull: its anchor has the tension of a chain without
-  friction, within {default}. With a ramp as steep as a step of 0.1 ms allows (3e7) the anchor has {ramp:.0f} kN at
-  the end of the pull, between {smooth:.0f} without and {rough:.0f} with Coulomb friction, and {held:.0f} kN after the
-  pull has stood still for 100 s: a law of velocity holds nothing at rest. **Who needs the friction that stays in a
-  line at rest needs a spring with a stick point.**
+* MoorDyn's friction is another law: a force that grows with the velocity, `FricDamp` and the coefficient times it, up
+  to the Coulomb limit. With its default of 200 N s/m the anchor has the tension of a chain without friction, within
+  {default}. With 3e7 N s/m, which needs a step of 0.1 ms, the anchor in 200 m has {ramp:.0f} kN at the end of the
+  pull, between {smooth:.0f} without and {rough:.0f} with Coulomb friction, and {held:.0f} kN when the fairlead has
+  stood still for 100 s: a law of velocity holds nothing at rest. **Friction that stays in a line at rest needs a
+  spring with a stick point.**
 """
 
 _BOUNCES = """\
@@ -171,12 +171,17 @@ def _chain_table(chains: list[Row], when: str, sources: tuple[str, ...]) -> str:
             cells = []
             for source in sources:
                 kind, _, name = source.rpartition(": ")
-                cells.append(f"{float(_find(chains, depth, when, name, kind or '')[end]):.1f}")
+                cells.append(f"{float(_find(chains, depth, _when(when, name), name, kind)[end]):.1f}")
             rows.append([f"{depth} m, {end.removesuffix(' [kN]')}", *cells])
     heads = [
         source.replace("no: ", "no friction, ").replace("yes: ", "friction, ").replace(": ", ", ") for source in sources
     ]
     return table(["", *heads], rows)
+
+
+def _when(when: str, source: str) -> str:
+    """MoorDyn moves while it is pulled: what is at rest is compared with what it has after the hold."""
+    return HELD if when == PULLED and source == "MoorDyn" else when
 
 
 def _sinking(chains: list[Row]) -> str:
@@ -215,7 +220,7 @@ def _friction(chains: list[Row], folder: Path) -> str:
     shares = [f"{float(row['share of its weight']):.2f}" for row in near]
 
     def ratio(depth: int, one: tuple[str, str], other: tuple[str, str]) -> float:
-        first, second = (_find(chains, depth, PULLED, source, kind) for source, kind in (one, other))
+        first, second = (_find(chains, depth, _when(PULLED, source), source, kind) for source, kind in (one, other))
         return abs(float(first[anchor]) / float(second[anchor]) - 1.0)
 
     return _FRICTION.format(
