@@ -174,7 +174,7 @@ def _stages(scene: Scene, options: StudyOptions) -> Section:
 STUDY = Study(
     "pruning",
     "Pruning: {deck}",
-    (Part("imports", _imports, 10.0), Part("growth", _growth, 20.0), Part("stages", _stages, 30.0)),
+    (Part("stages", _stages, 30.0), Part("imports", _imports, 10.0), Part("growth", _growth, 20.0)),
     order=("curve", "stages", "imports", "growth", "nodes", "sizes", "modules"),
 )
 run = STUDY.run
