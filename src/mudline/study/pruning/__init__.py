@@ -5,8 +5,10 @@ from __future__ import annotations
 from mudline.scene.model import Scene
 from mudline.study import sample_scene
 from mudline.study.pruning import calls, cost
+from mudline.study.pruning.features import advice, study_features
 from mudline.study.pruning.growth import study_growth
 from mudline.study.pruning.imports import study_imports
+from mudline.study.pruning.page import page
 from mudline.study.pruning.scenes import Pipe, pipe_of, variants
 from mudline.study.report import Omission, Section, StudyOptions, paragraphs
 from mudline.study.running import Part, Study
@@ -55,7 +57,8 @@ def _stages(scene: Scene, options: StudyOptions) -> Section:
     if not inputs.has("curve"):
         notes.append("The deck's elements have no curve: that of the built-in sample is used.")
     left = [] if options.full else [Omission(f"{cost.MOST} nodes with stages on", "only with --full")]
-    return found._replace(notes=notes, omissions=left)
+    features = study_features(scene)
+    return found._replace(tables=[*found.tables, *features.tables], notes=notes, omissions=left)
 
 
 STUDY = Study(
@@ -67,6 +70,8 @@ STUDY = Study(
         Part("imports", _imports, 25.0),
         Part("growth", _growth, 10.0),
     ),
-    order=("curve", "stages", "imports", "growth", "calls", "nodes", "sizes", "modules"),
+    page=page,
+    advice=advice,
+    order=("curve", "stages", "imports", "growth", "calls", "nodes", "sizes", "modules", "features"),
 )
 run = STUDY.run

@@ -40,7 +40,8 @@ if TYPE_CHECKING:  # only who draws loads matplotlib
 
 ALONG, IN_ORDER = "curve, along the line", "curve, in the order of the deck"
 EVALUATE, STREAM, STEP = "evaluate", "stream", "step"
-FEW, SOME, MANY = 1, 10, 100
+SERIES = (1, 10, 100)
+"""Steps of a series."""
 _MOST = 1_000_000
 """Nodes times steps of a series."""
 _DT = 0.1
@@ -95,7 +96,7 @@ def study_calls(inputs: ContactInput, pipe: Pipe, options: StudyOptions) -> Sect
         for scene in scenes:
             rows += [
                 call_row(scene, pipe, call, steps)
-                for steps in (FEW, SOME, MANY)
+                for steps in SERIES
                 if steps * nodes <= _MOST
                 for call in (EVALUATE, STREAM, STEP)
             ]
@@ -175,13 +176,13 @@ _DASHES = {ALONG: "-", IN_ORDER: "--"}
 
 
 def _draw(rows: Sequence[CallRow], figure: Figure) -> None:
-    """One step on the left, the most steps of each size on the right; three calls, two orders."""
+    """The shortest series on the left, the longest of each size on the right; three calls, two orders."""
     one, many = figure.subplots(1, 2, sharey=True)
     most = {row.nodes: max(other.steps for other in rows if other.nodes == row.nodes) for row in rows}
-    for axes, shown, what in (
-        (one, [row for row in rows if row.steps == FEW], "one step"),
-        (many, [row for row in rows if row.steps == most[row.nodes]], f"{MANY} steps, of long lines {SOME}"),
-    ):
+    longest = [row for row in rows if row.steps == most[row.nodes]]
+    shortest = [row for row in rows if row.steps == SERIES[0]]
+    words = f"{max(most.values())} steps, {most[max(most)]} of the longest line"
+    for axes, shown, what in ((one, shortest, "one step"), (many, longest, words)):
         for scene, dash in _DASHES.items():
             for call, look in _LOOKS.items():
                 found = [row for row in shown if (row.scene, row.call) == (scene, call)]

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import tracemalloc
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import numpy as np
 
-from mudline.contact.arrays import FloatArray
+from mudline.contact.arrays import BoolArray, FloatArray
 from mudline.contact.input import ContactInput
 from mudline.contact.model import ContactModel
 from mudline.study.pictures import Picture, label, line_style
@@ -19,6 +19,7 @@ from mudline.study.pruning.scenes import (
     AS_IT_IS,
     CURVE,
     EVERYTHING,
+    PLAIN,
     STEPS,
     Pipe,
     Variant,
@@ -78,7 +79,6 @@ class CurveRow(NamedTuple):
     upper: Annotated[float, "scene / plain numpy, upper quartile"]
     bare_over_curve: Annotated[float, "plain numpy / curve alone"]
     equal: Annotated[bool, "same results"]
-    bare_peak: Annotated[float, "memory of plain numpy [bytes/node]"]
 
 
 ALONE = Layout("curve", "A scene with nothing but a curve, one step, every element in contact", columns_of(CurveRow))
@@ -115,13 +115,15 @@ def study_cost(variants: Sequence[Variant], pipe: Pipe, alone: Sequence[CurveRow
         inputs = variant.make(nodes)  # a long deck has one copy at several sizes
         if (variant.name, len(inputs.node_ids)) not in found:
             found[variant.name, len(inputs.node_ids)] = cost(variant, inputs, pipe)
+        if variant.name == CURVE:
+            found[PLAIN, nodes] = plain_cost(inputs, pipe)
     rows = list(found.values())
     largest = [scene[-1] for scene in grouped(rows, lambda row: row.scene).values()]
     tables = ALONE.table(alone), STAGES.table(largest, nodes=sizes[-1]), NODES.table(rows)
     caption = "Time per node and step, and memory per node, against the number of nodes; bars are quartiles."
     stages = "Time and memory of each scene in times those of the scene with a curve; bars are quartiles."
     pictures = (
-        Picture("nodes", caption, partial(_draw_nodes, rows, alone), (12.0, 5.6)),
+        Picture("nodes", caption, partial(_draw_nodes, rows), (12.0, 5.6)),
         Picture("stages", stages, partial(_draw_stages, largest), (11, 6.5)),
     )
     return Section(tables, pictures)
@@ -130,47 +132,48 @@ def study_cost(variants: Sequence[Variant], pipe: Pipe, alone: Sequence[CurveRow
 # ------------------------------------------------------------------------------------------------------------- pictures
 
 _SHOWN = {
+    PLAIN: ("#6a6a6a", "P", ":"),
     CURVE: ("#0072b2", "o"),
     "curve, suction": ("#009e73", "^"),
     "curve, friction": ("#cc79a7", "D"),
     AS_IT_IS: ("#000000", "s"),
     EVERYTHING: ("#d55e00", "v"),
 }
-"""Colours and markers of the scenes in the picture; the sixth line is that of plain numpy."""
-_BARE = "#6a6a6a"
+"""Colours and markers of the scenes in the picture."""
+_APART = 1.3
+"""The least ratio of the heights of two names beside each other."""
 
 
-def _draw_nodes(rows: Sequence[CostRow], alone: Sequence[CurveRow], figure: Figure) -> None:
+def _draw_nodes(rows: Sequence[CostRow], figure: Figure) -> None:
     time, memory = figure.subplots(1, 2)
-    for scene, part in grouped(rows, lambda row: row.scene).items():
-        if scene not in _SHOWN:
-            continue
-        look = _SHOWN[scene]
-        nodes = [row.nodes for row in part]
-        median = [row.median for row in part]
+    scenes = {name: [row for row in rows if row.scene == name] for name in _SHOWN}
+    scenes = {name: part for name, part in scenes.items() if part}
+    for scene, part in scenes.items():
+        nodes, median = [row.nodes for row in part], [row.median for row in part]
         off = [[row.median - row.lower for row in part], [row.upper - row.median for row in part]]
-        time.errorbar(nodes, median, off, capsize=2, **line_style(*look))
-        memory.plot(nodes, [row.peak for row in part], **line_style(*look))
-        _named(time, scene, nodes[-1], median[-1], look[0])
-        _named(memory, scene, nodes[-1], part[-1].peak, look[0])
-    measured = {row.nodes for row in rows}
-    bare = [row for row in alone if row.nodes in measured]
-    for axes, values in ((time, [row.bare for row in bare]), (memory, [row.bare_peak for row in bare])):
-        axes.plot([row.nodes for row in bare], values, **line_style(_BARE, "P", ":"))
-        _named(axes, "plain numpy, same results as curve", bare[-1].nodes, values[-1], _BARE)
+        time.errorbar(nodes, median, off, capsize=2, **line_style(*_SHOWN[scene]))
+        memory.plot(nodes, [row.peak for row in part], **line_style(*_SHOWN[scene]))
     label(time, "Time", "nodes [-]", "time per node and step [ns]")
     label(memory, "Most memory during one step, its result included", "nodes [-]", "memory per node [bytes]")
-    for axes in (time, memory):
+    ends = {name: part[-1] for name, part in scenes.items()}
+    for axes, heights in (
+        (time, {name: row.median for name, row in ends.items()}),
+        (memory, {name: row.peak for name, row in ends.items()}),
+    ):
         axes.set_xscale("log")
         axes.set_yscale("log")
-        axes.set_xlim(0.7 * min(measured), 25.0 * max(measured))
-    time.set_ylim(0.6 * min(row.bare for row in bare), None)
-    memory.set_ylim(50.0, None)
+        axes.set_xlim(0.7 * min(row.nodes for row in rows), 12.0 * max(row.nodes for row in rows))
+        axes.set_ylim(0.7 * min(heights.values()), None)
+        _name(axes, heights, max(row.nodes for row in rows))
 
 
-def _named(axes: Axes, name: str, x: float, y: float, color: str) -> None:
-    """The name of a line at its end."""
-    axes.annotate(name, (x, y), (8, 0), textcoords="offset points", color=color, va="center", fontsize="small")
+def _name(axes: Axes, heights: Mapping[str, float], x: float) -> None:
+    """The names of lines at their ends, from below, as far from each other as it takes to read them."""
+    below = 0.0
+    for name, height in sorted(heights.items(), key=lambda pair: pair[1]):
+        below = max(height, _APART * below)
+        color = _SHOWN[name][0]
+        axes.annotate(name, (x, below), (8, 0), textcoords="offset points", color=color, va="center", fontsize="small")
 
 
 def _draw_stages(largest: Sequence[CostRow], figure: Figure) -> None:
@@ -212,23 +215,66 @@ def _bars(
 
 def cost(variant: Variant, inputs: ContactInput, pipe: Pipe) -> CostRow:
     """One scene, paired with that of a curve and nothing else that has as many nodes."""
-    nodes, plain = len(inputs.node_ids), line(pipe, len(inputs.node_ids))
-    model, curve = ContactModel(inputs), ContactModel(plain)
-    points = positions(variant, inputs, pipe)
-    along = positions(Variant("", lambda _: plain), plain, pipe)
-    seconds, by_curve = paired([streamed(model, series(points, pipe)), streamed(curve, series(along, pipe))])
-    (prepared,) = paired([lambda: ContactModel(replace(inputs))])
-    taken, over = Spread.of(seconds).times(1e9 / (nodes * STEPS)), ratios(seconds, by_curve)
-    result = model.evaluate(points)
-    return CostRow(
+    nodes, model = len(inputs.node_ids), ContactModel(inputs)
+    plain = line(pipe, nodes)
+    points, along = positions(variant, inputs, pipe), positions(Variant("", lambda _: plain), plain, pipe)
+    return _row(
         variant.name,
+        paired([streamed(model, series(points, pipe)), streamed(ContactModel(plain), series(along, pipe))]),
+        lambda: ContactModel(replace(inputs)),
+        model.evaluate(points).contact,
+        peak_of(lambda: model.evaluate(points)),
+        nodes,
+        history=model.plan.history,
+    )
+
+
+def plain_cost(inputs: ContactInput, pipe: Pipe) -> CostRow:
+    """Plain numpy on elements with one curve and nothing else, paired with the scene."""
+    model, plain = ContactModel(inputs), Plain.of(inputs)
+    points = positions(Variant("", lambda _: inputs), inputs, pipe)
+    moved = series(points, pipe)
+    parts = [slice(part.start, part.start + len(part.result.depth)) for part in model.stream(moved)]
+
+    def run() -> None:
+        for part in parts:
+            plain.evaluate(moved[part])
+
+    return _row(
+        PLAIN,
+        paired([run, streamed(model, moved)]),
+        lambda: Plain.of(inputs),
+        plain.evaluate(points).contact,
+        peak_of(lambda: plain.evaluate(points)),
+        len(inputs.node_ids),
+        history=False,
+    )
+
+
+def _row(  # noqa: PLR0913 - what the two ways to measure differ in
+    name: str,
+    seconds: list[list[float]],
+    prepare: Callable[[], object],
+    contact: BoolArray,
+    peak: int,
+    nodes: int,
+    *,
+    history: bool,
+) -> CostRow:
+    """The row of what was paired with the scene of a curve."""
+    taken, over = Spread.of(seconds[0]).times(1e9 / (nodes * STEPS)), ratios(*seconds)
+    (prepared,) = paired([prepare])
+    touching = float(contact.mean()) if contact.size else 0.0
+    prepared_in = Spread.of(prepared).median * 1e9 / nodes
+    return CostRow(
+        name,
         nodes,
         taken.least,
         taken.median,
-        float(result.contact.mean()) if result.contact.size else 0.0,
-        peak_of(lambda: model.evaluate(points)) / nodes,
-        Spread.of(prepared).median * 1e9 / nodes,
-        model.plan.history,
+        touching,
+        peak / nodes,
+        prepared_in,
+        history,
         taken.lower,
         taken.upper,
         over.median,
@@ -269,7 +315,6 @@ def curve_alone(pipe: Pipe, nodes: int) -> CurveRow:
         over.upper,
         ratios(bare, curve).median,
         plain.evaluate(points).equals(result),
-        peak_of(lambda: plain.evaluate(points)) / nodes,
     )
 
 

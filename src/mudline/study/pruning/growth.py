@@ -116,9 +116,11 @@ def _slope(
 
 def growth(pipe: Pipe, options: StudyOptions) -> Iterator[GrowthRow]:
     """All ladders, the sizes of each turn by turn; longer by a factor of four with `full`."""
-    for what in options.each(list(LADDERS), lambda what: f"{what}: {LADDERS[what].sizes[-1]}"):
-        sizes, prepared = LADDERS[what]
-        sizes = [*sizes, *((4 * sizes[-1],) if options.full else ())]
+    ladders = [
+        (what, [*sizes, *((4 * sizes[-1],) if options.full else ())], prepared)
+        for what, (sizes, prepared) in LADDERS.items()
+    ]
+    for what, sizes, prepared in options.each(ladders, lambda ladder: f"{ladder[0]}: up to {ladder[1][-1]}"):
         for size, seconds in zip(sizes, paired([prepared(pipe, size) for size in sizes]), strict=True):
             yield GrowthRow(what, size, *Spread.of(seconds))
 

@@ -16,7 +16,7 @@ from mudline.study.pruning.scenes import CURVE, Variant
 from mudline.study.report import Layout, Omission, Section, StudyOptions
 from mudline.study.timing import Spread
 
-_NODES = 11
+NODES = 11
 _PATIENCE = 60.0
 _PROGRAM = """
 import json, pickle, sys, time
@@ -93,7 +93,7 @@ def import_rows(
     found: Sequence[Variant], plain: str, options: StudyOptions, omissions: list[Omission]
 ) -> Iterator[ImportRow]:
     """A row for each scene, turn by turn; `plain` names the one that the others are compared with."""
-    inputs = {variant.name: _pickled(variant.make(_NODES)) for variant in found}
+    inputs = {variant.name: _pickled(variant.make(NODES)) for variant in found}
     asked: dict[str, list[_Asked]] = {}
     turns = [(repeat, name) for repeat in range(timing.REPEATS) for name in inputs]
     for _, name in options.each(turns, lambda turn: f"imports: {turn[1]}, {turn[0] + 1} of {timing.REPEATS}"):

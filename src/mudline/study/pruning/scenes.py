@@ -18,6 +18,8 @@ from mudline.contact.seabed.profile import ProfileSeabed
 from mudline.curves import ForceCurve
 
 AS_IT_IS, CURVE, EVERYTHING = "scene as it is", "curve", "everything"
+PLAIN = "plain numpy"
+"""What is compared with the scene of a curve: a function, and no scene."""
 COHESION = 5000.0
 STEPS = 3
 """Of a series: laid, then lifted in waves, then dragged."""
