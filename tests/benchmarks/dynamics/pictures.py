@@ -6,8 +6,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mudline.study.report import Picture, label, legend_below, panels, style
-from mudline.study.schemes import SCHEMES
+from mudline.study.pictures import Picture, label, legend_below, panels
+from mudline.study.schemes import SCHEMES, STYLES
 from tests.benchmarks.dynamics.tables import FOLDER, column, load
 
 if TYPE_CHECKING:
@@ -48,14 +48,13 @@ def draw_schemes(figure: Figure) -> None:
         ("seabed work", "Work of the seabed: largest error", "share of the hoist's work"),
         ("energy balance", "Energy that is not accounted for", "share of the hoist's work"),
     )
-    order = list(SCHEMES)
     axes: Axes
     for axes, (heading, title, unit) in zip(panels(figure, 4, 2), wanted, strict=True):
         for name in SHOWN:
             own = [row for row in rows if row["scheme"] == name]
             work = [float(row["evaluations"]) + float(row["tangents"]) for row in own]
             errors = [max(abs(error), 1e-12) for error in column(own, heading)]
-            axes.loglog(work, errors, label=own[0]["title"] if own else name, **style(order.index(name)))
+            axes.loglog(work, errors, label=SCHEMES[name].title, **STYLES[SCHEMES[name].title])
         axes.set_ylim(bottom=_BOTTOM[heading])
         if heading == "energy balance":
             axes.text(0.03, 0.04, "Newmark: below 1e-10, at every step", transform=axes.transAxes, fontsize="small")
