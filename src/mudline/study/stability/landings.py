@@ -9,12 +9,14 @@ digits that stand here. HHT and generalised-alpha average the forces of both end
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import numpy as np
 
-from mudline.contact.arrays import FloatArray
-from mudline.study.laws import Falling, LinearLaw
+from mudline.contact.arrays import BoolArray, FloatArray
+from mudline.study.laws import Falling, Law, LinearLaw
 from mudline.study.motion import Motion, Scheme, march
 from mudline.study.report import Layout, Picture, Section, StudyOptions, columns_of, grouped, label, legend_below, style
 from mudline.study.schemes import SCHEMES
@@ -23,7 +25,7 @@ if TYPE_CHECKING:  # only who draws loads matplotlib
     from matplotlib.figure import Figure
 
 PHASES: FloatArray = (np.arange(400) + 0.5) / 400
-OMEGA_DTS = (0.1, 0.5, 1.0, 4.4721, 10.0, 100.0)
+OMEGA_DTS = (0.0316, 0.1, 0.5, 1.0, 1.1, 1.5, 1.9, 1.99, 4.4721, 10.0, 100.0)
 LANDING_SCHEMES = (
     "velocity-verlet",
     "rk4",
@@ -47,7 +49,8 @@ _COMPARED = {
     "0/0.0001/0.0001",
     "velocity-verlet": "0.9988/1.0000/1.0012 0.9783/1.0002/1.0221 1/1/1",
 }
-"""Least/mean/largest for each of `OMEGA_DTS`."""
+"""Least/mean/largest for each of `_COMPARED_AT`."""
+_COMPARED_AT = (0.1, 0.5, 1.0, 4.4721, 10.0, 100.0)
 _SHOWN = ((0.1, 0.9965, 1.0025), (0.5, 0.89, 1.04), (1.0, 0.2, 1.15), (10.0, -0.1, 3.0))
 """omega dt of each panel, and what it shows of the axis."""
 _DRAWN = tuple(name for name in LANDING_SCHEMES if name != "generalised-alpha-1")
@@ -97,16 +100,36 @@ LANDINGS = Layout[Landing](
 def study_landings(options: StudyOptions) -> Section:
     """All schemes at all steps: in which of them the rebound is faster than the landing."""
     options.progress("landings")
-    landed = landings()
+    landed, over = landings(), [envelope(SCHEMES[name], LINEAR_FALL) for name in LANDING_SCHEMES]
     agree = [one.agrees for one in landed if one.agrees is not None]
-    implicit = grouped((one for one in landed if not one.scheme.explicit), lambda one: one.scheme.title)
-    never = [name for name, rows in implicit.items() if max(0.0, *(one.largest for one in rows)) <= 1.0]
-    notes = (
+    notes = [
         f"{sum(agree)} of {len(agree)} landings agree with independently computed figures, to the last digit given.",
-        f"Implicit schemes whose rebound is never faster than the landing: {', '.join(never)}.",
-    )
+        _never(landed, over),
+    ]
+    tables = (LANDINGS.table(landed), LIMITS.table(over), ENVELOPES.table(_rows(over)))
     caption = "Rebound of a mass from an elastic seabed; 1 is exact, above 1 energy is gained."
-    return Section([LANDINGS.table(landed)], [Picture("landings", caption, _draw, (10.0, 8.0))], notes)
+    pictures = (
+        Picture("landings", caption, _draw, (10.0, 8.0)),
+        Picture("landing-gain", "The largest and the least rebound of all landing phases.", partial(_draw_gain, over)),
+    )
+    return Section(tables, pictures, notes)
+
+
+def _never(landed: Sequence[Landing], over: Sequence[Envelope]) -> str:
+    """The implicit schemes whose rebound never exceeds the landing by more than `NEVER`, and by how much it does."""
+    most = {
+        title: float(np.nanmax([one.largest for one in rows]))
+        for title, rows in grouped(landed, lambda one: one.scheme.title).items()
+    }
+    words = []
+    for one in over:
+        highest = max(most[one.scheme.title], float(np.nanmax(one.largest)))
+        if not one.scheme.explicit and highest <= 1.0 + NEVER:
+            words.append(f"{one.scheme.title} ({highest:.7f} at most)")
+    return (
+        f"Implicit schemes whose rebound is never faster than the landing by more than {NEVER:g} of its speed, "
+        f"at any omega dt tried from {TRIED[0]:.2g} to {TRIED[-1]:.3g}: {', '.join(words) or 'none'}."
+    )
 
 
 def _draw(figure: Figure) -> None:
@@ -141,7 +164,7 @@ def landing(scheme: Scheme, omega_dt: float) -> Landing:
     """One scheme at one step, over all phases."""
     speeds = speeds_over_phases(scheme, omega_dt)
     texts = _COMPARED.get(scheme.name, "").split()
-    index = OMEGA_DTS.index(omega_dt)
+    index = _COMPARED_AT.index(omega_dt) if omega_dt in _COMPARED_AT else len(texts)
     least, mean, largest = (texts[index].split("/")) if index < len(texts) else ("", "", "")
     compared = (least, mean, largest) if least else None
     return Landing(scheme, omega_dt, float(speeds.min()), float(speeds.mean()), float(speeds.max()), compared)
@@ -154,18 +177,134 @@ def speeds_over_phases(scheme: Scheme, omega_dt: float) -> FloatArray:
     return restitution(scheme, omega_dt, PHASES)
 
 
-def _last_digit(text: str) -> float:
-    """One in the last digit of a figure, in the fourth or third for the whole ones."""
-    return 10.0 ** -max(len(text.partition(".")[2]), 3) * 1.001
-
-
 def restitution(scheme: Scheme, omega_dt: float, phases: FloatArray) -> FloatArray:
     """Speed after over speed before contact for landing phases (k,) in (0, 1); NaN where the mass never left again.
 
     The speed after is that of the free flight, when the acceleration that a scheme carries along has died away.
     """
-    system = Falling(np.ones(len(phases)), LinearLaw("", omega_dt * omega_dt), weight=0.0)
-    start = Motion.start(system, np.asarray(phases, np.float64), np.full(len(phases), -1.0))
-    run = march(scheme, system, start, 1.0, int(np.ceil(2.0 * np.pi / omega_dt)) + _SETTLING)
-    left = (run.position[-1] > 0.0) & (run.velocity[-1] > 0.0)
-    return np.where(left, run.velocity[-1], np.nan)
+    return rebounds(scheme, LINEAR_FALL, np.array([omega_dt]), phases)[0]
+
+
+def _last_digit(text: str) -> float:
+    """One in the last digit of a figure, in the fourth or third for the whole ones."""
+    return 10.0 ** -max(len(text.partition(".")[2]), 3) * 1.001
+
+
+class Fall(NamedTuple):
+    """A mass that lands at a speed on an elastic seabed; `depth` is how deep it gets, about."""
+
+    law: Law
+    mass: float
+    speed: float
+    depth: float
+    omega: float
+
+
+LINEAR_FALL = Fall(LinearLaw("", 1.0), 1.0, 1.0, 1.0, 1.0)
+TRIED: FloatArray = np.array([*np.geomspace(0.02, 100.0, 140), 0.0316, 0.0567, 1.99, 1.9999])
+TRIED.sort()
+"""omega dt at which the landings of a scheme are looked at, up to its critical one."""
+FEW_PHASES: FloatArray = (np.arange(64) + 0.5) / 64
+NEVER = 2e-4
+"""A gain up to here is none; generalised-alpha with rho = 0 has 7.6e-5 at omega dt = 0.0316 and 1.2e-4 at 0.0567."""
+ALLOWED = 0.01
+"""Gain, or gain and loss, of the landings that a limit allows."""
+
+
+class Envelope(NamedTuple):
+    """What a scheme makes of landings over omega dt: least and largest speed after over before, of `FEW_PHASES`."""
+
+    scheme: Scheme
+    omega_dt: FloatArray
+    least: FloatArray
+    largest: FloatArray
+
+    @property
+    def below(self) -> float:
+        """Largest omega dt tried up to which no landing gains more than `ALLOWED`; NaN where all do."""
+        return self._up_to(self.largest <= 1.0 + ALLOWED)
+
+    @property
+    def within(self) -> float:
+        """Largest omega dt tried up to which no landing gains or loses more than `ALLOWED`; NaN where all do."""
+        return self._up_to((self.largest <= 1.0 + ALLOWED) & (self.least >= 1.0 - ALLOWED))
+
+    def _up_to(self, good: BoolArray) -> float:
+        count = len(good) if good.all() else int(np.argmin(good))
+        return float(self.omega_dt[count - 1]) if count else float("nan")
+
+
+def envelope(scheme: Scheme, fall: Fall, tried: FloatArray | None = None) -> Envelope:
+    """All of `TRIED`, or other values of omega dt, below the critical one of a scheme."""
+    omega_dt = TRIED if tried is None else tried
+    omega_dt = omega_dt[omega_dt < scheme.limit]
+    if not len(omega_dt):
+        return Envelope(scheme, omega_dt, omega_dt, omega_dt)
+    speeds = rebounds(scheme, fall, omega_dt, FEW_PHASES)
+    return Envelope(scheme, omega_dt, speeds.min(axis=1), speeds.max(axis=1))
+
+
+def rebounds(scheme: Scheme, fall: Fall, omega_dt: FloatArray, phases: FloatArray) -> FloatArray:
+    """Speed after over speed before contact (k, p) for steps (k,) and landing phases (p,) in (0, 1).
+
+    NaN where the mass never left again.
+    """
+    dt = np.repeat(omega_dt / fall.omega, len(phases))
+    system = Falling(np.full(len(dt), fall.mass), fall.law, weight=0.0)
+    high = fall.law.top + np.tile(phases, len(omega_dt)) * dt * fall.speed
+    start = Motion.start(system, high, np.full(len(dt), -fall.speed))
+    steps = int(np.ceil(2.0 * np.pi * fall.depth / fall.speed / dt.min())) + _SETTLING
+    run = march(scheme, system, start, dt, steps)
+    left = (run.position[-1] > fall.law.top) & (run.velocity[-1] > 0.0)
+    return np.where(left, run.velocity[-1] / fall.speed, np.nan).reshape(len(omega_dt), -1)
+
+
+LIMITS = Layout[Envelope](
+    "landing-limits",
+    f"omega dt up to which landings keep their speed within {ALLOWED:.0%}, 64 landing phases",
+    {
+        "scheme": lambda one: one.scheme.title,
+        "critical omega dt [-]": lambda one: one.scheme.limit,
+        "landings below 1.01 [-]": lambda one: one.below,
+        "landings within 1 % [-]": lambda one: one.within,
+        "largest at any step [-]": lambda one: float(np.nanmax(one.largest)) if len(one.largest) else None,
+        "least at any step [-]": lambda one: float(np.nanmin(one.least)) if len(one.least) else None,
+    },
+)
+
+
+class _EnvelopeRow(NamedTuple):
+    scheme: Annotated[str, "scheme"]
+    omega_dt: Annotated[float, "omega dt [-]"]
+    least: Annotated[float, "least [-]"]
+    largest: Annotated[float, "largest [-]"]
+
+
+ENVELOPES = Layout[_EnvelopeRow](
+    "landing-envelopes",
+    "Least and largest speed after landing over speed before, 64 landing phases",
+    columns_of(_EnvelopeRow),
+    brief=False,
+)
+
+
+def _rows(over: Sequence[Envelope]) -> list[_EnvelopeRow]:
+    return [
+        _EnvelopeRow(one.scheme.title, *numbers)
+        for one in over
+        for numbers in zip(one.omega_dt.tolist(), one.least.tolist(), one.largest.tolist(), strict=True)
+    ]
+
+
+def _draw_gain(over: Sequence[Envelope], figure: Figure) -> None:
+    """Largest rebound above 1 and least below, over omega dt."""
+    axes = figure.subplots()
+    for index, one in enumerate(one for one in over if one.scheme.name in _DRAWN):
+        axes.semilogx(one.omega_dt, one.largest, label=one.scheme.title, **style(index), markevery=(3 * index, 12))
+        axes.semilogx(one.omega_dt, one.least, **{**style(index), "marker": ""}, alpha=0.6)
+    axes.axhspan(1.0 - ALLOWED, 1.0 + ALLOWED, color="0.85", zorder=0, label=f"within {ALLOWED:.0%}")
+    for limit, name in ((2.0, "Verlet"), (2.0 * 2.0**0.5, "RK4")):
+        axes.axvline(limit, color="0.4", linewidth=0.8, linestyle=":")
+        axes.text(limit, 0.02, f" {name} unstable", rotation=90, fontsize="small", color="0.3")
+    label(axes, "Rebound over the step: largest and least of all landing phases", "omega dt [-]", "speed after / before [-]")
+    legend_below(figure, axes)
