@@ -203,9 +203,18 @@ class Fall(NamedTuple):
 
 
 LINEAR_FALL = Fall(LinearLaw("", 1.0), 1.0, 1.0, 1.0, 1.0)
-TRIED: FloatArray = np.array([*np.geomspace(0.02, 100.0, 140), 0.0316, 0.0567, 1.99, 1.9999])
-TRIED.sort()
-"""omega dt at which the landings of a scheme are looked at, up to its critical one."""
+TRIED: FloatArray = np.unique(
+    [
+        *np.geomspace(0.02, 0.1, 24),
+        *np.pi / np.arange(31.4, 5.2, -0.1),
+        *np.geomspace(0.6, 100.0, 60),
+        *(0.0316, 0.0567, 1.99, 1.9999),
+    ]
+)
+"""omega dt at which the landings of a scheme are looked at, up to its critical one.
+
+How a landing ends depends on pi / (omega dt) too, the steps that it takes: where limits are expected that is dense.
+"""
 FEW_PHASES: FloatArray = (np.arange(64) + 0.5) / 64
 NEVER = 2e-4
 """A gain up to here is none; generalised-alpha with rho = 0 has 7.6e-5 at omega dt = 0.0316 and 1.2e-4 at 0.0567."""
