@@ -172,7 +172,7 @@ def _suction(tables: Tables, speed: FloatArray | None) -> LawStiffness:
 
 
 def suction_rates(law: SuctionLaw, v: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return F_max / (xc1 Delta_B) and dF_max / dv per unit length, at the end of the rise, at pull-out velocities v."""
+    """Return F_max / (xc1 Delta_B) and dF_max / dv per unit length, at the end of the rise, at velocities v."""
     factor = law.force_factor * law.largest_factor
     with np.errstate(all="ignore"):
         force, by_velocity = maximum_force(v, factor, law.force_exponent, law.regularisation)

@@ -1,4 +1,4 @@
-"""The contacts of a scene as a time step sees them: stiffness, damping and mass of each kind, with its place in the deck.
+"""The contacts of a scene as a time step sees them: stiffness, damping and mass of each kind, with its deck line.
 
 The stiffness and damping are facts of the laws (`mudline.contact.stiffest`), the largest that they can reach. The mass
 is the one that a node carries: of half of each of its elements, without contents or added water. Elements give a node
@@ -39,7 +39,7 @@ class Oscillation(NamedTuple):
     name: its law, and the set through which its elements have it.
     element: index of its element, or of one element of its node.
     node: index of its node.
-    count: how many elements share it; of laws of nodes how many nodes.
+    shared: how many elements have it; of laws of nodes how many nodes.
     stiffness, damping, mass: per unit length of the node.
     speed: pull-out velocity at which suction has them, else 0.
     where: place in the deck that sets it.
@@ -49,7 +49,7 @@ class Oscillation(NamedTuple):
     name: str
     element: int
     node: int
-    count: int
+    shared: int
     stiffness: float
     damping: float
     mass: float
@@ -198,12 +198,9 @@ def _of_group(  # noqa: PLR0913, PLR0917 - what a contact is made of
         return name, "no frequency: the mass per unit length is not known"
     at, end = np.unravel_index(int(np.nanargmax(weight)), weight.shape)
     node = int(ends[at, end])
-    numbers = (float(carried.spread(part)[node]) for part in (stiffness, damping))
-    return _checked(
-        Oscillation(
-            kind, name, int(group[at]), node, len(group), *numbers, float(carried.mass[node]), speed, where
-        )
-    )
+    rigid, damped = (float(carried.spread(part)[node]) for part in (stiffness, damping))
+    mass = float(carried.mass[node])
+    return _checked(Oscillation(kind, name, int(group[at]), node, len(group), rigid, damped, mass, speed, where))
 
 
 def _checked(one: Oscillation) -> Oscillation | tuple[str, str]:
@@ -275,9 +272,7 @@ def _of_friction(
         yield "friction", "no frequency: its springs follow the submerged weight, which is not known"
 
 
-def _of_suction(
-    scene: ResolvedDeck, given: ContactInput, carried: _Carried
-) -> Iterator[Oscillation | tuple[str, str]]:
+def _of_suction(scene: ResolvedDeck, given: ContactInput, carried: _Carried) -> Iterator[Oscillation | tuple[str, str]]:
     """Suction that is mobilised, and its damping at rest, by the place that gives it."""
     from mudline.contact.laws.suction import SuctionLaw  # noqa: PLC0415 - only now is it needed
     from mudline.contact.stiffest import suction_rates  # noqa: PLC0415 - only now is it needed
@@ -302,12 +297,14 @@ def _of_suction(
         if law.force_factor[row] * law.largest_factor[row] == 0.0:
             continue
         if not slow > 0.0 or law.force_exponent[row] > 1.0:
-            yield (f"suction damping {name}", "no frequency: its damping has no largest value (REGULARISATION=, exponent)")
+            reason = "no frequency: its damping has no largest value (REGULARISATION=, exponent)"
+            yield f"suction damping {name}", reason
             continue
         rest = at(0.0 * law.regularisation)[1]
         damping = np.fmax(rest, at(law.regularisation)[1])
         none = np.zeros(len(having))
-        at_rest = _of_group("suction damping", f"suction damping {name}", group, (none, damping), carried, own.places[index])
+        place = own.places[index]
+        at_rest = _of_group("suction damping", f"suction damping {name}", group, (none, damping), carried, place)
         yield at_rest
         if law.force_exponent[row] > law.depth_exponent[row]:
             yield (f"suction mobilisation {name}", "no frequency: its stiffness grows with the pull-out velocity")
@@ -327,7 +324,7 @@ def _of_suction(
         known = [one for one in tried if isinstance(one, Oscillation)]
         yield known[-1] if known else tried[-1]
         worst = min(known, key=lambda one: one.critical_step("central-difference"), default=None)
-        limits = [one for one in (known[-1:] + [at_rest]) if isinstance(one, Oscillation)]
+        limits = [one for one in (*known[-1:], at_rest) if isinstance(one, Oscillation)]
         if worst is not None and worst.critical_step("central-difference") < _NEARLY * min(
             one.critical_step("central-difference") for one in limits
         ):

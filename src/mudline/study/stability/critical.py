@@ -106,7 +106,7 @@ def _contact(scene: Scene, given: ContactInput, one: Oscillation) -> Contact:
     return Contact(
         one.name,
         one.element,
-        one.count,
+        one.shared,
         one.stiffness,
         one.mass,
         one.omega,

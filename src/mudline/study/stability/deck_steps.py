@@ -1,4 +1,4 @@
-"""The step that a deck allows: what its contacts ask of each scheme, how it lands on them, and one sentence of advice."""
+"""The step that a deck allows: what its contacts ask of each scheme, how it lands on them, and one sentence."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ DECK_LANDINGS = Layout[DeckLanding](
 
 
 class DeckStep(NamedTuple):
-    """What a deck allows a scheme: the least of all contacts, and which contact asks for it; NaN where none is known."""
+    """What a deck allows a scheme: the least of all contacts, and which contact asks for it; NaN where not known."""
 
     scheme: Scheme
     critical: float
@@ -192,7 +192,7 @@ def study_steps(scene: Scene, options: StudyOptions) -> Section:
         SEGMENTS.table(narrow_segments(scene, found), scene.units),
         ADVICE.table(advised),
     )
-    pictures = [_picture(found, measured, landed)] if measured else []
+    pictures = [_picture(found, measured, landed, advised)] if measured else []
     return Section(tables, pictures, _notes(found, measured), omissions)
 
 
@@ -200,13 +200,15 @@ def _notes(found: Sequence[Contact], measured: Sequence[Measured]) -> list[str]:
     if not found:
         return ["No contact of this deck has a frequency: laws with a stiffness and sections with a mass are needed."]
     return [
-        f"{sum(one.as_predicted for one in measured)} of {len(measured)} runs of a scheme on a contact did as "
-        "predicted: bounded below the critical step, growing above it."
+        (
+            f"{sum(one.as_predicted for one in measured)} of {len(measured)} runs of a scheme on a contact did as "
+            "predicted: bounded below the critical step, growing above it."
+        )
     ]
 
 
 def narrow_segments(scene: Scene, found: Sequence[Contact]) -> list[NarrowSegment]:
-    """The curves whose stiffness is that of a narrow segment alone, with what becomes of it without one of its points."""
+    """The curves whose stiffness is that of a narrow segment alone, and their stiffness without one of its points."""
     rows = []
     for one in found:
         law = scene.set_law(one.element) if one.oscillation.kind == "normal" else None
@@ -304,15 +306,23 @@ def advice(tables: Tables) -> str:
 _DRAWN = ("central-difference", "velocity-verlet", "rk4")
 
 
-def _picture(found: Sequence[Contact], measured: Sequence[Measured], landed: Sequence[DeckLanding]) -> Picture:
+def _picture(
+    found: Sequence[Contact], measured: Sequence[Measured], landed: Sequence[DeckLanding], advised: Sequence[Advice]
+) -> Picture:
     """The critical step of each contact, and the step that the whole deck allows."""
     rows = [one for one in found if any(each.contact == one for each in measured)]
     caption = "The contact furthest to the left sets the step of the whole model."
-    return Picture("critical-steps", caption, partial(_draw, rows, measured, landed), (10.0, 2.6 + 0.55 * len(rows)))
+    return Picture(
+        "critical-steps", caption, partial(_draw, rows, measured, landed, advised), (10.0, 2.6 + 0.55 * len(rows))
+    )
 
 
 def _draw(
-    rows: Sequence[Contact], measured: Sequence[Measured], landed: Sequence[DeckLanding], figure: Figure
+    rows: Sequence[Contact],
+    measured: Sequence[Measured],
+    landed: Sequence[DeckLanding],
+    advised: Sequence[Advice],
+    figure: Figure,
 ) -> None:
     axes = figure.subplots()
     for index, name in enumerate(_DRAWN):
@@ -326,15 +336,21 @@ def _draw(
             axes.plot(*zip(*wrong, strict=True), "x", color="#b2182b", markersize=14, label="not as predicted")
     springs = [(one.advised_step, row) for row, one in enumerate(rows) if one.omega > 0.0]
     axes.plot(*zip(*springs, strict=True), "|", color="0.2", markersize=16, label=f"omega dt = {ADVISED_OMEGA_DT:g}")
-    within = [(one.within, rows.index(one.contact)) for one in landed if one.contact in rows and one.scheme.name == "newmark"]
+    newmark = [one for one in landed if one.contact in rows and one.scheme.name == "newmark"]
+    within = [(one.within, rows.index(one.contact)) for one in newmark]
     if within:
         look = {**STYLES[SCHEMES["newmark"].title], "linestyle": "", "markersize": 8}
         axes.plot(*zip(*within, strict=True), label="Newmark: landings within 1 % up to", **look)
+    for one in advised:
+        text = f"{one.scheme}: {one.step:.3g} s"
+        axes.axvline(one.step, color=STYLES[one.scheme]["color"], linewidth=1.5, label=f"advised, {text}")
     _mark_limit(axes, rows)
     axes.set_yticks(range(len(rows)), [f"{drawn(one.name)}\ndeck line {one.line}" for one in rows], fontsize="small")
     axes.set_ylim(len(rows) - 0.4, -0.6)
     by = min(rows, key=lambda one: one.critical_step(_EXPLICIT))
-    title = f"This deck: central difference below {by.critical_step(_EXPLICIT):.3g} s, because of {drawn(by.name)}"
+    step = by.critical_step(_EXPLICIT)
+    title = f"This deck: central difference below {step:.3g} s, because of {drawn(by.name)}"
+    title += "".join(f"\n{one.scheme} up to {one.step:.3g} s, because of {drawn(one.contact)}" for one in advised)
     label(axes, title, "time step [s]", "")
     legend_below(figure, axes, 3)
 
@@ -344,5 +360,7 @@ def _mark_limit(axes: Axes, rows: Sequence[Contact]) -> None:
     steps = [one.critical_step(_EXPLICIT) for one in rows]
     low, high = 0.3 * min(steps), 3.0 * max(steps)
     axes.set_xlim(low, high)
-    axes.axvspan(low, min(steps), color="#009e73", alpha=0.15, linewidth=0, label="stable on all contacts")
-    axes.axvspan(max(steps), high, color="#d55e00", alpha=0.15, linewidth=0, label="stable on none")
+    axes.axvspan(
+        low, min(steps), color="#009e73", alpha=0.15, linewidth=0, label="central difference stable on all contacts"
+    )
+    axes.axvspan(max(steps), high, color="#d55e00", alpha=0.15, linewidth=0, label="central difference stable on none")

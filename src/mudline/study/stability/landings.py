@@ -184,7 +184,8 @@ def restitution(scheme: Scheme, omega_dt: float, phases: FloatArray) -> FloatArr
 
     The speed after is that of the free flight, when the acceleration that a scheme carries along has died away.
     """
-    return rebounds(scheme, LINEAR_FALL, np.array([omega_dt]), phases)[0]
+    speeds: FloatArray = rebounds(scheme, LINEAR_FALL, np.array([omega_dt]), phases)[0]
+    return speeds
 
 
 def _last_digit(text: str) -> float:
@@ -318,5 +319,6 @@ def _draw_gain(over: Sequence[Envelope], figure: Figure) -> None:
     for limit, name in ((2.0, "Verlet"), (2.0 * 2.0**0.5, "RK4")):
         axes.axvline(limit, color="0.4", linewidth=0.8, linestyle=":")
         axes.text(limit, 0.02, f" {name} unstable", rotation=90, fontsize="small", color="0.3")
-    label(axes, "Rebound over the step: largest and least of all landing phases", "omega dt [-]", "speed after / before [-]")
+    title = "Rebound over the step: largest and least of all landing phases"
+    label(axes, title, "omega dt [-]", "speed after / before [-]")
     legend_below(figure, axes)

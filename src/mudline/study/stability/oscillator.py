@@ -1,4 +1,4 @@
-"""A contact of the scene under the real evaluator: a load holds it where its law is steepest, a small motion starts there.
+"""A contact of the scene under the real evaluator: a load holds it where its law is steepest, and it oscillates there.
 
 The evaluator has copies of the element of the contact, one unit of length each, with the law that is studied. Friction,
 lateral springs and suction need a seabed besides: a linear one that gives the static normal force. What the laws
@@ -59,34 +59,52 @@ class Setting(NamedTuple):
 
 def setting_of(scene: Scene, given: ContactInput, one: Oscillation) -> Setting:
     """How a contact of the scene, whose evaluator has the input `given`, is set up."""
-    element, small = one.element, _small(scene, one.element)
-    normal = {name: _parameters(given, name, element) for name in ("curve", "linear", "smoothed") if _has(given, name, element)}
     if one.kind == "nodal":
-        nodal = _parameters(given, "nodal", one.node)
-        depth = small + nodal["half_width"]
-        return Setting({"nodal": nodal}, _X, depth, None, 0.0, small, depth, 2.0 * nodal["stiffness"] / one.stiffness)
-    if one.kind == "normal":
+        return _nodal(scene, given, one)
+    if one.kind in {"normal", "unloading"}:
+        return _normal(scene, given, one)
+    if one.kind in {"lateral", "suction spring"}:
+        return _spring(scene, given, one)
+    return _friction(given, one) if one.kind == "friction" else _suction(given, one)
+
+
+def _nodal(scene: Scene, given: ContactInput, one: Oscillation) -> Setting:
+    nodal, small = _parameters(given, "nodal", one.node), _small(scene, one.element)
+    depth = small + nodal["half_width"]
+    return Setting({"nodal": nodal}, _X, depth, None, 0.0, small, depth, 2.0 * nodal["stiffness"] / one.stiffness)
+
+
+def _normal(scene: Scene, given: ContactInput, one: Oscillation) -> Setting:
+    """In the middle of the steepest segment, or below the zone; for unloading half way up the line from there."""
+    laws = [name for name in ("curve", "linear", "smoothed") if _has(given, name, one.element)]
+    normal = {name: _parameters(given, name, one.element) for name in laws}
+    if "curve" in normal:
+        depth, reach, scale, own = _on_segment(scene, one.element)
+    else:
         (parameters,) = normal.values()
-        if "curve" in normal:
-            depth, reach, scale, own = _on_segment(scene, element)
-        else:
-            reach, own = small, parameters["stiffness"]
-            scale = depth = small + parameters.get("half_width", 0.0)
+        reach, own = _small(scene, one.element), parameters["stiffness"]
+        scale = depth = reach + parameters.get("half_width", 0.0)
+    if one.kind == "normal":
         return Setting(normal, _X, depth, None, 0.0, reach, scale, own / one.stiffness)
-    if one.kind == "unloading":
-        return _unloading(scene, given, one, normal)
-    if one.kind == "friction":
-        return _friction(given, one)
+    unloading = _parameters(given, "unloading", one.element)
+    deepest = depth + reach if "curve" in normal else depth
+    force = float(ContactModel(_copies(given, one.element, normal, 1)).evaluate(_points(1, deepest)).force[0])
+    half = 0.5 * force / unloading["stiffness"]
+    laws_too = {**normal, "unloading": unloading}
+    factor = unloading["stiffness"] / one.stiffness
+    return Setting(laws_too, _X, deepest - half, deepest, 0.0, half, deepest, factor)
+
+
+def _spring(scene: Scene, given: ContactInput, one: Oscillation) -> Setting:
+    """Lateral springs, moved across from the touchdown point, and those against uplift, half way up their extent."""
+    parameters = _parameters(given, one.kind, one.element)
+    factor = parameters["stiffness"] / one.stiffness
     if one.kind == "lateral":
-        lateral = _parameters(given, "lateral", element)
-        laws = {"linear": {"stiffness": 1.0}, "lateral": lateral}
-        return Setting(laws, _Z, _PRESSED, _PRESSED, 0.0, small, 1.0, lateral["stiffness"] / one.stiffness)
-    if one.kind == "suction spring":
-        spring = _parameters(given, "suction spring", element)
-        half = 0.5 * spring["extent"]
-        laws = {"linear": {"stiffness": spring["stiffness"]}, "suction spring": spring}
-        return Setting(laws, _X, -half, None, 0.0, half, half, spring["stiffness"] / one.stiffness)
-    return _suction(given, one)
+        laws = {"linear": {"stiffness": 1.0}, "lateral": parameters}
+        return Setting(laws, _Z, _PRESSED, _PRESSED, 0.0, _small(scene, one.element), 1.0, factor)
+    half = 0.5 * parameters["extent"]
+    laws = {"linear": {"stiffness": parameters["stiffness"]}, "suction spring": parameters}
+    return Setting(laws, _X, -half, None, 0.0, half, half, factor)
 
 
 def _has(given: ContactInput, law: str, row: int) -> bool:
@@ -120,21 +138,6 @@ def _on_segment(scene: Scene, element: int) -> tuple[float, float, float, float]
         high = min(max(high + (high - segment.low), 0.1), np.finfo(np.float64).max)
     middle, half, far = 0.5 * low + 0.5 * high, 0.5 * high - 0.5 * low, max(abs(segment.low), high)
     return middle * diameter, half * diameter, far * diameter, segment.slope / diameter
-
-
-def _unloading(scene: Scene, given: ContactInput, one: Oscillation, normal: dict[str, Parameters]) -> Setting:
-    """Half way up the line from the deepest penetration, the end of the steepest segment."""
-    unloading = _parameters(given, "unloading", one.element)
-    small = _small(scene, one.element)
-    deepest = small + normal.get("smoothed", {}).get("half_width", 0.0)
-    if "curve" in normal:
-        depth, reach, _, _ = _on_segment(scene, one.element)
-        deepest = depth + reach
-    model = ContactModel(_copies(given, one.element, normal, 1))
-    force = float(model.evaluate(_points(1, deepest)).force[0])
-    half = 0.5 * force / unloading["stiffness"]
-    laws = {**normal, "unloading": unloading}
-    return Setting(laws, _X, deepest - half, deepest, 0.0, half, deepest, unloading["stiffness"] / one.stiffness)
 
 
 def _friction(given: ContactInput, one: Oscillation) -> Setting:
