@@ -6,6 +6,7 @@ from mudline.study.running import Part, Study
 from mudline.study.stability.deck_steps import advice, study_steps
 from mudline.study.stability.ladder import study_ladder
 from mudline.study.stability.landings import study_landings
+from mudline.study.stability.page import page
 from mudline.study.stability.statics import study_cycles, study_release
 
 STUDY = Study(
@@ -18,6 +19,7 @@ STUDY = Study(
         Part("release", study_release, 3.0),
         Part("ladder", study_ladder, 10.0),
     ),
+    page=page,
     advice=advice,
 )
 run = STUDY.run

@@ -121,7 +121,7 @@ def _contact(scene: Scene, given: ContactInput, one: Oscillation) -> Contact:
 
 STEPS = 200
 """On springs; Runge-Kutta schemes grow slowest, by half a percent in a step at 1.005 of the critical one."""
-_STEPS_DAMPED = 1000
+STEPS_DAMPED = 1000
 """With damping the growth at 1.01 is no more than 1 to 2 percent in a step."""
 GROWTH = 100.0
 """A motion that leaves so many times its first amplitude behind grows."""
@@ -227,7 +227,7 @@ def _outcomes(scene: Scene, contact: Contact, scheme: Scheme, dt: FloatArray) ->
     if speed:
         motion = motion._replace(acceleration=np.zeros(len(dt)))
     bound = GROWTH * max(start, speed * float(dt.max()))
-    steps = _STEPS_DAMPED if contact.rate and scheme.explicit else STEPS
+    steps = STEPS_DAMPED if contact.rate and scheme.explicit else STEPS
     run = march(scheme, system, motion, dt, steps, bound=bound)
     words = [BOUNDED] * len(dt)
     for index, why in run.failures.items():

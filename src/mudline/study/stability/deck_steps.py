@@ -37,7 +37,7 @@ MOST_CONTACTS = 8
 """Stepped by default, those with the smallest steps; all of them in a full run."""
 MOST_LANDINGS = 2
 """Seabeds on which landings are looked at by default, the stiffest."""
-_FARTHEST = 3.0
+FARTHEST = 3.0
 """Largest omega dt of landings on a deck's own laws."""
 _PREFERRED = ("generalised-alpha-0.5", "hht-0.3", "newmark", "generalised-alpha-1", "generalised-alpha-0")
 """Implicit schemes of second order to choose from; of equal ones the first, which damps what is not resolved."""
@@ -222,7 +222,7 @@ def narrow_segments(scene: Scene, found: Sequence[Contact]) -> list[NarrowSegmen
 def deck_landing(scene: Scene, contact: Contact, scheme: Scheme) -> DeckLanding:
     """Land on the law of a contact as fast as a fall to its static penetration needs."""
     fall = _fall(scene, contact)
-    found = envelope(scheme, fall, TRIED[TRIED <= _FARTHEST])
+    found = envelope(scheme, fall, TRIED[TRIED <= FARTHEST])
     return DeckLanding(contact, scheme, found.below / contact.omega, found.within / contact.omega, fall.speed)
 
 

@@ -246,7 +246,35 @@ def study_cycles(_: Scene, options: StudyOptions) -> Section:
         f"{_points(plain.iterates)}, ... without end; with halved corrections {_points(halved.iterates)}: "
         f"{halved.iterations} iterations."
     )
-    return Section([CYCLES.table(cycle_counts()), HALVINGS.table(halving_counts())], notes=[note])
+    path = [
+        PathPoint(EXAMPLE, method, point)
+        for method, found in (("plain", plain), ("halved", halved))
+        for point in found.iterates
+    ]
+    tables = CYCLES.table(cycle_counts()), HALVINGS.table(halving_counts()), PATH.table(path)
+    return Section(tables, notes=[note])
+
+
+class PathPoint(NamedTuple):
+    """An iterate of the example."""
+
+    problem: FrictionProblem
+    method: Annotated[str, "method"]
+    iterate: Annotated[float, "iterate [-]"]
+
+
+PATH = Layout[PathPoint](
+    "newton-path",
+    "Iterates of the example",
+    {
+        **columns_of(PathPoint),
+        "kb": lambda one: one.problem.structure,
+        "kt": lambda one: one.problem.spring,
+        "mu N": lambda one: one.problem.limit,
+        "F": lambda one: one.problem.force,
+    },
+    brief=False,
+)
 
 
 def _points(iterates: Sequence[float]) -> str:
