@@ -18,7 +18,7 @@ from mudline.scene.model import Scene
 from mudline.scene.oscillation import Oscillation, line_of, oscillations
 from mudline.study.motion import Motion, Scheme, march
 from mudline.study.report import Layout, Omission, columns_of
-from mudline.study.schemes import Newton, OneStep
+from mudline.study.schemes import Newton, OneStep, RungeKutta
 from mudline.study.stability.oscillator import LoadedContact, Setting, setting_of
 
 
@@ -127,6 +127,8 @@ GROWTH = 100.0
 """A motion that leaves so many times its first amplitude behind grows."""
 AMPLITUDE = 1e-6
 """Of the reach of the segment: implicit schemes guess (omega dt)^2 times as far, and still the law is linear."""
+_SHARE_OF_SPEED = 1e-7
+"""Of the pull-out velocity, for motions beside a steady one."""
 SHARES = np.array([*np.arange(180, 200), *np.arange(201, 221)]) / 200.0
 """Of the predicted critical step, from 0.9 to 1.1 and without 1: at the critical step itself growth has no rate."""
 FAR = 100.0
@@ -220,14 +222,17 @@ def _outcomes(scene: Scene, contact: Contact, scheme: Scheme, dt: FloatArray) ->
         largest = max(abs(system.load), setting.factor * contact.stiffness * setting.scale)
         enough = 64.0 * float(np.finfo(np.float64).eps) * largest
         scheme = scheme.solved_by(replace(Newton(), tolerance=enough))
-    start, speed = AMPLITUDE * setting.reach, 0.1 * AMPLITUDE * setting.speed
+    start = AMPLITUDE * setting.reach
+    speed = min(_SHARE_OF_SPEED * setting.speed, start * max(contact.omega, contact.rate))
     if speed:  # a motion without the acceleration of its force: at the critical step that would take all of its speed
         start = 0.0
     motion = Motion.start(system, np.full(len(dt), start), np.full(len(dt), speed))
     if speed:
         motion = motion._replace(acceleration=np.zeros(len(dt)))
     bound = GROWTH * max(start, speed * float(dt.max()))
-    steps = STEPS_DAMPED if contact.rate and scheme.explicit else STEPS
+    steps = STEPS if not (contact.rate and scheme.explicit) else STEPS_DAMPED
+    if isinstance(scheme, RungeKutta):
+        steps = min(steps, STEPS_DAMPED // 2)
     run = march(scheme, system, motion, dt, steps, bound=bound)
     words = [BOUNDED] * len(dt)
     for index, why in run.failures.items():

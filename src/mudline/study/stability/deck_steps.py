@@ -35,6 +35,8 @@ if TYPE_CHECKING:  # only who draws loads matplotlib
 
 MOST_CONTACTS = 8
 """Stepped by default, those with the smallest steps; all of them in a full run."""
+STEPPED = tuple(SCHEMES)
+"""The schemes that are stepped on each contact."""
 MOST_LANDINGS = 2
 """Seabeds on which landings are looked at by default, the stiffest."""
 FARTHEST = 3.0
@@ -175,7 +177,7 @@ def study_steps(scene: Scene, options: StudyOptions) -> Section:
     ]
     measured: list[Measured] = []
     for contact in options.each(stepped, lambda contact: f"steps on {contact.name}"):
-        measured += [measure(scene, contact, scheme) for scheme in SCHEMES.values()]
+        measured += [measure(scene, contact, SCHEMES[name]) for name in STEPPED]
     seabeds = [one for one in wide if one.oscillation.kind == "normal"]
     landed = [
         deck_landing(scene, contact, SCHEMES[name])
@@ -310,7 +312,8 @@ def _picture(
     found: Sequence[Contact], measured: Sequence[Measured], landed: Sequence[DeckLanding], advised: Sequence[Advice]
 ) -> Picture:
     """The critical step of each contact, and the step that the whole deck allows."""
-    rows = [one for one in found if any(each.contact == one for each in measured)]
+    stepped = {one.contact.name for one in measured}
+    rows = [one for one in found if one.name in stepped]
     caption = "The contact furthest to the left sets the step of the whole model."
     return Picture(
         "critical-steps", caption, partial(_draw, rows, measured, landed, advised), (10.0, 2.6 + 0.55 * len(rows))
@@ -325,10 +328,11 @@ def _draw(
     figure: Figure,
 ) -> None:
     axes = figure.subplots()
+    row_of = {one.name: row for row, one in enumerate(rows)}
     for index, name in enumerate(_DRAWN):
         scheme = SCHEMES[name]
         own = [one for one in measured if one.scheme.name == name]
-        heights = [rows.index(one.contact) + 0.22 * (index - 1) for one in own]
+        heights = [row_of[one.contact.name] + 0.22 * (index - 1) for one in own]
         look = {**STYLES[scheme.title], "linestyle": "", "markersize": 8}
         axes.semilogx([one.predicted for one in own], heights, label=f"{scheme.title}: grows above", **look)
         wrong = [(one.predicted, height) for one, height in zip(own, heights, strict=True) if not one.as_predicted]
@@ -336,8 +340,8 @@ def _draw(
             axes.plot(*zip(*wrong, strict=True), "x", color="#b2182b", markersize=14, label="not as predicted")
     springs = [(one.advised_step, row) for row, one in enumerate(rows) if one.omega > 0.0]
     axes.plot(*zip(*springs, strict=True), "|", color="0.2", markersize=16, label=f"omega dt = {ADVISED_OMEGA_DT:g}")
-    newmark = [one for one in landed if one.contact in rows and one.scheme.name == "newmark"]
-    within = [(one.within, rows.index(one.contact)) for one in newmark]
+    newmark = [one for one in landed if one.contact.name in row_of and one.scheme.name == "newmark"]
+    within = [(one.within, row_of[one.contact.name]) for one in newmark]
     if within:
         look = {**STYLES[SCHEMES["newmark"].title], "linestyle": "", "markersize": 8}
         axes.plot(*zip(*within, strict=True), label="Newmark: landings within 1 % up to", **look)

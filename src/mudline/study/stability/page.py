@@ -130,7 +130,7 @@ def _loss(landed: dict[str, Record], gentle: dict[str, str]) -> list[tuple[str, 
 
 
 def _gentle(tables: Tables) -> dict[str, str]:
-    """Implicit schemes that gain no more than `NEVER` in any landing, and the largest rebound over the landing speed."""
+    """Implicit schemes that gain no more than `NEVER` in any landing, and their largest speed after over before."""
     found = {}
     for one in tables.rows("landing-limits"):
         name = one.text("scheme")
@@ -275,8 +275,8 @@ def _agreement(tables: Tables) -> str:
     compared = [one for one in tables.rows("landings") if one.text("agrees")]
     good = sum(one.text("agrees") == "yes" for one in compared)
     return (
-        f"{good} of the {len(compared)} sets of figures that had been computed independently of this program agree to the "
-        "last digit given."
+        f"{good} of the {len(compared)} sets of figures that had been computed independently of this program agree to "
+        "the last digit given."
     )
 
 
@@ -411,6 +411,6 @@ def _ladder_in_short(tables: Tables) -> str:
     if wrong:
         return f"Extreme numbers: {wrong} of {cells} decks give results that are neither right nor refused."
     return (
-        f"Extreme numbers give right results, to the bounds below, or are refused with the line of the deck: {cells} of "
-        f"{cells} decks."
+        "Extreme numbers give right results, to the bounds below, or are refused with the line of the deck: "
+        f"{cells} of {cells} decks."
     )
