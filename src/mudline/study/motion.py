@@ -71,15 +71,17 @@ class Step(NamedTuple):
     """One step made.
 
     motion: behind the step.
-    evaluations: how often the forces were evaluated.
+    evaluations: (k,) how often the force of each was needed; alone each would evaluate it as often.
     iterations: (k,) Newton iterations; 0 for explicit schemes.
     residual: (k,) what was left of the balance of forces; 0 for explicit schemes, and where it converged.
+    bisections: (k,) iterations in which Newton's method alone would have left its bracket.
     """
 
     motion: Motion
-    evaluations: int
+    evaluations: IndexArray
     iterations: IndexArray
     residual: FloatArray
+    bisections: IndexArray
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,7 +121,8 @@ class Trajectory:
         velocity: (n + 1, k).
         iterations: (n, k) Newton iterations.
         failures: why a run ended early, by its index.
-        evaluations: of the forces.
+        evaluations: (k,) of the forces, without the one of the start.
+        bisected: (k,) steps that Newton's method alone might not have solved.
         seconds: run time of all steps together.
         end: where the runs ended.
     """
@@ -129,7 +132,8 @@ class Trajectory:
     velocity: FloatArray
     iterations: IndexArray
     failures: dict[int, str]
-    evaluations: int
+    evaluations: IndexArray
+    bisected: IndexArray
     seconds: float
     end: Motion
 
@@ -146,13 +150,15 @@ def march(
     position, velocity = np.empty(shape), np.empty(shape)
     iterations = np.zeros((steps, *start.position.shape), np.intp)
     position[0], velocity[0] = start.position, start.velocity
-    motion, evaluations, failures = start, 0, dict[int, str]()
+    motion, failures = start, dict[int, str]()
+    evaluations, bisected = np.zeros(start.position.shape, np.intp), np.zeros(start.position.shape, np.intp)
     sound: BoolArray = np.ones(start.position.shape, np.bool_)
     began = perf_counter()
     with np.errstate(all="ignore"):
         for index in range(steps):
             step = scheme.step(system, motion, dt)
             evaluations += step.evaluations
+            bisected += step.bisections > 0
             motion, iterations[index] = step.motion, step.iterations
             good = (step.residual == 0.0) & (np.abs(motion.position) <= bound) & np.isfinite(motion.velocity)
             if not good.all():
@@ -166,7 +172,7 @@ def march(
                 break
     seconds = perf_counter() - began
     time: FloatArray = np.arange(steps + 1.0)[:, None] * (dt * np.ones(start.position.shape))
-    return Trajectory(time, position, velocity, iterations, failures, evaluations, seconds, motion)
+    return Trajectory(time, position, velocity, iterations, failures, evaluations, bisected, seconds, motion)
 
 
 def _held(motion: Motion, before: FloatArray, sound: BoolArray) -> Motion:

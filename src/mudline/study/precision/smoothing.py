@@ -13,10 +13,11 @@ import numpy as np
 from mudline.contact.arrays import FloatArray
 from mudline.scene.model import Scene
 from mudline.study.laws import ElasticContact, LinearLaw, smoothed_spring
+from mudline.study.newton import Newton
 from mudline.study.precision.drop import Drop, drop_case, reference_drop
 from mudline.study.precision.integration import row
 from mudline.study.report import Layout, Picture, Points, Section, StudyOptions, columns_of, draw_lines, drawn, grouped
-from mudline.study.schemes import SCHEMES, Newton
+from mudline.study.schemes import SCHEMES
 
 if TYPE_CHECKING:  # only who draws loads matplotlib
     from matplotlib.figure import Figure

@@ -18,6 +18,7 @@ from mudline.contact.stiffest import ADVISED_OMEGA_DT, CRITICAL_OMEGA_DT, omega,
 from mudline.scene.assignments import given_stiffness
 from mudline.scene.model import Scene
 from mudline.study.motion import Forces, History, Motion, Scheme, march
+from mudline.study.newton import Newton
 from mudline.study.report import (
     Layout,
     Omission,
@@ -29,7 +30,7 @@ from mudline.study.report import (
     label,
     legend_below,
 )
-from mudline.study.schemes import SCHEMES, Newton, OneStep
+from mudline.study.schemes import SCHEMES, OneStep
 
 if TYPE_CHECKING:  # only who draws loads matplotlib
     from matplotlib.figure import Figure

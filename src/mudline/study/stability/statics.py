@@ -17,6 +17,7 @@ friction is that of the evaluator.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Annotated, NamedTuple
 
 import numpy as np
@@ -27,8 +28,8 @@ from mudline.contact.laws.friction import FrictionHistory, FrictionLaw, slide
 from mudline.contact.laws.suction import SuctionHistory, SuctionLaw, breakout_uplift, maximum_force, step
 from mudline.contact.stiffest import release_stiffness
 from mudline.scene.model import Scene
+from mudline.study.newton import Newton
 from mudline.study.report import Layout, Omission, Section, StudyOptions, columns_of
-from mudline.study.schemes import ROUND_OFF, TOLERANCE, Newton
 
 VELOCITIES = (1e-3, 1e-2, 1e-1, 1.0)
 SHARES = (0.5, 0.99, 1.01, 2.0)
@@ -252,19 +253,5 @@ def _cycle_count(ratio: float, share: float) -> CycleCount:
 
 def bracketed(problem: FrictionProblem, starts: FloatArray) -> IndexArray:
     """Iterations (k,) of Newton's method with a bracket from `starts` (k,); -1 where it does not converge."""
-    u = np.array(starts)
-    low, high = np.full(u.shape, -np.inf), np.full(u.shape, np.inf)
-    taken = np.full(u.shape, -1, np.intp)
-    for iteration in range(MOST + 1):
-        value, slope, size = residual(problem, u)
-        done = np.abs(value) <= np.maximum(TOLERANCE, ROUND_OFF * size)
-        taken = np.where(done & (taken < 0), iteration, taken)
-        if done.all():
-            break
-        low, high = np.where(value < 0.0, u, low), np.where(value > 0.0, u, high)
-        trial = u - value / slope
-        known = np.isfinite(low) & np.isfinite(high)
-        middle = 0.5 * (np.where(known, low, 0.0) + np.where(known, high, 0.0))
-        trial = np.where(known & ((trial <= low) | (trial >= high)), middle, trial)
-        u = np.where(done, u, trial)
-    return taken
+    solution = Newton(most=MOST, bracketed=True).solve(partial(residual, problem), starts)
+    return np.where(solution.residual == 0.0, solution.iterations, -1)
