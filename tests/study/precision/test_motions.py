@@ -14,15 +14,15 @@ from mudline.contact.laws.suction import SuctionHistory, SuctionLaw, from_cohesi
 from mudline.curves import ForceCurve
 from mudline.study import SAMPLE_TEXT, sample_scene
 from mudline.study.laws import CurveLaw, LinearLaw, smoothed_spring
-from mudline.study.precision import (
+from mudline.study.precision import drop as drop_module
+from mudline.study.precision import integration
+from mudline.study.precision import pull as pull_module
+from mudline.study.precision.contacts import (
     all_cases,
     contacts_of,
     friction_of,
-    integration,
     suction_of,
 )
-from mudline.study.precision import drop as drop_module
-from mudline.study.precision import pull as pull_module
 from mudline.study.precision.drop import bounce, drop_case, drop_to, reference_drop
 from mudline.study.precision.integration import Case, row
 from mudline.study.precision.pull import Drag, Pull, SuctionNumbers, breakout, drag_case, pull_case

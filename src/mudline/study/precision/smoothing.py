@@ -15,7 +15,7 @@ from mudline.scene.model import Scene
 from mudline.study.laws import ElasticContact, LinearLaw, smoothed_spring
 from mudline.study.newton import Newton
 from mudline.study.precision.drop import Drop, drop_case, reference_drop
-from mudline.study.precision.integration import row
+from mudline.study.precision.integration import TRIED, row
 from mudline.study.report import Layout, Picture, Points, Section, StudyOptions, columns_of, draw_lines, drawn, grouped
 from mudline.study.schemes import SCHEMES
 
@@ -150,7 +150,7 @@ def impacts(drop: Drop) -> Iterator[ImpactRow]:
         case = drop_case("smoothed", law.name, replace(drop, law=law))
         for name in _IMPACT_SCHEMES:
             for omega_dt in _IMPACT_STEPS:
-                found = row(case, SCHEMES[name], omega_dt)
+                found = row(case, TRIED[name], omega_dt)
                 yield ImpactRow(name, omega_dt, width, share, found.speed, found.iterations, found.reason)
 
 
