@@ -10,18 +10,8 @@ from pathlib import Path
 import pytest
 from matplotlib.figure import Figure
 
-from mudline.study.report import (
-    Column,
-    Omission,
-    Picture,
-    StudyReport,
-    StudyTable,
-    drawn,
-    label,
-    legend_below,
-    shortened,
-    style,
-)
+from mudline.study.pictures import Picture, drawn, label, legend_below, shortened, style
+from mudline.study.report import Column, Omission, StudyReport, StudyTable
 from mudline.study.timing import _processor, machine, timed
 
 TABLE = StudyTable(

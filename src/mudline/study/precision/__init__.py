@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from mudline.scene.model import Scene
 from mudline.study.precision.contacts import all_cases, contacts_of
 from mudline.study.precision.curves import study_backbones, study_curves
 from mudline.study.precision.goals import study_goals
 from mudline.study.precision.integration import study_motions
+from mudline.study.precision.motion_pictures import motion_pictures
+from mudline.study.precision.page import advice, page
 from mudline.study.precision.smoothing import study_smoothing
-from mudline.study.report import Omission, Section, StudyOptions, StudyReport, paragraphs
+from mudline.study.report import Omission, Section, StudyOptions, paragraphs
+from mudline.study.running import Part, Study
 
 _NOTES = """
 Errors of curves: the largest of 1500 random ratios and the points themselves, against exact rational arithmetic on the
@@ -26,23 +27,35 @@ where the force jumps and no position balances, the step ends at the jump. A ste
 """
 
 
-@np.errstate(all="ignore")  # what overflows is not finite, and that is a failure with its reason
-def run(scene: Scene, options: StudyOptions) -> StudyReport:
-    """Study the curves and the stiffest laws of a scene.
-
-    Raises DeckError where the scene cannot be evaluated, and ImportError without scipy.
-    """
+def _motions(scene: Scene, options: StudyOptions) -> Section:
+    """What the deck has to fall on, pull off and drag along, and every scheme on it."""
     studied = contacts_of(scene)
-    curves, backbones = study_curves(scene, options), study_backbones(options)
     omissions: list[Omission] = []
     cases = all_cases(studied, omissions)
-    ladders, motions = study_motions(cases, options)
-    sections = (
-        curves,
-        backbones,
-        Section(notes=[*paragraphs(_NOTES), *studied.notes], omissions=omissions),
-        motions,
-        study_goals(ladders, cases),
-        study_smoothing(scene, studied.contacts, options),
+    ladders, measured = study_motions(cases, options)
+    return Section(
+        [*study_goals(ladders, cases), *measured.tables],
+        list(motion_pictures(ladders, cases)),
+        [*paragraphs(_NOTES), *studied.notes],
+        [*omissions, *measured.omissions],
     )
-    return StudyReport.of("precision", f"Precision: {scene.deck.file}", sections)
+
+
+def _smoothing(scene: Scene, options: StudyOptions) -> Section:
+    return study_smoothing(scene, contacts_of(scene).contacts, options)
+
+
+STUDY = Study(
+    "precision",
+    "Precision: {deck}",
+    (
+        Part("curves", study_curves, 2.0),
+        Part("backbones", study_backbones, 0.5),
+        Part("motions", _motions, 25.0),
+        Part("smoothing", _smoothing, 1.0),
+    ),
+    page,
+    advice,
+    order=("advice", "curves", "backbones", "cases", "goals", "orders", "steps"),
+)
+run = STUDY.run

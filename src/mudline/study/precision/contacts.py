@@ -1,4 +1,4 @@
-"""The contacts of a scene that are studied: its stiffest laws with a mass, suction and friction; the motions on them."""
+"""The contacts of a scene that are studied: its stiffest laws with mass, suction and friction; the motions on them."""
 
 from __future__ import annotations
 

@@ -12,9 +12,8 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from mudline.contact.stiffest import rounded_down
 from mudline.study.precision.integration import GOALS, LADDER, Case, Ladders, StepRow, measured, meets
-from mudline.study.report import Cell, Layout, Section, columns_of
+from mudline.study.report import Cell, Layout, StudyTable, columns_of
 from mudline.study.schemes import SCHEMES, bracketed
 
 ADVISED_GOALS = GOALS[:2]
@@ -96,25 +95,35 @@ class Advice(NamedTuple):
     dt: seconds; None where the ladder has no such step.
     case: the motion that asks for the smallest step, and the line of the deck where its law stands.
     evaluations: of the forces, per simulated second.
+    error: the largest on all contacts at this step, or at the next smaller one that was run.
     """
 
-    goal: Annotated[float, "largest error [relative]"]
+    goal: Annotated[float, "goal [relative]"]
     scheme: Annotated[str, "scheme"]
     dt: Annotated[float | None, "step [s]"]
     omega_dt: Annotated[float | None, "omega dt"]
     case: Annotated[str, "set by"]
     line: Annotated[int | None, "deck line"]
     evaluations: Annotated[float | None, "force evaluations [1/s]"]
+    error: Annotated[float | None, "largest error found [relative]"]
+
+    @property
+    def effort(self) -> tuple[float, float]:
+        """What the schemes of a goal are sorted by: work, and where that is the same the error."""
+        work, error = (math.inf if value is None else value for value in (self.evaluations, self.error))
+        return (float(f"{work:.6g}"), error)
 
 
 ADVICE = Layout("advice", "Steps for this deck, the least work first", columns_of(Advice))
 
 
-def study_goals(ladders: Ladders, cases: Sequence[Case]) -> Section:
+def study_goals(ladders: Ladders, cases: Sequence[Case]) -> list[StudyTable]:
     """Orders and needed steps of all schemes, and what follows for the deck."""
-    advice = advised(ladders, cases)
-    tables = ADVICE.table(advice), REACHED.table(ladders.values()), ORDERS.table(_orders(ladders, cases))
-    return Section(tables, notes=[sentence for goal in ADVISED_GOALS if (sentence := in_words(advice, cases, goal))])
+    return [
+        ADVICE.table(advised(ladders, cases)),
+        REACHED.table(ladders.values()),
+        ORDERS.table(_orders(ladders, cases)),
+    ]
 
 
 def _orders(ladders: Ladders, cases: Sequence[Case]) -> Iterator[OrderRow]:
@@ -134,38 +143,25 @@ def advised(ladders: Ladders, cases: Sequence[Case]) -> list[Advice]:
     schemes = dict.fromkeys(scheme for _, scheme in ladders)
     found = []
     for goal in ADVISED_GOALS if own else ():
-        rows = [_advice(goal, scheme, own, ladders) for scheme in schemes]
-        found += sorted(rows, key=lambda row: math.inf if row.evaluations is None else round(row.evaluations, 6))
+        rows = [_advice(goal, scheme, [(case, ladders[case.name, scheme]) for case in own]) for scheme in schemes]
+        found += sorted(rows, key=lambda row: row.effort)
     return found
 
 
-def _advice(goal: float, scheme: str, own: Sequence[Case], ladders: Ladders) -> Advice:
+def _advice(goal: float, scheme: str, own: Sequence[tuple[Case, Sequence[StepRow]]]) -> Advice:
     title = SCHEMES[scheme].title
-    best: tuple[StepRow, Case] | None = None
-    for case in own:
-        row = largest_step(ladders.get((case.name, scheme), ()), goal)
+    found: list[tuple[float, Case, StepRow]] = []
+    for case, rows in own:
+        row = largest_step(rows, goal)
         if row is None:
-            return Advice(goal, title, None, None, case.name, case.line, None)
-        if best is None or row.dt < best[0].dt:
-            best = row, case
-    if best is None:
-        return Advice(goal, title, None, None, "", None, None)
-    row, case = best
-    return Advice(goal, title, row.dt, row.omega_dt, case.name, case.line, row.evaluations)
-
-
-def in_words(advice: Sequence[Advice], cases: Sequence[Case], goal: float) -> str:
-    """One sentence: which scheme, which step, because of what; empty where no scheme reaches the goal on the deck."""
-    reached = [row for row in advice if row.goal == goal and row.dt is not None]
-    if not reached:
-        return ""
-    best = reached[0]
-    case = next(case for case in cases if case.name == best.case)
-    step, work = rounded_down(best.dt or 0.0), best.evaluations or 0.0
-    return (
-        f"For errors of {100.0 * goal:g} % use {best.scheme} with a step of {step} s: omega dt = {best.omega_dt:g} of "
-        f"the mass that is {case.title} (deck line {case.line}), {work:.0f} force evaluations per simulated second."
-    )
+            return Advice(goal, title, None, None, case.name, case.line, None, None)
+        found.append((row.dt, case, row))
+    dt, case, row = min(found, key=lambda one: one[0])
+    errors = [row.worst or 0.0]
+    for _, rows in own:
+        below = [one for one in rows if one.dt <= dt * (1.0 + 1e-9) and one.worst is not None]
+        errors += [one.worst or 0.0 for one in sorted(below, key=lambda one: one.dt)[-1:]]
+    return Advice(goal, title, dt, row.omega_dt, case.name, case.line, row.evaluations, max(errors))
 
 
 class Needed(NamedTuple):

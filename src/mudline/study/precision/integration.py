@@ -145,8 +145,7 @@ STEPS = Layout("steps", "Time integration", columns_of(StepRow), brief=False)
 def study_motions(cases: Sequence[Case], options: StudyOptions) -> tuple[Ladders, Section]:
     """Every scheme on every case over the ladder of steps."""
     rows: list[StepRow] = []
-    for case in cases:
-        options.progress(f"time integration: {case.title}")
+    for case in options.each(cases, lambda case: f"time integration: {case.title}"):
         rows += ladder_rows(case, TRIED, full=options.full)
     ladders = grouped(rows, lambda row: (row.case, row.scheme))
     return ladders, Section([CASES.table(cases), STEPS.table(rows)], omissions=list(_failures(ladders)))
