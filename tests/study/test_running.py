@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -157,3 +158,16 @@ def test_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert outcome.out.startswith("use 1\n")
     assert "mudline: precision: b: finished before, taken from the folder\n" in outcome.err
     assert (tmp_path / "precision.md").read_text(encoding="utf-8") == "2 1 3\n"
+
+
+def test_a_terminal_shows_a_bar(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("CI", raising=False)
+    monkeypatch.setenv("TERM", "xterm")
+    counter = Counter()
+    monkeypatch.setattr(precision, "STUDY", counter.study)
+    monkeypatch.setattr(precision, "run", counter.study.run)
+    outcome = mudline("study", "precision", "--only", "a", terminal=True)
+    assert outcome.code == 0
+    assert re.search(r"ay .*\x1b\[0m.* 50%", outcome.err)
+    assert "mudline: precision:" not in outcome.err
+    assert mudline("study", "precision", "--only", "a", "-q", terminal=True).err == ""

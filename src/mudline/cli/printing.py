@@ -239,7 +239,7 @@ class Bar:
         count: tuple[ProgressColumn, ...] = (BarColumn(bar_width=None), MofNCompleteColumn())
         if isinstance(total, float):
             words = TextColumn("{task.description}", markup=False)
-            count = (words, BarColumn(bar_width=None), TaskProgressColumn(markup=False))
+            count = (words, BarColumn(bar_width=None), TaskProgressColumn())
         self._progress = Progress(
             *count,
             TimeRemainingColumn(compact=True),
