@@ -19,6 +19,8 @@ ROUND_OFF = 16.0 * float(np.finfo(np.float64).eps)
 """Of the largest term of a residual: where forces are huge, this and not the tolerance can be reached."""
 
 _HALVINGS = 10
+_HALVED_AWAY = 30
+"""Fewer corrections leave numbers in a bracket."""
 _COLLAPSED = 4.0 * float(np.finfo(np.float64).eps)
 """Width of a bracket over its larger end: nothing lies between its ends any more, so the residual jumps there."""
 
@@ -84,7 +86,7 @@ class Newton:
                 iterations += open_
                 evaluations += open_
                 open_ = open_ & self._wanted(value, size, iterations)
-                if bracket is not None:
+                if bracket is not None and iterations.max() > _HALVED_AWAY:
                     jumps |= open_ & bracket.collapsed(root, value)
                     open_ = open_ & ~jumps
             left = np.where(self._converged(value, size) | jumps, 0.0, np.abs(value))

@@ -56,6 +56,6 @@ STUDY = Study(
     ),
     page,
     advice,
-    order=("advice", "curves", "backbones", "cases", "goals", "orders", "steps"),
+    order=("curves", "backbones", "cases", "advice", "goals", "orders", "steps"),
 )
 run = STUDY.run

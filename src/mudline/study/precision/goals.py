@@ -111,7 +111,7 @@ class Advice(NamedTuple):
     def effort(self) -> tuple[float, float]:
         """What the schemes of a goal are sorted by: work, and where that is the same the error."""
         work, error = (math.inf if value is None else value for value in (self.evaluations, self.error))
-        return (float(f"{work:.6g}"), error)
+        return (float(f"{work:.3g}"), error)
 
 
 ADVICE = Layout("advice", "Steps for this deck, the least work first", columns_of(Advice))

@@ -29,6 +29,8 @@ TRIED = {name: bracketed(scheme) for name, scheme in SCHEMES.items() if scheme.l
 """The schemes of this study: those that are stable on an oscillator at some step; implicit ones solved in a bracket."""
 REPEATS = 5
 """Of a run that is timed."""
+_TIMED = 1.0
+"""Largest omega dt of runs that are timed more than once: larger ones are of no use."""
 _TIMED_STEPS = {False: 250, True: 2500}
 """Longer runs are not repeated, without and with --full."""
 _FINE = 1e-2
@@ -87,7 +89,11 @@ def uneven(dt: float) -> FloatArray:
     return dt * (1.0 - np.linspace(0.0, 0.175, RUNS))
 
 
-CASES = Layout("cases", "Motions that are integrated", columns_of(Case))
+CASES = Layout[Case](
+    "cases",
+    "Motions that are integrated",
+    {**columns_of(Case), "runs side by side": lambda case: len(case.system.mass)},
+)
 
 # ---------------------------------------------------------------------------------------------------------------- steps
 
@@ -172,7 +178,8 @@ def meets(row: StepRow, goal: float) -> bool:
 def measured(case: Case, schemes: Sequence[Scheme], omega_dt: float, timed_steps: int) -> list[StepRow]:
     """The schemes on a case at one step; runs of no more than so many steps are timed `REPEATS` times, in turns."""
     found = {scheme.name: [row(case, scheme, omega_dt)] for scheme in schemes}
-    turns = REPEATS - 1 if all(rows[0].steps <= timed_steps for rows in found.values()) else 0
+    short = omega_dt <= _TIMED and all(rows[0].steps <= timed_steps for rows in found.values())
+    turns = REPEATS - 1 if short else 0
     for _ in range(turns):
         for scheme in schemes:
             found[scheme.name].append(row(case, scheme, omega_dt))

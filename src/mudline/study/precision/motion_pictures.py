@@ -81,9 +81,10 @@ def _draw_needed(axes: Axes, ladders: Ladders, case: Case) -> None:
         )
     axes.set_yticks(range(len(names)), [TRIED[name].title for name in reversed(names)], fontsize="small")
     axes.set_ylim(-0.6, len(names) - 0.4)
-    goals = " / ".join(f"{100.0 * goal:g} %" for goal in ADVISED_GOALS)
-    label(axes, f"largest step for {goals} (filled / open); right: evaluations per period", "step, omega dt [-]", "")
-    axes.title.set_fontsize("small")
+    first, second = (f"{100.0 * goal:g} %" for goal in ADVISED_GOALS)
+    label(axes, "", "step, omega dt [-]", "")
+    axes.set_title(f"filled: for {first}, open: {second}", loc="left", fontsize="small")
+    axes.set_title("evaluations per period", loc="right", fontsize="small")
 
 
 def _draw_work(ladders: Ladders, cases: Sequence[Case], figure: Figure) -> None:
