@@ -110,15 +110,22 @@ def _draw_times(ladders: Ladders, cases: Sequence[Case], figure: Figure) -> None
     """Where the run time was measured once there is no point: a single run may have waited for other programs."""
     found = panels(figure, len(cases), 3)
     for axes, case in zip(found, cases, strict=True):
+        y = "run time [s per simulated s]"
+        draw_lines(axes, _lines(ladders, case, _at_run_time), shortened(case.title), _ERROR, y, STYLES)
         for name, scheme in TRIED.items():
-            rows = [row for row in ladders.get((case.name, name), ()) if row.worst and row.quick is not None]
-            errors, medians = [row.worst or 0.0 for row in rows], [row.seconds for row in rows]
-            lower = [row.seconds - (row.quick or 0.0) for row in rows]
-            upper = [(row.slow or 0.0) - row.seconds for row in rows]
-            look = STYLES[scheme.title]
-            axes.errorbar(errors, medians, [lower, upper], label=scheme.title, capsize=2, **look)
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-        label(axes, shortened(case.title), _ERROR, "run time [s per simulated s]")
+            rows = [row for row in ladders.get((case.name, name), ()) if _at_run_time(row)]
+            errors = [row.worst or 0.0 for row in rows]
+            axes.vlines(
+                errors,
+                [row.quick or 0.0 for row in rows],
+                [row.slow or 0.0 for row in rows],
+                color=STYLES[scheme.title]["color"],
+                linewidth=3.0,
+                alpha=0.5,
+            )
         _mark_goals(axes)
     legend_below(figure, found[0], 5)
+
+
+def _at_run_time(row: StepRow) -> tuple[float, float] | None:
+    return None if row.worst is None or row.quick is None else (max(row.worst, _LEAST), row.seconds)
