@@ -24,20 +24,23 @@ def test_report_of_the_sample(sample_report: StudyReport, sample_progress: list[
         "curves",
         "backbones",
         "cases",
+        "advice",
         "goals",
+        "orders",
         "steps",
         "smoothing",
         "impacts",
         "machine",
     ]
     assert [row[0] for row in report.tables[2].rows] == ["drop-reference", "drop-curve", "drop-linear", "pull", "drag"]
-    assert len(report.tables[4].rows) == 5 * 9 * 2
+    assert len(report.tables[6].rows) == 5 * 9 * 2
     assert all(len(row) == len(table.columns) for table in report.tables for row in table.rows)
     assert any("omega dt 10" in omission.what for omission in report.omissions)
     assert any("time integration" in words for words in sample_progress)
     files = {path.name for path in report.write(tmp_path)}
     pictures = {
-        f"precision-{name}.png" for name in ("curves", "backbones", "drop", "pull-drag", "run-time", "smoothing")
+        f"precision-{name}.png"
+        for name in ("curves", "backbones", "drop", "pull-drag", "work", "run-time", "smoothing")
     }
     assert pictures <= files
     assert json.loads((tmp_path / "precision.json").read_text(encoding="utf-8"))["study"] == "precision"
@@ -92,4 +95,4 @@ def test_imperial_deck() -> None:
     assert 32.0 < around.gravity < 32.4
     assert 1.9 < around.density < 2.1
     report = precision.run(found, StudyOptions())
-    assert report.tables[4].rows
+    assert report.tables[6].rows

@@ -36,8 +36,8 @@ KINDS = {
     "lateral": f"{ELASTIC} LATERAL=2.0E5\n",
     "unloading": f"{ELASTIC}*SEABED UNLOADING\n SET=ALL\n STIFFNESS=4.0E5\n",
     "suction spring": f"{ELASTIC} SUCTION=8.0E4, 0.02\n",
-    "suction mobilisation": f"{ELASTIC}*SEABED SUCTION\n SET=ALL\n FORCE=754.0, 0\n DEPTH=1.0E-3, 0\n CUTOFF=0.01, 0.5\n"
-    " REGULARISATION=1.0E3\n",
+    "suction mobilisation": f"{ELASTIC}*SEABED SUCTION\n SET=ALL\n FORCE=754.0, 0\n DEPTH=1.0E-3, 0\n"
+    " CUTOFF=0.01, 0.5\n REGULARISATION=1.0E3\n",
     "suction damping": f"{ELASTIC}*SEABED SUCTION\n SET=ALL\n COHESION=5.0E2\n",
     "nodal": f"{ELASTIC}*SEABED CONTACT\n SET=ALL\n NODAL STIFFNESS=1.0E6\n",
 }

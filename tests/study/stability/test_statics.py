@@ -10,7 +10,7 @@ import pytest
 
 from mudline.contact.laws.suction import SuctionLaw
 from mudline.study import SAMPLE_TEXT, sample_scene
-from mudline.study.schemes import Newton
+from mudline.study.newton import Newton
 from mudline.study.stability.statics import (
     EXAMPLE,
     STARTS,

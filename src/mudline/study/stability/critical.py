@@ -17,8 +17,9 @@ from mudline.contact.stiffest import ADVISED_OMEGA_DT, critical_step
 from mudline.scene.model import Scene
 from mudline.scene.oscillation import Oscillation, line_of, oscillations
 from mudline.study.motion import Motion, Scheme, march
+from mudline.study.newton import Newton
 from mudline.study.report import Layout, Omission, columns_of
-from mudline.study.schemes import Newton, OneStep, RungeKutta
+from mudline.study.schemes import OneStep, RungeKutta
 from mudline.study.stability.oscillator import LoadedContact, Setting, setting_of
 
 

@@ -28,6 +28,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Annotated, NamedTuple
 
 import numpy as np
@@ -38,8 +39,8 @@ from mudline.contact.laws.friction import FrictionHistory, FrictionLaw, slide
 from mudline.contact.laws.suction import SuctionHistory, SuctionLaw, breakout_uplift, maximum_force, step
 from mudline.contact.stiffest import release_stiffness
 from mudline.scene.model import Scene
+from mudline.study.newton import Newton
 from mudline.study.report import Layout, Omission, Section, StudyOptions, columns_of
-from mudline.study.schemes import ROUND_OFF, TOLERANCE, Newton
 
 VELOCITIES = (1e-3, 1e-2, 1e-1, 1.0)
 SHARES = (0.5, 0.99, 1.01, 2.0)
@@ -351,40 +352,10 @@ def _halving_count(ratio: float, share: float) -> HalvingCount:
 
 def halved_failures(problem: FrictionProblem, cap: int) -> int:
     """From how many of `STARTS` Newton's method fails whose corrections are halved at most `cap` times."""
-    u = np.array(STARTS)
-    value, slope, size = residual(problem, u)
-    for _ in range(MOST):
-        done = np.abs(value) < np.maximum(TOLERANCE, ROUND_OFF * size)
-        if done.all():
-            return 0
-        change = np.where(done, 0.0, -value / slope)
-        before = np.abs(value)
-        value, slope, size = residual(problem, u + change)
-        for _ in range(cap):
-            worse = ~done & (np.abs(value) >= before) & (np.abs(value) >= np.maximum(TOLERANCE, ROUND_OFF * size))
-            if not worse.any():
-                break
-            change = np.where(worse, 0.5 * change, change)
-            value, slope, size = residual(problem, u + change)
-        u += change
-    return int((np.abs(value) >= np.maximum(TOLERANCE, ROUND_OFF * size)).sum())
+    return newton_failures(problem, Newton(most=MOST, halving=True, halvings=cap))
 
 
 def bracketed(problem: FrictionProblem, starts: FloatArray) -> IndexArray:
     """Iterations (k,) of Newton's method with a bracket from `starts` (k,); -1 where it does not converge."""
-    u = np.array(starts)
-    low, high = np.full(u.shape, -np.inf), np.full(u.shape, np.inf)
-    taken = np.full(u.shape, -1, np.intp)
-    for iteration in range(MOST + 1):
-        value, slope, size = residual(problem, u)
-        done = np.abs(value) <= np.maximum(TOLERANCE, ROUND_OFF * size)
-        taken = np.where(done & (taken < 0), iteration, taken)
-        if done.all():
-            break
-        low, high = np.where(value < 0.0, u, low), np.where(value > 0.0, u, high)
-        trial = u - value / slope
-        known = np.isfinite(low) & np.isfinite(high)
-        middle = 0.5 * (np.where(known, low, 0.0) + np.where(known, high, 0.0))
-        trial = np.where(known & ((trial <= low) | (trial >= high)), middle, trial)
-        u = np.where(done, u, trial)
-    return taken
+    solution = Newton(most=MOST, bracketed=True).solve(partial(residual, problem), starts)
+    return np.where(solution.residual == 0.0, solution.iterations, -1)
