@@ -133,20 +133,16 @@ def test_a_deck_without_mass_or_suction_is_reported(monkeypatch: pytest.MonkeyPa
 
 def test_only_the_fastest_contacts_are_stepped_by_default(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(deck_steps, "MOST_CONTACTS", 1)
-    monkeypatch.setattr(ladder, "all_cells", lambda: all_cells()[:3])
-    monkeypatch.setattr(ladder, "suction_cells", list)
     monkeypatch.setattr(deck_steps, "STEPPED", ())
-    found = run(sample_scene(), StudyOptions())
+    found = run(sample_scene(), StudyOptions(only=("steps",)))
     assert len(found.omissions) == 5
     assert {one.reason for one in found.omissions} == {"not stepped: slower than those that were (--full)"}
 
 
 def test_a_segment_too_narrow_to_oscillate_in_is_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(ladder, "all_cells", lambda: all_cells()[:3])
-    monkeypatch.setattr(ladder, "suction_cells", list)
     monkeypatch.setattr(deck_steps, "STEPPED", ())
     text = SAMPLE_TEXT.replace(" 0.02,  640.0\n", " 0.0100000000001,  640.0\n")
-    found = run(legal_scene(text), StudyOptions())
+    found = run(legal_scene(text), StudyOptions(only=("steps",)))
     assert [tuple(one) for one in found.omissions] == [
         ("curve:Soft Clay on Clay", "not stepped: a small oscillation there is below rounding")
     ]
@@ -157,8 +153,21 @@ def test_unacceptable_verdicts_are_in_the_notes(monkeypatch: pytest.MonkeyPatch)
     monkeypatch.setattr(ladder, "all_cells", lambda: all_cells()[:3])
     monkeypatch.setattr(ladder, "judge", lambda cell: wrong if cell.value == "1E-2" else judge(cell))
     monkeypatch.setattr(ladder, "suction_cells", list)
-    monkeypatch.setattr(deck_steps, "STEPPED", ())
-    found = run(sample_scene(), StudyOptions())
+    found = run(sample_scene(), StudyOptions(only=("ladder",)))
     assert found.notes[-1] == "softness 1E9: WRONG: the force is off"
     assert found.notes[-2].startswith("2 of 3 cells")
     assert {table.name: table for table in found.tables}["ladder"].rows[-1][5] == 1
+
+
+def test_a_deck_whose_curve_starts_with_a_force_asks_for_a_smaller_step(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The soft clay begins at 60 N/m: one percent needs a far smaller step than omega dt = 0.25."""
+    monkeypatch.setattr(deck_steps, "STEPPED", ())
+    monkeypatch.setattr(deck_steps, "LANDING_SCHEMES", ("newmark", "generalised-alpha-0.5"))
+    monkeypatch.setattr(deck_steps, "_FINER", np.array([0.003, 0.006]))
+    text = SAMPLE_TEXT.replace(" 0.00,    0.0\n", " 0.00,    300.0\n").replace(" 0.01,  450.0\n", " 0.01,  500.0\n")
+    found = run(legal_scene(text), StudyOptions(only=("steps",)))
+    rows = {table.name: table for table in found.tables}["deck-landings"].rows
+    within = {str(row[0]): float(str(row[6])) for row in rows}
+    assert within["linear on Sand"] == pytest.approx(0.25)
+    assert within["curve:Soft Clay on Clay"] <= 0.1
+    assert "because of curve:Soft Clay on Clay" in found.advice

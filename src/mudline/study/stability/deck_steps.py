@@ -41,6 +41,8 @@ MOST_LANDINGS = 2
 """Seabeds on which landings are looked at by default, the stiffest."""
 FARTHEST = 3.0
 """Largest omega dt of landings on a deck's own laws."""
+_FINER = np.geomspace(0.001, 0.02, 14)
+"""omega dt that are tried where all larger ones are too large: where the force jumps at the mudline."""
 _PREFERRED = ("generalised-alpha-0.5", "hht-0.3", "newmark", "generalised-alpha-1", "generalised-alpha-0")
 """Implicit schemes of second order to choose from; of equal ones the first, which damps what is not resolved."""
 _EXPLICIT = "central-difference"
@@ -225,6 +227,8 @@ def deck_landing(scene: Scene, contact: Contact, scheme: Scheme) -> DeckLanding:
     """Land on the law of a contact as fast as a fall to its static penetration needs."""
     fall = _fall(scene, contact)
     found = envelope(scheme, fall, TRIED[TRIED <= FARTHEST])
+    if math.isnan(found.within) and scheme.name in (*_PREFERRED, "velocity-verlet", "rk4"):
+        found = envelope(scheme, fall, _FINER)
     return DeckLanding(contact, scheme, found.below / contact.omega, found.within / contact.omega, fall.speed)
 
 
@@ -275,7 +279,7 @@ def _advice(found: Sequence[Contact], landed: Sequence[DeckLanding]) -> Advice:
     if limit is not None and largest < step:
         step, contact, why = largest, limit.contact, LANDS
         if largest == 0.0:
-            step, why = float(TRIED[0]) / limit.contact.omega, MISSES
+            step, why = float(_FINER[0]) / limit.contact.omega, MISSES
     by = min(found, key=lambda one: one.critical_step(_EXPLICIT))
     return Advice(
         scheme.title,

@@ -21,7 +21,7 @@ from mudline.study.laws import Falling, Law, LinearLaw
 from mudline.study.motion import Motion, Scheme, march
 from mudline.study.pictures import Picture, draw_lines, label, legend_below
 from mudline.study.report import Layout, Section, StudyOptions, columns_of, grouped
-from mudline.study.schemes import SCHEMES, STYLES
+from mudline.study.schemes import SCHEMES, STYLES, bracketed
 
 if TYPE_CHECKING:  # only who draws loads matplotlib
     from matplotlib.figure import Figure
@@ -266,7 +266,7 @@ def rebounds(scheme: Scheme, fall: Fall, omega_dt: FloatArray, phases: FloatArra
     high = fall.law.top + np.tile(phases, len(omega_dt)) * dt * fall.speed
     start = Motion.start(system, high, np.full(len(dt), -fall.speed))
     steps = int(np.ceil(2.0 * np.pi * fall.depth / fall.speed / dt.min())) + _SETTLING
-    run = march(scheme, system, start, dt, steps)
+    run = march(bracketed(scheme), system, start, dt, steps)
     left = (run.position[-1] > fall.law.top) & (run.velocity[-1] > 0.0)
     return np.where(left, run.velocity[-1] / fall.speed, np.nan).reshape(len(omega_dt), -1)
 
