@@ -159,8 +159,8 @@ def test_unacceptable_verdicts_are_in_the_notes(monkeypatch: pytest.MonkeyPatch)
     assert {table.name: table for table in found.tables}["ladder"].rows[-1][5] == 1
 
 
-def test_a_deck_whose_curve_starts_with_a_force_asks_for_a_smaller_step(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The soft clay begins at 60 N/m: one percent needs a far smaller step than omega dt = 0.25."""
+def test_a_curve_that_starts_with_a_force_asks_for_a_smaller_step(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The soft clay begins at 300 N/m: one percent needs a far smaller step than omega dt = 0.25."""
     monkeypatch.setattr(deck_steps, "STEPPED", ())
     monkeypatch.setattr(deck_steps, "LANDING_SCHEMES", ("newmark", "generalised-alpha-0.5"))
     monkeypatch.setattr(deck_steps, "_FINER", np.array([0.003, 0.006]))

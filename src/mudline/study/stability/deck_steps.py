@@ -269,17 +269,19 @@ def _advice(found: Sequence[Contact], landed: Sequence[DeckLanding]) -> Advice:
     It is less where a spring of the deck, one that does not lift off included, is not resolved by it.
     """
     fastest = max(found, key=lambda one: one.omega)
-    choices = []
-    for name in _PREFERRED:
-        own = [one for one in landed if one.scheme.name == name]
-        limit = min(own, key=_least, default=None)
-        choices.append((math.inf if limit is None else _least(limit), limit, SCHEMES[name]))
-    largest, limit, scheme = max(choices, key=lambda choice: choice[0])
-    step, contact, why = fastest.advised_step, fastest, OSCILLATES
-    if limit is not None and largest < step:
-        step, contact, why = largest, limit.contact, LANDS
-        if largest == 0.0:
-            step, why = float(_FINER[0]) / limit.contact.omega, MISSES
+    step, contact, why, scheme = fastest.advised_step, fastest, OSCILLATES, SCHEMES[_PREFERRED[0]]
+    limits = [
+        min((one for one in landed if one.scheme.name == name), key=_least)
+        for name in _PREFERRED
+        if any(one.scheme.name == name for one in landed)
+    ]
+    if limits:
+        limit = max(limits, key=_least)
+        scheme = limit.scheme
+        if _least(limit) == 0.0:
+            step, contact, why = float(_FINER[0]) / limit.contact.omega, limit.contact, MISSES
+        elif limit.within < step:
+            step, contact, why = limit.within, limit.contact, LANDS
     by = min(found, key=lambda one: one.critical_step(_EXPLICIT))
     return Advice(
         scheme.title,
