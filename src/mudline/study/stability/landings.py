@@ -326,6 +326,6 @@ def _draw_gain(over: Sequence[Envelope], figure: Figure) -> None:
     axes.set_ylim(1e-5, 5.0)
     never = [title for title, points in lines.items() if title not in gaining]
     for line in axes.get_lines():
-        line.set_markevery(14)
+        line.set_markevery(0.08)
     axes.text(0.98, 0.03, "".join(f"{title} never gains" for title in never), ha="right", transform=axes.transAxes)
     legend_below(figure, axes)

@@ -88,7 +88,7 @@ def _short(tables: Tables) -> str:
     limits = {one.text("scheme"): one for one in tables.rows("landing-limits")}
     most = max(one.number("largest at any step [-]") for one in limits.values())
     gentle = _gentle(tables)
-    loses = listed(f"{name} ({least} of the speed is left)" for name, least in _loss(landed, gentle))
+    left = listed(f"{share} of the speed with {name}" for name, share in _left(landed, gentle))
     halvings = max(one.number("halvings needed") for one in tables.rows("newton-halvings"))
     stiffest = max(one.number("spring / structure [-]") for one in tables.rows("newton-halvings"))
     gain = percent(landed[newmark].number("largest [-]") - 1.0)
@@ -113,7 +113,7 @@ def _short(tables: Tables) -> str:
         """,
         f"""
         Of the implicit schemes tried only {never} never land with more than {landings.NEVER:g} of their speed gained.
-        They pay for it with damping: at `omega dt` = {ADVISED_OMEGA_DT:g} they lose speed: {loses}.
+        They pay for it with damping: at `omega dt` = {ADVISED_OMEGA_DT:g} a landing leaves {left}.
         """,
         f"""
         Let a solver keep a bracket around the root where friction or suction has a limit. Plain Newton cycles where
@@ -125,7 +125,7 @@ def _short(tables: Tables) -> str:
     return "\n".join(f"* {' '.join(point.split())}" for point in points)
 
 
-def _loss(landed: dict[str, Record], gentle: dict[str, str]) -> list[tuple[str, str]]:
+def _left(landed: dict[str, Record], gentle: dict[str, str]) -> list[tuple[str, str]]:
     return [(name, percent(landed[name].number("mean [-]"))) for name in gentle if name in landed]
 
 
