@@ -1,0 +1,429 @@
+"""Steps of one element on a seabed with all laws that have a history, in exact arithmetic, compared with the evaluator.
+
+The equations are those of docs/contact.md: a plane with its normal, a law along it, an unloading line, friction with
+its stick points, a lateral spring. Roots, sines and cosines have 60 digits, all else is rational. Each number of a
+result is compared with what follows exactly from the numbers before it (gap, depth, force, reaction), and from the
+history as the evaluator had it before the step: no link hides behind the condition of another.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import isfinite
+from sys import float_info
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from mudline.study.exact import SMALLEST, Compared, ExactCurve, ExactLinear, ExactSmoothed, Tally
+
+if TYPE_CHECKING:
+    from mudline.contact.result import ContactResult
+    from mudline.contact.tables import ContactState
+
+_DIGITS = 60
+_ZERO = Fraction(0)
+_LARGEST = Fraction(float_info.max) * (1 - Fraction(1, 2**50))
+_CLOSE = Fraction(1, 2**40)
+"""A part of the largest term: nearer to a limit than this, rounding may fall to either side of it."""
+
+Vector = tuple[Fraction, Fraction, Fraction]
+NormalLaw = ExactLinear | ExactCurve | ExactSmoothed
+
+
+# ---------------------------------------------------------------------------------------------- roots, sines and cosines
+
+
+def fraction_of(value: Any) -> Fraction:  # noqa: ANN401 - mpmath has no types
+    """A number of mpmath: as it has a mantissa and an exponent it is a fraction."""
+    from mpmath.libmp import to_rational  # noqa: PLC0415 - comes with the extra "study", and only this needs it
+
+    numerator, denominator = to_rational(value._mpf_)
+    return Fraction(int(numerator), int(denominator))
+
+
+def sine_and_cosine(degrees: float) -> tuple[Fraction, Fraction]:
+    """Sine and cosine of an angle in degrees, exact at multiples of 90 as the angle is."""
+    from mpmath import mp  # noqa: PLC0415 - see above
+
+    quarters, rest = divmod(Fraction(degrees) % 360, 90)
+    if rest > 45:
+        quarters, rest = quarters + 1, rest - 90
+    with mp.workdps(_DIGITS):
+        angle = mp.mpf(rest.numerator) / rest.denominator * mp.pi / 180
+        sine, cosine = fraction_of(mp.sin(angle)), fraction_of(mp.cos(angle))
+    for _ in range(int(quarters) % 4):
+        sine, cosine = cosine, -sine
+    return sine, cosine
+
+
+def root(square: Fraction) -> Fraction:
+    """The square root to 60 digits."""
+    from mpmath import mp  # noqa: PLC0415 - see above
+
+    with mp.workdps(_DIGITS):
+        return fraction_of(mp.sqrt(mp.mpf(square.numerator) / square.denominator))
+
+
+# -------------------------------------------------------------------------------------------------------------- vectors
+
+
+def dot(one: Vector, other: Vector) -> Fraction:
+    """The scalar product."""
+    return sum((a * b for a, b in zip(one, other, strict=True)), _ZERO)
+
+
+def cross(one: Vector, other: Vector) -> Vector:
+    """The vector product."""
+    (a, b, c), (d, e, f) = one, other
+    return b * f - c * e, c * d - a * f, a * e - b * d
+
+
+def _minus(one: Vector, other: Vector) -> Vector:
+    return one[0] - other[0], one[1] - other[1], one[2] - other[2]
+
+
+def _times(factor: Fraction, one: Vector) -> Vector:
+    return factor * one[0], factor * one[1], factor * one[2]
+
+
+def _largest(one: Vector, other: Vector) -> Fraction:
+    """The largest term of a scalar product."""
+    return max(abs(a * b) for a, b in zip(one, other, strict=True))
+
+
+def _unit(one: Vector) -> Vector:
+    return _times(1 / root(dot(one, one)), one)
+
+
+def vector(values: Sequence[float]) -> Vector:
+    """Three floats as they are."""
+    x, y, z = (Fraction(float(value)) for value in values)
+    return x, y, z
+
+
+# ----------------------------------------------------------------------------------------------------------- what it is
+
+
+class ExactPlane:
+    """A plane through a point, of a slope that rises to a direction; angles in degrees."""
+
+    def __init__(self, slope: float, direction: float, point: Sequence[float]) -> None:
+        sine, cosine = sine_and_cosine(slope)
+        side, ahead = sine_and_cosine(direction)
+        self.normal: Vector = (cosine, -sine * ahead, -sine * side)
+        self.point = vector(point)
+
+    def along(self, span: Vector) -> Vector:
+        """The unit projection of a span; that of +Y where the span has no length."""
+        if not any(span):
+            span = (_ZERO, Fraction(1), _ZERO)
+        return _unit(_minus(span, _times(dot(span, self.normal), self.normal)))
+
+
+@dataclass(frozen=True, slots=True)
+class ExactFriction:
+    """Coefficients and springs along u1 and u2; a spring is a constant, or mu N / a mobilisation length."""
+
+    coefficients: tuple[float, float]
+    springs: tuple[float, float] | None
+    mobilisation: tuple[float, float] | None
+    ellipse: bool = False
+    angle: float | None = None
+
+    def spring(self, side: int, normal_force: Fraction) -> Fraction:
+        """The stiffness of a direction under a normal force."""
+        if self.springs is not None:
+            return Fraction(self.springs[side])
+        if self.mobilisation is None:
+            raise ValueError("friction has neither springs nor mobilisation lengths")
+        return self.limit(side, normal_force) / Fraction(self.mobilisation[side])
+
+    def limit(self, side: int, normal_force: Fraction) -> Fraction:
+        """The Coulomb limit of a direction."""
+        return Fraction(self.coefficients[side]) * normal_force
+
+
+@dataclass(frozen=True, slots=True)
+class ExactElement:
+    """One element, its seabed and all its laws.
+
+    Attributes:
+        law: per unit length; None where the nodes have one.
+        nodal: of each node.
+        unloading: stiffness of the unloading line.
+        uplift: stiffness and extent of the spring against uplift.
+    """
+
+    diameter: float
+    length: Fraction
+    plane: ExactPlane
+    law: NormalLaw | None
+    nodal: ExactSmoothed | ExactLinear | None = None
+    unloading: float | None = None
+    friction: ExactFriction | None = None
+    lateral: float | None = None
+    uplift: tuple[float, float] | None = None
+
+
+class _Trial(NamedTuple):
+    """Of a direction: elongation, the largest term of it, spring, force in the spring, limit."""
+
+    elongation: Fraction
+    term: Fraction
+    spring: Fraction
+    force: Fraction
+    limit: Fraction
+
+
+class ExactStep:
+    """One step: what is exact, and its comparison with a result; without a result, whether some number overflows."""
+
+    def __init__(self, element: ExactElement, tally: Tally, bound: float) -> None:
+        self._element, self._tally, self._bound = element, tally, bound
+        self.overflows = False
+        """Whether some number of the last step is too large for a float64."""
+
+    def compare(
+        self,
+        points: Sequence[Sequence[float]],
+        before: ContactState,
+        result: ContactResult | None,
+        after: ContactState | None,
+    ) -> None:
+        """Compare a step behind the state `before`."""
+        self.overflows = False
+        element, plane = self._element, self._element.plane
+        places = [vector(point) for point in points]
+        gaps = [self._gap(place, None if result is None else result.gap[node]) for node, place in enumerate(places)]
+        if result is not None:
+            for node in range(2):
+                for axis in range(3):
+                    exact = plane.normal[axis]
+                    self._add("the normal", float(result.normal[node, axis]), exact, abs(exact))
+        depth = self._add(
+            "the depth",
+            None if result is None else float(result.depth[0]),
+            -(gaps[0] + gaps[1]) / 2,
+            max(abs(gap) for gap in gaps),
+        )
+        exact_ratio = depth / Fraction(element.diameter)
+        self._add("the ratio", None if result is None else float(result.ratio[0]), exact_ratio, abs(exact_ratio))
+        force = self._normal_force(depth, before, result)
+        loads = [self._load(force, gap, node, result) for node, gap in enumerate(gaps)]
+        if element.friction is None and element.lateral is None:
+            for node, load in enumerate(loads):
+                self._reaction(node, [(load, plane.normal)], result)
+            return
+        along = plane.along(_minus(places[1], places[0]))
+        across = cross(plane.normal, along)
+        push = self._lateral(places, across, depth, before)
+        axes = along, across
+        if element.friction is not None and element.friction.angle is not None:
+            sine, cosine = sine_and_cosine(element.friction.angle)
+            one = plane.along((_ZERO, _ZERO, _ZERO))
+            other = cross(plane.normal, one)
+            turned = tuple(cosine * a + sine * b for a, b in zip(one, other, strict=True))
+            axes = (turned, cross(plane.normal, turned))  # type: ignore[assignment]
+        for node, (place, load) in enumerate(zip(places, loads, strict=True)):
+            slid = self._friction(node, place, axes, load, before, after)
+            parts = []
+            for side, axis in enumerate(axes):
+                share = dot(_times(push[0], across), axis)
+                held, term, floor = slid[side]
+                found = None if result is None or result.friction is None else float(result.friction[node, side])
+                what = f"the force along u{side + 1}"
+                terms = max(term, push[1] * abs(dot(across, axis)))
+                parts.append((self._add(what, found, share - held, terms, floor + push[2]), axis))
+            self._reaction(node, [(load, plane.normal), *parts], result)
+
+    # --------------------------------------------------------------------------------------------------- normal forces
+
+    def _gap(self, place: Vector, found: float | None) -> Fraction:
+        plane = self._element.plane
+        away = _minus(place, plane.point)
+        terms = [
+            _largest(plane.normal, away),
+            abs(plane.normal[0] * place[0]),
+            abs(plane.normal[0] * plane.point[0]),
+        ]
+        return self._add("the gap", None if found is None else float(found), dot(plane.normal, away), max(terms))
+
+    def _normal_force(self, depth: Fraction, before: ContactState, result: ContactResult | None) -> Fraction:
+        """Force per unit length, slope and stiffness of the element."""
+        element, size = self._element, Fraction(self._element.diameter)
+        force, stiffness, term, by_depth, sharp = _ZERO, _ZERO, _ZERO, _ZERO, True
+        ratio = depth / size if result is None else Fraction(float(result.ratio[0]))
+        if element.unloading is not None and element.law is not None and before.unloading is not None:
+            force, stiffness, term, by_depth, sharp = self._unloaded(depth, float(before.unloading.z_max[0]))
+        elif element.law is not None and depth > onset(element.law):
+            spring = element.law.spring(depth, ratio)
+            force, stiffness, term = spring.force, spring.stiffness, spring.term
+            by_depth = abs(stiffness) if spring.by_depth is None else spring.by_depth
+        if element.uplift is not None:
+            held, extent = (Fraction(value) for value in element.uplift)
+            rise = -depth if element.law is None else onset(element.law) - depth
+            if 0 < rise <= extent:
+                force, stiffness = force - held * rise, stiffness + held
+                term, by_depth = max(term, abs(held * rise)), max(by_depth, held)
+        given = None if result is None else float(result.force[0])
+        force = self._add("the force", given, force, term)
+        if sharp:
+            given = None if result is None else float(result.stiffness[0])
+            self._add("the stiffness", given, stiffness, by_depth)
+            given = None if result is None else float(result.slope[0])
+            self._add("the slope", given, stiffness * size, by_depth * size, 2 * SMALLEST * max(size, Fraction(1)))
+        return force
+
+    def _unloaded(
+        self, depth: Fraction, known: float
+    ) -> tuple[Fraction, Fraction, Fraction, Fraction, bool]:
+        """Force, stiffness and their largest terms at or behind the deepest point; whether the stiffness is certain."""
+        element, z = self._element, max(depth, _ZERO)
+        law = element.law
+        if law is None or element.unloading is None:
+            raise ValueError("an unloading line needs a law to return from")
+        if z > Fraction(known):
+            # the ratio is a quotient of floats, and rounded before the curve is asked
+            spring = law.spring(z, Fraction(float(z) / element.diameter) if isfinite(float(z) / element.diameter) else z)
+            return spring.force, spring.stiffness, spring.term, abs(spring.stiffness), True
+        deepest = Fraction(known)
+        if not deepest:
+            return _ZERO, _ZERO, _ZERO, _ZERO, True
+        ratio = Fraction(known / element.diameter)
+        top = law.spring(deepest, ratio)
+        largest = max(top.force, _ZERO)
+        line = max(Fraction(element.unloading), law.steepest(ratio), largest / deepest)
+        bottom = deepest - largest / line
+        sharp = abs(z - bottom) > _CLOSE * deepest and largest > _CLOSE * line * deepest
+        if z <= bottom:
+            return _ZERO, _ZERO, max(top.term, line * deepest * _CLOSE), _ZERO, sharp
+        fall = line * (deepest - z)
+        return max(largest - fall, _ZERO), line, max(top.term, fall), line, sharp
+
+    def _load(self, force: Fraction, gap: Fraction, node: int, result: ContactResult | None) -> Fraction:
+        """The normal force of a node."""
+        element = self._element
+        load = force * element.length / 2
+        term = abs(load)
+        if element.nodal is not None and -gap > onset(element.nodal):
+            spring = element.nodal.spring(-gap, _ZERO)
+            load, term = load + spring.force, max(term, spring.term)
+        found = None if result is None else float(result.normal_force[node])
+        return self._add("the normal force", found, load, term)
+
+    def _reaction(
+        self, node: int, parts: Sequence[tuple[Fraction, Vector]], result: ContactResult | None
+    ) -> None:
+        for axis in range(3):
+            terms = [size * way[axis] for size, way in parts]
+            found = None if result is None else float(result.reaction[node, axis])
+            floor = SMALLEST * (2 + len(parts))
+            self._add("the reaction", found, sum(terms, _ZERO), max(map(abs, terms)), floor)
+
+    # ------------------------------------------------------------------------------------------------ sideways, history
+
+    def _lateral(
+        self, places: Sequence[Vector], across: Vector, depth: Fraction, before: ContactState
+    ) -> tuple[Fraction, Fraction, Fraction]:
+        """The push on each node along n x t, its largest term, and what it cannot be known closer to."""
+        element = self._element
+        if element.lateral is None or before.touchdown is None:
+            return _ZERO, _ZERO, _ZERO
+        kept = before.touchdown[0].tolist()
+        starts = _ZERO if element.law is None else onset(element.law)
+        if not isfinite(kept[0]) or depth <= starts:
+            return _ZERO, _ZERO, _ZERO
+        middle = tuple((a + b) / 2 for a, b in zip(*places, strict=True))
+        arm = _minus(middle, vector(kept))  # type: ignore[arg-type]
+        half = Fraction(element.lateral) * element.length / 2
+        coordinates = max(abs(part) for place in (*places, vector(kept)) for part in _weighed(place, across))
+        return -half * dot(arm, across), half * coordinates, half * 4 * SMALLEST
+
+    def _friction(
+        self,
+        node: int,
+        place: Vector,
+        axes: tuple[Vector, Vector],
+        normal_force: Fraction,
+        before: ContactState,
+        after: ContactState | None,
+    ) -> list[tuple[Fraction, Fraction, Fraction]]:
+        """Force in each spring, its largest term and floor; the stick point behind the step is compared."""
+        law, history = self._element.friction, before.friction
+        if law is None or history is None or normal_force <= 0:
+            return [(_ZERO, _ZERO, _ZERO)] * 2
+        touched = history.states[node, 0] > 0
+        stick = vector(history.stick_points[node]) if touched else place
+        away = _minus(place, stick)
+        trials = []
+        for side, axis in enumerate(axes):
+            spring, elongation = law.spring(side, normal_force), dot(away, axis)
+            force = spring * elongation
+            trials.append(_Trial(elongation, _largest(away, axis), spring, force, law.limit(side, normal_force)))
+        forces, terms = _held(trials, ellipse=law.ellipse)
+        found = []
+        moved = []
+        for trial, force, term in zip(trials, forces, terms, strict=True):
+            slips = force != trial.force
+            # a spring that follows the normal force is as coarse as the smallest float64 where it is tiny
+            coarse = SMALLEST if law.springs is None else _ZERO
+            small = 2 * SMALLEST + 4 * SMALLEST * trial.spring + 4 * coarse * abs(trial.elongation)
+            found.append((force, term, small))
+            moved.append(trial.elongation - force / trial.spring if slips and trial.spring else _ZERO)
+        if after is not None and after.friction is not None:
+            self._stick_point(node, place, stick, axes, trials, moved, after.friction.stick_points[node].tolist())
+        return found
+
+    def _stick_point(
+        self,
+        node: int,
+        place: Vector,
+        stick: Vector,
+        axes: tuple[Vector, Vector],
+        trials: Sequence[_Trial],
+        moved: Sequence[Fraction],
+        kept: Sequence[float],
+    ) -> None:
+        for axis in range(3):
+            exact = stick[axis] + sum((step * way[axis] for step, way in zip(moved, axes, strict=True)), _ZERO)
+            reach = [abs(way[axis]) * max(trial.term, abs(trial.elongation)) for way, trial in zip(axes, trials, strict=True)]
+            term = max(abs(stick[axis]), abs(place[axis]), *reach)
+            self._add(f"the stick point of node {node + 1}", kept[axis], exact, term, 8 * SMALLEST)
+
+    def _add(
+        self, what: str, found: float | None, exact: Fraction, term: Fraction, floor: Fraction = 2 * SMALLEST
+    ) -> Fraction:
+        """Compare one number; the next link of the chain begins with it."""
+        self.overflows |= abs(exact) > _LARGEST
+        if found is None:
+            return exact
+        self._tally.add(what, Compared(found, exact, max(term, abs(exact))), self._bound, floor)
+        return Fraction(found) if isfinite(found) else exact
+
+
+def onset(law: NormalLaw) -> Fraction:
+    """The penetration from which on a law acts."""
+    return law.onset if isinstance(law, ExactSmoothed) else _ZERO
+
+
+def _weighed(place: Vector, axis: Vector) -> list[Fraction]:
+    return [a * b for a, b in zip(place, axis, strict=True)]
+
+
+def _held(trials: Sequence[_Trial], *, ellipse: bool) -> tuple[list[Fraction], list[Fraction]]:
+    """Forces within their limits, and the largest term of each."""
+    if not ellipse:
+        forces = [max(min(trial.force, trial.limit), -trial.limit) for trial in trials]
+        terms = []
+        for trial in trials:
+            term = trial.term * trial.spring
+            beyond = abs(trial.force) - trial.limit > _CLOSE * term
+            terms.append(trial.limit if beyond else max(term, abs(trial.force)))
+        return forces, terms
+    able = [trial.limit > 0 for trial in trials]
+    shares = [trial.force / trial.limit if can else _ZERO for trial, can in zip(trials, able, strict=True)]
+    size = root(shares[0] ** 2 + shares[1] ** 2) if any(shares) else _ZERO
+    scale = max(size, Fraction(1))
+    forces = [trial.force / scale if can else _ZERO for trial, can in zip(trials, able, strict=True)]
+    return forces, [trial.term * trial.spring / scale for trial in trials]
