@@ -181,6 +181,8 @@ class ExactStep:
 
     def __init__(self, element: ExactElement, tally: Tally, bound: float) -> None:
         self._element, self._tally, self._bound = element, tally, bound
+        friction = element.friction
+        self._straight = element.plane.normal == (1, 0, 0) and (friction is None or friction.angle is None)
         self.overflows = False
         """Whether some number of the last step is too large for a float64."""
 
@@ -233,7 +235,7 @@ class ExactStep:
                 held, term, floor = slid[side]
                 found = None if result is None or result.friction is None else float(result.friction[node, side])
                 what = f"the force along u{side + 1}"
-                terms = max(term, push[1] * abs(dot(across, axis)))
+                terms = max(term, push[1] * (abs(dot(across, axis)) if self._straight else 1))
                 parts.append((self._add(what, found, share - held, terms, floor + push[2]), axis))
             self._reaction(node, [(load, plane.normal), *parts], result)
 
@@ -310,7 +312,8 @@ class ExactStep:
             spring = element.nodal.spring(-gap, _ZERO)
             load, term = load + spring.force, max(term, spring.term)
         found = None if result is None else float(result.normal_force[node])
-        return self._add("the normal force", found, load, term)
+        # the length is known to the smallest float64
+        return self._add("the normal force", found, load, term, SMALLEST * (2 + abs(force)))
 
     def _reaction(
         self, node: int, parts: Sequence[tuple[Fraction, Vector]], result: ContactResult | None
@@ -318,8 +321,10 @@ class ExactStep:
         for axis in range(3):
             terms = [size * way[axis] for size, way in parts]
             found = None if result is None else float(result.reaction[node, axis])
-            floor = SMALLEST * (2 + len(parts))
-            self._add("the reaction", found, sum(terms, _ZERO), max(map(abs, terms)), floor)
+            # a direction is known to the rounding of 1, or of its component where that is the only one
+            largest = [abs(size) * (abs(way[axis]) if at == 0 or self._straight else 1) for at, (size, way) in enumerate(parts)]
+            floor = SMALLEST * (2 + 2 * sum(abs(size) + 1 for size, _ in parts))
+            self._add("the reaction", found, sum(terms, _ZERO), max(largest), floor)
 
     # ------------------------------------------------------------------------------------------------ sideways, history
 
@@ -337,8 +342,11 @@ class ExactStep:
         middle = tuple((a + b) / 2 for a, b in zip(*places, strict=True))
         arm = _minus(middle, vector(kept))  # type: ignore[arg-type]
         half = Fraction(element.lateral) * element.length / 2
+        self.overflows |= half > _LARGEST
         coordinates = max(abs(part) for place in (*places, vector(kept)) for part in _weighed(place, across))
-        return -half * dot(arm, across), half * coordinates, half * 4 * SMALLEST
+        # half of the length is known to the smallest float64
+        floor = 4 * SMALLEST * (half + Fraction(element.lateral) * coordinates)
+        return -half * dot(arm, across), half * coordinates, floor
 
     def _friction(
         self,
@@ -362,34 +370,39 @@ class ExactStep:
             force = spring * elongation
             trials.append(_Trial(elongation, _largest(away, axis), spring, force, law.limit(side, normal_force)))
         forces, terms = _held(trials, ellipse=law.ellipse)
-        found = []
-        moved = []
+        found, moved, known = [], [], 8 * SMALLEST
         for trial, force, term in zip(trials, forces, terms, strict=True):
             slips = force != trial.force
-            # a spring that follows the normal force is as coarse as the smallest float64 where it is tiny
-            coarse = SMALLEST if law.springs is None else _ZERO
-            small = 2 * SMALLEST + 4 * SMALLEST * trial.spring + 4 * coarse * abs(trial.elongation)
+            # the spring of a mobilisation length is known to the smallest float64, for each unit of the normal force
+            coarse = SMALLEST * (2 + 2 * normal_force) if law.springs is None else _ZERO
+            small = 2 * SMALLEST + 4 * SMALLEST * trial.spring + 2 * coarse * abs(trial.elongation)
             found.append((force, term, small))
-            moved.append(trial.elongation - force / trial.spring if slips and trial.spring else _ZERO)
+            slid = force / trial.spring if slips and trial.spring else _ZERO
+            moved.append(trial.elongation - slid if slips and trial.spring else _ZERO)
+            known += 2 * coarse * abs(slid) / trial.spring if trial.spring else _ZERO
+            if law.springs is None or law.ellipse:
+                # limits and springs are then numbers of the law, which have to be float64s themselves
+                self.overflows |= max(trial.limit, trial.spring) > _LARGEST
         if after is not None and after.friction is not None:
-            self._stick_point(node, place, stick, axes, trials, moved, after.friction.stick_points[node].tolist())
+            kept = after.friction.stick_points[node].tolist()
+            self._stick_point(kept, place, stick, axes, trials, moved, known)
         return found
 
     def _stick_point(
         self,
-        node: int,
+        kept: Sequence[float],
         place: Vector,
         stick: Vector,
         axes: tuple[Vector, Vector],
         trials: Sequence[_Trial],
         moved: Sequence[Fraction],
-        kept: Sequence[float],
+        floor: Fraction,
     ) -> None:
         for axis in range(3):
             exact = stick[axis] + sum((step * way[axis] for step, way in zip(moved, axes, strict=True)), _ZERO)
             reach = [abs(way[axis]) * max(trial.term, abs(trial.elongation)) for way, trial in zip(axes, trials, strict=True)]
             term = max(abs(stick[axis]), abs(place[axis]), *reach)
-            self._add(f"the stick point of node {node + 1}", kept[axis], exact, term, 8 * SMALLEST)
+            self._add("the stick point", kept[axis], exact, term, floor)
 
     def _add(
         self, what: str, found: float | None, exact: Fraction, term: Fraction, floor: Fraction = 2 * SMALLEST

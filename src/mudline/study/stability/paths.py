@@ -139,7 +139,7 @@ def _friction(deck: SmallDeck) -> ExactFriction | None:
     coefficients = _pair(deck.coefficients)
     if coefficients is None:
         return None
-    if deck.lateral:
+    if deck.lateral and float(deck.lateral) > 0.0:
         coefficients = coefficients[0], 0.0
     springs = None if deck.mobilisation else _pair(deck.springs)
     ellipse = deck.criterion == "ELLIPSE" and springs is not None
