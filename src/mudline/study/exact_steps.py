@@ -182,6 +182,8 @@ class ExactStep:
     def __init__(self, element: ExactElement, tally: Tally, bound: float) -> None:
         self._element, self._tally, self._bound = element, tally, bound
         friction = element.friction
+        law = element.law or element.nodal
+        self._onset = _ZERO if law is None else onset(law)
         self._straight = element.plane.normal == (1, 0, 0) and (friction is None or friction.angle is None)
         self.overflows = False
         """Whether some number of the last step is too large for a float64."""
@@ -264,7 +266,7 @@ class ExactStep:
             by_depth = abs(stiffness) if spring.by_depth is None else spring.by_depth
         if element.uplift is not None:
             held, extent = (Fraction(value) for value in element.uplift)
-            rise = -depth if element.law is None else onset(element.law) - depth
+            rise = self._onset - depth
             if 0 < rise <= extent:
                 force, stiffness = force - held * rise, stiffness + held
                 term, by_depth = max(term, abs(held * rise)), max(by_depth, held)
@@ -336,7 +338,7 @@ class ExactStep:
         if element.lateral is None or before.touchdown is None:
             return _ZERO, _ZERO, _ZERO
         kept = before.touchdown[0].tolist()
-        starts = _ZERO if element.law is None else onset(element.law)
+        starts = self._onset
         if not isfinite(kept[0]) or depth <= starts:
             return _ZERO, _ZERO, _ZERO
         middle = tuple((a + b) / 2 for a, b in zip(*places, strict=True))
@@ -383,9 +385,15 @@ class ExactStep:
             if law.springs is None or law.ellipse:
                 # limits and springs are then numbers of the law, which have to be float64s themselves
                 self.overflows |= max(trial.limit, trial.spring) > _LARGEST
+            if law.ellipse and trial.limit:
+                self.overflows |= abs(trial.force) > trial.limit * _LARGEST
         if after is not None and after.friction is not None:
             kept = after.friction.stick_points[node].tolist()
-            self._stick_point(kept, place, stick, axes, trials, moved, known)
+            reaches = [
+                max(trial.term, abs(trial.elongation), term / trial.spring if trial.spring else _ZERO)
+                for trial, term in zip(trials, terms, strict=True)
+            ]
+            self._stick_point(kept, place, stick, list(zip(axes, moved, reaches, strict=True)), known)
         return found
 
     def _stick_point(
@@ -393,15 +401,13 @@ class ExactStep:
         kept: Sequence[float],
         place: Vector,
         stick: Vector,
-        axes: tuple[Vector, Vector],
-        trials: Sequence[_Trial],
-        moved: Sequence[Fraction],
+        moves: Sequence[tuple[Vector, Fraction, Fraction]],
         floor: Fraction,
     ) -> None:
+        """Compare where the stick point has gone to, by how far along each axis, with the largest term of that."""
         for axis in range(3):
-            exact = stick[axis] + sum((step * way[axis] for step, way in zip(moved, axes, strict=True)), _ZERO)
-            reach = [abs(way[axis]) * max(trial.term, abs(trial.elongation)) for way, trial in zip(axes, trials, strict=True)]
-            term = max(abs(stick[axis]), abs(place[axis]), *reach)
+            exact = stick[axis] + sum((step * way[axis] for way, step, _ in moves), _ZERO)
+            term = max(abs(stick[axis]), abs(place[axis]), *(abs(way[axis]) * reach for way, _, reach in moves))
             self._add("the stick point", kept[axis], exact, term, floor)
 
     def _add(
@@ -434,9 +440,19 @@ def _held(trials: Sequence[_Trial], *, ellipse: bool) -> tuple[list[Fraction], l
             beyond = abs(trial.force) - trial.limit > _CLOSE * term
             terms.append(trial.limit if beyond else max(term, abs(trial.force)))
         return forces, terms
-    able = [trial.limit > 0 for trial in trials]
+    # a limit below the smallest float64 is none
+    able = [trial.limit > SMALLEST / 2 for trial in trials]
     shares = [trial.force / trial.limit if can else _ZERO for trial, can in zip(trials, able, strict=True)]
     size = root(shares[0] ** 2 + shares[1] ** 2) if any(shares) else _ZERO
     scale = max(size, Fraction(1))
     forces = [trial.force / scale if can else _ZERO for trial, can in zip(trials, able, strict=True)]
-    return forces, [trial.term * trial.spring / scale for trial in trials]
+    if scale == 1:
+        return forces, [trial.term * trial.spring for trial in trials]
+    loose = _ZERO  # terms in the norm, relative to it
+    for trial, share, can in zip(trials, shares, able, strict=True):
+        if can:
+            loose += abs(share) * (trial.term * trial.spring / trial.limit) / size**2
+    return forces, [
+        trial.term * trial.spring / scale + abs(force) * loose if can else _ZERO
+        for trial, force, can in zip(trials, forces, able, strict=True)
+    ]

@@ -61,9 +61,9 @@ def norm(one: Value, other: Value) -> Value:
 
 def on_ellipse(trial_1: Value, trial_2: Value, limit_1: Value, limit_2: Value) -> tuple[Value, Value, Value]:
     """Return the forces of both directions in their springs, and whether they slip, for limits above 0."""
-    # a limit too large for a float64 makes NaN, which is refused: its part in the sum would be lost
-    size = norm(trial_1 / limit_1, trial_2 / limit_2) + (0.0 * limit_1 + 0.0 * limit_2)
-    share = 1.0 / np.maximum(size, 1.0)
+    size = norm(trial_1 / limit_1, trial_2 / limit_2)
+    # a limit or a quotient too large for a float64 makes NaN, which is refused: its part in the sum would be lost
+    share = 1.0 / np.maximum(size, 1.0) + 0.0 * (limit_1 + (limit_2 + size))
     return trial_1 * share, trial_2 * share, size > 1.0
 
 
