@@ -15,7 +15,7 @@ from math import isfinite
 from sys import float_info
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from mudline.study.exact import SMALLEST, Compared, ExactCurve, ExactLinear, ExactSmoothed, Tally
+from mudline.study.exact import ROUNDING, SMALLEST, Compared, ExactCurve, ExactLinear, ExactSmoothed, Tally
 
 if TYPE_CHECKING:
     from mudline.contact.result import ContactResult
@@ -184,9 +184,18 @@ class ExactStep:
         friction = element.friction
         law = element.law or element.nodal
         self._onset = _ZERO if law is None else onset(law)
+        self._deeper = 0
         self._straight = element.plane.normal == (1, 0, 0) and (friction is None or friction.angle is None)
         self.overflows = False
         """Whether some number of the last step is too large for a float64."""
+
+    def may_overflow(self, points: Sequence[Sequence[float]], before: ContactState) -> bool:
+        """Whether some number of a step is too large for a float64, or is after the rounding of a gap."""
+        found = False
+        for self._deeper in range(2):
+            self.compare(points, before, None, None)
+            found |= self.overflows
+        return found
 
     def compare(
         self,
@@ -251,7 +260,10 @@ class ExactStep:
             abs(plane.normal[0] * place[0]),
             abs(plane.normal[0] * plane.point[0]),
         ]
-        return self._add("the gap", None if found is None else float(found), dot(plane.normal, away), max(terms))
+        exact = dot(plane.normal, away)
+        if found is None:  # deeper by what rounding may be
+            return exact - self._deeper * max(terms) * Fraction(self._bound) * ROUNDING
+        return self._add("the gap", float(found), exact, max(terms))
 
     def _normal_force(self, depth: Fraction, before: ContactState, result: ContactResult | None) -> Fraction:
         """Force per unit length, slope and stiffness of the element."""
@@ -337,14 +349,14 @@ class ExactStep:
         element = self._element
         if element.lateral is None or before.touchdown is None:
             return _ZERO, _ZERO, _ZERO
+        half = Fraction(element.lateral) * element.length / 2
+        self.overflows |= half > _LARGEST
         kept = before.touchdown[0].tolist()
         starts = self._onset
         if not isfinite(kept[0]) or depth <= starts:
             return _ZERO, _ZERO, _ZERO
         middle = tuple((a + b) / 2 for a, b in zip(*places, strict=True))
         arm = _minus(middle, vector(kept))  # type: ignore[arg-type]
-        half = Fraction(element.lateral) * element.length / 2
-        self.overflows |= half > _LARGEST
         coordinates = max(abs(part) for place in (*places, vector(kept)) for part in _weighed(place, across))
         # half of the length is known to the smallest float64
         floor = 4 * SMALLEST * (half + Fraction(element.lateral) * coordinates)

@@ -170,7 +170,7 @@ def test_spread_curves_have_their_points() -> None:
 def test_report() -> None:
     found = report()
     assert [table.name for table in found.tables] == [
-        *("curve", "stages", "imports", "growth", "nodes", "sizes", "modules"),
+        *("curve", "stages", "imports", "growth", "nodes", "sizes", "modules", "machine"),
     ]
     assert [picture.name for picture in found.pictures] == ["nodes", "stages", "growth"]
     assert [row[0] for row in found.tables[0].rows] == [20, 60, 100]
@@ -203,7 +203,7 @@ def test_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert (outcome.code, outcome.err) == (0, "")
     assert outcome.json()["study"] == "pruning"
     assert json.loads((tmp_path / "pruning.json").read_text(encoding="utf-8"))["title"].endswith("touchdown.keyxm")
-    assert len(list(tmp_path.glob("pruning-*.csv"))) == 7
+    assert len(list(tmp_path.glob("pruning-*.csv"))) == 8
     pictures = list(tmp_path.glob("pruning-*.png"))
     assert len(pictures) == 3
     assert all(picture.read_bytes().startswith(b"\x89PNG") for picture in pictures)

@@ -10,18 +10,17 @@ import pickle
 import subprocess
 import sys
 from collections.abc import Iterator, Sequence
-from dataclasses import fields, replace
+from dataclasses import fields
 from typing import NamedTuple
-
-import numpy as np
 
 from mudline.contact.input import ContactInput
 from mudline.scene.model import Scene
 from mudline.study import sample_scene
 from mudline.study.pruning import cost
 from mudline.study.pruning.growth import study_growth
-from mudline.study.pruning.scenes import CURVE, Variant, pipe_of, variants
-from mudline.study.report import Layout, Omission, Section, StudyOptions, StudyReport, paragraphs
+from mudline.study.pruning.scenes import CURVE, Pipe, Variant, pipe_of, variants
+from mudline.study.report import Layout, Omission, Section, StudyOptions, paragraphs
+from mudline.study.running import Part, Study
 
 _NODES = 11
 _RUNS = 3
@@ -129,8 +128,6 @@ def _asked(data: bytes) -> tuple[float, list[str], int]:
     return float(seconds), list(modules), int(others)
 
 
-_ORDER = ("curve", "stages", "imports", "growth", "nodes", "sizes", "modules")
-"""Of the tables: what is short first."""
 _NOTES = """
 Times are those of the processor, the best of repeated runs, so that other programs hardly count; per node and step of a
 series of three steps (laid, lifted in waves, dragged aside), whose results are thrown away. Apart from the scene as it
@@ -151,22 +148,33 @@ constant number of elements. Points, curves, planes: one evaluation of one step,
 """
 
 
-@np.errstate(all="ignore")
-def run(scene: Scene, options: StudyOptions) -> StudyReport:
-    """Study what the stages cost on the line of a scene.
+def _pipe(scene: Scene) -> Pipe:
+    """What the forced laws are made for; raises DeckError where the scene cannot be evaluated."""
+    return pipe_of(scene.contact_input(), next(iter(sample_scene().curves.values())))
 
-    Raises DeckError where the scene cannot be evaluated, and ImportError without scipy.
-    """
-    inputs = scene.contact_input()
+
+def _imports(scene: Scene, options: StudyOptions) -> Section:
+    return study_imports(variants(scene.contact_input(), _pipe(scene)), options)
+
+
+def _growth(scene: Scene, options: StudyOptions) -> Section:
+    return study_growth(_pipe(scene), options)
+
+
+def _stages(scene: Scene, options: StudyOptions) -> Section:
+    inputs, pipe = scene.contact_input(), _pipe(scene)
+    found = cost.study_cost(variants(inputs, pipe), pipe, cost.study_curve(pipe, options), options)
     notes = paragraphs(_NOTES)
-    pipe = pipe_of(inputs, next(iter(sample_scene().curves.values())))
     if not inputs.has("curve"):
         notes.append("The deck's elements have no curve: that of the built-in sample is used.")
-    found = variants(inputs, pipe)
-    alone = cost.study_curve(pipe, options)
-    imports, growth = study_imports(found, options), study_growth(pipe, options)
-    costs = cost.study_cost(found, pipe, alone, options)
     left = [] if options.full else [Omission(f"{cost.MOST} nodes with stages on", "only with --full")]
-    sections = (imports, costs, growth, Section(notes=notes, omissions=left))
-    report = StudyReport.of("pruning", f"Pruning: {scene.deck.file}", sections)
-    return replace(report, tables=tuple(sorted(report.tables, key=lambda table: _ORDER.index(table.name))))
+    return found._replace(notes=notes, omissions=left)
+
+
+STUDY = Study(
+    "pruning",
+    "Pruning: {deck}",
+    (Part("stages", _stages, 30.0), Part("imports", _imports, 10.0), Part("growth", _growth, 20.0)),
+    order=("curve", "stages", "imports", "growth", "nodes", "sizes", "modules"),
+)
+run = STUDY.run

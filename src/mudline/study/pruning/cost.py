@@ -13,19 +13,9 @@ from numpy.typing import NDArray
 from mudline.contact.arrays import FloatArray
 from mudline.contact.input import ContactInput
 from mudline.contact.model import ContactModel
+from mudline.study.pictures import Picture, draw_lines, label, legend_below, style
 from mudline.study.pruning.scenes import CURVE, STEPS, Pipe, Variant, line, positions, series
-from mudline.study.report import (
-    Layout,
-    Picture,
-    Section,
-    StudyOptions,
-    columns_of,
-    draw_lines,
-    grouped,
-    label,
-    legend_below,
-    style,
-)
+from mudline.study.report import Layout, Section, StudyOptions, columns_of, grouped
 from mudline.study.timing import Timing, processor_time
 
 if TYPE_CHECKING:  # only who draws loads matplotlib

@@ -14,9 +14,10 @@ from mudline.contact.input import ContactInput, LawAssignment
 from mudline.contact.model import ContactModel
 from mudline.curves import ForceCurve
 from mudline.study import scene_of
+from mudline.study.pictures import Picture, label, panels, style
 from mudline.study.pruning.cost import stepping
 from mudline.study.pruning.scenes import Pipe, Variant, everything, line, planes, positions, series
-from mudline.study.report import Layout, Picture, Section, StudyOptions, columns_of, grouped, label, panels, style
+from mudline.study.report import Layout, Section, StudyOptions, columns_of, grouped
 from mudline.study.timing import processor_time
 
 if TYPE_CHECKING:  # only who draws loads matplotlib

@@ -13,7 +13,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mudline.study.report import Layout, Picture, Section, StudyOptions, columns_of, grouped
+from mudline.scene.model import Scene
+from mudline.study.pictures import Picture
+from mudline.study.report import Layout, Section, StudyOptions, columns_of, grouped
 from mudline.study.stability.families import all_cells, judged, random_cells
 from mudline.study.stability.judging import Judgement, Verdict
 from mudline.study.stability.pull_out import suction_cells
@@ -56,7 +58,7 @@ BY_FAMILY = Layout[Sequence[Judgement]](
 BY_CELL = Layout("ladder-cells", "Ladder of extremes, cell by cell", columns_of(Judgement), brief=False)
 
 
-def study_ladder(options: StudyOptions) -> Section:
+def study_ladder(_: Scene, options: StudyOptions) -> Section:
     """The verdict on every cell, and in a full run on random decks."""
     options.progress("ladder of extremes")
     judgements = [*map(judged, (*all_cells(), *suction_cells()))]

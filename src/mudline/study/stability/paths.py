@@ -80,8 +80,7 @@ def _follow(
                 result, after = model.step(points, still, state)
         except DeckError as error:
             line = refusal(error)
-            exact.compare(places, state, None, None)
-            if not line or not exact.overflows:
+            if not line or not exact.may_overflow(places, state):
                 return None
             message = message or line
             continue
