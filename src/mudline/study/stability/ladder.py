@@ -18,6 +18,7 @@ from mudline.study.pictures import Picture
 from mudline.study.report import Layout, Section, StudyOptions, columns_of, grouped
 from mudline.study.stability.families import all_cells, judged, random_cells
 from mudline.study.stability.judging import Judgement, Verdict
+from mudline.study.stability.own_laws import own_cells
 from mudline.study.stability.pull_out import suction_cells
 
 if TYPE_CHECKING:  # only who draws loads matplotlib
@@ -58,14 +59,15 @@ BY_FAMILY = Layout[Sequence[Judgement]](
 BY_CELL = Layout("ladder-cells", "Ladder of extremes, cell by cell", columns_of(Judgement), brief=False)
 
 
-def study_ladder(_: Scene, options: StudyOptions) -> Section:
-    """The verdict on every cell, and in a full run on random decks."""
-    options.progress("ladder of extremes")
-    judgements = [*map(judged, (*all_cells(), *suction_cells()))]
+def study_ladder(scene: Scene, options: StudyOptions) -> Section:
+    """The verdict on every cell, those on the deck's own laws included; in a full run on random decks too."""
+    own, omissions = own_cells(scene)
+    cells = [*all_cells(), *suction_cells(), *own]
+    judgements = [judged(cell) for cell in options.each(cells, lambda cell: f"ladder of extremes, {cell.family}")]
     picture = _picture(grouped(judgements, lambda one: one.family))
     if options.full:
-        options.progress(f"{RANDOM_DECKS} random decks")
-        judgements += map(judged, random_cells(RANDOM_DECKS))
+        decks = random_cells(RANDOM_DECKS)
+        judgements += (judged(cell) for cell in options.each(decks, lambda _: f"{RANDOM_DECKS} random decks"))
     tables = BY_FAMILY.table(grouped(judgements, lambda one: one.family).values()), BY_CELL.table(judgements)
     rejected = [one for one in judgements if not one.verdict.acceptable]
     right = len(judgements) - len(rejected)
@@ -74,7 +76,7 @@ def study_ladder(_: Scene, options: StudyOptions) -> Section:
         "line of the deck."
     )
     notes = [summary, *(f"{one.family} {one.value}: {one.verdict.value}: {one.message}" for one in rejected)]
-    return Section(tables, [picture], notes)
+    return Section(tables, [picture], notes, omissions)
 
 
 def _picture(families: Mapping[str, Sequence[Judgement]]) -> Picture:
