@@ -357,7 +357,7 @@ class ExactStep:
             return _ZERO, _ZERO, _ZERO
         middle = tuple((a + b) / 2 for a, b in zip(*places, strict=True))
         arm = _minus(middle, vector(kept))  # type: ignore[arg-type]
-        coordinates = max(abs(part) for place in (*places, vector(kept)) for part in _weighed(place, across))
+        coordinates = max(self._term(place, across) for place in (*places, vector(kept)))
         # half of the length is known to the smallest float64
         floor = 4 * SMALLEST * (half + Fraction(element.lateral) * coordinates)
         return -half * dot(arm, across), half * coordinates, floor
@@ -374,7 +374,7 @@ class ExactStep:
         """Force in each spring, its largest term and floor; the stick point behind the step is compared."""
         law, history = self._element.friction, before.friction
         if law is None or history is None or normal_force <= 0:
-            return [(_ZERO, _ZERO, _ZERO)] * 2
+            return [(_ZERO, _ZERO, 2 * SMALLEST)] * 2
         touched = history.states[node, 0] > 0
         stick = vector(history.stick_points[node]) if touched else place
         away = _minus(place, stick)
@@ -382,7 +382,7 @@ class ExactStep:
         for side, axis in enumerate(axes):
             spring, elongation = law.spring(side, normal_force), dot(away, axis)
             force = spring * elongation
-            trials.append(_Trial(elongation, _largest(away, axis), spring, force, law.limit(side, normal_force)))
+            trials.append(_Trial(elongation, self._term(away, axis), spring, force, law.limit(side, normal_force)))
         forces, terms = _held(trials, ellipse=law.ellipse)
         found, moved, known = [], [], 8 * SMALLEST
         for trial, force, term in zip(trials, forces, terms, strict=True):
@@ -393,12 +393,14 @@ class ExactStep:
             found.append((force, term, small))
             slid = force / trial.spring if slips and trial.spring else _ZERO
             moved.append(trial.elongation - slid if slips and trial.spring else _ZERO)
-            known += 2 * coarse * abs(slid) / trial.spring if trial.spring else _ZERO
+            if trial.spring:
+                known += 2 * (coarse * max(abs(slid), abs(trial.elongation)) + SMALLEST) / trial.spring
             if law.springs is None or law.ellipse:
                 # limits and springs are then numbers of the law, which have to be float64s themselves
                 self.overflows |= max(trial.limit, trial.spring) > _LARGEST
             if law.ellipse and trial.limit:
-                self.overflows |= abs(trial.force) > trial.limit * _LARGEST
+                rounded = self._deeper * trial.term * trial.spring * Fraction(self._bound) * ROUNDING
+                self.overflows |= abs(trial.force) + rounded > min(trial.limit, Fraction(1)) * _LARGEST
         if after is not None and after.friction is not None:
             kept = after.friction.stick_points[node].tolist()
             reaches = [
@@ -407,6 +409,13 @@ class ExactStep:
             ]
             self._stick_point(kept, place, stick, list(zip(axes, moved, reaches, strict=True)), known)
         return found
+
+    def _term(self, away: Vector, axis: Vector) -> Fraction:
+        """The largest term of a displacement along an axis; an axis that is none of space is known to a rounding of 1."""
+        if self._straight:
+            return _largest(away, axis)
+        flat = self._element.plane.normal == (1, 0, 0)
+        return max(map(abs, away[1:] if flat else away))
 
     def _stick_point(
         self,
@@ -438,10 +447,6 @@ def onset(law: NormalLaw) -> Fraction:
     return law.onset if isinstance(law, ExactSmoothed) else _ZERO
 
 
-def _weighed(place: Vector, axis: Vector) -> list[Fraction]:
-    return [a * b for a, b in zip(place, axis, strict=True)]
-
-
 def _held(trials: Sequence[_Trial], *, ellipse: bool) -> tuple[list[Fraction], list[Fraction]]:
     """Forces within their limits, and the largest term of each."""
     if not ellipse:
@@ -458,12 +463,13 @@ def _held(trials: Sequence[_Trial], *, ellipse: bool) -> tuple[list[Fraction], l
     size = root(shares[0] ** 2 + shares[1] ** 2) if any(shares) else _ZERO
     scale = max(size, Fraction(1))
     forces = [trial.force / scale if can else _ZERO for trial, can in zip(trials, able, strict=True)]
-    if scale == 1:
-        return forces, [trial.term * trial.spring for trial in trials]
-    loose = _ZERO  # terms in the norm, relative to it
-    for trial, share, can in zip(trials, shares, able, strict=True):
-        if can:
-            loose += abs(share) * (trial.term * trial.spring / trial.limit) / size**2
+    # terms in the norm, relative to it
+    loose = sum((one.term * one.spring / one.limit for one, can in zip(trials, able, strict=True) if can), _ZERO) / scale
+    if loose * ROUNDING > Fraction(1, 100):
+        # the rounding of one direction alone takes up the limit: all that is known is that none is passed
+        return forces, [trial.limit / ROUNDING for trial in trials]
+    if scale == 1 and size + loose * _CLOSE < 1:
+        loose = _ZERO
     return forces, [
         trial.term * trial.spring / scale + abs(force) * loose if can else _ZERO
         for trial, force, can in zip(trials, forces, able, strict=True)
