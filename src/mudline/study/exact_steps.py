@@ -398,9 +398,9 @@ class ExactStep:
             if law.springs is None or law.ellipse:
                 # limits and springs are then numbers of the law, which have to be float64s themselves
                 self.overflows |= max(trial.limit, trial.spring) > _LARGEST
-            if law.ellipse and trial.limit:
+            if law.ellipse:
                 rounded = self._deeper * trial.term * trial.spring * Fraction(self._bound) * ROUNDING
-                self.overflows |= abs(trial.force) + rounded > min(trial.limit, Fraction(1)) * _LARGEST
+                self.overflows |= abs(trial.force) + rounded > _LARGEST
         if after is not None and after.friction is not None:
             kept = after.friction.stick_points[node].tolist()
             reaches = [

@@ -175,13 +175,13 @@ def _both(value: str) -> tuple[str, str]:
 
 
 _ZEROS = {
-    "coordinates": replace(_RUBS, height="-0.0", across="-0.0", start="-0.0"),
+    "X, Y, Z": replace(_RUBS, height="-0.0", across="-0.0", start="-0.0"),
     "stiffness": replace(_RUBS, stiffness="-0.0"),
-    "curve ratio": SmallDeck(curve=(("-0.0", "0"), ("0.2", "900")), coefficients=("0.4", "0.7")),
-    "curve force": SmallDeck(curve=(("0", "-0.0"), ("0.2", "900")), unloading="90000.0"),
-    "flat curve": SmallDeck(curve=(("0", "-0.0"), ("0.2", "-0.0")), coefficients=("0.4", "0.7")),
-    "nodal stiffness": SmallDeck(nodal="-0.0", coefficients=("0.4", "0.7")),
-    "coefficients": replace(_RUBS, coefficients=("-0.0", "-0.0")),
+    "ratio": SmallDeck(curve=(("-0.0", "0"), ("0.2", "900")), coefficients=("0.4", "0.7")),
+    "force": SmallDeck(curve=(("0", "-0.0"), ("0.2", "900")), unloading="90000.0"),
+    "no force": SmallDeck(curve=(("0", "-0.0"), ("0.2", "-0.0")), coefficients=("0.4", "0.7")),
+    "nodal": SmallDeck(nodal="-0.0", coefficients=("0.4", "0.7")),
+    "mu": replace(_RUBS, coefficients=("-0.0", "-0.0")),
     "ellipse": replace(_RUBS, coefficients=("-0.0", "0.4"), criterion="ELLIPSE"),
     "springs": replace(_RUBS, springs=("-0.0", "-0.0")),
     "angle": replace(_RUBS, angle="-0.0"),
@@ -189,7 +189,7 @@ _ZEROS = {
     "uplift": SmallDeck(uplift=("-0.0", "0.1")),
     "slope": replace(_TILTED, slope="-0.0", direction="-0.0"),
     "plane": replace(_TILTED, slope="-0.0", direction="-0.0", point=("-0.0", "-0.0", "-0.0")),
-    "below 5E-324": replace(_RUBS, height="-1E-400", across="-1E-400", coefficients=("-1E-400", "0.4")),
+    "-1E-400": replace(_RUBS, height="-1E-400", across="-1E-400", coefficients=("-1E-400", "0.4")),
 }
 """What is a zero with a minus, by its name."""
 

@@ -26,6 +26,8 @@ from mudline.study.stability.small_decks import Pair, SmallDeck
 
 POWERS = (-300, -200, -100, -10, 0, 10, 100, 200, 300)
 """Powers of ten by which the numbers of the deck are multiplied."""
+_BETWEEN = ": "
+"""In the name of a family, between the contact and what is scaled."""
 MOST_CONTACTS = 6
 """Contacts that are scaled: those with the most elements."""
 
@@ -36,6 +38,11 @@ class OwnContact(NamedTuple):
     name: str
     deck: SmallDeck
     suction: SuctionCell | None
+
+
+def is_own(family: str) -> bool:
+    """Whether a family of cells is one on the deck's own laws, by its name."""
+    return _BETWEEN in family
 
 
 def own_cells(scene: Scene) -> tuple[list[AnyCell], list[Omission]]:
@@ -180,11 +187,11 @@ def _scaled(contact: OwnContact) -> Iterator[AnyCell]:
             scaled = _deck(deck, kind, power)
             tilted = bool(deck.slope or deck.angle or deck.criterion == "ELLIPSE")
             bound = TILTED_BOUND if tilted else BOUND
-            yield PathCell(f"{contact.name}: {kind}", f"x 1E{power}", scaled, _path(scaled), bound)
+            yield PathCell(f"{contact.name}{_BETWEEN}{kind}", f"x 1E{power}", scaled, _path(scaled), bound)
     if contact.suction is not None:
         for kind in ("suction", "breakout", "velocity"):
             for power in POWERS:
-                yield _pull(contact.suction, f"{contact.name}: {kind}", kind, power)
+                yield _pull(contact.suction, f"{contact.name}{_BETWEEN}{kind}", kind, power)
 
 
 def _deck(deck: SmallDeck, kind: str, power: int) -> SmallDeck:
