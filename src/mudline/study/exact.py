@@ -165,7 +165,10 @@ class Tally:
             return
         if compared.found == 0.0 and copysign(1.0, compared.found) < 0.0:
             self.fault = f"{what} is -0.0"
-        off = max(abs(Fraction(compared.found) - compared.exact) - floor, Fraction(0))
+        found = Fraction(compared.found)
+        if found == compared.exact:
+            return
+        off = max(abs(found - compared.exact) - floor, Fraction(0))
         error = _roundings(off, compared.term)
         self.error = max(self.error, error)
         if error > bound:

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from mudline.contact.tables import ContactState
 
 _DIGITS = 60
-_ZERO = Fraction(0)
+_ZERO, _ONE, _TWO = Fraction(0), Fraction(1), Fraction(2)
 _LARGEST = Fraction(float_info.max) * (1 - Fraction(1, 2**50))
 _CLOSE = Fraction(1, 2**40)
 """A part of the largest term: nearer to a limit than this, rounding may fall to either side of it."""
@@ -68,15 +68,24 @@ def root(square: Fraction) -> Fraction:
 # -------------------------------------------------------------------------------------------------------------- vectors
 
 
+def _product(one: Fraction, other: Fraction) -> Fraction:
+    """A product, the sooner where a factor is 0: most components are."""
+    return one * other if one and other else _ZERO
+
+
 def dot(one: Vector, other: Vector) -> Fraction:
     """The scalar product."""
-    return sum((a * b for a, b in zip(one, other, strict=True)), _ZERO)
+    return sum(map(_product, one, other), _ZERO)
 
 
 def cross(one: Vector, other: Vector) -> Vector:
     """The vector product."""
     (a, b, c), (d, e, f) = one, other
-    return b * f - c * e, c * d - a * f, a * e - b * d
+    return (
+        _product(b, f) - _product(c, e),
+        _product(c, d) - _product(a, f),
+        _product(a, e) - _product(b, d),
+    )
 
 
 def _minus(one: Vector, other: Vector) -> Vector:
@@ -84,12 +93,12 @@ def _minus(one: Vector, other: Vector) -> Vector:
 
 
 def _times(factor: Fraction, one: Vector) -> Vector:
-    return factor * one[0], factor * one[1], factor * one[2]
+    return _product(factor, one[0]), _product(factor, one[1]), _product(factor, one[2])
 
 
 def _largest(one: Vector, other: Vector) -> Fraction:
     """The largest term of a scalar product."""
-    return max(abs(a * b) for a, b in zip(one, other, strict=True))
+    return max(map(abs, map(_product, one, other)))
 
 
 def _unit(one: Vector) -> Vector:
@@ -288,7 +297,7 @@ class ExactStep:
             given = None if result is None else float(result.stiffness[0])
             self._add("the stiffness", given, stiffness, by_depth)
             given = None if result is None else float(result.slope[0])
-            self._add("the slope", given, stiffness * size, by_depth * size, 2 * SMALLEST * max(size, Fraction(1)))
+            self._add("the slope", given, stiffness * size, by_depth * size, 2 * max(size, _ONE))
         return force
 
     def _unloaded(
@@ -327,17 +336,17 @@ class ExactStep:
             load, term = load + spring.force, max(term, spring.term)
         found = None if result is None else float(result.normal_force[node])
         # the length is known to the smallest float64
-        return self._add("the normal force", found, load, term, SMALLEST * (2 + abs(force)))
+        return self._add("the normal force", found, load, term, 2 + abs(force))
 
     def _reaction(
         self, node: int, parts: Sequence[tuple[Fraction, Vector]], result: ContactResult | None
     ) -> None:
         for axis in range(3):
-            terms = [size * way[axis] for size, way in parts]
+            terms = [_product(size, way[axis]) for size, way in parts]
             found = None if result is None else float(result.reaction[node, axis])
             # a direction is known to the rounding of 1, or of its component where that is the only one
             largest = [abs(size) * (abs(way[axis]) if at == 0 or self._straight else 1) for at, (size, way) in enumerate(parts)]
-            floor = SMALLEST * (2 + 2 * sum(abs(size) + 1 for size, _ in parts))
+            floor = 2 + 2 * sum((abs(size) + 1 for size, _ in parts), _ZERO)
             self._add("the reaction", found, sum(terms, _ZERO), max(largest), floor)
 
     # ------------------------------------------------------------------------------------------------ sideways, history
@@ -359,7 +368,7 @@ class ExactStep:
         arm = _minus(middle, vector(kept))  # type: ignore[arg-type]
         coordinates = max(self._term(place, across) for place in (*places, vector(kept)))
         # half of the length is known to the smallest float64
-        floor = 4 * SMALLEST * (half + Fraction(element.lateral) * coordinates)
+        floor = 4 * (half + Fraction(element.lateral) * coordinates)
         return -half * dot(arm, across), half * coordinates, floor
 
     def _friction(
@@ -374,7 +383,7 @@ class ExactStep:
         """Force in each spring, its largest term and floor; the stick point behind the step is compared."""
         law, history = self._element.friction, before.friction
         if law is None or history is None or normal_force <= 0:
-            return [(_ZERO, _ZERO, 2 * SMALLEST)] * 2
+            return [(_ZERO, _ZERO, _TWO)] * 2
         touched = history.states[node, 0] > 0
         stick = vector(history.stick_points[node]) if touched else place
         away = _minus(place, stick)
@@ -384,17 +393,17 @@ class ExactStep:
             force = spring * elongation
             trials.append(_Trial(elongation, self._term(away, axis), spring, force, law.limit(side, normal_force)))
         forces, terms = _held(trials, ellipse=law.ellipse)
-        found, moved, known = [], [], 8 * SMALLEST
+        found, moved, known = [], [], Fraction(8)
         for trial, force, term in zip(trials, forces, terms, strict=True):
             slips = force != trial.force
             # the spring of a mobilisation length is known to the smallest float64, for each unit of the normal force
-            coarse = SMALLEST * (2 + 2 * normal_force) if law.springs is None else _ZERO
-            small = 2 * SMALLEST + 4 * SMALLEST * trial.spring + 2 * coarse * abs(trial.elongation)
+            coarse = 2 + 2 * normal_force if law.springs is None else _ZERO
+            small = 2 + 4 * trial.spring + 2 * _product(coarse, abs(trial.elongation))
             found.append((force, term, small))
             slid = force / trial.spring if slips and trial.spring else _ZERO
             moved.append(trial.elongation - slid if slips and trial.spring else _ZERO)
             if trial.spring:
-                known += 2 * (coarse * max(abs(slid), abs(trial.elongation)) + SMALLEST) / trial.spring
+                known += 2 * (_product(coarse, max(abs(slid), abs(trial.elongation))) + 1) / trial.spring
             if law.springs is None or law.ellipse:
                 # limits and springs are then numbers of the law, which have to be float64s themselves
                 self.overflows |= max(trial.limit, trial.spring) > _LARGEST
@@ -427,19 +436,22 @@ class ExactStep:
     ) -> None:
         """Compare where the stick point has gone to, by how far along each axis, with the largest term of that."""
         for axis in range(3):
-            exact = stick[axis] + sum((step * way[axis] for way, step, _ in moves), _ZERO)
-            term = max(abs(stick[axis]), abs(place[axis]), *(abs(way[axis]) * reach for way, _, reach in moves))
+            exact = stick[axis] + sum((_product(step, way[axis]) for way, step, _ in moves), _ZERO)
+            reaches = (abs(_product(way[axis], reach)) for way, _, reach in moves)
+            term = max(abs(stick[axis]), abs(place[axis]), *reaches)
             self._add("the stick point", kept[axis], exact, term, floor)
 
     def _add(
-        self, what: str, found: float | None, exact: Fraction, term: Fraction, floor: Fraction = 2 * SMALLEST
+        self, what: str, found: float | None, exact: Fraction, term: Fraction, floor: Fraction = _TWO
     ) -> Fraction:
-        """Compare one number; the next link of the chain begins with it."""
-        self.overflows |= abs(exact) > _LARGEST
+        """Compare one number; the next link of the chain begins with it. Floors are in units of the smallest float64."""
         if found is None:
+            self.overflows |= abs(exact) > _LARGEST
             return exact
-        self._tally.add(what, Compared(found, exact, max(term, abs(exact))), self._bound, floor)
-        return Fraction(found) if isfinite(found) else exact
+        here = Fraction(found) if isfinite(found) else exact
+        term = term if here == exact else max(term, abs(exact))
+        self._tally.add(what, Compared(found, exact, term), self._bound, _ZERO if here == exact else floor * SMALLEST)
+        return here
 
 
 def onset(law: NormalLaw) -> Fraction:
