@@ -142,7 +142,7 @@ class Tables:
         half: (m,) half of the lengths. diameter: (m,).
         onset: (m,) penetration at which contact begins; None where that is the mudline everywhere.
         normal: normal laws of elements. nodal: those of nodes.
-        unloading: stiffness. springs: stiffness and extent of suction springs. lateral: stiffness times half of the length.
+        unloading: stiffness. springs: stiffness and extent of suction springs. lateral: stiffness times half length.
         friction: its springs and limits as the drivers want them. friction_law: the same by node, for tangents.
         suction: parameters of `suction.SuctionLaw`, in its order.
         pulling: elements with suction whose curve pulls somewhere; None when there are none.

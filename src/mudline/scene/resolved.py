@@ -208,7 +208,7 @@ class ResolvedDeck:
     def refusal(
         self, message: str, where: Where | None = None, *, element: int | None = None, node: int | None = None
     ) -> DeckError:
-        """Return why the deck cannot be evaluated (RUN001), with the line of a place, or of an element's or a node's."""
+        """Return why the deck cannot be evaluated (RUN001), with the line of a place, an element or a node."""
         if element is not None:
             where = self.table.numbered.where(int(np.flatnonzero(self.element_ids == element)[0]))
         elif node is not None:

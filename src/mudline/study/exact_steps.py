@@ -13,121 +13,35 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import isfinite
 from sys import float_info
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from mudline.study.exact import ROUNDING, SMALLEST, Compared, ExactCurve, ExactLinear, ExactSmoothed, Tally
+from mudline.study.exact_geometry import (
+    ONE,
+    ZERO,
+    ExactPlane,
+    Vector,
+    cross,
+    dot,
+    largest_term,
+    minus,
+    product,
+    root,
+    sine_and_cosine,
+    times,
+    vector,
+)
 
 if TYPE_CHECKING:
     from mudline.contact.result import ContactResult
     from mudline.contact.tables import ContactState
 
-_DIGITS = 60
-_ZERO, _ONE, _TWO = Fraction(0), Fraction(1), Fraction(2)
+_TWO = Fraction(2)
 _LARGEST = Fraction(float_info.max) * (1 - Fraction(1, 2**50))
 _CLOSE = Fraction(1, 2**40)
 """A part of the largest term: nearer to a limit than this, rounding may fall to either side of it."""
 
-Vector = tuple[Fraction, Fraction, Fraction]
 NormalLaw = ExactLinear | ExactCurve | ExactSmoothed
-
-
-# ---------------------------------------------------------------------------------------------- roots, sines and cosines
-
-
-def fraction_of(value: Any) -> Fraction:  # noqa: ANN401 - mpmath has no types
-    """A number of mpmath: as it has a mantissa and an exponent it is a fraction."""
-    from mpmath.libmp import to_rational  # noqa: PLC0415 - comes with the extra "study", and only this needs it
-
-    numerator, denominator = to_rational(value._mpf_)
-    return Fraction(int(numerator), int(denominator))
-
-
-def sine_and_cosine(degrees: float) -> tuple[Fraction, Fraction]:
-    """Sine and cosine of an angle in degrees, exact at multiples of 90 as the angle is."""
-    from mpmath import mp  # noqa: PLC0415 - see above
-
-    quarters, rest = divmod(Fraction(degrees) % 360, 90)
-    if rest > 45:
-        quarters, rest = quarters + 1, rest - 90
-    with mp.workdps(_DIGITS):
-        angle = mp.mpf(rest.numerator) / rest.denominator * mp.pi / 180
-        sine, cosine = fraction_of(mp.sin(angle)), fraction_of(mp.cos(angle))
-    for _ in range(int(quarters) % 4):
-        sine, cosine = cosine, -sine
-    return sine, cosine
-
-
-def root(square: Fraction) -> Fraction:
-    """The square root to 60 digits."""
-    from mpmath import mp  # noqa: PLC0415 - see above
-
-    with mp.workdps(_DIGITS):
-        return fraction_of(mp.sqrt(mp.mpf(square.numerator) / square.denominator))
-
-
-# -------------------------------------------------------------------------------------------------------------- vectors
-
-
-def _product(one: Fraction, other: Fraction) -> Fraction:
-    """A product, the sooner where a factor is 0: most components are."""
-    return one * other if one and other else _ZERO
-
-
-def dot(one: Vector, other: Vector) -> Fraction:
-    """The scalar product."""
-    return sum(map(_product, one, other), _ZERO)
-
-
-def cross(one: Vector, other: Vector) -> Vector:
-    """The vector product."""
-    (a, b, c), (d, e, f) = one, other
-    return (
-        _product(b, f) - _product(c, e),
-        _product(c, d) - _product(a, f),
-        _product(a, e) - _product(b, d),
-    )
-
-
-def _minus(one: Vector, other: Vector) -> Vector:
-    return one[0] - other[0], one[1] - other[1], one[2] - other[2]
-
-
-def _times(factor: Fraction, one: Vector) -> Vector:
-    return _product(factor, one[0]), _product(factor, one[1]), _product(factor, one[2])
-
-
-def _largest(one: Vector, other: Vector) -> Fraction:
-    """The largest term of a scalar product."""
-    return max(map(abs, map(_product, one, other)))
-
-
-def _unit(one: Vector) -> Vector:
-    return _times(1 / root(dot(one, one)), one)
-
-
-def vector(values: Sequence[float]) -> Vector:
-    """Three floats as they are."""
-    x, y, z = (Fraction(float(value)) for value in values)
-    return x, y, z
-
-
-# ----------------------------------------------------------------------------------------------------------- what it is
-
-
-class ExactPlane:
-    """A plane through a point, of a slope that rises to a direction; angles in degrees."""
-
-    def __init__(self, slope: float, direction: float, point: Sequence[float]) -> None:
-        sine, cosine = sine_and_cosine(slope)
-        side, ahead = sine_and_cosine(direction)
-        self.normal: Vector = (cosine, -sine * ahead, -sine * side)
-        self.point = vector(point)
-
-    def along(self, span: Vector) -> Vector:
-        """The unit projection of a span; that of +Y where the span has no length."""
-        if not any(span):
-            span = (_ZERO, Fraction(1), _ZERO)
-        return _unit(_minus(span, _times(dot(span, self.normal), self.normal)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -192,9 +106,9 @@ class ExactStep:
         self._element, self._tally, self._bound = element, tally, bound
         friction = element.friction
         law = element.law or element.nodal
-        self._onset = _ZERO if law is None else onset(law)
+        self._onset = ZERO if law is None else onset(law)
         self._deeper = 0
-        self._straight = element.plane.normal == (1, 0, 0) and (friction is None or friction.angle is None)
+        self._straight = element.plane.horizontal and (friction is None or friction.angle is None)
         self.overflows = False
         """Whether some number of the last step is too large for a float64."""
 
@@ -237,35 +151,39 @@ class ExactStep:
             for node, load in enumerate(loads):
                 self._reaction(node, [(load, plane.normal)], result)
             return
-        along = plane.along(_minus(places[1], places[0]))
+        along = plane.along(minus(places[1], places[0]))
         across = cross(plane.normal, along)
         push = self._lateral(places, across, depth, before)
-        axes = along, across
-        if element.friction is not None and element.friction.angle is not None:
-            sine, cosine = sine_and_cosine(element.friction.angle)
-            one = plane.along((_ZERO, _ZERO, _ZERO))
-            other = cross(plane.normal, one)
-            turned = tuple(cosine * a + sine * b for a, b in zip(one, other, strict=True))
-            axes = (turned, cross(plane.normal, turned))  # type: ignore[assignment]
+        axes = self._turned(along, across)
         for node, (place, load) in enumerate(zip(places, loads, strict=True)):
             slid = self._friction(node, place, axes, load, before, after)
-            parts = []
-            for side, axis in enumerate(axes):
-                share = dot(_times(push[0], across), axis)
+            parts: list[tuple[Fraction, Vector]] = []
+            for side, way in enumerate(axes):
+                share = dot(times(push[0], across), way)
                 held, term, floor = slid[side]
                 found = None if result is None or result.friction is None else float(result.friction[node, side])
                 what = f"the force along u{side + 1}"
-                terms = max(term, push[1] * (abs(dot(across, axis)) if self._straight else 1))
-                parts.append((self._add(what, found, share - held, terms, floor + push[2]), axis))
+                terms = max(term, push[1] * (abs(dot(across, way)) if self._straight else 1))
+                parts.append((self._add(what, found, share - held, terms, floor + push[2]), way))
             self._reaction(node, [(load, plane.normal), *parts], result)
+
+    def _turned(self, along: Vector, across: Vector) -> tuple[Vector, Vector]:
+        """u1 and u2: those of the line, or at an angle to +Y."""
+        plane, friction = self._element.plane, self._element.friction
+        if friction is None or friction.angle is None:
+            return along, across
+        sine, cosine = sine_and_cosine(friction.angle)
+        ahead = plane.along((ZERO, ONE, ZERO))
+        x, y, z = (cosine * a + sine * b for a, b in zip(ahead, cross(plane.normal, ahead), strict=True))
+        return (x, y, z), cross(plane.normal, (x, y, z))
 
     # --------------------------------------------------------------------------------------------------- normal forces
 
     def _gap(self, place: Vector, found: float | None) -> Fraction:
         plane = self._element.plane
-        away = _minus(place, plane.point)
+        away = minus(place, plane.point)
         terms = [
-            _largest(plane.normal, away),
+            largest_term(plane.normal, away),
             abs(plane.normal[0] * place[0]),
             abs(plane.normal[0] * plane.point[0]),
         ]
@@ -277,7 +195,7 @@ class ExactStep:
     def _normal_force(self, depth: Fraction, before: ContactState, result: ContactResult | None) -> Fraction:
         """Force per unit length, slope and stiffness of the element."""
         element, size = self._element, Fraction(self._element.diameter)
-        force, stiffness, term, by_depth, sharp = _ZERO, _ZERO, _ZERO, _ZERO, True
+        force, stiffness, term, by_depth, sharp = ZERO, ZERO, ZERO, ZERO, True
         ratio = depth / size if result is None else Fraction(float(result.ratio[0]))
         if element.unloading is not None and element.law is not None and before.unloading is not None:
             force, stiffness, term, by_depth, sharp = self._unloaded(depth, float(before.unloading.z_max[0]))
@@ -297,34 +215,34 @@ class ExactStep:
             given = None if result is None else float(result.stiffness[0])
             self._add("the stiffness", given, stiffness, by_depth)
             given = None if result is None else float(result.slope[0])
-            self._add("the slope", given, stiffness * size, by_depth * size, 2 * max(size, _ONE))
+            self._add("the slope", given, stiffness * size, by_depth * size, 2 * max(size, ONE))
         return force
 
-    def _unloaded(
-        self, depth: Fraction, known: float
-    ) -> tuple[Fraction, Fraction, Fraction, Fraction, bool]:
+    def _unloaded(self, depth: Fraction, known: float) -> tuple[Fraction, Fraction, Fraction, Fraction, bool]:
         """Force, stiffness and their largest terms at or behind the deepest point; whether the stiffness is certain."""
-        element, z = self._element, max(depth, _ZERO)
+        element, z = self._element, max(depth, ZERO)
         law = element.law
         if law is None or element.unloading is None:
             raise ValueError("an unloading line needs a law to return from")
         if z > Fraction(known):
             # the ratio is a quotient of floats, and rounded before the curve is asked
-            spring = law.spring(z, Fraction(float(z) / element.diameter) if isfinite(float(z) / element.diameter) else z)
+            spring = law.spring(
+                z, Fraction(float(z) / element.diameter) if isfinite(float(z) / element.diameter) else z
+            )
             return spring.force, spring.stiffness, spring.term, abs(spring.stiffness), True
         deepest = Fraction(known)
         if not deepest:
-            return _ZERO, _ZERO, _ZERO, _ZERO, True
+            return ZERO, ZERO, ZERO, ZERO, True
         ratio = Fraction(known / element.diameter)
         top = law.spring(deepest, ratio)
-        largest = max(top.force, _ZERO)
+        largest = max(top.force, ZERO)
         line = max(Fraction(element.unloading), law.steepest(ratio), largest / deepest)
         bottom = deepest - largest / line
         sharp = abs(z - bottom) > _CLOSE * deepest and largest > _CLOSE * line * deepest
         if z <= bottom:
-            return _ZERO, _ZERO, max(top.term, line * deepest * _CLOSE), _ZERO, sharp
+            return ZERO, ZERO, max(top.term, line * deepest * _CLOSE), ZERO, sharp
         fall = line * (deepest - z)
-        return max(largest - fall, _ZERO), line, max(top.term, fall), line, sharp
+        return max(largest - fall, ZERO), line, max(top.term, fall), line, sharp
 
     def _load(self, force: Fraction, gap: Fraction, node: int, result: ContactResult | None) -> Fraction:
         """The normal force of a node."""
@@ -332,22 +250,22 @@ class ExactStep:
         load = force * element.length / 2
         term = abs(load)
         if element.nodal is not None and -gap > onset(element.nodal):
-            spring = element.nodal.spring(-gap, _ZERO)
+            spring = element.nodal.spring(-gap, ZERO)
             load, term = load + spring.force, max(term, spring.term)
         found = None if result is None else float(result.normal_force[node])
         # the length is known to the smallest float64
         return self._add("the normal force", found, load, term, 2 + abs(force))
 
-    def _reaction(
-        self, node: int, parts: Sequence[tuple[Fraction, Vector]], result: ContactResult | None
-    ) -> None:
+    def _reaction(self, node: int, parts: Sequence[tuple[Fraction, Vector]], result: ContactResult | None) -> None:
         for axis in range(3):
-            terms = [_product(size, way[axis]) for size, way in parts]
+            terms = [product(size, way[axis]) for size, way in parts]
             found = None if result is None else float(result.reaction[node, axis])
             # a direction is known to the rounding of 1, or of its component where that is the only one
-            largest = [abs(size) * (abs(way[axis]) if at == 0 or self._straight else 1) for at, (size, way) in enumerate(parts)]
-            floor = 2 + 2 * sum((abs(size) + 1 for size, _ in parts), _ZERO)
-            self._add("the reaction", found, sum(terms, _ZERO), max(largest), floor)
+            largest = [
+                abs(size) * (abs(way[axis]) if at == 0 or self._straight else 1) for at, (size, way) in enumerate(parts)
+            ]
+            floor = 2 + 2 * sum((abs(size) + 1 for size, _ in parts), ZERO)
+            self._add("the reaction", found, sum(terms, ZERO), max(largest), floor)
 
     # ------------------------------------------------------------------------------------------------ sideways, history
 
@@ -357,15 +275,15 @@ class ExactStep:
         """The push on each node along n x t, its largest term, and what it cannot be known closer to."""
         element = self._element
         if element.lateral is None or before.touchdown is None:
-            return _ZERO, _ZERO, _ZERO
+            return ZERO, ZERO, ZERO
         half = Fraction(element.lateral) * element.length / 2
         self.overflows |= half > _LARGEST
         kept = before.touchdown[0].tolist()
         starts = self._onset
         if not isfinite(kept[0]) or depth <= starts:
-            return _ZERO, _ZERO, _ZERO
-        middle = tuple((a + b) / 2 for a, b in zip(*places, strict=True))
-        arm = _minus(middle, vector(kept))  # type: ignore[arg-type]
+            return ZERO, ZERO, ZERO
+        x, y, z = ((a + b) / 2 for a, b in zip(*places, strict=True))
+        arm = minus((x, y, z), vector(kept))
         coordinates = max(self._term(place, across) for place in (*places, vector(kept)))
         # half of the length is known to the smallest float64
         floor = 4 * (half + Fraction(element.lateral) * coordinates)
@@ -383,10 +301,10 @@ class ExactStep:
         """Force in each spring, its largest term and floor; the stick point behind the step is compared."""
         law, history = self._element.friction, before.friction
         if law is None or history is None or normal_force <= 0:
-            return [(_ZERO, _ZERO, _TWO)] * 2
+            return [(ZERO, ZERO, _TWO)] * 2
         touched = history.states[node, 0] > 0
         stick = vector(history.stick_points[node]) if touched else place
-        away = _minus(place, stick)
+        away = minus(place, stick)
         trials = []
         for side, axis in enumerate(axes):
             spring, elongation = law.spring(side, normal_force), dot(away, axis)
@@ -397,13 +315,15 @@ class ExactStep:
         for trial, force, term in zip(trials, forces, terms, strict=True):
             slips = force != trial.force
             # the spring of a mobilisation length is known to the smallest float64, for each unit of the normal force
-            coarse = 2 + 2 * normal_force if law.springs is None else _ZERO
-            small = 2 + 4 * trial.spring + 2 * _product(coarse, abs(trial.elongation))
+            coarse = 2 + 2 * normal_force if law.springs is None else ZERO
+            small = 2 + 4 * trial.spring + 2 * product(coarse, abs(trial.elongation))
+            if law.ellipse:  # so is a limit, which both forces are divided by
+                small += 2 * abs(force) * sum(1 / one.limit for one in trials if one.limit)
             found.append((force, term, small))
-            slid = force / trial.spring if slips and trial.spring else _ZERO
-            moved.append(trial.elongation - slid if slips and trial.spring else _ZERO)
+            slid = force / trial.spring if slips and trial.spring else ZERO
+            moved.append(trial.elongation - slid if slips and trial.spring else ZERO)
             if trial.spring:
-                known += 2 * (_product(coarse, max(abs(slid), abs(trial.elongation))) + 1) / trial.spring
+                known += 2 * (product(coarse, max(abs(slid), abs(trial.elongation))) + 1) / trial.spring
             if law.springs is None or law.ellipse:
                 # limits and springs are then numbers of the law, which have to be float64s themselves
                 self.overflows |= max(trial.limit, trial.spring) > _LARGEST
@@ -413,18 +333,17 @@ class ExactStep:
         if after is not None and after.friction is not None:
             kept = after.friction.stick_points[node].tolist()
             reaches = [
-                max(trial.term, abs(trial.elongation), term / trial.spring if trial.spring else _ZERO)
+                max(trial.term, abs(trial.elongation), term / trial.spring if trial.spring else ZERO)
                 for trial, term in zip(trials, terms, strict=True)
             ]
             self._stick_point(kept, place, stick, list(zip(axes, moved, reaches, strict=True)), known)
         return found
 
     def _term(self, away: Vector, axis: Vector) -> Fraction:
-        """The largest term of a displacement along an axis; an axis that is none of space is known to a rounding of 1."""
+        """The largest term of a displacement along an axis; an oblique axis is known to a rounding of 1."""
         if self._straight:
-            return _largest(away, axis)
-        flat = self._element.plane.normal == (1, 0, 0)
-        return max(map(abs, away[1:] if flat else away))
+            return largest_term(away, axis)
+        return max(map(abs, away[1:] if self._element.plane.horizontal else away))
 
     def _stick_point(
         self,
@@ -436,27 +355,25 @@ class ExactStep:
     ) -> None:
         """Compare where the stick point has gone to, by how far along each axis, with the largest term of that."""
         for axis in range(3):
-            exact = stick[axis] + sum((_product(step, way[axis]) for way, step, _ in moves), _ZERO)
-            reaches = (abs(_product(way[axis], reach)) for way, _, reach in moves)
+            exact = stick[axis] + sum((product(step, way[axis]) for way, step, _ in moves), ZERO)
+            reaches = (abs(product(way[axis], reach)) for way, _, reach in moves)
             term = max(abs(stick[axis]), abs(place[axis]), *reaches)
             self._add("the stick point", kept[axis], exact, term, floor)
 
-    def _add(
-        self, what: str, found: float | None, exact: Fraction, term: Fraction, floor: Fraction = _TWO
-    ) -> Fraction:
-        """Compare one number; the next link of the chain begins with it. Floors are in units of the smallest float64."""
+    def _add(self, what: str, found: float | None, exact: Fraction, term: Fraction, floor: Fraction = _TWO) -> Fraction:
+        """Compare one number, and return what the next link begins with; `floor` in units of the smallest float64."""
         if found is None:
             self.overflows |= abs(exact) > _LARGEST
             return exact
         here = Fraction(found) if isfinite(found) else exact
         term = term if here == exact else max(term, abs(exact))
-        self._tally.add(what, Compared(found, exact, term), self._bound, _ZERO if here == exact else floor * SMALLEST)
+        self._tally.add(what, Compared(found, exact, term), self._bound, ZERO if here == exact else floor * SMALLEST)
         return here
 
 
 def onset(law: NormalLaw) -> Fraction:
     """The penetration from which on a law acts."""
-    return law.onset if isinstance(law, ExactSmoothed) else _ZERO
+    return law.onset if isinstance(law, ExactSmoothed) else ZERO
 
 
 def _held(trials: Sequence[_Trial], *, ellipse: bool) -> tuple[list[Fraction], list[Fraction]]:
@@ -471,18 +388,18 @@ def _held(trials: Sequence[_Trial], *, ellipse: bool) -> tuple[list[Fraction], l
         return forces, terms
     # a limit below the smallest float64 is none
     able = [trial.limit > SMALLEST / 2 for trial in trials]
-    shares = [trial.force / trial.limit if can else _ZERO for trial, can in zip(trials, able, strict=True)]
-    size = root(shares[0] ** 2 + shares[1] ** 2) if any(shares) else _ZERO
+    shares = [trial.force / trial.limit if can else ZERO for trial, can in zip(trials, able, strict=True)]
+    size = root(shares[0] ** 2 + shares[1] ** 2) if any(shares) else ZERO
     scale = max(size, Fraction(1))
-    forces = [trial.force / scale if can else _ZERO for trial, can in zip(trials, able, strict=True)]
+    forces = [trial.force / scale if can else ZERO for trial, can in zip(trials, able, strict=True)]
     # terms in the norm, relative to it
-    loose = sum((one.term * one.spring / one.limit for one, can in zip(trials, able, strict=True) if can), _ZERO) / scale
+    loose = sum((one.term * one.spring / one.limit for one, can in zip(trials, able, strict=True) if can), ZERO) / scale
     if loose * ROUNDING > Fraction(1, 100):
         # the rounding of one direction alone takes up the limit: all that is known is that none is passed
         return forces, [trial.limit / ROUNDING for trial in trials]
     if scale == 1 and size + loose * _CLOSE < 1:
-        loose = _ZERO
+        loose = ZERO
     return forces, [
-        trial.term * trial.spring / scale + abs(force) * loose if can else _ZERO
+        trial.term * trial.spring / scale + abs(force) * loose if can else ZERO
         for trial, force, can in zip(trials, forces, able, strict=True)
     ]

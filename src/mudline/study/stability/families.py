@@ -13,12 +13,24 @@ from typing import NamedTuple, TypeAlias
 
 from mudline.study.exact import BOUND, ExactCurve, ExactLinear
 from mudline.study.stability.judging import Cell, Judgement, curve_deck, judge, linear_deck
-from mudline.study.stability.paths import TILTED_BOUND, PathCell, Place, exact_element, judge_path, limits, plunge, slide, sweep
+from mudline.study.stability.paths import (
+    TILTED_BOUND,
+    PathCell,
+    Place,
+    exact_element,
+    judge_path,
+    limits,
+    plunge,
+    slide,
+    sweep,
+)
 from mudline.study.stability.pull_out import SuctionCell, judge_suction
 from mudline.study.stability.small_decks import DIAMETER, Pairs, SmallDeck
 
 AnyCell: TypeAlias = Cell | PathCell | SuctionCell
 
+RANDOM = "random"
+"""The family of the random decks."""
 _SEED = 20040503
 TINY = ("1E-3", "1E-100", "1E-300", "2.3E-308", "2.2E-308", "1E-310", "5E-324", "1E-400")
 HUGE = ("1E3", "1E20", "1E100", "1E200", "1E300", "1E307", "1E308", "1.7976931348623157E308", "1E309", "1E400")
@@ -150,7 +162,6 @@ def sliding(deck: SmallDeck, depth: float = 0.01) -> list[Place]:
 
 def returning(deck: SmallDeck, depth: float = 0.03) -> list[Place]:
     """A path on which a force vanishes on its way back and comes again."""
-
     element = exact_element(deck)
     if element.law is None or not deck.unloading:
         return plunge(depth, depth)
@@ -213,7 +224,9 @@ FAMILIES = (
     Family("tiny curve ratios", TINY, _RATIOS),
     Family("huge curve ratios", HUGE, _RATIOS),
     Family("element length", ENDS[:-1], _on_path(lambda value: replace(_RUBS, length=value), sliding)),
-    Family("element length, lateral", ENDS[:-1], _on_path(lambda value: replace(_SIDE, length=value), lambda _: _SIDEWAYS)),
+    Family(
+        "element length, lateral", ENDS[:-1], _on_path(lambda value: replace(_SIDE, length=value), lambda _: _SIDEWAYS)
+    ),
     Family("negative zero", tuple(_ZEROS), _on_path(lambda value: _ZEROS[value], sliding, TILTED_BOUND)),
     Family("friction coefficients", ENDS, _on_path(lambda value: replace(_RUBS, coefficients=_both(value)), sliding)),
     Family("friction springs", ENDS, _on_path(lambda value: replace(_RUBS, springs=_both(value)), sliding)),
@@ -260,7 +273,9 @@ FAMILIES = (
         ENDS,
         _on_path(lambda value: SmallDeck(uplift=(value, "0.05")), lambda _: sweep(0.01, -1e-300, -0.03, -0.05, -0.06)),
     ),
-    Family("nodal stiffness", ENDS, _on_path(lambda value: SmallDeck(nodal=value, coefficients=("0.4", "0.7")), sliding)),
+    Family(
+        "nodal stiffness", ENDS, _on_path(lambda value: SmallDeck(nodal=value, coefficients=("0.4", "0.7")), sliding)
+    ),
     Family("nodal smoothing", ENDS, _on_path(lambda value: replace(_NODAL, smoothing=value), through_zone)),
     Family("slope", ANGLES, _on_path(lambda value: replace(_TILTED, slope=value), sliding, TILTED_BOUND)),
     Family(
@@ -269,7 +284,9 @@ FAMILIES = (
         _on_path(lambda value: replace(_TILTED, slope=value, point=("3.0", "0.0", "0.0")), sliding, TILTED_BOUND),
     ),
     Family(
-        "direction of a slope", HEADINGS, _on_path(lambda value: replace(_TILTED, direction=value), sliding, TILTED_BOUND)
+        "direction of a slope",
+        HEADINGS,
+        _on_path(lambda value: replace(_TILTED, direction=value), sliding, TILTED_BOUND),
     ),
     Family(
         "lateral on a slope",
@@ -300,8 +317,8 @@ def _random_cell(rng: random.Random, index: int) -> AnyCell:
         return _random_path(rng, value)
     diameter = _number(rng, -6, 3)
     if index % 8 == 0:
-        return _linear("random", value, diameter, _number(rng, -320, 308))
-    return curve_cell("random", value, _random_curve(rng), diameter)
+        return _linear(RANDOM, value, diameter, _number(rng, -320, 308))
+    return curve_cell(RANDOM, value, _random_curve(rng), diameter)
 
 
 def _random_curve(rng: random.Random) -> Pairs:
@@ -348,7 +365,7 @@ def _random_path(rng: random.Random, value: str) -> PathCell:
     def path(made: SmallDeck) -> list[Place]:
         return [*sliding(made, depth), *returning(made, depth)]
 
-    return _on_path(lambda _: deck, path, TILTED_BOUND)("random", value)
+    return _on_path(lambda _: deck, path, TILTED_BOUND)(RANDOM, value)
 
 
 def _rising(rng: random.Random, far: int) -> Pairs:

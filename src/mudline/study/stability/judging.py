@@ -24,6 +24,7 @@ from mudline.study import scene_of
 from mudline.study.exact import BOUND, Compared, ExactCurve, ExactLaw, Tally
 from mudline.study.stability.small_decks import DIAMETER, LENGTH, Pairs, SmallDeck
 
+
 @dataclass(frozen=True, slots=True)
 class Cell:
     """A deck, where it stands on the ladder, and the law that it should give; None where the deck holds no law."""
@@ -174,7 +175,7 @@ def _overflows(law: ExactLaw, height: float) -> bool:
     """Whether some number of the result is too large for a float64."""
     ratio = -Fraction(height) / Fraction(law.diameter)
     spring = law.spring(-Fraction(height), ratio)
-    return any(abs(number) > _LARGEST for number in (ratio, *spring))
+    return any(abs(number) > _LARGEST for number in (ratio, *spring[:4]))
 
 
 def _evaluated(scene: Scene, heights: list[float]) -> ContactResult:

@@ -52,7 +52,7 @@ def own_cells(scene: Scene) -> tuple[list[AnyCell], list[Omission]]:
     return [cell for contact in contacts for cell in _scaled(contact)], omissions
 
 
-# ------------------------------------------------------------------------------------------------- the contacts of a deck
+# ------------------------------------------------------------------------------------------------ the deck's contacts
 
 
 def _contacts(scene: Scene, given: ContactInput) -> tuple[list[OwnContact], list[Omission]]:
@@ -72,7 +72,7 @@ def _contacts(scene: Scene, given: ContactInput) -> tuple[list[OwnContact], list
         omissions.append(Omission("ladder on trenches", "the exact reference has no trench"))
     if scene.seabed.kind in {SeabedKind.PROFILE, SeabedKind.SURFACE}:
         omissions.append(Omission("ladder on the profile of the seabed", "the exact reference has planes: it is flat"))
-    found = []
+    found: list[OwnContact] = []
     for index in order[:MOST_CONTACTS].tolist():
         element = int(rows[firsts[index]])
         numbers = {name: float(column[element]) for name, column in columns.items()}
@@ -129,8 +129,9 @@ def _small_deck(scene: Scene, numbers: dict[str, float], points: Sequence[tuple[
             else None
         ),
         lateral=text("lateral stiffness"),
-        uplift=(text("suction spring stiffness"), text("suction spring extent")) if "suction spring extent" in numbers
-        and text("suction spring extent") else None,
+        uplift=(text("suction spring stiffness"), text("suction spring extent"))
+        if "suction spring extent" in numbers and text("suction spring extent")
+        else None,
         slope=slope,
         direction=direction,
         point=point,
@@ -216,7 +217,9 @@ def _deck(deck: SmallDeck, kind: str, power: int) -> SmallDeck:
         )
     if kind == "coefficients":
         return replace(deck, coefficients=_pair(deck.coefficients, power, power))
-    return replace(deck, **{kind: times(getattr(deck, kind), power)})
+    if kind == "diameter":
+        return replace(deck, diameter=times(deck.diameter, power))
+    return replace(deck, length=times(deck.length, power))
 
 
 def _pull(cell: SuctionCell, family: str, kind: str, power: int) -> SuctionCell:

@@ -16,7 +16,8 @@ from mudline.results.evaluation import as_deck_errors
 from mudline.scene.model import Scene
 from mudline.study import scene_of
 from mudline.study.exact import BOUND, ExactCurve, ExactLinear, ExactSmoothed, Tally
-from mudline.study.exact_steps import ExactElement, ExactFriction, ExactPlane, ExactStep, NormalLaw, cross
+from mudline.study.exact_geometry import ExactPlane, cross
+from mudline.study.exact_steps import ExactElement, ExactFriction, ExactStep, NormalLaw
 from mudline.study.stability.judging import FILE, Judgement, Verdict, guarded, refusal
 from mudline.study.stability.small_decks import Pair, SmallDeck
 
@@ -64,9 +65,7 @@ def _judged(cell: PathCell) -> Judgement:
     return Judgement(cell.family, cell.value, verdict, tally.results, tally.error, cell.bound, tally.fault or message)
 
 
-def _follow(
-    scene: Scene, element: ExactElement, steps: Sequence[np.ndarray], tally: Tally, bound: float
-) -> str | None:
+def _follow(scene: Scene, element: ExactElement, steps: Sequence[np.ndarray], tally: Tally, bound: float) -> str | None:
     """Step from place to place. Returns the first refusal, "" without any, None where one had no reason."""
     with as_deck_errors(scene):
         model = scene.contact()

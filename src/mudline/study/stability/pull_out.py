@@ -12,7 +12,7 @@ import numpy as np
 from mudline.results.evaluation import as_deck_errors
 from mudline.study import scene_of
 from mudline.study.exact import SMALLEST, Compared, Tally
-from mudline.study.exact_steps import fraction_of
+from mudline.study.exact_geometry import fraction_of
 from mudline.study.stability.judging import FILE, Judgement, Verdict, guarded
 from mudline.study.stability.small_decks import DIAMETER, Pair, SmallDeck
 
@@ -32,7 +32,7 @@ class SuctionCell:
     """A pull-out at a constant velocity, all numbers as the deck has them.
 
     Attributes:
-        cohesion: of the soil; the laws follow from it unless `force` and `depth` are given, factor and exponent of each.
+        cohesion: of the soil; the laws follow from it unless `force` and `depth` give factor and exponent of each.
         cutoff: corners of the trapezoid. regularisation: velocity below which the force is capped.
     """
 
