@@ -12,10 +12,10 @@ from mudline.study import SAMPLE_TEXT, sample_scene
 from mudline.study.motion import Scheme
 from mudline.study.report import StudyOptions, StudyReport
 from mudline.study.schemes import SCHEMES
-from mudline.study.stability import critical, ladder, landings, run, statics
+from mudline.study.stability import critical, ladder, landings, own_laws, run, statics
 from mudline.study.stability.critical import Contact, Measured
-from mudline.study.stability.judging import Cell, Judgement, Verdict, judge
-from mudline.study.stability.ladder import all_cells
+from mudline.study.stability.families import AnyCell, all_cells, judge
+from mudline.study.stability.judging import Judgement, Verdict
 from mudline.study.stability.landings import Landing
 from mudline.study.stability.statics import CycleCount
 from tests.builders.scenes import legal_scene
@@ -48,8 +48,8 @@ def report(
     def measure(_scene: Scene, contact: Contact, scheme: Scheme) -> Measured:
         return measured[contact.name, scheme.name]
 
-    def verdict(cell: Cell) -> Judgement:
-        return judged[cell.family, cell.value]
+    def verdict(cell: AnyCell) -> Judgement:
+        return judged.get((cell.family, cell.value)) or judge(cell)
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(critical, "measure", measure)
@@ -59,10 +59,10 @@ def report(
 
 def test_the_sample_is_studied(report: StudyReport, progress: list[str]) -> None:
     assert [table.name for table in report.tables] == TABLES
-    assert [picture.name for picture in report.pictures] == ["critical-steps", "landings", "ladder"]
+    assert [picture.name for picture in report.pictures] == ["critical-steps", "landings", "ladder", "ladder-deck"]
     assert report.omissions == ()
     assert progress[0] == "steps on curve:Soft Clay on Clay"
-    assert progress[-1] == "ladder of extremes"
+    assert progress[-1] == "ladder of extremes, linear on Sand: coefficients"
     assert json.loads(report.json())["study"] == "stability"
 
 
@@ -90,6 +90,7 @@ def test_pictures_are_drawn(report: StudyReport) -> None:
 def test_a_deck_without_mass_or_suction_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(ladder, "all_cells", lambda: all_cells()[:3])
     monkeypatch.setattr(ladder, "suction_cells", list)
+    monkeypatch.setattr(own_laws, "POWERS", ())
     monkeypatch.setattr(ladder, "RANDOM_DECKS", 5)
     text = SAMPLE_TEXT.partition("*SEABED CONTACT")[0].replace("7850.0", "0.0")
     progress: list[str] = []
@@ -105,6 +106,7 @@ def test_only_the_fastest_contacts_are_stepped_by_default(monkeypatch: pytest.Mo
     monkeypatch.setattr(critical, "MOST_CONTACTS", 1)
     monkeypatch.setattr(ladder, "all_cells", lambda: all_cells()[:3])
     monkeypatch.setattr(ladder, "suction_cells", list)
+    monkeypatch.setattr(own_laws, "POWERS", ())
     monkeypatch.setattr(critical, "SCHEMES", {})
     found = run(sample_scene(), StudyOptions())
     assert [(one.what, one.reason[:18]) for one in found.omissions] == [("linear on Sand", "not stepped: slowe")]
@@ -113,6 +115,7 @@ def test_only_the_fastest_contacts_are_stepped_by_default(monkeypatch: pytest.Mo
 def test_a_segment_too_narrow_to_oscillate_in_is_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(ladder, "all_cells", lambda: all_cells()[:3])
     monkeypatch.setattr(ladder, "suction_cells", list)
+    monkeypatch.setattr(own_laws, "POWERS", ())
     monkeypatch.setattr(critical, "SCHEMES", {})
     text = SAMPLE_TEXT.replace(" 0.02,  640.0\n", " 0.0100000000001,  640.0\n")
     found = run(legal_scene(text), StudyOptions())
@@ -126,6 +129,7 @@ def test_unacceptable_verdicts_are_in_the_notes(monkeypatch: pytest.MonkeyPatch)
     monkeypatch.setattr(ladder, "all_cells", lambda: all_cells()[:3])
     monkeypatch.setattr(ladder, "judge", lambda cell: wrong if cell.value == "1E-2" else judge(cell))
     monkeypatch.setattr(ladder, "suction_cells", list)
+    monkeypatch.setattr(own_laws, "POWERS", ())
     monkeypatch.setattr(critical, "SCHEMES", {})
     found = run(sample_scene(), StudyOptions())
     assert found.notes[-1] == "softness 1E9: WRONG: the force is off"

@@ -12,7 +12,8 @@ from fractions import Fraction
 from typing import NamedTuple, TypeAlias
 
 from mudline.study.exact import BOUND, ExactCurve, ExactLinear
-from mudline.study.stability.judging import Cell, Judgement, curve_deck, judge, linear_deck
+from mudline.study.stability.judging import Cell, Judgement, curve_deck, linear_deck
+from mudline.study.stability.judging import judge as judge_heights
 from mudline.study.stability.paths import (
     TILTED_BOUND,
     PathCell,
@@ -62,11 +63,11 @@ class Family(NamedTuple):
     cell: Callable[[str, str], AnyCell]
 
 
-def judged(cell: AnyCell) -> Judgement:
+def judge(cell: AnyCell) -> Judgement:
     """The verdict on a cell of any kind."""
     if isinstance(cell, PathCell):
         return judge_path(cell)
-    return judge_suction(cell) if isinstance(cell, SuctionCell) else judge(cell)
+    return judge_suction(cell) if isinstance(cell, SuctionCell) else judge_heights(cell)
 
 
 def powers(first: int, last: int) -> list[str]:

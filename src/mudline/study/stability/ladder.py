@@ -18,7 +18,7 @@ from mudline.scene.model import Scene
 from mudline.short_repr import cut
 from mudline.study.pictures import Picture, drawn
 from mudline.study.report import Layout, Section, StudyOptions, columns_of, grouped
-from mudline.study.stability.families import all_cells, judged, random_cells
+from mudline.study.stability.families import all_cells, judge, random_cells
 from mudline.study.stability.judging import Judgement, Verdict
 from mudline.study.stability.own_laws import is_own, own_cells
 from mudline.study.stability.pull_out import suction_cells
@@ -71,11 +71,11 @@ def study_ladder(scene: Scene, options: StudyOptions) -> Section:
     """The verdict on every cell, those on the deck's own laws included; in a full run on random decks too."""
     own, omissions = own_cells(scene)
     cells = [*all_cells(), *suction_cells(), *own]
-    judgements = [judged(cell) for cell in options.each(cells, lambda cell: f"ladder of extremes, {cell.family}")]
+    judgements = [judge(cell) for cell in options.each(cells, lambda cell: f"ladder of extremes, {cell.family}")]
     pictures = _pictures(judgements)
     if options.full:
         decks = random_cells(RANDOM_DECKS)
-        judgements += (judged(cell) for cell in options.each(decks, lambda _: f"{RANDOM_DECKS} random decks"))
+        judgements += (judge(cell) for cell in options.each(decks, lambda _: f"{RANDOM_DECKS} random decks"))
     tables = BY_FAMILY.table(grouped(judgements, lambda one: one.family).values()), BY_CELL.table(judgements)
     rejected = [one for one in judgements if not one.verdict.acceptable]
     right = len(judgements) - len(rejected)
