@@ -8,8 +8,8 @@ from mudline.study import sample_scene
 from mudline.study.schemes import SCHEMES
 from mudline.study.stability import critical, landings, statics
 from mudline.study.stability.critical import Measured, find_contacts
-from mudline.study.stability.judging import Judgement, judge
-from mudline.study.stability.ladder import all_cells
+from mudline.study.stability.families import all_cells, judge
+from mudline.study.stability.judging import Judgement
 from mudline.study.stability.landings import Landing
 from mudline.study.stability.statics import CycleCount
 

@@ -15,8 +15,8 @@ from mudline.study import SAMPLE_TEXT, sample_scene
 from mudline.study.schemes import SCHEMES
 from mudline.study.stability import critical
 from mudline.study.stability.critical import BOUNDED, GROWS, SHARES, Measured, can_oscillate, find_contacts, measure
+from mudline.study.stability.families import all_cells
 from mudline.study.stability.judging import Judgement
-from mudline.study.stability.ladder import all_cells
 from tests.builders.scenes import legal_scene
 from tests.study.stability.conftest import STEPPED
 

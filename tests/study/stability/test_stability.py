@@ -13,10 +13,10 @@ from mudline.study import SAMPLE_TEXT, sample_scene
 from mudline.study.motion import Scheme
 from mudline.study.report import StudyOptions, StudyReport
 from mudline.study.schemes import SCHEMES
-from mudline.study.stability import deck_steps, ladder, landings, run, statics
+from mudline.study.stability import deck_steps, ladder, landings, own_laws, run, statics
 from mudline.study.stability.critical import Contact, Measured
-from mudline.study.stability.judging import Cell, Judgement, Verdict, judge
-from mudline.study.stability.ladder import all_cells
+from mudline.study.stability.families import AnyCell, all_cells, judge
+from mudline.study.stability.judging import Judgement, Verdict
 from mudline.study.stability.landings import Landing
 from mudline.study.stability.statics import CycleCount
 from tests.builders.scenes import legal_scene
@@ -60,8 +60,8 @@ def report(
     def measure(_scene: Scene, contact: Contact, scheme: Scheme) -> Measured:
         return measured[contact.name, scheme.name]
 
-    def verdict(cell: Cell) -> Judgement:
-        return judged[cell.family, cell.value]
+    def verdict(cell: AnyCell) -> Judgement:
+        return judged.get((cell.family, cell.value)) or judge(cell)
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(deck_steps, "measure", measure)
@@ -72,10 +72,16 @@ def report(
 
 def test_the_sample_is_studied(report: StudyReport, progress: list[str]) -> None:
     assert [table.name for table in report.tables] == TABLES
-    assert [picture.name for picture in report.pictures] == ["critical-steps", "landings", "landing-gain", "ladder"]
+    assert [picture.name for picture in report.pictures] == [
+        "critical-steps",
+        "landings",
+        "landing-gain",
+        "ladder",
+        "ladder-deck",
+    ]
     assert report.omissions == ()
     assert progress[0] == "steps on suction damping on Clay"
-    assert progress[-1] == "ladder of extremes"
+    assert progress[-1] == "ladder of extremes, linear on Sand: coefficients"
     assert json.loads(report.json())["study"] == "stability"
 
 
@@ -120,6 +126,7 @@ def test_pictures_are_drawn(report: StudyReport) -> None:
 def test_a_deck_without_mass_or_suction_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(ladder, "all_cells", lambda: all_cells()[:3])
     monkeypatch.setattr(ladder, "suction_cells", list)
+    monkeypatch.setattr(own_laws, "POWERS", ())
     monkeypatch.setattr(ladder, "RANDOM_DECKS", 5)
     text = SAMPLE_TEXT.partition("*SEABED CONTACT")[0].replace("7850.0", "0.0")
     progress: list[str] = []
@@ -153,6 +160,7 @@ def test_unacceptable_verdicts_are_in_the_notes(monkeypatch: pytest.MonkeyPatch)
     monkeypatch.setattr(ladder, "all_cells", lambda: all_cells()[:3])
     monkeypatch.setattr(ladder, "judge", lambda cell: wrong if cell.value == "1E-2" else judge(cell))
     monkeypatch.setattr(ladder, "suction_cells", list)
+    monkeypatch.setattr(own_laws, "POWERS", ())
     found = run(sample_scene(), StudyOptions(only=("ladder",)))
     assert found.notes[-1] == "softness 1E9: WRONG: the force is off"
     assert found.notes[-2].startswith("2 of 3 cells")

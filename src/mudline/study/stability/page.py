@@ -21,6 +21,7 @@ from mudline.study.pages import (
 from mudline.study.schemes import SCHEMES
 from mudline.study.stability import critical, landings
 from mudline.study.stability.deck_steps import FARTHEST, advice
+from mudline.study.stability.ladder_page import ladder_part
 
 _OF_TABLE = ("0.1", "0.5", "1", "10")
 _BETWEEN = ("1.1", "1.5", "1.9", "1.99")
@@ -62,7 +63,7 @@ def page(tables: Tables) -> str:
         "never": _never(tables),
         **_newton(tables),
         "release": _release(tables),
-        "ladder": _ladder(tables),
+        "ladder": ladder_part(tables),
     }
     return filled(Path(__file__).with_name("page.md"), fields)
 
@@ -388,21 +389,6 @@ def _release(tables: Tables) -> str:
     ]
     table = markdown_table(("element", velocity, force, depth, needed, *counts), cells)
     return f"On the laws of this deck:\n\n{table}"
-
-
-def _ladder(tables: Tables) -> str:
-    columns = ("cells", "right", "refused beyond", "refused", "anything else")
-    cells = [
-        (
-            one.text("family"),
-            *(one.text(column) for column in columns),
-            rounded(one.number("largest error [2^-53]")),
-            rounded(one.number("bound [2^-53]")),
-        )
-        for one in tables.rows("ladder")
-    ]
-    headings = ("family", *columns, "largest error [roundings]", "bound [roundings]")
-    return markdown_table(headings, cells)
 
 
 def _ladder_in_short(tables: Tables) -> str:
