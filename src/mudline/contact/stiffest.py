@@ -217,7 +217,7 @@ Implicit schemes that are not here have no such limit on linear systems, which s
 """
 
 ADVISED_OMEGA_DT = 0.5
-"""Up to here a landing gains or loses within 3 % of its speed in the usual implicit schemes of second order."""
+"""Up to here a landing gains up to 3 % of its speed, or loses 3.5 %, in the usual implicit schemes of second order."""
 
 
 def omega(stiffness: FloatArray, mass: FloatArray) -> FloatArray:

@@ -164,8 +164,10 @@ def _groups(having: Mask, *keys: Indices) -> list[Indices]:
     rows = np.flatnonzero(having)
     if not rows.size:
         return []
-    _, group = np.unique(np.column_stack([key[rows] for key in keys]), axis=0, return_inverse=True)
-    return [rows[group.ravel() == index] for index in range(int(group.max()) + 1)]
+    _, group, counts = np.unique(
+        np.column_stack([key[rows] for key in keys]), axis=0, return_inverse=True, return_counts=True
+    )
+    return np.split(rows[np.argsort(group.ravel(), kind="stable")], np.cumsum(counts)[:-1])
 
 
 def _of_group(  # noqa: PLR0913, PLR0917 - what a contact is made of
@@ -220,11 +222,12 @@ def _of_nodes(
     if stiffness is None:
         return
     contact = scene.extensions["SEABED CONTACT"]
+    blocks = at_nodes(np.where(scene.nodal, contact.of_element, -1), carried.ends, carried.nodes)
     for value in np.unique(stiffness[stiffness > 0.0]).tolist():
         nodes = np.flatnonzero(stiffness == value)
         found = _of_node("nodal", f"nodal {value:.6g}", nodes, stiffness, carried)
         if isinstance(found, Oscillation):
-            place = contact.places[int(contact.of_element[found.element])].inside("nodal_stiffness")
+            place = contact.places[int(blocks[found.node])].inside("nodal_stiffness")
             yield found._replace(name=f"{found.name} at node {scene.node_ids[found.node]}", where=place)
         else:
             yield (f"nodal stiffness {value:.6g}", "no frequency: the mass of its nodes is not known")
