@@ -47,8 +47,7 @@ def advice(tables: Tables) -> str:
             continue
         explicit = reached[0].text("scheme") in _EXPLICIT
         other = [_use(row) for row in reached if (row.text("scheme") in _EXPLICIT) != explicit][:1]
-        kind = "an implicit" if explicit else "an explicit"
-        besides = f" (of {kind} scheme, {other[0]})" if other else ""
+        besides = f" ({'implicit' if explicit else 'explicit'}: {other[0]})" if other else ""
         parts.append(f"for errors of {percent(float(goal))} use {_use(reached[0])}{besides}{because}")
     return f"On this deck, {'; '.join(parts)}." if parts else ""
 
