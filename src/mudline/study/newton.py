@@ -133,7 +133,7 @@ class _Bracket:
         trial = root + change
         middle = 0.5 * self._low + 0.5 * self._high
         inside = (trial > self._low) & (trial < self._high)
-        toward = np.where(np.isfinite(change), np.copysign(change, -value), change)
+        toward = np.copysign(np.where(np.isfinite(change), change, 1.0 + np.abs(root)), -value)
         return np.where(inside, change, np.where(np.isfinite(middle), middle - root, toward))
 
     def collapsed(self, root: FloatArray, value: FloatArray) -> BoolArray:

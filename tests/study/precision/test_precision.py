@@ -96,3 +96,9 @@ def test_imperial_deck() -> None:
     assert 1.9 < around.density < 2.1
     report = precision.run(found, StudyOptions())
     assert report.tables[6].rows
+    rest = next(table for table in report.tables if table.name == "smoothing")
+    assert rest.columns[1] == ("half width h", "ft")
+    floating = next(row for row in rest.rows if row[2] == pytest.approx(1e-3 / 9.9998e-6, rel=1e-4))
+    assert floating[1] == pytest.approx(1e-3 / 0.3048)
+    assert floating[3] == pytest.approx(-7.9984e-4 / 0.3048, rel=1e-4)
+    assert "with h = 0.0033 ft on this stiff seabed by 0.0026 ft" in report.page

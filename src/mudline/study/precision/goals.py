@@ -111,7 +111,7 @@ class Advice(NamedTuple):
     def effort(self) -> tuple[float, float]:
         """What the schemes of a goal are sorted by: work, and where that is the same the error."""
         work, error = (math.inf if value is None else value for value in (self.evaluations, self.error))
-        return (float(f"{work:.3g}"), error)
+        return (float(f"{work:.3g}"), float(f"{error:.3g}"))
 
 
 ADVICE = Layout("advice", "Steps for this deck, the least work first", columns_of(Advice))
@@ -140,7 +140,8 @@ def _orders(ladders: Ladders, cases: Sequence[Case]) -> Iterator[OrderRow]:
 def advised(ladders: Ladders, cases: Sequence[Case]) -> list[Advice]:
     """For each goal the schemes by their work on the laws of the deck, then those that do not reach it."""
     own = [case for case in cases if case.line is not None]
-    schemes = dict.fromkeys(scheme for _, scheme in ladders)
+    # Without velocities in the forces the central difference is velocity Verlet, which is advised then.
+    schemes = sorted(dict.fromkeys(scheme for _, scheme in ladders), key=lambda scheme: scheme == "central-difference")
     found = []
     for goal in ADVISED_GOALS if own else ():
         rows = [_advice(goal, scheme, [(case, ladders[case.name, scheme]) for case in own]) for scheme in schemes]

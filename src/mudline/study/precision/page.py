@@ -47,8 +47,7 @@ def advice(tables: Tables) -> str:
             continue
         explicit = reached[0].text("scheme") in _EXPLICIT
         other = [_use(row) for row in reached if (row.text("scheme") in _EXPLICIT) != explicit][:1]
-        kind = "an implicit" if explicit else "an explicit"
-        besides = f" (of {kind} scheme, {other[0]})" if other else ""
+        besides = f" ({'implicit' if explicit else 'explicit'}: {other[0]})" if other else ""
         parts.append(f"for errors of {percent(float(goal))} use {_use(reached[0])}{besides}{because}")
     return f"On this deck, {'; '.join(parts)}." if parts else ""
 
@@ -87,11 +86,11 @@ def _in_short(tables: Tables) -> list[str]:
     curves = _of_first_curve(tables)
     if curves:
         own, table = curves["mudline, numpy"], _largest_table(curves)
-        entries, off = grouped_digits(_entries(table)), rounded(table.number(_FORCE_ERROR))
+        entries, worse = grouped_digits(_entries(table)), rounded(table.number(_FORCE_ERROR))
         slower = table.number("best time [ns/point]") / own.number("best time [ns/point]")
         found.append(
-            f"The evaluator of curves is exact to {rounded(own.number(_FORCE_ERROR))} of the largest force. An even table "
-            f"of {entries} entries is off by {off} and takes {rounded(slower)} times as long."
+            f"The evaluator of curves is exact to {rounded(own.number(_FORCE_ERROR))} of the largest force. An even "
+            f"table of {entries} entries is off by {worse} and takes {rounded(slower)} times as long."
         )
     ten = tables.rows("backbones", points="10")
     if ten:

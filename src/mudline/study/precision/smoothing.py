@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, NamedTuple
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
+from mudline.scene.deck_values import FOOT
 from mudline.scene.model import Scene
 from mudline.study.laws import ElasticContact, LinearLaw, smoothed_spring
 from mudline.study.newton import Newton
@@ -89,7 +90,11 @@ def study_smoothing(scene: Scene, contacts: Sequence[ElasticContact], options: S
     """At rest on the published case and on the scene's stiffest law as if it were linear; and the published impact."""
     options.progress("smoothing")
     widths = np.unique([float(f"{width:.4g}") for width in (*WIDTHS, *(share * 1e-5 for share in SHARES))])
-    rest = list(at_rest(PUBLISHED, widths))
+    unit = FOOT if scene.units == "imperial" else 1.0
+    rest = [
+        row._replace(half_width=row.half_width / unit, penetration=row.penetration / unit)
+        for row in at_rest(PUBLISHED, widths)
+    ]
     for contact in contacts[:1]:
         stiffness, start = contact.stiffness, 0.7 * contact.diameter
         own = Rest(contact.law.name, stiffness, 2e-5 * stiffness, contact.weight, start)
