@@ -54,6 +54,7 @@ def report(
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(critical, "measure", measure)
         patch.setattr(ladder, "judge", verdict)
+        patch.setattr(own_laws, "POWERS", (0,))
         return run(sample_scene(), StudyOptions(progress=progress.append))
 
 
