@@ -102,6 +102,11 @@ def test_the_page_names_what_is_wrong() -> None:
     assert "`--full` adds 4000 random decks" in text
 
 
+def test_the_published_page_is_made_of_its_tables() -> None:
+    docs = SAMPLES.parent / "docs" / "studies"
+    assert ladder_part(Tables.read(docs, "stability")).rstrip() in (docs / "stability.md").read_text(encoding="utf-8")
+
+
 def test_the_prose_has_no_numbers() -> None:
     text = Path(ladder.__file__).with_name("ladder.md").read_text(encoding="utf-8")
     for left in (r"`[^`]*`", r"\{\w+\}", r"\]\([^)]*\)", r"\b[\w-]*[A-Za-z][\w-]*"):
