@@ -1,4 +1,4 @@
-"""What the ladder of extremes found: angles next to a wall, tiny limits, zeros with a minus, refusals without a line."""
+"""What the ladder of extremes found: angles next to a wall, tiny limits, minus zeros, refusals without lines."""
 
 from __future__ import annotations
 

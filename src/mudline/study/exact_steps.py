@@ -107,7 +107,7 @@ class ExactStep:
         friction = element.friction
         law = element.law or element.nodal
         self._onset = ZERO if law is None else onset(law)
-        self._deeper = 0
+        self._deeper = self._steps = 0
         self._straight = element.plane.horizontal and (friction is None or friction.angle is None)
         self.overflows = False
         """Whether some number of the last step is too large for a float64."""
@@ -132,7 +132,7 @@ class ExactStep:
         element, plane = self._element, self._element.plane
         places = [vector(point) for point in points]
         gaps = [self._gap(place, None if result is None else result.gap[node]) for node, place in enumerate(places)]
-        if result is not None:
+        if result is not None and not self._steps:  # a plane has one normal, which stays
             for node in range(2):
                 for axis in range(3):
                     exact = plane.normal[axis]
@@ -155,7 +155,10 @@ class ExactStep:
         across = cross(plane.normal, along)
         push = self._lateral(places, across, depth, before)
         axes = self._turned(along, across)
+        self._steps += result is not None
         for node, (place, load) in enumerate(zip(places, loads, strict=True)):
+            if result is not None and (self._steps + node) % 2:
+                continue  # the nodes in turn: both have the same laws
             slid = self._friction(node, place, axes, load, before, after)
             parts: list[tuple[Fraction, Vector]] = []
             for side, way in enumerate(axes):

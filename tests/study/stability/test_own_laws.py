@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import mudline
-from mudline.study import SAMPLE_TEXT, scene_of
+from mudline.study import SAMPLE_TEXT, sample_scene, scene_of
 from mudline.study.pages import Tables
 from mudline.study.report import StudyOptions
 from mudline.study.stability import ladder, own_laws
@@ -17,7 +17,7 @@ from mudline.study.stability.judging import Judgement, Verdict
 from mudline.study.stability.ladder_page import ladder_part
 from mudline.study.stability.own_laws import is_own, own_cells, times
 from mudline.study.stability.paths import PathCell
-from mudline.study.stability.pull_out import SuctionCell
+from mudline.study.stability.pull_out import SuctionCell, suction_cells
 
 SAMPLES = Path(__file__).parents[3] / "samples"
 
@@ -28,11 +28,12 @@ def test_numbers_keep_their_digits() -> None:
     assert times("", 5) == ""
 
 
-@pytest.mark.parametrize("name", ["slope-friction", "full-cycle"])
+@pytest.mark.parametrize("name", ["slope-friction", "full-cycle", "built-in"])
 def test_the_laws_of_samples_are_right_at_the_extremes(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
-    monkeypatch.setattr(own_laws, "POWERS", (-300, 0, 300))
-    monkeypatch.setattr(own_laws, "MOST_CONTACTS", 1)
-    cells, omissions = own_cells(mudline.read(SAMPLES / f"{name}.keyxm").scene())
+    monkeypatch.setattr(own_laws, "POWERS", (-300, 300))
+    monkeypatch.setattr(own_laws, "MOST_CONTACTS", 2 if name == "built-in" else 1)
+    scene = sample_scene() if name == "built-in" else mudline.read(SAMPLES / f"{name}.keyxm").scene()
+    cells, omissions = own_cells(scene)
     assert {is_own(cell.family) for cell in cells} == {True}
     assert [one for one in map(judge, cells) if one.verdict not in {Verdict.RIGHT, Verdict.RIGHT_UNTIL_REFUSED}] == []
     left_out = {one.what for one in omissions}
@@ -76,6 +77,7 @@ def tables(monkeypatch: pytest.MonkeyPatch) -> Tables:
     monkeypatch.setattr(ladder, "RANDOM_DECKS", 4)
     some = [one for one in all_cells() if one.value in {"1E0", "1E309"}]
     monkeypatch.setattr(ladder, "all_cells", lambda: some)
+    monkeypatch.setattr(ladder, "suction_cells", lambda: suction_cells()[-3:])
     section = ladder.study_ladder(scene_of(SAMPLE_TEXT, "deck.keyxm"), StudyOptions(full=True))
     return Tables({table.name: "".join(table.csv()) for table in section.tables})
 
@@ -98,6 +100,11 @@ def test_the_page_names_what_is_wrong() -> None:
     assert "**1 decks are neither right nor refused with a line: softness 1E9.**" in text
     assert "The deck has no law that could be scaled." in text
     assert "`--full` adds 4000 random decks" in text
+
+
+def test_the_published_page_is_made_of_its_tables() -> None:
+    docs = SAMPLES.parent / "docs" / "studies"
+    assert ladder_part(Tables.read(docs, "stability")).rstrip() in (docs / "stability.md").read_text(encoding="utf-8")
 
 
 def test_the_prose_has_no_numbers() -> None:

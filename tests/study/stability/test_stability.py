@@ -67,6 +67,7 @@ def report(
         patch.setattr(deck_steps, "measure", measure)
         patch.setattr(deck_steps, "STEPPED", STEPPED)
         patch.setattr(ladder, "judge", verdict)
+        patch.setattr(own_laws, "POWERS", (0,))
         return run(sample_scene(), StudyOptions(progress=progress.append))
 
 

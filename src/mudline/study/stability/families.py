@@ -35,7 +35,8 @@ RANDOM = "random"
 _SEED = 20040503
 TINY = ("1E-3", "1E-100", "1E-300", "2.3E-308", "2.2E-308", "1E-310", "5E-324", "1E-400")
 HUGE = ("1E3", "1E20", "1E100", "1E200", "1E300", "1E307", "1E308", "1.7976931348623157E308", "1E309", "1E400")
-ENDS = ("5E-324", "1E-310", "1E-300", "1E-200", "1E-100", "1E-10", "1E0", "1E10", "1E100", "1E200", "1E300", "1E308")
+ENDS = ("5E-324", "1E-310", "1E-300", "1E-100", "1E-10", "1E0", "1E10", "1E100", "1E300", "1E308")
+LENGTHS = (*ENDS[:3], "1E-200", *ENDS[3:8], "1E200", "1E300")
 ANGLES = (
     "5E-324",
     "1E-300",
@@ -224,9 +225,9 @@ FAMILIES = (
     Family("huge curve forces", HUGE, _FORCES),
     Family("tiny curve ratios", TINY, _RATIOS),
     Family("huge curve ratios", HUGE, _RATIOS),
-    Family("element length", ENDS[:-1], _on_path(lambda value: replace(_RUBS, length=value), sliding)),
+    Family("element length", LENGTHS, _on_path(lambda value: replace(_RUBS, length=value), sliding)),
     Family(
-        "element length, lateral", ENDS[:-1], _on_path(lambda value: replace(_SIDE, length=value), lambda _: _SIDEWAYS)
+        "element length, lateral", LENGTHS, _on_path(lambda value: replace(_SIDE, length=value), lambda _: _SIDEWAYS)
     ),
     Family("negative zero", tuple(_ZEROS), _on_path(lambda value: _ZEROS[value], sliding, TILTED_BOUND)),
     Family("friction coefficients", ENDS, _on_path(lambda value: replace(_RUBS, coefficients=_both(value)), sliding)),

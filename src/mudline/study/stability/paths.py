@@ -61,6 +61,8 @@ def _judged(cell: PathCell) -> Judgement:
     if message is None:
         refused = "a value was refused that a float64 can hold"
         return Judgement(cell.family, cell.value, Verdict.NO_LINE, message=refused)
+    if message and not tally.results:
+        return Judgement(cell.family, cell.value, Verdict.REFUSED, message=message)
     verdict = Verdict.WRONG if tally.fault else Verdict.RIGHT_UNTIL_REFUSED if message else Verdict.RIGHT
     return Judgement(cell.family, cell.value, verdict, tally.results, tally.error, cell.bound, tally.fault or message)
 
