@@ -125,7 +125,7 @@ def test_a_restart_is_reported_the_step_that_does_on_the_bed_of_its_static_deck(
         assert findings == []
         return
     assert [(found.code, found.line, found.column) for found in findings] == [("STB002", 6, 14)]
-    assert "omega = 30.6 rad/s" in findings[0].message
+    assert "(friction on Sand, node 11, line 28 of static.keyxm, omega = 30.6 rad/s)" in findings[0].message
     assert "give a step of 0.0163 or less" in findings[0].message
 
 

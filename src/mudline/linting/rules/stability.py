@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
@@ -175,9 +176,10 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
 
 
 def _described(scene: Scene, one: Oscillation) -> str:
-    """Law, node and line of a contact."""
-    line = line_of(scene, one.where)
-    return f"{one.name}, node {scene.node_ids[one.node]}" + (f", line {line}" if line else "")
+    """Law, node and line of a contact, with the file of a deck that this one continues."""
+    line, base = line_of(scene, one.where), scene.deck.base_of(one.where)
+    place = f", line {line}" if line else ""
+    return f"{one.name}, node {scene.node_ids[one.node]}{place}" + (f" of {Path(base[0].file).name}" if base else "")
 
 
 def _damped(scene: Scene, found: Sequence[Oscillation]) -> str:
