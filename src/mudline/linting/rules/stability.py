@@ -38,15 +38,16 @@ STB003 = Code("STB003", "stiff-jump", Severity.WARNING)
 
 _SMALLEST_PART, _LARGEST_PART = 0.01, 0.99
 
+_FAILS = ", central difference fails"
 _CONSEQUENCES = (
     (1.0, "with Newmark's scheme the rebound may be up to 11 % too fast"),
     (CRITICAL_OMEGA_DT["central-difference"], "with Newmark's scheme the rebound may be far too fast"),
-    (math.inf, "with Newmark's scheme the rebound may be up to three times too fast, central difference fails"),
+    (math.inf, f"with Newmark's scheme the rebound may be up to three times too fast{_FAILS}"),
 )
 """What happens to a landing pipe, up to a product of frequency and step."""
 _STICKING = (
     (CRITICAL_OMEGA_DT["central-difference"], "the spring of what sticks is not resolved"),
-    (math.inf, "the spring of what sticks is not resolved, central difference fails"),
+    (math.inf, f"the spring of what sticks is not resolved{_FAILS}"),
 )
 """What happens at friction and lateral springs, which do not lift off."""
 
@@ -167,9 +168,11 @@ def coarse_time_step(context: LintContext) -> Iterator[Problem]:
         if isinstance(step, int | float) and stiffest.omega * step > ADVISED_OMEGA_DT:
             table = _STICKING if stiffest.kind in {"friction", "lateral"} else _CONSEQUENCES
             effect = next(words for limit, words in table if stiffest.omega * step <= limit)
+            if damped := _damped(scene, found):
+                effect = f"{effect.removesuffix(_FAILS)}, {damped}"
             message = (
                 f"omega dt = {stiffest.omega * step:.3g} on the stiffest contact ({_described(scene, stiffest)}, "
-                f"omega = {stiffest.omega:.4g} rad/s): {effect}{_damped(scene, found)}; give a step of "
+                f"omega = {stiffest.omega:.4g} rad/s): {effect}; give a step of "
                 f"{advised:.3g} or less (inferred: the third value is the step)"
             )
             yield Problem(STB002, message, where=where.inside("increment"))
@@ -188,7 +191,7 @@ def _damped(scene: Scene, found: Sequence[Oscillation]) -> str:
     if least.rate == 0.0:
         return ""
     step = rounded_down(least.critical_step("central-difference"))
-    return f", and central difference needs {step:.3g} or less for {_described(scene, least)}"
+    return f"central difference needs {step:.3g} or less for {_described(scene, least)}"
 
 
 @rule(STB003)
