@@ -13,6 +13,7 @@ def shorten(patch: pytest.MonkeyPatch) -> None:
     """Short ladders, and few ratios and widths, for studies of precision."""
     patch.setattr(integration, "LADDER", (0.5, 10.0))
     patch.setattr(integration, "FINE_LADDER", (0.3,))
+    patch.setattr(integration, "_TIMED", 0.0)
     patch.setattr(curves, "POINTS", (3, 10))
     patch.setattr(curves, "_TIMED", 1000)
     patch.setattr(curves, "_CHECKED", 50)

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from mudline.study.laws import Falling, LinearLaw
 from mudline.study.motion import Forces, History, Motion, Scheme, march
-from mudline.study.schemes import SCHEMES, Newton, OneStep, generalised_alpha, hht
+from mudline.study.newton import Newton
+from mudline.study.schemes import SCHEMES, OneStep, generalised_alpha, hht
 from mudline.study.stability.landings import restitution
 
 Floats = NDArray[np.float64]

@@ -34,12 +34,14 @@ class LawStiffness(NamedTuple):
 
     law: its name. stiffness: force per length, largest. damping: force per velocity, largest; 0 for laws without.
     per: what both are for: a "length" of the element, or its stiffer "node".
+    at_nodes: stiffness of the nodes (n,), NaN for nodes without the law; None for laws of elements.
     """
 
     law: str
     stiffness: FloatArray
     damping: FloatArray
     per: Literal["length", "node"]
+    at_nodes: FloatArray | None = None
 
     def __repr__(self) -> str:
         return short_repr(self)
@@ -93,8 +95,15 @@ def stiffest(tables: Tables, result: ContactResult | None, speed: FloatArray | N
     return Stiffest(tuple(found))
 
 
-def _law(name: str, stiffness: FloatArray, per: Literal["length", "node"] = "length") -> LawStiffness:
-    return LawStiffness(name, stiffness, np.where(np.isnan(stiffness), np.nan, 0.0), per)
+def _law(name: str, stiffness: FloatArray) -> LawStiffness:
+    return LawStiffness(name, stiffness, np.where(np.isnan(stiffness), np.nan, 0.0), "length")
+
+
+def _law_of_nodes(name: str, tables: Tables, at_nodes: FloatArray) -> LawStiffness:
+    """A law of nodes: an element has the stiffness of the stiffer of its two."""
+    ends = tables.given.element_nodes
+    stiffness = np.fmax(at_nodes[ends[:, 0]], at_nodes[ends[:, 1]])
+    return _law(name, stiffness)._replace(per="node", at_nodes=at_nodes)
 
 
 def _spread(tables: Tables, rows: IndexArray, values: FloatArray) -> FloatArray:
@@ -131,12 +140,7 @@ def _nodal(tables: Tables, rows: NormalRows, result: ContactResult | None) -> La
         z = 0.0 - result.gap[..., rows.rows]
         slope = np.broadcast_to(rows.reaction(z, 0.0, *rows.columns)[1], z.shape)
         own[rows.rows] = _largest(np.where(z > rows.law.onset(*rows.columns), slope, 0.0))
-    return _law(rows.law.name, _at_elements(tables, own), "node")
-
-
-def _at_elements(tables: Tables, at_nodes: FloatArray) -> FloatArray:
-    ends = tables.given.element_nodes
-    return np.fmax(at_nodes[ends[:, 0]], at_nodes[ends[:, 1]])
+    return _law_of_nodes(rows.law.name, tables, own)
 
 
 def _unloading(tables: Tables, unloading: ElementRows) -> LawStiffness:
@@ -154,8 +158,7 @@ def _suction(tables: Tables, speed: FloatArray | None) -> LawStiffness:
     factor = law.force_factor * law.largest_factor
     n, slow = law.force_exponent, law.regularisation
     if speed is None:
-        force, _ = maximum_force(slow, factor, n, slow)
-        rise = force / (law.first_corner * breakout_uplift(slow, law.depth_factor, law.depth_exponent, slow))
+        rise = suction_rates(law, slow)[0]
         rise = np.where((n > law.depth_exponent) & (factor > 0.0), np.inf, np.where(slow > 0.0, rise, np.inf))
         at_rest, at_slow = maximum_force(0.0 * slow, factor, n, slow)[1], maximum_force(slow, factor, n, slow)[1]
         damping = np.where((n > 1.0) & (factor > 0.0), np.inf, np.maximum(at_rest, at_slow))
@@ -164,18 +167,28 @@ def _suction(tables: Tables, speed: FloatArray | None) -> LawStiffness:
     else:
         ends = tables.given.element_nodes[rows]
         v = np.maximum(0.5 * speed[..., ends[:, 0]] + 0.5 * speed[..., ends[:, 1]], 0.0)
-        force, by_velocity = maximum_force(v, factor, n, slow)
-        rise = _largest(force / (law.first_corner * breakout_uplift(v, law.depth_factor, law.depth_exponent, slow)))
-        damping = _largest(by_velocity)
+        rise, damping = map(_largest, suction_rates(law, v))
     return LawStiffness("suction", _spread(tables, rows, rise), _spread(tables, rows, damping), "length")
+
+
+def suction_rates(law: SuctionLaw, v: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return F_max / (xc1 Delta_B) and dF_max / dv per unit length, at the end of the rise, at velocities v."""
+    factor = law.force_factor * law.largest_factor
+    with np.errstate(all="ignore"):
+        force, by_velocity = maximum_force(v, factor, law.force_exponent, law.regularisation)
+        uplift = breakout_uplift(v, law.depth_factor, law.depth_exponent, law.regularisation)
+        rise: FloatArray = force / (law.first_corner * uplift)
+    return rise, by_velocity
 
 
 def _friction(tables: Tables, friction: FrictionRows, result: ContactResult | None) -> LawStiffness:
     """Springs of nodes that stick, the stiffer of both directions and of the two nodes of an element."""
     normal_force = static_normal_force(tables) if result is None else np.fmax(_largest(result.normal_force), 0.0)
     springs = np.where(friction.rising > 0.0, friction.rising * normal_force, 0.0) + friction.constant
+    if tables.trench is None:  # a direction without a coefficient has no limit to stick below; trench walls add one
+        springs = np.where(friction.coefficients > 0.0, springs, 0.0)
     own = np.where(friction.active, springs.max(axis=0), np.nan)
-    return _law("friction", _at_elements(tables, own), "node")
+    return _law_of_nodes("friction", tables, own)
 
 
 def static_normal_force(tables: Tables) -> FloatArray:
@@ -204,7 +217,7 @@ Implicit schemes that are not here have no such limit on linear systems, which s
 """
 
 ADVISED_OMEGA_DT = 0.5
-"""Up to here a landing gains or loses within 3 % of its speed in the usual implicit schemes of second order."""
+"""Up to here a landing gains up to 3 % of its speed, or loses 3.5 %, in the usual implicit schemes of second order."""
 
 
 def omega(stiffness: FloatArray, mass: FloatArray) -> FloatArray:
@@ -221,11 +234,46 @@ def omega(stiffness: FloatArray, mass: FloatArray) -> FloatArray:
     return np.where(known, found, np.nan)
 
 
-def critical_step(frequency: FloatArray, omega_dt: float) -> FloatArray:
-    """Return the time step at which omega dt has a value; infinite where that is, or where nothing swings (NaN)."""
-    with np.errstate(all="ignore"):
-        step: FloatArray = omega_dt / frequency
-    return np.where(np.isnan(frequency), np.inf, step)
+def critical_step(scheme: str, frequency: float, rate: float = 0.0) -> float:
+    """Return the largest time step at which x'' = -omega^2 x - gamma x' does not grow under a scheme.
+
+    `frequency` is omega = sqrt(k / m), `rate` gamma = c / m of the damping c, both >= 0. Infinite without both, and
+    for schemes that are not explicit. The damping acts as the schemes see it:
+
+    * central difference, which sees the velocity of the half step before: (omega dt)^2 + 2 gamma dt < 4;
+    * velocity Verlet, which predicts it from the acceleration before the step: (omega dt)^2 + 4 gamma dt < 4;
+    * Runge-Kutta: |1 + z + ... + z^p / p!| <= 1 for the root z / dt of the equation with the larger amount.
+    """
+    if scheme not in CRITICAL_OMEGA_DT or not (frequency > 0.0 or rate > 0.0):
+        return math.inf
+    if scheme == "central-difference":
+        return 4.0 / (rate + math.hypot(rate, 2.0 * frequency))
+    if scheme == "velocity-verlet":
+        return 2.0 / (rate + math.hypot(rate, frequency))
+    half = 0.5 * rate
+    if half >= frequency:  # two real roots: this is the faster one
+        return _radius(_ORDERS[scheme], -1.0) / (half + math.sqrt((half - frequency) * (half + frequency)))
+    return _radius(_ORDERS[scheme], -half / frequency) / frequency
+
+
+_ORDERS = {"rk4": 4, "rk2": 2, "forward-euler": 1}
+_ROUNDING = 1e-14
+
+
+def _radius(order: int, cosine: float) -> float:
+    """How far the stability region of a Runge-Kutta scheme of order 1 to 4 reaches in a direction of the left half.
+
+    |R(z)|^2 - 1 on the ray z = r (cosine + i sine) is a polynomial in r without a constant.
+    """
+    direction = complex(cosine, math.sqrt(1.0 - cosine * cosine))
+    terms = np.array([direction**power / math.factorial(power) for power in range(order + 1)])
+    growth = np.convolve(terms, terms.conj()).real[1:]
+    growth[np.abs(growth) < _ROUNDING] = 0.0
+    lowest = growth[np.flatnonzero(growth)[0]]
+    if lowest > 0.0:
+        return 0.0
+    roots = np.roots(growth[::-1])
+    return float(roots.real[(np.abs(roots.imag) < 1e-6 * np.abs(roots)) & (roots.real > 0.0)].min())
 
 
 def rounded_down(step: float) -> float:

@@ -12,6 +12,7 @@ from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.contact.input import AssignedLaw, ContactInput
 from mudline.contact.laws import NormalLaw, Reaction, Value
 from mudline.contact.line import Line
+from mudline.contact.seabed import heading
 from mudline.short_repr import outline
 
 if TYPE_CHECKING:
@@ -141,7 +142,7 @@ class Tables:
         half: (m,) half of the lengths. diameter: (m,).
         onset: (m,) penetration at which contact begins; None where that is the mudline everywhere.
         normal: normal laws of elements. nodal: those of nodes.
-        unloading: stiffness. springs: stiffness and extent of suction springs. lateral: stiffness times length.
+        unloading: stiffness. springs: stiffness and extent of suction springs. lateral: stiffness times half length.
         friction: its springs and limits as the drivers want them. friction_law: the same by node, for tangents.
         suction: parameters of `suction.SuctionLaw`, in its order.
         pulling: elements with suction whose curve pulls somewhere; None when there are none.
@@ -243,7 +244,7 @@ def _lateral(given: ContactInput) -> ElementRows | None:
     if found is None:
         return None
     with np.errstate(over="ignore"):  # a step refuses the reaction
-        return ElementRows(found.rows, (found["stiffness"] * given.length[found.rows],))
+        return ElementRows(found.rows, (found["stiffness"] * (0.5 * given.length[found.rows]),))
 
 
 def _friction_law(given: AssignedLaw, nodes: int) -> FrictionLaw:
@@ -262,10 +263,10 @@ def _friction_law(given: AssignedLaw, nodes: int) -> FrictionLaw:
 
 def _friction_rows(law: FrictionLaw, angle: FloatArray) -> FrictionRows:
     turned = np.flatnonzero(~np.isnan(angle))
-    turn = np.radians(angle[turned])
+    turn = np.array([heading(degrees) for degrees in angle[turned].tolist()]).reshape(-1, 2).T
     springs = law.coefficients, np.where(law.constant, law.stiffness, 0.0), law.rising
     coefficients, constant, rising = (np.ascontiguousarray(values.T) for values in springs)
-    return FrictionRows(law.active, coefficients, constant, rising, law.ellipse, turned, np.cos(turn), np.sin(turn))
+    return FrictionRows(law.active, coefficients, constant, rising, law.ellipse, turned, turn[0], turn[1])
 
 
 def _pulling(given: ContactInput) -> IndexArray | None:

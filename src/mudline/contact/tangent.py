@@ -186,10 +186,10 @@ def _add_lateral(step: _Step, blocks: _Blocks) -> None:
     across = np.cross(mean, _projected(_unit(span)[0], mean))
     arm = 0.5 * step.points[first] + 0.5 * step.points[second] - after[rows]
     turn = _turning(span, mean)  # of n x t by the second end, minus that by the first
-    force = -0.5 * stiffness * np.einsum("ki,ki->k", across, arm)
+    force = -stiffness * np.einsum("ki,ki->k", across, arm)
     for by, sign in ((first, -1.0), (second, 1.0)):
         by_place = 0.5 * across + sign * np.einsum("ki,kij->kj", arm, turn)
-        slope = (-0.5 * stiffness)[:, None] * by_place
+        slope = (0.0 - stiffness)[:, None] * by_place
         block = _outer(across, slope) + force[:, None, None] * sign * turn
         for at in (first, second):
             blocks.add(at, by, block)

@@ -131,7 +131,8 @@ def added_3(one: Vector, other: Vector) -> Vector:
 
 def reaction_2(normal_force: Value, normal: Vector, tangential: Vector) -> Vector:
     """Return the reaction of a horizontal seabed, (X, Y, Z)."""
-    return normal_force * normal[0] + 0.0, tangential[0], tangential[1]
+    # a sum with 0 knows no -0
+    return normal_force * normal[0] + 0.0, tangential[0] + 0.0, tangential[1] + 0.0
 
 
 def reaction_3(normal_force: Value, normal: Vector, tangential: Vector) -> Vector:

@@ -145,13 +145,13 @@ def prepare(scene: Scene, positions: Positions | None = None, tension: Tension =
 
 @contextmanager
 def as_deck_errors(scene: Scene) -> Iterator[None]:
-    """Raise what the evaluator refuses as an error of the deck, at the line of the element."""
+    """Raise what the evaluator refuses as an error of the deck, at the line of the element or node."""
     try:
         yield
     except ElementError as error:
         raise scene.refusal(str(error), element=error.element) from error
     except PositionError as error:
-        raise scene.refusal(str(error)) from error
+        raise scene.refusal(str(error), node=error.node) from error
 
 
 def _require_elements(scene: Scene) -> None:

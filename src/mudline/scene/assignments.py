@@ -179,12 +179,24 @@ def node_friction(scene: ResolvedDeck, lateral: Indices) -> LawAssignment:
     coefficients, stiffness, mobilisation = springs
     coefficients[np.unique(ends[lateral]), 1] = 0.0
     rows = np.flatnonzero(active & ~touched(scene.law == LawKind.RIGID, ends, count))
+    with np.errstate(all="ignore"):
+        rising = coefficients[rows] / mobilisation[rows]
+    _refuse_endless_springs(scene, rising, rows)
     parameters = {"elliptic": ellipse[rows], "angle": angle[rows]}
     for side, name in enumerate(("axial", "lateral")):
         parameters[f"{name}_coefficient"] = np.nan_to_num(coefficients[rows, side])
         parameters[f"{name}_stiffness"] = stiffness[rows, side]
         parameters[f"{name}_mobilisation"] = mobilisation[rows, side]
     return LawAssignment("friction", rows, parameters)
+
+
+def _refuse_endless_springs(scene: ResolvedDeck, rising: Floats, nodes: Indices) -> None:
+    """Raise DeckError for a node whose springs (k, 2) for each unit of its normal force are no finite numbers."""
+    endless = np.isinf(rising).any(axis=1)
+    if endless.any():
+        node = int(scene.node_ids[nodes[np.argmax(endless)]])
+        what = "its friction coefficient divided by its mobilisation length is too large for a double-precision number"
+        raise scene.refusal(f"node {node}: {what}; this cannot be evaluated", node=node)
 
 
 def _of_properties(scene: ResolvedDeck) -> Floats:

@@ -205,10 +205,14 @@ class ResolvedDeck:
                 held[folded(entry.name)] = entry
         return ByName("curve", ((entry.name, entry.curve) for entry in held.values() if entry.curve is not None))
 
-    def refusal(self, message: str, where: Where | None = None, *, element: int | None = None) -> DeckError:
-        """Return why the deck cannot be evaluated (RUN001), with the line of a place or of an element's number."""
+    def refusal(
+        self, message: str, where: Where | None = None, *, element: int | None = None, node: int | None = None
+    ) -> DeckError:
+        """Return why the deck cannot be evaluated (RUN001), with the line of a place, an element or a node."""
         if element is not None:
             where = self.table.numbered.where(int(np.flatnonzero(self.element_ids == element)[0]))
+        elif node is not None:
+            where = self.nodes.where(int(np.flatnonzero(self.node_ids == node)[0]))
         return DeckError(self.deck.diagnose([Problem(RUN001, message, where=where)]))
 
     def set_law(self, element: int) -> SetLaw | None:

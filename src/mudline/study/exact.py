@@ -22,12 +22,16 @@ stiffness and for what is of second order."""
 
 
 class Spring(NamedTuple):
-    """Exact force per unit length, d force / d ratio, d force / d penetration, and the largest term in the force."""
+    """Exact force per unit length, d force / d ratio, d force / d penetration, and the largest term in the force.
+
+    `by_depth` is the largest term in the stiffness where that is a sum too.
+    """
 
     force: Fraction
     slope: Fraction
     stiffness: Fraction
     term: Fraction
+    by_depth: Fraction | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +47,11 @@ class ExactLinear:
         stiffness = Fraction(self.stiffness)
         force = stiffness * depth
         return Spring(force, stiffness * Fraction(self.diameter), stiffness, abs(force))
+
+    def steepest(self, ratio: Fraction) -> Fraction:
+        """The steepest d force / d penetration between the mudline and an embedment ratio > 0."""
+        del ratio
+        return Fraction(self.stiffness)
 
     def ratios(self) -> list[float]:
         """Where its value matters: embedment ratios at, between, beside and beyond all corners."""
@@ -68,6 +77,17 @@ class ExactCurve:
         rise = slope * (ratio - r)
         return Spring(f + rise, slope, slope / Fraction(self.diameter), max(abs(f), abs(rise), abs(f + rise)))
 
+    def steepest(self, ratio: Fraction) -> Fraction:
+        """See `ExactLinear`; the segment behind a point does not count at the point."""
+        inner = self._inner
+        pieces = zip([None, *inner], [*inner, None], pairwise(self.points), strict=True)
+        reached = [
+            (f1 - f0) / (r1 - r0)
+            for begin, end, ((r0, f0), (r1, f1)) in pieces
+            if (begin is None or begin < ratio) and (end is None or end > 0)
+        ]
+        return max(reached) / Fraction(self.diameter)
+
     def ratios(self) -> list[float]:
         """See `ExactLinear`."""
         knots = [float(ratio) for ratio, _ in self.points]
@@ -75,6 +95,46 @@ class ExactCurve:
         beside = [nextafter(knot, end) for knot in knots for end in (-inf, inf)]
         every = {*knots, *middles, *beside, 1.5 * knots[-1], 1e-300, 1e-9}
         return sorted(ratio for ratio in every if isfinite(ratio))
+
+
+@dataclass(frozen=True, slots=True)
+class ExactSmoothed:
+    """A linear law with a quadratic zone of half width h > 0, about the mudline or below it."""
+
+    stiffness: float
+    diameter: float
+    half_width: float
+    one_sided: bool = False
+
+    def spring(self, depth: Fraction, ratio: Fraction) -> Spring:
+        """See `ExactLinear`."""
+        del ratio
+        stiffness, width = Fraction(self.stiffness), Fraction(self.half_width)
+        into = depth if self.one_sided else depth + width
+        if into < 2 * width:
+            # the distance into the zone is a difference, as good as its terms
+            term = max(abs(depth), width) if not self.one_sided else abs(depth)
+            slope = stiffness * into / (2 * width)
+            return Spring(
+                stiffness * into * into / (4 * width),
+                slope * Fraction(self.diameter),
+                slope,
+                2 * slope * term,
+                stiffness * term / (2 * width),
+            )
+        shift = width if self.one_sided else Fraction(0)
+        force = stiffness * (depth - shift)
+        return Spring(force, stiffness * Fraction(self.diameter), stiffness, stiffness * max(depth, shift))
+
+    def steepest(self, ratio: Fraction) -> Fraction:
+        """See `ExactLinear`."""
+        del ratio
+        return Fraction(self.stiffness)
+
+    @property
+    def onset(self) -> Fraction:
+        """The penetration from which on it acts."""
+        return Fraction(0) if self.one_sided else -Fraction(self.half_width)
 
 
 ExactLaw: TypeAlias = ExactLinear | ExactCurve
@@ -105,7 +165,10 @@ class Tally:
             return
         if compared.found == 0.0 and copysign(1.0, compared.found) < 0.0:
             self.fault = f"{what} is -0.0"
-        off = max(abs(Fraction(compared.found) - compared.exact) - floor, Fraction(0))
+        found = Fraction(compared.found)
+        if found == compared.exact:
+            return
+        off = max(abs(found - compared.exact) - floor, Fraction(0))
         error = _roundings(off, compared.term)
         self.error = max(self.error, error)
         if error > bound:

@@ -7,13 +7,16 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from time import perf_counter
+from time import get_clock_info, perf_counter, thread_time
 from typing import Any, ClassVar, NamedTuple, Protocol
 
 import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray, IndexArray
 from mudline.contact.stiffest import CRITICAL_OMEGA_DT
+
+_clock = thread_time if get_clock_info("thread_time").resolution < 1e-5 else perf_counter
+"""The processor time of this thread where that clock is fine enough: other programs and threads do not count in it."""
 
 History = Any
 """What a system remembers between steps; only the system itself looks at it."""
@@ -71,15 +74,17 @@ class Step(NamedTuple):
     """One step made.
 
     motion: behind the step.
-    evaluations: how often the forces were evaluated.
+    evaluations: (k,) how often the force of each was needed; alone each would evaluate it as often.
     iterations: (k,) Newton iterations; 0 for explicit schemes.
     residual: (k,) what was left of the balance of forces; 0 for explicit schemes, and where it converged.
+    bisections: (k,) iterations in which Newton's method alone would have left its bracket.
     """
 
     motion: Motion
-    evaluations: int
+    evaluations: IndexArray
     iterations: IndexArray
     residual: FloatArray
+    bisections: IndexArray
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,7 +124,8 @@ class Trajectory:
         velocity: (n + 1, k).
         iterations: (n, k) Newton iterations.
         failures: why a run ended early, by its index.
-        evaluations: of the forces.
+        evaluations: (k,) of the forces, without the one of the start.
+        bisected: (k,) steps that Newton's method alone might not have solved.
         seconds: run time of all steps together.
         end: where the runs ended.
     """
@@ -129,7 +135,8 @@ class Trajectory:
     velocity: FloatArray
     iterations: IndexArray
     failures: dict[int, str]
-    evaluations: int
+    evaluations: IndexArray
+    bisected: IndexArray
     seconds: float
     end: Motion
 
@@ -146,13 +153,15 @@ def march(
     position, velocity = np.empty(shape), np.empty(shape)
     iterations = np.zeros((steps, *start.position.shape), np.intp)
     position[0], velocity[0] = start.position, start.velocity
-    motion, evaluations, failures = start, 0, dict[int, str]()
+    motion, failures = start, dict[int, str]()
+    evaluations, bisected = np.zeros(start.position.shape, np.intp), np.zeros(start.position.shape, np.intp)
     sound: BoolArray = np.ones(start.position.shape, np.bool_)
-    began = perf_counter()
+    began = _clock()
     with np.errstate(all="ignore"):
         for index in range(steps):
             step = scheme.step(system, motion, dt)
             evaluations += step.evaluations
+            bisected += step.bisections > 0
             motion, iterations[index] = step.motion, step.iterations
             good = (step.residual == 0.0) & (np.abs(motion.position) <= bound) & np.isfinite(motion.velocity)
             if not good.all():
@@ -164,9 +173,9 @@ def march(
             if not sound.any():
                 position[index + 2 :], velocity[index + 2 :] = motion.position, motion.velocity
                 break
-    seconds = perf_counter() - began
+    seconds = _clock() - began
     time: FloatArray = np.arange(steps + 1.0)[:, None] * (dt * np.ones(start.position.shape))
-    return Trajectory(time, position, velocity, iterations, failures, evaluations, seconds, motion)
+    return Trajectory(time, position, velocity, iterations, failures, evaluations, bisected, seconds, motion)
 
 
 def _held(motion: Motion, before: FloatArray, sound: BoolArray) -> Motion:

@@ -24,20 +24,23 @@ def test_report_of_the_sample(sample_report: StudyReport, sample_progress: list[
         "curves",
         "backbones",
         "cases",
+        "advice",
         "goals",
+        "orders",
         "steps",
         "smoothing",
         "impacts",
         "machine",
     ]
     assert [row[0] for row in report.tables[2].rows] == ["drop-reference", "drop-curve", "drop-linear", "pull", "drag"]
-    assert len(report.tables[4].rows) == 5 * 9 * 2
+    assert len(report.tables[6].rows) == 5 * 9 * 2
     assert all(len(row) == len(table.columns) for table in report.tables for row in table.rows)
     assert any("omega dt 10" in omission.what for omission in report.omissions)
     assert any("time integration" in words for words in sample_progress)
     files = {path.name for path in report.write(tmp_path)}
     pictures = {
-        f"precision-{name}.png" for name in ("curves", "backbones", "drop", "pull-drag", "run-time", "smoothing")
+        f"precision-{name}.png"
+        for name in ("curves", "backbones", "drop", "pull-drag", "work", "run-time", "smoothing")
     }
     assert pictures <= files
     assert json.loads((tmp_path / "precision.json").read_text(encoding="utf-8"))["study"] == "precision"
@@ -92,4 +95,10 @@ def test_imperial_deck() -> None:
     assert 32.0 < around.gravity < 32.4
     assert 1.9 < around.density < 2.1
     report = precision.run(found, StudyOptions())
-    assert report.tables[4].rows
+    assert report.tables[6].rows
+    rest = next(table for table in report.tables if table.name == "smoothing")
+    assert rest.columns[1] == ("half width h", "ft")
+    floating = next(row for row in rest.rows if row[2] == pytest.approx(1e-3 / 9.9998e-6, rel=1e-4))
+    assert floating[1] == pytest.approx(1e-3 / 0.3048)
+    assert floating[3] == pytest.approx(-7.9984e-4 / 0.3048, rel=1e-4)
+    assert "with h = 0.0033 ft on this stiff seabed by 0.0026 ft" in report.page

@@ -8,21 +8,24 @@ from mudline.study import sample_scene
 from mudline.study.schemes import SCHEMES
 from mudline.study.stability import critical, landings, statics
 from mudline.study.stability.critical import Measured, find_contacts
-from mudline.study.stability.judging import Judgement, judge
-from mudline.study.stability.ladder import all_cells
+from mudline.study.stability.families import all_cells, judge
+from mudline.study.stability.judging import Judgement
 from mudline.study.stability.landings import Landing
 from mudline.study.stability.statics import CycleCount
+
+STEPPED = ("central-difference", "rk4", "newmark", "backward-euler", "forward-euler")
+"""Schemes of each kind, which are stepped on every contact of the sample."""
 
 
 @pytest.fixture(scope="session")
 def measured() -> dict[tuple[str, str], Measured]:
-    """Every scheme on every contact of the sample, by the names of both."""
+    """Some schemes on every contact of the sample, by the names of both."""
     scene = sample_scene()
     contacts, _ = find_contacts(scene)
     return {
-        (contact.name, name): critical.measure(scene, contact, scheme)
+        (contact.name, name): critical.measure(scene, contact, SCHEMES[name])
         for contact in contacts
-        for name, scheme in SCHEMES.items()
+        for name in STEPPED
     }
 
 

@@ -10,27 +10,25 @@ import pytest
 
 from mudline.diagnostics import DeckError, Diagnostic, Severity
 from mudline.study.exact import BOUND, Compared, ExactCurve, ExactLinear, Tally
+from mudline.study.stability.families import AnyCell, all_cells, judge, random_cells
 from mudline.study.stability.judging import (
-    SUCTION_BOUND,
     Cell,
     Judgement,
     Verdict,
     curve_deck,
     guarded,
-    judge,
-    judge_suction,
     linear_deck,
     refusal,
-    suction_cells,
 )
-from mudline.study.stability.ladder import all_cells, random_cells
+from mudline.study.stability.paths import PathCell
+from mudline.study.stability.pull_out import SUCTION_BOUND, judge_suction, suction_cells
 
 CELLS = all_cells()
 FAMILIES = sorted({cell.family for cell in CELLS})
 LINEAR = ExactLinear(50000.0, 0.3)
 
 
-def cell(family: str, value: str) -> Cell:
+def cell(family: str, value: str) -> AnyCell:
     return next(one for one in CELLS if (one.family, one.value) == (family, value))
 
 
@@ -41,7 +39,7 @@ def test_every_cell_is_right_within_its_bound_or_refused_with_a_line(
     for one in judged.values():
         if one.family == family:
             assert one.verdict.acceptable, one
-            assert one.error <= BOUND
+            assert one.error <= one.bound
             assert (one.results > 0) is (one.verdict is not Verdict.REFUSED)
 
 
@@ -53,6 +51,37 @@ def test_the_ladder_reaches_what_it_should() -> None:
     assert "1E-15" in values["segment width"]
     assert values["ratios up to"][-1] == "1E9"
     assert (values["diameter"][0], values["diameter"][-1]) == ("1E-6", "1E3")
+    for family in ("element length", "element length, lateral"):
+        assert {"1E-200", "1E200"} <= set(values[family])
+    for family in (
+        "friction springs",
+        "mobilisation lengths",
+        "unloading stiffness",
+        "lateral spring",
+        "nodal stiffness",
+    ):
+        assert (values[family][0], values[family][-1]) == ("5E-324", "1E308")
+    assert "89.99999999999999" in values["slope"]
+    assert {"X, Y, Z", "mu", "angle", "slope", "plane", "-1E-400"} <= set(values["negative zero"])
+
+
+REFUSED_ON_PATHS = {
+    ("negative zero", "springs"): "line 18: SBD010",
+    ("smoothing, centred", "1E308"): "line 6: RUN001 element 1 at step 0: its force overflows",
+    ("nodal smoothing", "1E308"): "line 3: RUN001 node 1 at step 0: the reaction there overflows",
+    ("mobilisation lengths", "5E-324"): "line 3: RUN001 node 1: its friction coefficient divided by",
+    ("mobilisation lengths", "1E-310"): "line 3: RUN001 node 1",
+    ("mobilised coefficients", "1E308"): "line 3: RUN001 node 1",
+    ("point of a plane", "1E151"): "line 15: EXT007",
+}
+
+
+def test_nothing_else_is_refused_on_paths(judged: dict[tuple[str, str], Judgement]) -> None:
+    paths = {(one.family, one.value) for one in CELLS if isinstance(one, PathCell)}
+    refused = {key: one.message for key, one in judged.items() if key in paths and one.verdict is Verdict.REFUSED}
+    assert refused.keys() == REFUSED_ON_PATHS.keys()
+    for key, message in REFUSED_ON_PATHS.items():
+        assert refused[key].startswith(message)
 
 
 @pytest.mark.parametrize(
@@ -128,7 +157,9 @@ def test_numbers_that_are_none_are_faults() -> None:
 
 
 def test_a_deck_without_a_law_that_is_taken_is_wrong() -> None:
-    judged = judge(replace(cell("linear stiffness", "1E0"), law=None))
+    one = cell("linear stiffness", "1E0")
+    assert isinstance(one, Cell)
+    judged = judge(replace(one, law=None))
     assert (judged.verdict, judged.message) == (Verdict.WRONG, "a deck without a valid law was accepted")
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 
+import numpy as np
 import pytest
 
 from mudline.scene.model import Scene
@@ -12,17 +13,25 @@ from mudline.study import SAMPLE_TEXT, sample_scene
 from mudline.study.motion import Scheme
 from mudline.study.report import StudyOptions, StudyReport
 from mudline.study.schemes import SCHEMES
-from mudline.study.stability import critical, ladder, landings, run, statics
+from mudline.study.stability import deck_steps, ladder, landings, own_laws, run, statics
 from mudline.study.stability.critical import Contact, Measured
-from mudline.study.stability.judging import Cell, Judgement, Verdict, judge
-from mudline.study.stability.ladder import all_cells
+from mudline.study.stability.families import AnyCell, all_cells, judge
+from mudline.study.stability.judging import Judgement, Verdict
 from mudline.study.stability.landings import Landing
 from mudline.study.stability.statics import CycleCount
 from tests.builders.scenes import legal_scene
+from tests.study.stability.conftest import STEPPED
+
+FEW = np.array([0.1, 0.25, 0.5, 1.0, 1.9])
+"""omega dt of landings."""
 
 pytestmark = pytest.mark.usefixtures("_shared")
 
-TABLES = ["contacts", "critical-steps", "landings", "newton-cycles", "release", "ladder", "ladder-cells", "machine"]
+TABLES = [
+    *("contacts", "critical-steps", "deck-steps", "deck-landings", "steep-segments", "advice"),
+    *("landings", "landing-limits", "landing-envelopes"),
+    *("newton-cycles", "newton-halvings", "newton-path", "release", "ladder", "ladder-cells", "machine"),
+]
 
 
 @pytest.fixture(scope="module")
@@ -36,6 +45,9 @@ def _shared(landed: list[Landing], cycles: list[CycleCount]) -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(landings, "landings", lambda: landed)
         patch.setattr(statics, "cycle_counts", lambda: cycles)
+        patch.setattr(statics, "HALVED_RATIOS", (1e2, 1e4))
+        for part in (landings, deck_steps):
+            patch.setattr(part, "TRIED", FEW)
         yield
 
 
@@ -48,32 +60,57 @@ def report(
     def measure(_scene: Scene, contact: Contact, scheme: Scheme) -> Measured:
         return measured[contact.name, scheme.name]
 
-    def verdict(cell: Cell) -> Judgement:
-        return judged[cell.family, cell.value]
+    def verdict(cell: AnyCell) -> Judgement:
+        return judged.get((cell.family, cell.value)) or judge(cell)
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(critical, "measure", measure)
+        patch.setattr(deck_steps, "measure", measure)
+        patch.setattr(deck_steps, "STEPPED", STEPPED)
         patch.setattr(ladder, "judge", verdict)
+        patch.setattr(own_laws, "POWERS", (0,))
         return run(sample_scene(), StudyOptions(progress=progress.append))
 
 
 def test_the_sample_is_studied(report: StudyReport, progress: list[str]) -> None:
     assert [table.name for table in report.tables] == TABLES
-    assert [picture.name for picture in report.pictures] == ["critical-steps", "landings", "ladder"]
+    assert [picture.name for picture in report.pictures] == [
+        "critical-steps",
+        "landings",
+        "landing-gain",
+        "ladder",
+        "ladder-deck",
+    ]
     assert report.omissions == ()
-    assert progress[0] == "steps on curve:Soft Clay on Clay"
-    assert progress[-1] == "ladder of extremes"
+    assert progress[0] == "steps on suction damping on Clay"
+    assert progress[-1] == "ladder of extremes, linear on Sand: coefficients"
     assert json.loads(report.json())["study"] == "stability"
 
 
 def test_the_notes_say_what_follows(report: StudyReport) -> None:
-    step, runs, agree, never, cycles = report.notes[:5]
-    assert "oscillates at 29.74 rad/s: use a step of 0.0168 s or less in implicit schemes" in step
-    assert runs.startswith("22 of 22 runs")
+    runs, agree, never, cycles = report.notes[:4]
+    assert runs.startswith("30 of 30 runs")
     assert agree.startswith("33 of 33 landings")
-    assert never.endswith(f"{SCHEMES['generalised-alpha-0'].title}, backward Euler.")
+    assert f"{SCHEMES['generalised-alpha-0'].title} (1.0000755 at most), backward Euler (0.9" in never
     assert "goes 1, -5, 15, -5, 15, -5, 15, ... without end" in cycles
     assert cycles.endswith("0.05: 3 iterations.")
+
+
+def test_one_sentence_says_what_to_do(report: StudyReport) -> None:
+    """With few steps tried the soft clay allows omega dt = 0.25 on 29.74 rad/s."""
+    start = (
+        "Use generalised-alpha (0.5) with a step of 0.0084 s or less, because of curve:Soft Clay on Clay (deck line 32)"
+    )
+    assert report.advice.startswith(start)
+    assert report.advice.endswith(
+        "central difference would need less than 0.000309 s, because of suction damping on Clay (deck line 42)."
+    )
+
+
+def test_the_page_says_it_with_the_numbers_of_the_tables(report: StudyReport) -> None:
+    assert f"**{report.advice}**" in report.page
+    assert "1.1653" in report.page
+    assert "The secant without the point in line 32 has 106 667" in report.page
+    assert "30 of 30 runs did as predicted" in report.page
 
 
 def test_rows_are_as_wide_as_their_tables(report: StudyReport) -> None:
@@ -90,6 +127,7 @@ def test_pictures_are_drawn(report: StudyReport) -> None:
 def test_a_deck_without_mass_or_suction_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(ladder, "all_cells", lambda: all_cells()[:3])
     monkeypatch.setattr(ladder, "suction_cells", list)
+    monkeypatch.setattr(own_laws, "POWERS", ())
     monkeypatch.setattr(ladder, "RANDOM_DECKS", 5)
     text = SAMPLE_TEXT.partition("*SEABED CONTACT")[0].replace("7850.0", "0.0")
     progress: list[str] = []
@@ -98,24 +136,21 @@ def test_a_deck_without_mass_or_suction_is_reported(monkeypatch: pytest.MonkeyPa
     assert {one.what for one in found.omissions} >= {"release of suction", "linear on Sand"}
     assert "force/length2" in found.tables[0].columns[2].unit
     assert progress[-1] == "5 random decks"
-    assert [picture.name for picture in found.pictures] == ["landings", "ladder"]
+    assert [picture.name for picture in found.pictures] == ["landings", "landing-gain", "ladder"]
 
 
 def test_only_the_fastest_contacts_are_stepped_by_default(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(critical, "MOST_CONTACTS", 1)
-    monkeypatch.setattr(ladder, "all_cells", lambda: all_cells()[:3])
-    monkeypatch.setattr(ladder, "suction_cells", list)
-    monkeypatch.setattr(critical, "SCHEMES", {})
-    found = run(sample_scene(), StudyOptions())
-    assert [(one.what, one.reason[:18]) for one in found.omissions] == [("linear on Sand", "not stepped: slowe")]
+    monkeypatch.setattr(deck_steps, "MOST_CONTACTS", 1)
+    monkeypatch.setattr(deck_steps, "STEPPED", ())
+    found = run(sample_scene(), StudyOptions(only=("steps",)))
+    assert len(found.omissions) == 5
+    assert {one.reason for one in found.omissions} == {"not stepped: slower than those that were (--full)"}
 
 
 def test_a_segment_too_narrow_to_oscillate_in_is_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(ladder, "all_cells", lambda: all_cells()[:3])
-    monkeypatch.setattr(ladder, "suction_cells", list)
-    monkeypatch.setattr(critical, "SCHEMES", {})
+    monkeypatch.setattr(deck_steps, "STEPPED", ())
     text = SAMPLE_TEXT.replace(" 0.02,  640.0\n", " 0.0100000000001,  640.0\n")
-    found = run(legal_scene(text), StudyOptions())
+    found = run(legal_scene(text), StudyOptions(only=("steps",)))
     assert [tuple(one) for one in found.omissions] == [
         ("curve:Soft Clay on Clay", "not stepped: a small oscillation there is below rounding")
     ]
@@ -126,8 +161,22 @@ def test_unacceptable_verdicts_are_in_the_notes(monkeypatch: pytest.MonkeyPatch)
     monkeypatch.setattr(ladder, "all_cells", lambda: all_cells()[:3])
     monkeypatch.setattr(ladder, "judge", lambda cell: wrong if cell.value == "1E-2" else judge(cell))
     monkeypatch.setattr(ladder, "suction_cells", list)
-    monkeypatch.setattr(critical, "SCHEMES", {})
-    found = run(sample_scene(), StudyOptions())
+    monkeypatch.setattr(own_laws, "POWERS", ())
+    found = run(sample_scene(), StudyOptions(only=("ladder",)))
     assert found.notes[-1] == "softness 1E9: WRONG: the force is off"
     assert found.notes[-2].startswith("2 of 3 cells")
     assert {table.name: table for table in found.tables}["ladder"].rows[-1][5] == 1
+
+
+def test_a_curve_that_starts_with_a_force_asks_for_a_smaller_step(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The soft clay begins at 300 N/m: one percent needs a far smaller step than omega dt = 0.25."""
+    monkeypatch.setattr(deck_steps, "STEPPED", ())
+    monkeypatch.setattr(deck_steps, "LANDING_SCHEMES", ("newmark", "generalised-alpha-0.5"))
+    monkeypatch.setattr(deck_steps, "_FINER", np.array([0.003, 0.006]))
+    text = SAMPLE_TEXT.replace(" 0.00,    0.0\n", " 0.00,    300.0\n").replace(" 0.01,  450.0\n", " 0.01,  500.0\n")
+    found = run(legal_scene(text), StudyOptions(only=("steps",)))
+    rows = {table.name: table for table in found.tables}["deck-landings"].rows
+    within = {str(row[0]): float(str(row[6])) for row in rows}
+    assert within["linear on Sand"] == pytest.approx(0.25)
+    assert within["curve:Soft Clay on Clay"] <= 0.1
+    assert "because of curve:Soft Clay on Clay" in found.advice

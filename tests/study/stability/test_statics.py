@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -9,14 +10,16 @@ import pytest
 
 from mudline.contact.laws.suction import SuctionLaw
 from mudline.study import SAMPLE_TEXT, sample_scene
-from mudline.study.schemes import Newton
+from mudline.study.newton import Newton
 from mudline.study.stability.statics import (
     EXAMPLE,
     STARTS,
     CycleCount,
     FrictionProblem,
     bracketed,
+    cycle_threshold,
     equilibria,
+    halved_failures,
     newton_failures,
     newton_path,
     releases,
@@ -75,3 +78,20 @@ def test_a_bracket_cures_every_cycle(cycles: list[CycleCount]) -> None:
         assert one.halved == 0 or one.ratio >= 1e4
     assert newton_failures(EXAMPLE, Newton()) > 95
     assert (bracketed(FrictionProblem(1.0, 99.0, 10.0, float("nan")), STARTS[:1]) == -1).all()
+
+
+@pytest.mark.parametrize("share", [0.1, 0.5, 0.9])
+def test_plain_newton_cycles_exactly_above_the_closed_form(share: float) -> None:
+    limit = 1.0 / (1.0 - share)
+    assert cycle_threshold(share) == pytest.approx(limit)
+    assert newton_failures(FrictionProblem(1.0, 0.99 * limit, 10.0, 10.0 * share), Newton()) == 0
+    assert newton_failures(FrictionProblem(1.0, 1.01 * limit, 10.0, 10.0 * share), Newton()) > 50
+    assert cycle_threshold(1.0) == cycle_threshold(1.5) == math.inf
+
+
+def test_a_cap_on_halvings_loses_solutions_and_the_closed_form_loses_none() -> None:
+    """With ten halvings at 10^4 and 10^6 some are lost, with twenty none."""
+    for ratio, lost in ((1e4, 27), (1e6, 49)):
+        problem = FrictionProblem(1.0, ratio, 10.0, 5.0)
+        assert halved_failures(problem, 10) == newton_failures(problem, Newton(halving=True)) == lost
+        assert halved_failures(problem, 20) == halved_failures(problem, math.ceil(math.log2(ratio)) - 1) == 0

@@ -30,6 +30,7 @@ from mudline.contact.laws import Law, Parameter, Value, where
 from mudline.short_repr import short_repr
 
 _SMALLEST = float(np.nextafter(0.0, 1.0))
+_FAR, _DROP = 2.0**-1000, 2.0**-550
 
 
 class FrictionState(IntEnum):
@@ -61,9 +62,16 @@ def norm(one: Value, other: Value) -> Value:
 
 def on_ellipse(trial_1: Value, trial_2: Value, limit_1: Value, limit_2: Value) -> tuple[Value, Value, Value]:
     """Return the forces of both directions in their springs, and whether they slip, for limits above 0."""
-    size = norm(trial_1 / limit_1, trial_2 / limit_2)
-    share = 1.0 / np.maximum(size, 1.0)
-    return trial_1 * share, trial_2 * share, size > 1.0
+    # quotients that would overflow are computed smaller by a power of two
+    far = (np.abs(trial_1) * _FAR > limit_1) | (np.abs(trial_2) * _FAR > limit_2)
+    drop = where(far, _DROP, 1.0)
+    dropped_1, dropped_2 = trial_1 * drop, trial_2 * drop
+    size = norm(dropped_1 / (limit_1 / drop), dropped_2 / (limit_2 / drop))
+    # a limit too large for a float64 makes NaN, which is refused: its part in the norm would be lost
+    share = 1.0 / np.maximum(size, 1.0) + (0.0 * limit_1 + 0.0 * limit_2)
+    force_1 = where(far, dropped_1 / size * drop, trial_1 * share)
+    force_2 = where(far, dropped_2 / size * drop, trial_2 * share)
+    return force_1, force_2, far | (size > 1.0)
 
 
 def in_ellipse(trial_1: Value, trial_2: Value, limit_1: Value, limit_2: Value) -> tuple[Value, Value, Value, Value]:

@@ -157,8 +157,8 @@ SUCTION_SPRING = Law(
 
 
 def lateral_force(stiffness: Value, elongation: Value) -> Value:
-    """Return the force along n x t on each of the two nodes; `stiffness` is k times the element's length."""
-    return -0.5 * stiffness * elongation
+    """Return the force along n x t on each of the two nodes; `stiffness` is k times half of the element's length."""
+    return -stiffness * elongation
 
 
 LATERAL = Law(

@@ -48,7 +48,6 @@ _CHUNK = 8192
 """Points worked on at a time: the work arrays stay in the cache."""
 STEEPEST = 1e150
 """Largest slope of a surface: its square is finite."""
-_QUARTERS = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))
 
 
 class Seabed(ABC):
@@ -131,12 +130,26 @@ class SurfaceSeabed(Seabed):
 
 
 def heading(degrees: float) -> tuple[float, float]:
-    """Return cosine and sine of an angle in degrees, exact at the multiples of 90."""
-    quarters, rest = divmod(math.fmod(degrees, 360.0), 90.0)
-    if rest == 0.0:
-        return _QUARTERS[int(quarters) % 4]
-    angle = math.radians(math.fmod(degrees, 360.0))
-    return math.cos(angle), math.sin(angle)
+    """Return cosine and sine of an angle in degrees, all digits of both; exact at the multiples of 90.
+
+    What is left of the angle beside a multiple of 90 is exact in degrees, and would not be in radians.
+    """
+    turned = math.fmod(degrees, 360.0)
+    quarters = round(turned / 90.0)
+    angle = math.radians(turned - 90.0 * quarters)
+    cosine, sine = math.cos(angle), math.sin(angle)
+    for _ in range(quarters % 4):
+        cosine, sine = 0.0 - sine, cosine
+    return cosine, sine
+
+
+def _tangents(degrees: FloatArray) -> FloatArray:
+    """Return the tangents of angles above -90 and below 90 degrees, all digits also next to these."""
+    with np.errstate(under="ignore"):
+        rest = 90.0 - np.abs(degrees)  # exact from 45 degrees on
+        steep = np.copysign(1.0 / np.tan(np.radians(rest)), degrees)
+        found: FloatArray = np.where(rest < 45.0, steep, np.tan(np.radians(degrees)))
+    return found
 
 
 _UP = np.array([1.0, 0.0, 0.0])
@@ -183,12 +196,11 @@ class SlopingSeabed(Seabed):
         self._slope = float(checked("slope of the seabed", slope_degrees))
         self._direction = float(checked("direction of the slope", direction_degrees))
         checked_slope("slope of the seabed", self._slope)
-        angle = math.radians(self._slope)
+        upright, steep = heading(self._slope)
         cosine, sine = heading(self._direction)
-        self._rise = 2.0 * math.tan(angle)
+        self._rise = 2.0 * (steep / upright)
         self._half = 0.5 * cosine, 0.5 * sine
-        steep = math.sin(angle)
-        self.same_normal = np.array([math.cos(angle), 0.0 - steep * cosine, 0.0 - steep * sine])
+        self.same_normal = np.array([upright, 0.0 - steep * cosine, 0.0 - steep * sine])
         self.same_normal.setflags(write=False)
 
     def locate(self, points: FloatArray, gap: FloatArray, normal: FloatArray) -> None:
@@ -238,7 +250,7 @@ class PlanesSeabed(SurfaceSeabed):
             checked_slope(f"slope of plane {number}", angle)
         turns = checked("the planes' directions", np.zeros(planes) if directions is None else directions, planes)
         self._headings = np.array([heading(turn) for turn in turns.tolist()])
-        self._rises = np.tan(np.radians(angles))
+        self._rises = _tangents(angles)
         self._bounds = _checked_bounds(bounds, planes)
         self._gradients = self._headings.T * self._rises
         if planes == 1 and np.isinf(self._bounds).all():

@@ -1,196 +1,29 @@
-"""Error against run time: curve evaluation, time integration of contact, smoothing.
-
-Here stands what of a scene the motions take place on: its stiffest laws, a mass, suction and friction.
-"""
+"""Error against work and run time: curve evaluation, time integration of contact, smoothing."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
-from typing import NamedTuple
-
-import numpy as np
-
-from mudline.contact import ContactInput, LawKind
-from mudline.contact.arrays import FloatArray
-from mudline.contact.laws.suction import from_cohesion
-from mudline.scene.deck_values import DEFAULT_GRAVITY, FOOT, POUND
 from mudline.scene.model import Scene
-from mudline.scene.resolved import LawArrays
-from mudline.scene.sections import surroundings
-from mudline.study.laws import CurveLaw, ElasticContact, Law, LinearLaw
+from mudline.study.precision.contacts import all_cases, contacts_of
 from mudline.study.precision.curves import study_backbones, study_curves
-from mudline.study.precision.drop import drop_case, drop_to, reference_drop
-from mudline.study.precision.integration import Case, study_motions
-from mudline.study.precision.pull import Drag, Pull, SuctionNumbers, drag_case, pull_case
+from mudline.study.precision.goals import study_goals
+from mudline.study.precision.integration import study_motions
+from mudline.study.precision.motion_pictures import motion_pictures
+from mudline.study.precision.page import advice, page
 from mudline.study.precision.smoothing import study_smoothing
-from mudline.study.report import Omission, Section, StudyError, StudyOptions, paragraphs
+from mudline.study.report import Omission, Section, StudyOptions, paragraphs
 from mudline.study.running import Part, Study
-
-_DIAMETER = 0.3
-_MASS = 150.0
-_COHESION = 5000.0
-_FRICTION = 0.5
-_MOBILISATION = 0.01
-_UNITS = {"imperial": (FOOT, POUND)}
-"""Metres and newtons of a deck's units."""
-_REACH = 0.25
-"""Of the diameter: how deep the masses fall."""
-
-
-class StudiedContacts(NamedTuple):
-    """A scene and its contacts that are studied; the notes grow with every value that is assumed."""
-
-    scene: Scene
-    inputs: ContactInput
-    contacts: list[ElasticContact]
-    notes: list[str]
-
-
-def contacts_of(scene: Scene) -> StudiedContacts:
-    """The stiffest curve and the stiffest linear law of a scene; raises DeckError where it cannot be evaluated."""
-    studied = StudiedContacts(scene, scene.contact_input(), [], [])
-    masses, weights = scene.mass_per_length, scene.submerged_weight
-    for kind in (LawKind.CURVE, LawKind.LINEAR):
-        elements = _distinct(scene.law_arrays(), scene.diameter, kind)
-        found = [_contact(studied, element, float(masses[element]), float(weights[element])) for element in elements]
-        stiff = [contact for contact in found if contact.stiffness > 0.0]
-        studied.contacts.extend(sorted(stiff, key=lambda contact: -contact.stiffness)[:1])
-    if not studied.contacts:
-        studied.notes.append("The deck has no curve and no linear law to fall on: only the reference case was run.")
-    return studied
-
-
-def _distinct(arrays: LawArrays, diameter: FloatArray, kind: LawKind) -> list[int]:
-    """One element of each law and diameter."""
-    elements = np.flatnonzero(arrays.law == kind)
-    what = arrays.curve_index if kind is LawKind.CURVE else arrays.linear_stiffness
-    keys = np.column_stack([what[elements], np.nan_to_num(diameter[elements])])
-    found: list[int] = elements[np.unique(keys, axis=0, return_index=True)[1]].tolist()
-    return found
-
-
-def _contact(studied: StudiedContacts, element: int, mass: float, weight: float) -> ElasticContact:
-    scene, arrays = studied.scene, studied.scene.law_arrays()
-    diameter = float(scene.diameter[element])
-    if math.isnan(diameter):
-        diameter = _DIAMETER
-    if math.isnan(mass):
-        mass = _MASS
-        studied.notes.append(f"The mass of the pipe is not known: {_MASS:g} per unit length is used.")
-    if not weight > 0.0:
-        known = surroundings(scene.deck).gravity
-        gravity = DEFAULT_GRAVITY.get(scene.units, DEFAULT_GRAVITY["metric"]) if math.isnan(known) else known
-        weight = 0.5 * mass * gravity
-        studied.notes.append(
-            "The submerged weight of the pipe is unknown or not positive: half of its weight in air is used."
-        )
-    name = scene.law_names[element].removeprefix("curve:")
-    law: Law
-    if arrays.law[element] == LawKind.CURVE:
-        law = CurveLaw(name, arrays.curves[int(arrays.curve_index[element])], diameter)
-    else:
-        law = LinearLaw(name, float(arrays.linear_stiffness[element]))
-    return ElasticContact(law, diameter, mass, weight, element)
-
-
-def static_depth(contact: ElasticContact) -> float:
-    """Penetration under the weight; a twentieth of the diameter where there is none."""
-    if isinstance(contact.law, CurveLaw):
-        depths = [
-            ratio * contact.diameter for ratio in contact.law.curve.ratios_at_force(contact.weight) if ratio > 0.0
-        ]
-        return min(depths, default=0.05 * contact.diameter)
-    return contact.weight / contact.stiffness
-
-
-def suction_of(studied: StudiedContacts, contact: ElasticContact) -> SuctionNumbers:
-    """The suction law of the contact's element, else of another, else of Bridge et al. with 5 kPa."""
-    given = studied.inputs.assigned.get("suction")
-    if given is not None:
-        index = int((given.rows == contact.element).argmax())  # the first where it has none
-        return SuctionNumbers(**{name: float(values[index]) for name, values in given.parameters.items()})
-    length, force = _UNITS.get(studied.scene.units, (1.0, 1.0))
-    studied.notes.append("The deck has no suction with a history: that of Bridge et al. (2004) with 5 kPa is used.")
-    cohesion = np.array([_COHESION / force * length**2])
-    factors = from_cohesion(cohesion, np.array([contact.diameter]), length, force)
-    powers = {name: float(values[0]) for name, values in factors._asdict().items()}
-    return SuctionNumbers(**powers, first_corner=0.2, second_corner=0.8, cyclic=1.0, regularisation=1e-3 / length)
-
-
-def friction_of(studied: StudiedContacts, contact: ElasticContact) -> Drag:
-    """Friction along the line at the contact's element, else of 0.5, mobilised over a hundredth of the diameter."""
-    inputs = studied.inputs
-    given = inputs.assigned.get("friction")
-    length = float(inputs.length[contact.element])
-    at = (
-        np.zeros(0, np.intp)
-        if given is None
-        else np.flatnonzero(given.rows == inputs.element_nodes[contact.element, 0])
-    )
-    if given is None or not (at.size and given["axial_coefficient"][at[0]] > 0.0 and length > 0.0):
-        studied.notes.append("The deck has no axial friction there: 0.5, mobilised over a hundredth of D, is used.")
-        limit = _FRICTION * contact.weight
-        return Drag(contact.law.name, contact.mass, limit, limit / (_MOBILISATION * contact.diameter))
-    names = ("axial_coefficient", "axial_stiffness", "axial_mobilisation")
-    coefficient, constant, mobilisation = (float(given[name][at[0]]) for name in names)
-    limit = coefficient * contact.weight
-    stiffness = limit / mobilisation if math.isnan(constant) else constant / length
-    return Drag(contact.law.name, contact.mass, limit, stiffness)
-
-
-def all_cases(studied: StudiedContacts, omissions: list[Omission]) -> list[Case]:
-    """The reference, then drops on every contact, a pull and a drag on the first one.
-
-    A motion that cannot be integrated is omitted with its reason.
-    """
-    cases = [drop_case("drop-reference", "dropped, published case", reference_drop())]
-    motions: list[tuple[str, _Motion, ElasticContact]]
-    motions = [("drop on", _drop, contact) for contact in studied.contacts]
-    motions += [("pull off", _pull, contact) for contact in studied.contacts[:1]]
-    motions += [("drag along", _drag, contact) for contact in studied.contacts[:1]]
-    for words, make, contact in motions:
-        what = f"{words} {contact.law.name}"
-        try:
-            case = make(studied, contact)
-        except (StudyError, ArithmeticError, ValueError) as error:
-            omissions.append(Omission(what, str(error)))
-            continue
-        if math.isfinite(case.omega) and math.isfinite(case.duration) and case.omega > 0.0:
-            cases.append(case)
-        else:
-            omissions.append(Omission(what, "its stiffness or its duration overflows"))
-    return cases
-
-
-_Motion = Callable[[StudiedContacts, ElasticContact], Case]
-
-
-def _drop(_: StudiedContacts, contact: ElasticContact) -> Case:
-    kind = "curve" if isinstance(contact.law, CurveLaw) else "linear"
-    drop = drop_to(contact.law, contact.mass, contact.weight, _REACH * contact.diameter)
-    return drop_case(f"drop-{kind}", f"dropped on {contact.law.name}", drop)
-
-
-def _pull(studied: StudiedContacts, contact: ElasticContact) -> Case:
-    velocity = 0.1 / _UNITS.get(studied.scene.units, (1.0, 1.0))[0]  # a tenth of a metre per second
-    law, suction = contact.law, suction_of(studied, contact)
-    return pull_case(Pull(law.name, law, suction, contact.mass, static_depth(contact), velocity))
-
-
-def _drag(studied: StudiedContacts, contact: ElasticContact) -> Case:
-    return drag_case(friction_of(studied, contact))
-
 
 _NOTES = """
 Errors of curves: the largest of 1500 random ratios and the points themselves, against exact rational arithmetic on the
 same points, over the largest force. Times: best of repeated evaluations of 100 000 random ratios.
 
-Errors of motions: the largest of eight runs that reach the seabed at different phases of a step; they are stepped side
-by side, and their run time is that of all eight.
+Errors of motions: the largest of 64 runs that reach the seabed at different phases of a step. They are stepped side by
+side: a force evaluation is one of one run, Newton's iterations included; a run time is that of all 64. Run times are
+medians of five runs, in which all schemes take turns; runs of more than 250 steps (2500 with --full) are timed once.
 
-Newton's method has converged where |residual| < 1e-8 in the unit of force, or is no more than 16 times the round-off
-of its largest term; a step has failed after 50 iterations.
+Newton's method is kept in a bracket, so that a solver that alternates does not look like a scheme that fails. It has
+converged where |residual| < 1e-8 in the unit of force, or is no more than 16 times the round-off of its largest term;
+where the force jumps and no position balances, the step ends at the jump. A step has failed after 100 iterations.
 """
 
 
@@ -198,9 +31,14 @@ def _motions(scene: Scene, options: StudyOptions) -> Section:
     """What the deck has to fall on, pull off and drag along, and every scheme on it."""
     studied = contacts_of(scene)
     omissions: list[Omission] = []
-    found = study_motions(all_cases(studied, omissions), options)
-    notes = [*paragraphs(_NOTES), *studied.notes]
-    return found._replace(notes=notes, omissions=[*omissions, *found.omissions])
+    cases = all_cases(studied, omissions)
+    ladders, measured = study_motions(cases, options)
+    return Section(
+        [*study_goals(ladders, cases), *measured.tables],
+        list(motion_pictures(ladders, cases)),
+        [*paragraphs(_NOTES), *studied.notes],
+        [*omissions, *measured.omissions],
+    )
 
 
 def _smoothing(scene: Scene, options: StudyOptions) -> Section:
@@ -211,10 +49,13 @@ STUDY = Study(
     "precision",
     "Precision: {deck}",
     (
-        Part("curves", study_curves, 10.0),
-        Part("backbones", study_backbones, 5.0),
-        Part("motions", _motions, 60.0),
-        Part("smoothing", _smoothing, 5.0),
+        Part("curves", study_curves, 2.0),
+        Part("backbones", study_backbones, 0.5),
+        Part("motions", _motions, 25.0),
+        Part("smoothing", _smoothing, 1.0),
     ),
+    page,
+    advice,
+    order=("curves", "backbones", "cases", "advice", "goals", "orders", "steps"),
 )
 run = STUDY.run

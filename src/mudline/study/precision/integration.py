@@ -1,34 +1,40 @@
-"""Motions of a mass on the seabed whose outcome is known, and every scheme on them over a ladder of steps."""
+"""Motions of a mass on the seabed whose outcome is known, and every scheme on them over a ladder of steps.
+
+The work of a run is its number of force evaluations, those of Newton's iterations included: no machine changes it.
+Run times are measured besides; all schemes take turns, so that what slows the machine slows all of them.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
-from typing import TYPE_CHECKING, Annotated, NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
 from mudline.contact.arrays import BoolArray, FloatArray
 from mudline.study.motion import Motion, Scheme, System, Trajectory, march
-from mudline.study.pictures import Picture, Points, draw_lines, legend_below, panels, shortened
 from mudline.study.report import Layout, Omission, Section, StudyOptions, columns_of, grouped
-from mudline.study.schemes import SCHEMES, STYLES
+from mudline.study.schemes import SCHEMES, bracketed
 
-if TYPE_CHECKING:  # only who draws loads matplotlib
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-RUNS = 8
+RUNS = 64
 """Runs side by side, which land at other phases of a step; the worst of them counts."""
 LADDER = (1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0, 3.0, 10.0)
-"""Of omega dt."""
+"""Of omega dt; without --full it ends at the smallest of a case, or where the smallest goal is met."""
 FINE_LADDER = tuple(10.0 ** (power / 6.0) for power in range(-18, 7))
 GOALS = (1e-2, 1e-3, 1e-4)
 """Errors for which a step is looked up."""
-TRIED = {name: scheme for name, scheme in SCHEMES.items() if scheme.limit > 0.0}
-"""The schemes of this study: those that are stable on an oscillator at some step."""
+TRIED = {name: bracketed(scheme) for name, scheme in SCHEMES.items() if scheme.limit > 0.0}
+"""The schemes of this study: those that are stable on an oscillator at some step; implicit ones solved in a bracket."""
+REPEATS = 5
+"""Of a run that is timed."""
+_TIMED = 1.0
+"""Largest omega dt of runs that are timed more than once: larger ones are of no use."""
+_TIMED_STEPS = {False: 250, True: 2500}
+"""Longer runs are not repeated, without and with --full."""
+_FINE = 1e-2
+"""Down to this omega dt every ladder goes: an order needs several steps."""
 _MORE_STEPS = 8
 _MOST_STEPS = 60_000
 _FAILED = (None, None, None)
@@ -59,6 +65,8 @@ class Case:
         start: the start of the runs for a nominal step.
         errors: (3, k) amounts of the errors; NaN where the motion did not get so far.
         missing: what NaN means.
+        finest: the smallest omega dt without --full.
+        line: of the deck, where the law stands; None where the law is not the deck's.
     """
 
     name: Annotated[str, "case"]
@@ -72,14 +80,20 @@ class Case:
     start: Callable[[float], Start]
     errors: Callable[[Trajectory], FloatArray]
     missing: str
+    finest: float = 3e-3
+    line: Annotated[int | None, "deck line"] = None
 
 
 def uneven(dt: float) -> FloatArray:
     """Steps (k,) up to 18 % shorter than dt: events of a motion that always begins alike fall at other phases."""
-    return dt * (1.0 - np.arange(RUNS) / 40.0)
+    return dt * (1.0 - np.linspace(0.0, 0.175, RUNS))
 
 
-CASES = Layout("cases", "Motions that are integrated", columns_of(Case))
+CASES = Layout[Case](
+    "cases",
+    "Motions that are integrated",
+    {**columns_of(Case), "runs side by side": lambda case: len(case.system.mass)},
+)
 
 # ---------------------------------------------------------------------------------------------------------------- steps
 
@@ -88,9 +102,14 @@ class StepRow(NamedTuple):
     """A scheme on a case at a step: the largest errors of all runs, None where one of them failed.
 
     amount, speed, energy: errors of the three quantities of the case.
-    seconds, evaluations: of run time, and of the forces, per simulated second; all runs side by side count as one.
+    seconds: median of the run time per simulated second, all runs side by side.
+    evaluations: mean number of force evaluations of a run per simulated second; its start takes one more.
     iterations: the mean.
     reason: why the first of the runs that failed did.
+    work: force evaluations per period 2 pi / omega.
+    quick, slow: quartiles of the run time; None where it was measured once.
+    repeats: how often the run time was measured.
+    bracketed: steps of all runs in which Newton's method left the bracket.
     """
 
     case: Annotated[str, "case"]
@@ -106,11 +125,22 @@ class StepRow(NamedTuple):
     iterations: Annotated[float, "Newton iterations per step"]
     failed: Annotated[int, "failed runs"]
     reason: Annotated[str, "reason"]
+    work: Annotated[float, "force evaluations per period [-]"] = 0.0
+    quick: Annotated[float | None, "lower quartile of run time [s/s]"] = None
+    slow: Annotated[float | None, "upper quartile of run time [s/s]"] = None
+    repeats: Annotated[int, "repeats"] = 1
+    bracketed: Annotated[int, "steps that needed the bracket"] = 0
 
     @property
     def errors(self) -> tuple[float | None, float | None, float | None]:
         """All three."""
         return self.amount, self.speed, self.energy
+
+    @property
+    def worst(self) -> float | None:
+        """The largest error, which a goal is compared with."""
+        found = [error for error in self.errors if error is not None and math.isfinite(error)]
+        return max(found) if len(found) == len(self.errors) else None
 
 
 Ladders = Mapping[tuple[str, str], Sequence[StepRow]]
@@ -118,36 +148,50 @@ Ladders = Mapping[tuple[str, str], Sequence[StepRow]]
 STEPS = Layout("steps", "Time integration", columns_of(StepRow), brief=False)
 
 
-def _largest_step(ladder: Sequence[StepRow], goal: float) -> float | None:
-    """The largest omega dt of a ladder up to which every error stays below a goal."""
-    best = None
-    for row in sorted(ladder, key=lambda row: row.omega_dt):
-        if any(error is None or not error <= goal for error in row.errors):
-            break
-        best = row.omega_dt
-    return best
-
-
-REACHED = Layout[Sequence[StepRow]](
-    "goals",
-    "Largest step with all three errors below a goal",
-    {
-        "case": lambda ladder: ladder[0].case,
-        "scheme": lambda ladder: SCHEMES[ladder[0].scheme].title,
-        **{f"omega dt for {goal:g}": partial(_largest_step, goal=goal) for goal in GOALS},
-    },
-)
-
-
-def study_motions(cases: Sequence[Case], options: StudyOptions) -> Section:
+def study_motions(cases: Sequence[Case], options: StudyOptions) -> tuple[Ladders, Section]:
     """Every scheme on every case over the ladder of steps."""
     rows: list[StepRow] = []
     for case in options.each(cases, lambda case: f"time integration: {case.title}"):
-        ladder = FINE_LADDER if options.full else LADDER
-        rows += [row(case, scheme, omega_dt) for scheme in TRIED.values() for omega_dt in ladder]
+        rows += ladder_rows(case, TRIED, full=options.full)
     ladders = grouped(rows, lambda row: (row.case, row.scheme))
-    tables = CASES.table(cases), REACHED.table(ladders.values()), STEPS.table(rows)
-    return Section(tables, list(_pictures(ladders, cases)), omissions=list(_failures(ladders)))
+    return ladders, Section([CASES.table(cases), STEPS.table(rows)], omissions=list(_failures(ladders)))
+
+
+def ladder_rows(case: Case, schemes: Mapping[str, Scheme], *, full: bool) -> list[StepRow]:
+    """Every scheme on a case, each from its smallest step to its largest; run from the largest to the smallest."""
+    steps = FINE_LADDER if full else [step for step in LADDER if step >= case.finest]
+    left, found = dict(schemes), list[StepRow]()
+    for omega_dt in sorted(steps, reverse=True):
+        rows = measured(case, list(left.values()), omega_dt, _TIMED_STEPS[full])
+        if not full and omega_dt <= _FINE:
+            left = {row.scheme: schemes[row.scheme] for row in rows if not meets(row, GOALS[-1])}
+        found += rows
+    order = list(schemes)
+    return sorted(found, key=lambda row: (order.index(row.scheme), row.omega_dt))
+
+
+def meets(row: StepRow, goal: float) -> bool:
+    """Whether all errors are at or below a goal."""
+    return row.worst is not None and row.worst <= goal
+
+
+def measured(case: Case, schemes: Sequence[Scheme], omega_dt: float, timed_steps: int) -> list[StepRow]:
+    """The schemes on a case at one step; runs of no more than so many steps are timed `REPEATS` times, in turns."""
+    found = {scheme.name: [row(case, scheme, omega_dt)] for scheme in schemes}
+    short = omega_dt <= _TIMED and all(rows[0].steps <= timed_steps for rows in found.values())
+    turns = REPEATS - 1 if short else 0
+    for _ in range(turns):
+        for scheme in schemes:
+            found[scheme.name].append(row(case, scheme, omega_dt))
+    return [_timed(rows) for rows in found.values()]
+
+
+def _timed(rows: Sequence[StepRow]) -> StepRow:
+    """The first of equal rows, with the run times of all."""
+    if len(rows) == 1:
+        return rows[0]
+    quick, median, slow = np.percentile([row.seconds for row in rows], (25, 50, 75)).tolist()
+    return rows[0]._replace(seconds=median, quick=quick, slow=slow, repeats=len(rows))
 
 
 def row(case: Case, scheme: Scheme, omega_dt: float) -> StepRow:
@@ -169,6 +213,7 @@ def row(case: Case, scheme: Scheme, omega_dt: float) -> StepRow:
         reason = f"{failed} of {RUNS} runs: {why}"
     amount, speed, energy = _FAILED if failed else np.max(errors, axis=1).tolist()
     simulated = steps * nominal
+    evaluations = float(run.evaluations.mean()) / steps
     return StepRow(
         case.name,
         scheme.name,
@@ -179,10 +224,12 @@ def row(case: Case, scheme: Scheme, omega_dt: float) -> StepRow:
         speed,
         energy,
         run.seconds / simulated,
-        run.evaluations / simulated,
+        evaluations / nominal,
         float(run.iterations.mean()),
         failed,
         reason,
+        evaluations * 2.0 * math.pi / omega_dt,
+        bracketed=int(run.bisected.sum()),
     )
 
 
@@ -193,61 +240,3 @@ def _failures(ladders: Ladders) -> Iterator[Omission]:
         if failed:
             steps = ", ".join(f"{row.omega_dt:.3g}" for row in failed)
             yield Omission(f"{scheme}, {case}, omega dt {steps}", failed[0].reason)
-
-
-# ------------------------------------------------------------------------------------------------------------- pictures
-
-
-def _pictures(ladders: Ladders, cases: Sequence[Case]) -> Iterator[Picture]:
-    """Errors against the step: drops, then pull and drag; and the error of the speed against run time."""
-    drops = [case for case in cases if case.name.startswith("drop")]
-    others = [case for case in cases if not case.name.startswith("drop")]
-    for name, group in (("drop", drops), ("pull-drag", others)):
-        if group:
-            caption = f"Errors against the step, {name}: worst of eight runs; where a line ends, runs failed."
-            yield Picture(name, caption, partial(_draw_steps, ladders, group), (max(7.5, 4.2 * len(group)), 10.0))
-    caption = "Error of the speed against run time per simulated second, eight runs side by side."
-    yield Picture("run-time", caption, partial(_draw_times, ladders, cases), (12.5, 8.0))
-
-
-def _lines(ladders: Ladders, case: Case, point: Callable[[StepRow], tuple[float, float] | None]) -> dict[str, Points]:
-    """A line for each scheme on a case, through the points that there are."""
-    found = {scheme.title: map(point, ladders.get((case.name, name), ())) for name, scheme in TRIED.items()}
-    return {title: [point for point in points if point is not None] for title, points in found.items()}
-
-
-def _draw_steps(ladders: Ladders, cases: Sequence[Case], figure: Figure) -> None:
-    axes_of = figure.subplots(3, len(cases), squeeze=False, sharex=True)
-    for column, case in enumerate(cases):
-        for line, quantity in enumerate(case.quantities):
-            axes = axes_of[line][column]
-            title = shortened(case.title) if line == 0 else ""
-            y = f"relative error of {quantity} [-]"
-            draw_lines(axes, _lines(ladders, case, partial(_at_step, line)), title, "", y, STYLES)
-            _guides(axes)
-            axes.set_ylim(1e-9, 30.0)
-        axes_of[2][column].set_xlabel("step, omega dt [-]")
-    legend_below(figure, axes_of[0][0], 3 if len(cases) < 3 else 6)
-
-
-def _at_step(quantity: int, row: StepRow) -> tuple[float, float] | None:
-    error = row.errors[quantity]
-    return None if error is None else (row.omega_dt, error)
-
-
-def _guides(axes: Axes) -> None:
-    """How an error of first and of second order falls."""
-    for order, dots, end in ((1, ":", 3e-2), (2, "--", 1e-2)):
-        axes.loglog([1e-3, 1.0], [end * 1e-3**order, end], color="0.6", linestyle=dots, label=f"slope of order {order}")
-
-
-def _draw_times(ladders: Ladders, cases: Sequence[Case], figure: Figure) -> None:
-    found = panels(figure, len(cases), 3)
-    for axes, case in zip(found, cases, strict=True):
-        x, y = f"relative error of {case.quantities[1]} [-]", "run time [s per simulated s]"
-        draw_lines(axes, _lines(ladders, case, _at_run_time), shortened(case.title), x, y, STYLES)
-    legend_below(figure, found[0], 5)
-
-
-def _at_run_time(row: StepRow) -> tuple[float, float] | None:
-    return None if row.speed is None else (max(row.speed, 1e-9), row.seconds)

@@ -30,6 +30,8 @@ from mudline.study.report import StudyError
 _MARGIN = 3.0
 """The pull over the largest suction at the usual velocity."""
 _STOPS = 20
+_FINEST = 1e-2
+"""Of omega dt: laws that remember take ten times the time of a spring."""
 
 
 class SuctionNumbers(NamedTuple):
@@ -182,6 +184,7 @@ def pull_case(pull: Pull) -> Case:
         start=start,
         errors=lambda run: _pull_errors(pull, exact, run),
         missing="the mass did not break out in time",
+        finest=_FINEST,
     )
 
 
@@ -278,4 +281,5 @@ def drag_case(drag: Drag) -> Case:
         start=start,
         errors=errors,
         missing="",
+        finest=_FINEST,
     )

@@ -11,15 +11,18 @@ from typing import TYPE_CHECKING, Annotated, NamedTuple
 import numpy as np
 
 from mudline.contact.arrays import FloatArray
+from mudline.scene.deck_values import FOOT
 from mudline.scene.model import Scene
 from mudline.study.laws import ElasticContact, LinearLaw, smoothed_spring
-from mudline.study.pictures import Picture, Points, draw_lines, drawn
+from mudline.study.newton import Newton
+from mudline.study.pictures import LineStyle, Picture, Points, drawn, label, line_style, zero_place, zero_tick
 from mudline.study.precision.drop import Drop, drop_case, reference_drop
-from mudline.study.precision.integration import row
+from mudline.study.precision.integration import TRIED, row
 from mudline.study.report import Layout, Section, StudyOptions, columns_of, grouped
-from mudline.study.schemes import SCHEMES, Newton
+from mudline.study.schemes import SCHEMES, STYLES
 
 if TYPE_CHECKING:  # only who draws loads matplotlib
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 SHARES = (0.0, *(10.0 ** (power / 2.0) for power in range(-6, 7)))
@@ -31,8 +34,10 @@ _IMPACT_SCHEMES = ("newmark", "generalised-alpha-0.5", "backward-euler")
 _IMPACT_STEPS = (0.1, 0.5)
 
 
-_NONE = 1e-5
-"""Where h = 0 stands on a logarithmic axis."""
+_EXACT = 1e-15
+"""Smaller errors at rest are drawn here."""
+_COLORS = ("#332288", "#999933")
+"""Of the cases at rest; those of pictures with schemes are the schemes'."""
 
 
 class Rest(NamedTuple):
@@ -85,44 +90,57 @@ def study_smoothing(scene: Scene, contacts: Sequence[ElasticContact], options: S
     """At rest on the published case and on the scene's stiffest law as if it were linear; and the published impact."""
     options.progress("smoothing")
     widths = np.unique([float(f"{width:.4g}") for width in (*WIDTHS, *(share * 1e-5 for share in SHARES))])
-    rest = list(at_rest(PUBLISHED, widths))
+    unit = FOOT if scene.units == "imperial" else 1.0
+    rest = [
+        row._replace(half_width=row.half_width / unit, penetration=row.penetration / unit)
+        for row in at_rest(PUBLISHED, widths)
+    ]
     for contact in contacts[:1]:
         stiffness, start = contact.stiffness, 0.7 * contact.diameter
         own = Rest(contact.law.name, stiffness, 2e-5 * stiffness, contact.weight, start)
         rest += at_rest(own, np.array(SHARES) * own.kinked)
     hits = list(impacts(weightless(reference_drop())))
     tables = SMOOTHING.table(rest, scene.units), IMPACTS.table(hits)
-    caption = "Smoothing: Newton iterations and errors against the half width h of the zone; h = 0 stands far left."
+    caption = (
+        "Smoothing: Newton iterations and errors against the half width h of the zone; h = 0 has a tick of its own."
+    )
     return Section(tables, [Picture("smoothing", caption, partial(_draw, rest, hits), (11.5, 9.0))])
 
 
 def _draw(rest: Sequence[RestRow], hits: Sequence[ImpactRow], figure: Figure) -> None:
     """At rest: iterations and error; at an impact: error of the rebound and iterations."""
     (iterations, error), (rebound, effort) = figure.subplots(2, 2)
-    tries: dict[str, Points] = {}
-    wrong: dict[str, Points] = {}
-    for name, rows in grouped(sorted(rest, key=_share), lambda row: drawn(row.case)).items():
-        tries[f"{name}, from above"] = [(_share(row), row.from_above) for row in rows]
-        tries[f"{name}, from below"] = [(_share(row), row.from_below) for row in rows]
-        wrong[name] = [(_share(row), row.error) for row in rows if row.error > 1e-15]
-    x = "h / static penetration [-]; h = 0 far left"
-    draw_lines(iterations, tries, "at rest", x, "Newton iterations [-]")
-    draw_lines(error, wrong, "at rest", x, "relative error of the penetration [-]")
-    runs = grouped(hits, lambda row: f"{SCHEMES[row.scheme].title}, omega dt = {row.omega_dt:g}")
-    speeds = {name: [(_share(r), r.rebound) for r in rows if r.rebound is not None] for name, rows in runs.items()}
-    tries = {name: [(_share(row), row.iterations) for row in rows] for name, rows in runs.items()}
-    x = "h / deepest penetration [-]; h = 0 far left"
-    draw_lines(rebound, speeds, "impact", x, "relative error of the rebound speed [-]")
-    draw_lines(effort, tries, "impact", x, "Newton iterations per step [-]")
-    for axes in (iterations, effort):
-        axes.set_yscale("linear")
+    for (name, rows), color in zip(grouped(rest, lambda row: drawn(row.case)).items(), _COLORS, strict=False):
+        found = sorted(rows, key=lambda row: row.share)
+        for words, marker, field in (("above", "v", "from_above"), ("below", "^", "from_below")):
+            tries = [(row.share, float(getattr(row, field))) for row in found]
+            _through(iterations, tries, line_style(color, marker), f"{name}, from {words}")
+        _through(error, [(row.share, max(row.error, _EXACT)) for row in found], line_style(color, "o"), name)
+    for (scheme, omega_dt), runs in grouped(hits, lambda row: (row.scheme, row.omega_dt)).items():
+        title = SCHEMES[scheme].title
+        large = {"linestyle": "--", "fillstyle": "none"} if omega_dt > min(_IMPACT_STEPS) else {"linestyle": "-"}
+        look, name = STYLES[title] | large, f"{title}, omega dt = {omega_dt:g}"
+        _through(rebound, [(row.share, row.rebound) for row in runs if row.rebound is not None], look, name)
+        _through(effort, [(row.share, row.iterations) for row in runs], look, name)
+    label(iterations, "at rest", "h / static penetration [-]", "Newton iterations [-]")
+    label(error, "at rest", "h / static penetration [-]", "relative error of the penetration [-]")
+    label(rebound, "impact", "h / deepest penetration [-]", "relative error of the rebound speed [-]")
+    label(effort, "impact", "h / deepest penetration [-]", "Newton iterations per step [-]")
+    for axes, shares in ((iterations, rest), (error, rest), (rebound, hits), (effort, hits)):
+        axes.set_xscale("log")
+        zero_tick(axes, zero_place(row.share for row in shares))
+    for axes in (error, rebound):
+        axes.set_yscale("log")
     for axes in (iterations, error, rebound):
         axes.legend(fontsize="x-small", loc="best")
 
 
-def _share(row: RestRow | ImpactRow) -> float:
-    """The half width over the penetration, where it is drawn."""
-    return max(row.share, _NONE)
+def _through(axes: Axes, points: Points, look: LineStyle, name: str) -> None:
+    """A line through points; that of h = 0 stands apart."""
+    above = [point for point in points if point[0] > 0.0]
+    axes.plot([x for x, _ in above], [y for _, y in above], label=name, **look)
+    at_zero = [y for x, y in points if x == 0.0]
+    axes.plot([zero_place(x for x, _ in points)] * len(at_zero), at_zero, **(look | {"linestyle": "none"}))
 
 
 def at_rest(rest: Rest, widths: FloatArray) -> Iterator[RestRow]:
@@ -152,7 +170,7 @@ def impacts(drop: Drop) -> Iterator[ImpactRow]:
         case = drop_case("smoothed", law.name, replace(drop, law=law))
         for name in _IMPACT_SCHEMES:
             for omega_dt in _IMPACT_STEPS:
-                found = row(case, SCHEMES[name], omega_dt)
+                found = row(case, TRIED[name], omega_dt)
                 yield ImpactRow(name, omega_dt, width, share, found.speed, found.iterations, found.reason)
 
 

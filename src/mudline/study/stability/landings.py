@@ -9,23 +9,25 @@ digits that stand here. HHT and generalised-alpha average the forces of both end
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import numpy as np
 
-from mudline.contact.arrays import FloatArray
+from mudline.contact.arrays import BoolArray, FloatArray
 from mudline.scene.model import Scene
-from mudline.study.laws import Falling, LinearLaw
+from mudline.study.laws import Falling, Law, LinearLaw
 from mudline.study.motion import Motion, Scheme, march
-from mudline.study.pictures import Picture, label, legend_below
+from mudline.study.pictures import Picture, draw_lines, label, legend_below
 from mudline.study.report import Layout, Section, StudyOptions, columns_of, grouped
-from mudline.study.schemes import SCHEMES, STYLES
+from mudline.study.schemes import SCHEMES, STYLES, bracketed
 
 if TYPE_CHECKING:  # only who draws loads matplotlib
     from matplotlib.figure import Figure
 
 PHASES: FloatArray = (np.arange(400) + 0.5) / 400
-OMEGA_DTS = (0.1, 0.5, 1.0, 4.4721, 10.0, 100.0)
+OMEGA_DTS = (0.0316, 0.1, 0.5, 1.0, 1.1, 1.5, 1.9, 1.99, 4.4721, 10.0, 100.0)
 LANDING_SCHEMES = (
     "velocity-verlet",
     "rk4",
@@ -49,7 +51,8 @@ _COMPARED = {
     "0/0.0001/0.0001",
     "velocity-verlet": "0.9988/1.0000/1.0012 0.9783/1.0002/1.0221 1/1/1",
 }
-"""Least/mean/largest for each of `OMEGA_DTS`."""
+"""Least/mean/largest for each of `_COMPARED_AT`."""
+_COMPARED_AT = (0.1, 0.5, 1.0, 4.4721, 10.0, 100.0)
 _SHOWN = ((0.1, 0.9965, 1.0025), (0.5, 0.89, 1.04), (1.0, 0.2, 1.15), (10.0, -0.1, 3.0))
 """omega dt of each panel, and what it shows of the axis."""
 _DRAWN = tuple(name for name in LANDING_SCHEMES if name != "generalised-alpha-1")
@@ -99,16 +102,36 @@ LANDINGS = Layout[Landing](
 def study_landings(_: Scene, options: StudyOptions) -> Section:
     """All schemes at all steps: in which of them the rebound is faster than the landing."""
     options.progress("landings")
-    landed = landings()
+    landed, over = landings(), [envelope(SCHEMES[name], LINEAR_FALL) for name in LANDING_SCHEMES]
     agree = [one.agrees for one in landed if one.agrees is not None]
-    implicit = grouped((one for one in landed if not one.scheme.explicit), lambda one: one.scheme.title)
-    never = [name for name, rows in implicit.items() if max(0.0, *(one.largest for one in rows)) <= 1.0]
-    notes = (
+    notes = [
         f"{sum(agree)} of {len(agree)} landings agree with independently computed figures, to the last digit given.",
-        f"Implicit schemes whose rebound is never faster than the landing: {', '.join(never)}.",
-    )
+        _never(landed, over),
+    ]
+    tables = (LANDINGS.table(landed), LIMITS.table(over), ENVELOPES.table(_rows(over)))
     caption = "Rebound of a mass from an elastic seabed; 1 is exact, above 1 energy is gained."
-    return Section([LANDINGS.table(landed)], [Picture("landings", caption, _draw, (10.0, 8.0))], notes)
+    pictures = (
+        Picture("landings", caption, _draw, (10.0, 8.0)),
+        Picture("landing-gain", "The largest gain of all landing phases, up to each step.", partial(_draw_gain, over)),
+    )
+    return Section(tables, pictures, notes)
+
+
+def _never(landed: Sequence[Landing], over: Sequence[Envelope]) -> str:
+    """The implicit schemes whose rebound never exceeds the landing by more than `NEVER`, and by how much it does."""
+    most = {
+        title: float(np.nanmax([one.largest for one in rows]))
+        for title, rows in grouped(landed, lambda one: one.scheme.title).items()
+    }
+    words = []
+    for one in over:
+        highest = max(most[one.scheme.title], float(np.nanmax(one.largest)))
+        if not one.scheme.explicit and highest <= 1.0 + NEVER:
+            words.append(f"{one.scheme.title} ({highest:.7f} at most)")
+    return (
+        f"Implicit schemes whose rebound is never faster than the landing by more than {NEVER:g} of its speed, "
+        f"at any omega dt tried from {TRIED[0]:.2g} to {TRIED[-1]:.3g}: {', '.join(words) or 'none'}."
+    )
 
 
 def _draw(figure: Figure) -> None:
@@ -143,7 +166,7 @@ def landing(scheme: Scheme, omega_dt: float) -> Landing:
     """One scheme at one step, over all phases."""
     speeds = speeds_over_phases(scheme, omega_dt)
     texts = _COMPARED.get(scheme.name, "").split()
-    index = OMEGA_DTS.index(omega_dt)
+    index = _COMPARED_AT.index(omega_dt) if omega_dt in _COMPARED_AT else len(texts)
     least, mean, largest = (texts[index].split("/")) if index < len(texts) else ("", "", "")
     compared = (least, mean, largest) if least else None
     return Landing(scheme, omega_dt, float(speeds.min()), float(speeds.mean()), float(speeds.max()), compared)
@@ -156,18 +179,153 @@ def speeds_over_phases(scheme: Scheme, omega_dt: float) -> FloatArray:
     return restitution(scheme, omega_dt, PHASES)
 
 
-def _last_digit(text: str) -> float:
-    """One in the last digit of a figure, in the fourth or third for the whole ones."""
-    return 10.0 ** -max(len(text.partition(".")[2]), 3) * 1.001
-
-
 def restitution(scheme: Scheme, omega_dt: float, phases: FloatArray) -> FloatArray:
     """Speed after over speed before contact for landing phases (k,) in (0, 1); NaN where the mass never left again.
 
     The speed after is that of the free flight, when the acceleration that a scheme carries along has died away.
     """
-    system = Falling(np.ones(len(phases)), LinearLaw("", omega_dt * omega_dt), weight=0.0)
-    start = Motion.start(system, np.asarray(phases, np.float64), np.full(len(phases), -1.0))
-    run = march(scheme, system, start, 1.0, int(np.ceil(2.0 * np.pi / omega_dt)) + _SETTLING)
-    left = (run.position[-1] > 0.0) & (run.velocity[-1] > 0.0)
-    return np.where(left, run.velocity[-1], np.nan)
+    speeds: FloatArray = rebounds(scheme, LINEAR_FALL, np.array([omega_dt]), phases)[0]
+    return speeds
+
+
+def _last_digit(text: str) -> float:
+    """One in the last digit of a figure, in the fourth or third for the whole ones."""
+    return 10.0 ** -max(len(text.partition(".")[2]), 3) * 1.001
+
+
+class Fall(NamedTuple):
+    """A mass that lands at a speed on an elastic seabed; `depth` is how deep it gets, about."""
+
+    law: Law
+    mass: float
+    speed: float
+    depth: float
+    omega: float
+
+
+LINEAR_FALL = Fall(LinearLaw("", 1.0), 1.0, 1.0, 1.0, 1.0)
+TRIED: FloatArray = np.unique(
+    [
+        *np.geomspace(0.02, 0.1, 24),
+        *np.pi / np.arange(31.4, 5.2, -0.1),
+        *np.geomspace(0.6, 100.0, 60),
+        *(0.0316, 0.0567, 1.99, 1.9999),
+    ]
+)
+"""omega dt at which the landings of a scheme are looked at, up to its critical one.
+
+How a landing ends depends on pi / (omega dt) too, the steps that it takes: where limits are expected that is dense.
+"""
+FEW_PHASES: FloatArray = (np.arange(64) + 0.5) / 64
+NEVER = 2e-4
+"""A gain up to here is none; generalised-alpha with rho = 0 has 7.6e-5 at omega dt = 0.0316 and 1.2e-4 at 0.0567."""
+ALLOWED = 0.01
+"""Gain, or gain and loss, of the landings that a limit allows."""
+
+
+class Envelope(NamedTuple):
+    """What a scheme makes of landings over omega dt: least and largest speed after over before, of `FEW_PHASES`."""
+
+    scheme: Scheme
+    omega_dt: FloatArray
+    least: FloatArray
+    largest: FloatArray
+
+    @property
+    def below(self) -> float:
+        """Largest omega dt tried up to which no landing gains more than `ALLOWED`; NaN where all do."""
+        return self._up_to(self.largest <= 1.0 + ALLOWED)
+
+    @property
+    def within(self) -> float:
+        """Largest omega dt tried up to which no landing gains or loses more than `ALLOWED`; NaN where all do."""
+        return self._up_to((self.largest <= 1.0 + ALLOWED) & (self.least >= 1.0 - ALLOWED))
+
+    def _up_to(self, good: BoolArray) -> float:
+        count = len(good) if good.all() else int(np.argmin(good))
+        return float(self.omega_dt[count - 1]) if count else float("nan")
+
+
+def envelope(scheme: Scheme, fall: Fall, tried: FloatArray | None = None) -> Envelope:
+    """All of `TRIED`, or other values of omega dt, below the critical one of a scheme."""
+    omega_dt = TRIED if tried is None else tried
+    omega_dt = omega_dt[omega_dt < scheme.limit]
+    if not len(omega_dt):
+        return Envelope(scheme, omega_dt, omega_dt, omega_dt)
+    speeds = rebounds(scheme, fall, omega_dt, FEW_PHASES)
+    return Envelope(scheme, omega_dt, speeds.min(axis=1), speeds.max(axis=1))
+
+
+def rebounds(scheme: Scheme, fall: Fall, omega_dt: FloatArray, phases: FloatArray) -> FloatArray:
+    """Speed after over speed before contact (k, p) for steps (k,) and landing phases (p,) in (0, 1).
+
+    NaN where the mass never left again.
+    """
+    dt = np.repeat(omega_dt / fall.omega, len(phases))
+    system = Falling(np.full(len(dt), fall.mass), fall.law, weight=0.0)
+    high = fall.law.top + np.tile(phases, len(omega_dt)) * dt * fall.speed
+    start = Motion.start(system, high, np.full(len(dt), -fall.speed))
+    steps = int(np.ceil(2.0 * np.pi * fall.depth / fall.speed / dt.min())) + _SETTLING
+    run = march(bracketed(scheme), system, start, dt, steps)
+    left = (run.position[-1] > fall.law.top) & (run.velocity[-1] > 0.0)
+    return np.where(left, run.velocity[-1] / fall.speed, np.nan).reshape(len(omega_dt), -1)
+
+
+LIMITS = Layout[Envelope](
+    "landing-limits",
+    f"omega dt up to which landings keep their speed within {ALLOWED:.0%}, 64 landing phases",
+    {
+        "scheme": lambda one: one.scheme.title,
+        "critical omega dt [-]": lambda one: one.scheme.limit,
+        "landings below 1.01 [-]": lambda one: one.below,
+        "landings within 1 % [-]": lambda one: one.within,
+        "largest at any step [-]": lambda one: float(np.nanmax(one.largest)) if len(one.largest) else None,
+        "least at any step [-]": lambda one: float(np.nanmin(one.least)) if len(one.least) else None,
+    },
+)
+
+
+class _EnvelopeRow(NamedTuple):
+    scheme: Annotated[str, "scheme"]
+    omega_dt: Annotated[float, "omega dt [-]"]
+    least: Annotated[float, "least [-]"]
+    largest: Annotated[float, "largest [-]"]
+
+
+ENVELOPES = Layout[_EnvelopeRow](
+    "landing-envelopes",
+    "Least and largest speed after landing over speed before, 64 landing phases",
+    columns_of(_EnvelopeRow),
+    brief=False,
+)
+
+
+def _rows(over: Sequence[Envelope]) -> list[_EnvelopeRow]:
+    return [
+        _EnvelopeRow(one.scheme.title, *numbers)
+        for one in over
+        for numbers in zip(one.omega_dt.tolist(), one.least.tolist(), one.largest.tolist(), strict=True)
+    ]
+
+
+def _draw_gain(over: Sequence[Envelope], figure: Figure) -> None:
+    """The largest gain up to each step: it never falls."""
+    axes = figure.subplots()
+    lines = {
+        one.scheme.title: list(zip(one.omega_dt, np.fmax.accumulate(one.largest) - 1.0, strict=True))
+        for one in over
+        if one.scheme.name in _DRAWN
+    }
+    gaining = {title: points for title, points in lines.items() if points[-1][1] > 0.0}
+    title = "Largest gain of speed in landings with a step up to this one"
+    draw_lines(axes, gaining, title, "omega dt [-]", "speed after / before - 1 [-]", styles=STYLES)
+    axes.axhline(ALLOWED, color="0.3", linewidth=1.2)
+    axes.text(axes.get_xlim()[0], 1.1 * ALLOWED, f"  {ALLOWED:.0%}", color="0.3")
+    for limit, name in ((2.0, "velocity-verlet"), (2.0 * 2.0**0.5, "rk4")):
+        axes.axvline(limit, color=STYLES[SCHEMES[name].title]["color"], linewidth=1.0, linestyle=":")
+    axes.set_ylim(1e-5, 5.0)
+    never = [title for title, points in lines.items() if title not in gaining]
+    for line in axes.get_lines():
+        line.set_markevery(0.08)
+    axes.text(0.98, 0.03, "".join(f"{title} never gains" for title in never), ha="right", transform=axes.transAxes)
+    legend_below(figure, axes)

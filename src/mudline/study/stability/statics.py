@@ -8,15 +8,27 @@ A structure of stiffness kb, held by a friction spring kt up to mu N, is pulled 
 
     r(u) = kb u + clip(kt u, -mu N, mu N) - F.
 
-From where it slips, the iterates jump between (F - mu N) / kb and (F + mu N) / kb while both slip and |F| < mu N. Two
-cures: corrections that are halved, up to ten times, until the residual falls; and a bracket, which keeps the two
-nearest points between which the residual changes its sign, and is halved where Newton's method would leave it. The
-friction is that of the evaluator.
+From where it slips, with 0 <= F < mu N, the next iterate is (F - mu N) / kb, which slips the other way where
+kt (mu N - F) / kb > mu N, that is
+
+    kt / kb > 1 / (1 - F / (mu N));
+
+from there it is (F + mu N) / kb, which slips then too: the iterates jump between the two for ever. Two cures:
+
+* corrections that are halved until the residual falls. Beside the limit, at u = mu N / kt, the correction is
+  (mu N - F) / kb, and the residual falls only down to 2 (mu N - F) / (kb + kt) below it: log2(kt / kb) - 1 halvings are
+  needed, and a cap on them that is lower loses solutions;
+* a bracket, which keeps the two nearest points between which the residual changes its sign, and is halved where
+  Newton's method would leave it.
+
+The friction is that of the evaluator.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Annotated, NamedTuple
 
 import numpy as np
@@ -27,8 +39,8 @@ from mudline.contact.laws.friction import FrictionHistory, FrictionLaw, slide
 from mudline.contact.laws.suction import SuctionHistory, SuctionLaw, breakout_uplift, maximum_force, step
 from mudline.contact.stiffest import release_stiffness
 from mudline.scene.model import Scene
+from mudline.study.newton import Newton
 from mudline.study.report import Layout, Omission, Section, StudyOptions, columns_of
-from mudline.study.schemes import ROUND_OFF, TOLERANCE, Newton
 
 VELOCITIES = (1e-3, 1e-2, 1e-1, 1.0)
 SHARES = (0.5, 0.99, 1.01, 2.0)
@@ -80,10 +92,11 @@ def study_release(scene: Scene, options: StudyOptions) -> Section:
 def releases(scene: Scene, suction: AssignedLaw) -> list[Release]:
     """The release of each law of a scene, at the velocity of its regularisation and at `VELOCITIES` above it.
 
-    It is that of a first uplift: where the cyclic factor is applied once per cycle, none is completed yet.
+    It is that with the largest cyclic factor that can be: where the factor is applied once per cycle and below 1, that
+    of a first uplift.
     """
     laws = SuctionLaw(*suction.columns)
-    laws = laws._replace(cyclic=laws.initial_factor, cyclic_floor=np.full(len(suction.rows), np.nan))
+    laws = laws._replace(cyclic=laws.largest_factor, cyclic_floor=np.full(len(suction.rows), np.nan))
     _, first = np.unique(np.column_stack(laws[:-1]), axis=0, return_index=True)
     found = []
     for row in np.sort(first).tolist():
@@ -205,6 +218,7 @@ class CycleCount(NamedTuple):
     """Ensembles of one case.
 
     ratio, share: kt / kb and F / mu N.
+    threshold: kt / kb above which Newton's method alone cycles; inf where the pipe slides.
     plain, halved, bracketed: from how many of the starts the three methods do not converge.
     most: of the slowest.
     """
@@ -216,6 +230,7 @@ class CycleCount(NamedTuple):
     halved: Annotated[int, "lost: halved corrections"]
     bracketed: Annotated[int, "lost: bracketed"]
     most: Annotated[int, "most iterations, bracketed"]
+    threshold: Annotated[float, "cycles above spring / structure [-]"]
 
 
 CYCLES = Layout("newton-cycles", "Newton's method on friction that slips", columns_of(CycleCount))
@@ -232,7 +247,35 @@ def study_cycles(_: Scene, options: StudyOptions) -> Section:
         f"{_points(plain.iterates)}, ... without end; with halved corrections {_points(halved.iterates)}: "
         f"{halved.iterations} iterations."
     )
-    return Section([CYCLES.table(cycle_counts())], notes=[note])
+    path = [
+        PathPoint(EXAMPLE, method, point)
+        for method, found in (("plain", plain), ("halved", halved))
+        for point in found.iterates
+    ]
+    tables = CYCLES.table(cycle_counts()), HALVINGS.table(halving_counts()), PATH.table(path)
+    return Section(tables, notes=[note])
+
+
+class PathPoint(NamedTuple):
+    """An iterate of the example."""
+
+    problem: FrictionProblem
+    method: Annotated[str, "method"]
+    iterate: Annotated[float, "iterate [-]"]
+
+
+PATH = Layout[PathPoint](
+    "newton-path",
+    "Iterates of the example",
+    {
+        **columns_of(PathPoint),
+        "kb": lambda one: one.problem.structure,
+        "kt": lambda one: one.problem.spring,
+        "mu N": lambda one: one.problem.limit,
+        "F": lambda one: one.problem.force,
+    },
+    brief=False,
+)
 
 
 def _points(iterates: Sequence[float]) -> str:
@@ -244,28 +287,75 @@ def cycle_counts() -> list[CycleCount]:
     return [_cycle_count(ratio, share) for ratio in RATIOS for share in FORCES]
 
 
+def cycle_threshold(share: float) -> float:
+    """The kt / kb above which Newton's method cycles from where friction slips, at F = share mu N."""
+    return 1.0 / (1.0 - share) if share < 1.0 else math.inf
+
+
 def _cycle_count(ratio: float, share: float) -> CycleCount:
     problem = FrictionProblem(1.0, ratio, 10.0, 10.0 * share)
     plain, halved = (newton_failures(problem, Newton(most=MOST, halving=halving)) for halving in (False, True))
     iterations = bracketed(problem, STARTS)
-    return CycleCount(ratio, share, len(STARTS), plain, halved, int((iterations < 0).sum()), int(iterations.max()))
+    lost, most = int((iterations < 0).sum()), int(iterations.max())
+    return CycleCount(ratio, share, len(STARTS), plain, halved, lost, most, cycle_threshold(share))
+
+
+HALVED_RATIOS = (1e2, 2e3, 1e4, 1e6)
+CAPS = (5, 10, 15, 20, 25)
+
+
+class HalvingCount(NamedTuple):
+    """What a cap on the halvings of a correction does.
+
+    lost: from how many starts no solution is found, for each of `CAPS`.
+    needed: halvings that suffice by the closed form.
+    least: the smallest cap from which on, up to `needed`, none of the starts is lost.
+    """
+
+    ratio: Annotated[float, "spring / structure [-]"]
+    share: Annotated[float, "force / limit [-]"]
+    starts: Annotated[int, "starts"]
+    lost: tuple[int, ...]
+    needed: int
+    least: int
+
+
+def _lost(index: int) -> Callable[[HalvingCount], int]:
+    return lambda one: one.lost[index]
+
+
+HALVINGS = Layout[HalvingCount](
+    "newton-halvings",
+    "Newton's method with halved corrections: solutions lost to a cap on the halvings",
+    {
+        **columns_of(HalvingCount),
+        **{f"lost: at most {cap} halvings": _lost(index) for index, cap in enumerate(CAPS)},
+        "halvings needed": lambda one: one.needed,
+        "none lost from a cap of": lambda one: one.least,
+    },
+)
+
+
+def halving_counts() -> list[HalvingCount]:
+    """Springs that cycle, forces below the limit."""
+    return [_halving_count(ratio, share) for ratio in HALVED_RATIOS for share in FORCES if share < 1.0]
+
+
+def _halving_count(ratio: float, share: float) -> HalvingCount:
+    problem = FrictionProblem(1.0, ratio, 10.0, 10.0 * share)
+    lost = tuple(halved_failures(problem, cap) for cap in CAPS)
+    least = needed = math.ceil(math.log2(ratio)) - 1
+    while least and not halved_failures(problem, least - 1):
+        least -= 1
+    return HalvingCount(ratio, share, len(STARTS), lost, needed, least)
+
+
+def halved_failures(problem: FrictionProblem, cap: int) -> int:
+    """From how many of `STARTS` Newton's method fails whose corrections are halved at most `cap` times."""
+    return newton_failures(problem, Newton(most=MOST, halving=True, halvings=cap))
 
 
 def bracketed(problem: FrictionProblem, starts: FloatArray) -> IndexArray:
     """Iterations (k,) of Newton's method with a bracket from `starts` (k,); -1 where it does not converge."""
-    u = np.array(starts)
-    low, high = np.full(u.shape, -np.inf), np.full(u.shape, np.inf)
-    taken = np.full(u.shape, -1, np.intp)
-    for iteration in range(MOST + 1):
-        value, slope, size = residual(problem, u)
-        done = np.abs(value) <= np.maximum(TOLERANCE, ROUND_OFF * size)
-        taken = np.where(done & (taken < 0), iteration, taken)
-        if done.all():
-            break
-        low, high = np.where(value < 0.0, u, low), np.where(value > 0.0, u, high)
-        trial = u - value / slope
-        known = np.isfinite(low) & np.isfinite(high)
-        middle = 0.5 * (np.where(known, low, 0.0) + np.where(known, high, 0.0))
-        trial = np.where(known & ((trial <= low) | (trial >= high)), middle, trial)
-        u = np.where(done, u, trial)
-    return taken
+    solution = Newton(most=MOST, bracketed=True).solve(partial(residual, problem), starts)
+    return np.where(solution.residual == 0.0, solution.iterations, -1)

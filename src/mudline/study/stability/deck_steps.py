@@ -1,0 +1,376 @@
+"""The step that a deck allows: what its contacts ask of each scheme, how it lands on them, and one sentence."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import partial
+from typing import TYPE_CHECKING, Annotated, NamedTuple
+
+import numpy as np
+
+from mudline.contact.stiffest import ADVISED_OMEGA_DT, rounded_down
+from mudline.scene.model import Scene
+from mudline.scene.oscillation import Segment, line_of, steepest_segment
+from mudline.study.laws import CurveLaw, LinearLaw
+from mudline.study.motion import Scheme
+from mudline.study.pages import Tables
+from mudline.study.pictures import Picture, drawn, label, legend_below
+from mudline.study.report import Layout, Omission, Section, StudyOptions, columns_of
+from mudline.study.schemes import SCHEMES, STYLES
+from mudline.study.stability.critical import (
+    CONTACTS,
+    CRITICAL_STEPS,
+    Contact,
+    Measured,
+    can_oscillate,
+    find_contacts,
+    measure,
+)
+from mudline.study.stability.landings import ALLOWED, LANDING_SCHEMES, TRIED, Fall, envelope
+
+if TYPE_CHECKING:  # only who draws loads matplotlib
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+MOST_CONTACTS = 8
+"""Stepped by default, those with the smallest steps; all of them in a full run."""
+STEPPED = tuple(SCHEMES)
+"""The schemes that are stepped on each contact."""
+MOST_LANDINGS = 2
+"""Seabeds on which landings are looked at by default, the stiffest."""
+FARTHEST = 3.0
+"""Largest omega dt of landings on a deck's own laws."""
+_FINER = np.geomspace(0.001, 0.02, 14)
+"""omega dt that are tried where all larger ones are too large: where the force jumps at the mudline."""
+_PREFERRED = ("generalised-alpha-0.5", "hht-0.3", "newmark", "generalised-alpha-1", "generalised-alpha-0")
+"""Implicit schemes of second order to choose from; of equal ones the first, which damps what is not resolved."""
+_EXPLICIT = "central-difference"
+_SHALLOW = 0.05
+"""Of the diameter: how deep a pipe falls whose static penetration is not known."""
+
+
+class DeckLanding(NamedTuple):
+    """A scheme on a seabed of the deck.
+
+    below: the largest step tried up to which no landing gains more than 1 % of its speed; NaN where all do.
+    within: the same for gain and loss.
+    speed: of the landing.
+    """
+
+    contact: Contact
+    scheme: Scheme
+    below: float
+    within: float
+    speed: float
+
+
+DECK_LANDINGS = Layout[DeckLanding](
+    "deck-landings",
+    f"Steps up to which landings on the deck's seabeds keep their speed within {ALLOWED:.0%}, 64 landing phases",
+    {
+        "contact": lambda one: one.contact.name,
+        "scheme": lambda one: one.scheme.title,
+        "landing speed [{length}/s]": lambda one: one.speed,
+        "landings below 1.01 [s]": lambda one: one.below,
+        "landings within 1 % [s]": lambda one: one.within,
+        "omega dt below 1.01 [-]": lambda one: one.below * one.contact.omega,
+        "omega dt within 1 % [-]": lambda one: one.within * one.contact.omega,
+        "critical step [s]": lambda one: one.contact.critical_step(one.scheme.name),
+    },
+)
+
+
+class DeckStep(NamedTuple):
+    """What a deck allows a scheme: the least of all contacts, and which contact asks for it; NaN where not known."""
+
+    scheme: Scheme
+    critical: float
+    by: Contact
+    below: float
+    within: float
+    lands_on: Contact | None
+
+
+DECK_STEPS = Layout[DeckStep](
+    "deck-steps",
+    "The step of each scheme that all contacts of the deck allow",
+    {
+        "scheme": lambda one: one.scheme.title,
+        "critical step [s]": lambda one: one.critical,
+        "set by": lambda one: one.by.name if math.isfinite(one.critical) else "",
+        "deck line": lambda one: one.by.line if math.isfinite(one.critical) else None,
+        "landings below 1.01 [s]": lambda one: one.below,
+        "landings within 1 % [s]": lambda one: one.within,
+        "landing on": lambda one: one.lands_on.name if one.lands_on else "",
+    },
+)
+
+
+class Advice(NamedTuple):
+    """One sentence: which scheme, which step, because of what; and what an explicit scheme would need instead."""
+
+    scheme: Annotated[str, "scheme"]
+    step: Annotated[float, "step [s]"]
+    contact: Annotated[str, "because of"]
+    line: Annotated[int, "deck line"]
+    why: Annotated[str, "why"]
+    explicit: Annotated[str, "explicit scheme"]
+    explicit_step: Annotated[float, "explicit step [s]"]
+    explicit_contact: Annotated[str, "explicit because of"]
+    explicit_line: Annotated[int, "explicit deck line"]
+
+
+ADVICE = Layout[Advice]("advice", "Which step to take", columns_of(Advice), brief=False)
+
+LANDS, OSCILLATES, MISSES = "landings", "omega dt", "no step"
+_WHY = {
+    LANDS: "above it landings there gain or lose more than 1 % of their speed",
+    OSCILLATES: f"omega dt is {ADVISED_OMEGA_DT:g} there",
+    MISSES: "even there landings gain or lose more than 1 % of their speed, as at every larger step tried",
+}
+
+
+class NarrowSegment(NamedTuple):
+    """A segment of a curve that sets the step of a contact alone, and the curve without one of its points."""
+
+    contact: Contact
+    segment: Segment
+    diameter: float
+    line: int
+    removed_line: int
+
+    @property
+    def step(self) -> float:
+        """The advised step without the point."""
+        return ADVISED_OMEGA_DT * math.sqrt(self.contact.mass) / math.sqrt(self.segment.secant / self.diameter)
+
+
+SEGMENTS = Layout[NarrowSegment](
+    "steep-segments",
+    "Narrow segments of curves that set the step, and the curve without one of their points",
+    {
+        "contact": lambda one: one.contact.name,
+        "deck line": lambda one: one.line,
+        "from ratio [-]": lambda one: one.segment.low,
+        "to ratio [-]": lambda one: one.segment.high,
+        "stiffness [{force}/{length}2]": lambda one: one.contact.stiffness,
+        "advised step [s]": lambda one: one.contact.advised_step,
+        "point to remove, deck line": lambda one: one.removed_line,
+        "stiffness without it [{force}/{length}2]": lambda one: one.segment.secant / one.diameter,
+        "advised step without it [s]": lambda one: one.step,
+        "largest change of force [{force}/{length}]": lambda one: one.segment.difference,
+    },
+)
+
+
+def study_steps(scene: Scene, options: StudyOptions) -> Section:
+    """Every scheme on the contacts that ask for the smallest steps, or in a full run on all of them."""
+    found, omissions = find_contacts(scene)
+    wide = [one for one in found if can_oscillate(one)]
+    omissions += [
+        Omission(one.name, "not stepped: a small oscillation there is below rounding")
+        for one in found
+        if one not in wide
+    ]
+    stepped = wide if options.full else wide[:MOST_CONTACTS]
+    omissions += [
+        Omission(one.name, "not stepped: slower than those that were (--full)") for one in wide[len(stepped) :]
+    ]
+    measured: list[Measured] = []
+    for contact in options.each(stepped, lambda contact: f"steps on {contact.name}"):
+        measured += [measure(scene, contact, SCHEMES[name]) for name in STEPPED]
+    seabeds = [one for one in wide if one.oscillation.kind == "normal"]
+    landed = [
+        deck_landing(scene, contact, SCHEMES[name])
+        for contact in (seabeds if options.full else seabeds[:MOST_LANDINGS])
+        for name in LANDING_SCHEMES
+    ]
+    steps = [_deck_step(scheme, found, landed) for scheme in SCHEMES.values()] if found else []
+    advised = [_advice(found, landed)] if any(one.omega > 0.0 for one in found) else []
+    tables = (
+        CONTACTS.table(found, scene.units),
+        CRITICAL_STEPS.table(measured),
+        DECK_STEPS.table(steps),
+        DECK_LANDINGS.table(landed, scene.units),
+        SEGMENTS.table(narrow_segments(scene, found), scene.units),
+        ADVICE.table(advised),
+    )
+    pictures = [_picture(found, measured, landed, advised)] if measured else []
+    return Section(tables, pictures, _notes(found, measured), omissions)
+
+
+def _notes(found: Sequence[Contact], measured: Sequence[Measured]) -> list[str]:
+    if not found:
+        return ["No contact of this deck has a frequency: laws with a stiffness and sections with a mass are needed."]
+    return [
+        (
+            f"{sum(one.as_predicted for one in measured)} of {len(measured)} runs of a scheme on a contact did as "
+            "predicted: bounded below the critical step, growing above it."
+        )
+    ]
+
+
+def narrow_segments(scene: Scene, found: Sequence[Contact]) -> list[NarrowSegment]:
+    """The curves whose stiffness is that of a narrow segment alone, and their stiffness without one of its points."""
+    rows = []
+    for one in found:
+        law = scene.set_law(one.element) if one.oscillation.kind == "normal" else None
+        segment = None if law is None or law.curve < 0 else steepest_segment(scene.laws.curves[law.curve])
+        if segment is not None and segment.narrow and segment.removed is not None and segment.secant > 0.0:
+            lines = line_of(scene, segment.where), line_of(scene, segment.removed)
+            rows.append(NarrowSegment(one, segment, float(scene.diameter[one.element]), *lines))
+    return rows
+
+
+def deck_landing(scene: Scene, contact: Contact, scheme: Scheme) -> DeckLanding:
+    """Land on the law of a contact as fast as a fall to its static penetration needs."""
+    fall = _fall(scene, contact)
+    found = envelope(scheme, fall, TRIED[TRIED <= FARTHEST])
+    if math.isnan(found.within) and scheme.name in (*_PREFERRED, "velocity-verlet", "rk4"):
+        found = envelope(scheme, fall, _FINER)
+    return DeckLanding(contact, scheme, found.below / contact.omega, found.within / contact.omega, fall.speed)
+
+
+def _fall(scene: Scene, contact: Contact) -> Fall:
+    arrays, element = scene.law_arrays(), contact.element
+    weight, diameter = float(scene.submerged_weight[element]), float(scene.diameter[element])
+    law: CurveLaw | LinearLaw
+    index = int(arrays.curve_index[element])
+    if index >= 0:
+        law = CurveLaw(contact.name, arrays.curves[index], diameter)
+        ratios = [ratio for ratio in law.curve.ratios_at_force(weight) if ratio > 0.0] if weight > 0.0 else []
+        depth = min(ratios, default=_SHALLOW) * diameter
+    else:
+        width = contact.setting.laws.get("smoothed", {}).get("half_width", 0.0)
+        stiffness = float(arrays.linear_stiffness[element])
+        law = LinearLaw(contact.name, stiffness, width)
+        depth = weight / stiffness if weight > 0.0 else _SHALLOW
+    speed = math.sqrt(2.0 * float(law.work(np.array([depth]))[0]) / contact.mass)
+    return Fall(law, contact.mass, speed, depth + law.top, contact.omega)
+
+
+def _deck_step(scheme: Scheme, found: Sequence[Contact], landed: Sequence[DeckLanding]) -> DeckStep:
+    by = min(found, key=lambda one: one.critical_step(scheme.name))
+    name = "velocity-verlet" if scheme.name == _EXPLICIT else scheme.name
+    own = [one for one in landed if one.scheme.name == name]
+    lands_on = min(own, key=_least, default=None)
+    below, within = (min((getattr(one, which) for one in own), default=math.nan) for which in ("below", "within"))
+    return DeckStep(scheme, by.critical_step(scheme.name), by, below, within, lands_on and lands_on.contact)
+
+
+def _least(one: DeckLanding) -> float:
+    return 0.0 if math.isnan(one.within) else one.within
+
+
+def _advice(found: Sequence[Contact], landed: Sequence[DeckLanding]) -> Advice:
+    """The implicit scheme of second order that lands within 1 % at the largest step, and that step.
+
+    It is less where a spring of the deck, one that does not lift off included, is not resolved by it.
+    """
+    fastest = max(found, key=lambda one: one.omega)
+    step, contact, why, scheme = fastest.advised_step, fastest, OSCILLATES, SCHEMES[_PREFERRED[0]]
+    limits = [
+        min((one for one in landed if one.scheme.name == name), key=_least)
+        for name in _PREFERRED
+        if any(one.scheme.name == name for one in landed)
+    ]
+    if limits:
+        limit = max(limits, key=_least)
+        scheme = limit.scheme
+        if _least(limit) == 0.0:
+            step, contact, why = float(_FINER[0]) / limit.contact.omega, limit.contact, MISSES
+        elif limit.within < step:
+            step, contact, why = limit.within, limit.contact, LANDS
+    by = min(found, key=lambda one: one.critical_step(_EXPLICIT))
+    return Advice(
+        scheme.title,
+        rounded_down(step),
+        contact.name,
+        contact.line,
+        why,
+        SCHEMES[_EXPLICIT].title,
+        rounded_down(by.critical_step(_EXPLICIT)),
+        by.name,
+        by.line,
+    )
+
+
+def advice(tables: Tables) -> str:
+    """The sentence about the deck; raises MissingTableError for a deck without a frequency."""
+    row = tables.row("advice")
+    place, explicit = (
+        f"{row.text(f'{start}because of')} (deck line {row.text(f'{start}deck line')})" for start in ("", "explicit ")
+    )
+    return (
+        f"Use {row.text('scheme')} with a step of {row.number('step [s]'):.3g} s or less, because of {place}: "
+        f"{_WHY[row.text('why')]}; {row.text('explicit scheme')} would need less than "
+        f"{row.number('explicit step [s]'):.3g} s, because of {explicit}."
+    )
+
+
+# ------------------------------------------------------------------------------------------------------------- picture
+
+_DRAWN = ("central-difference", "velocity-verlet", "rk4")
+
+
+def _picture(
+    found: Sequence[Contact], measured: Sequence[Measured], landed: Sequence[DeckLanding], advised: Sequence[Advice]
+) -> Picture:
+    """The critical step of each contact, and the step that the whole deck allows."""
+    stepped = {one.contact.name for one in measured}
+    rows = [one for one in found if one.name in stepped]
+    caption = "The contact furthest to the left sets the step of the whole model."
+    return Picture(
+        "critical-steps", caption, partial(_draw, rows, measured, landed, advised), (10.0, 2.6 + 0.55 * len(rows))
+    )
+
+
+def _draw(
+    rows: Sequence[Contact],
+    measured: Sequence[Measured],
+    landed: Sequence[DeckLanding],
+    advised: Sequence[Advice],
+    figure: Figure,
+) -> None:
+    axes = figure.subplots()
+    row_of = {one.name: row for row, one in enumerate(rows)}
+    for index, name in enumerate(_DRAWN):
+        scheme = SCHEMES[name]
+        own = [one for one in measured if one.scheme.name == name]
+        heights = [row_of[one.contact.name] + 0.22 * (index - 1) for one in own]
+        look = {**STYLES[scheme.title], "linestyle": "", "markersize": 8}
+        axes.semilogx([one.predicted for one in own], heights, label=f"{scheme.title}: grows above", **look)
+        wrong = [(one.predicted, height) for one, height in zip(own, heights, strict=True) if not one.as_predicted]
+        if wrong:
+            axes.plot(*zip(*wrong, strict=True), "x", color="#b2182b", markersize=14, label="not as predicted")
+    springs = [(one.advised_step, row) for row, one in enumerate(rows) if one.omega > 0.0]
+    axes.plot(*zip(*springs, strict=True), "|", color="0.2", markersize=16, label=f"omega dt = {ADVISED_OMEGA_DT:g}")
+    newmark = [one for one in landed if one.contact.name in row_of and one.scheme.name == "newmark"]
+    within = [(one.within, row_of[one.contact.name]) for one in newmark]
+    if within:
+        look = {**STYLES[SCHEMES["newmark"].title], "linestyle": "", "markersize": 8}
+        axes.plot(*zip(*within, strict=True), label="Newmark: landings within 1 % up to", **look)
+    for one in advised:
+        text = f"{one.scheme}: {one.step:.3g} s"
+        axes.axvline(one.step, color=STYLES[one.scheme]["color"], linewidth=1.5, label=f"advised, {text}")
+    _mark_limit(axes, rows)
+    axes.set_yticks(range(len(rows)), [f"{drawn(one.name)}\ndeck line {one.line}" for one in rows], fontsize="small")
+    axes.set_ylim(len(rows) - 0.4, -0.6)
+    by = min(rows, key=lambda one: one.critical_step(_EXPLICIT))
+    step = by.critical_step(_EXPLICIT)
+    title = f"This deck: central difference below {step:.3g} s, because of {drawn(by.name)}"
+    title += "".join(f"\n{one.scheme} up to {one.step:.3g} s, because of {drawn(one.contact)}" for one in advised)
+    label(axes, title, "time step [s]", "")
+    legend_below(figure, axes, 3)
+
+
+def _mark_limit(axes: Axes, rows: Sequence[Contact]) -> None:
+    """Green where central difference is stable on every contact, red where it is on none."""
+    steps = [one.critical_step(_EXPLICIT) for one in rows]
+    low, high = 0.3 * min(steps), 3.0 * max(steps)
+    axes.set_xlim(low, high)
+    axes.axvspan(
+        low, min(steps), color="#009e73", alpha=0.15, linewidth=0, label="central difference stable on all contacts"
+    )
+    axes.axvspan(max(steps), high, color="#d55e00", alpha=0.15, linewidth=0, label="central difference stable on none")

@@ -1,0 +1,136 @@
+"""Orders, needed steps and the advice for a deck, measured."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from mudline.study import SAMPLE_TEXT, sample_scene
+from mudline.study.motion import Scheme
+from mudline.study.precision import integration
+from mudline.study.precision.contacts import all_cases, contacts_of, stiffest_drop
+from mudline.study.precision.drop import drop_case, reference_drop
+from mudline.study.precision.goals import advised, largest_step, needed, order, order_of
+from mudline.study.precision.integration import TRIED, StepRow, ladder_rows, measured
+from tests.builders.scenes import legal_scene
+
+JUMPING = SAMPLE_TEXT.replace(" 0.00,    0.0\n", " 0.00,  300.0\n")
+"""The curve begins with a force at ratio 0 (CRV007)."""
+PUBLISHED = drop_case("published", "", reference_drop())
+
+
+def made(omega_dt: float, error: float | None, case: str = "c", scheme: str = "rk4") -> StepRow:
+    """A row with one error for all three quantities; force evaluations are 1 / step."""
+    dt = 0.1 * omega_dt
+    return StepRow(case, scheme, omega_dt, dt, 9, error, error, error, 0.0, 1.0 / dt, 0.0, 0, "", work=6.0 / omega_dt)
+
+
+def test_a_larger_step_does_not_count_behind_one_that_fails() -> None:
+    ladder = [made(0.3, 1e-3), made(0.1, 0.02), made(0.03, 9e-3), made(0.01, 1e-4), made(1.0, None)]
+    found = largest_step(ladder, 1e-2)
+    assert found is not None
+    assert found.omega_dt == 0.03
+    assert largest_step(ladder, 1e-5) is None
+
+
+def test_orders_are_slopes() -> None:
+    assert order([(0.1, 1e-2), (0.01, 1e-4), (0.001, 1e-6), (1.0, 50.0)]) == pytest.approx(2.0)
+    assert order([(0.1, 1e-2), (0.01, None)]) is None
+    assert order([(0.1, 1e-2), (0.01, 1e-13)]) is None
+
+
+@pytest.mark.parametrize("scheme", [name for name in TRIED if name != "generalised-alpha-1"])
+def test_a_jump_of_the_force_makes_every_scheme_one_of_first_order(scheme: str) -> None:
+    case = stiffest_drop(legal_scene(JUMPING))
+    assert case is not None
+    rows = [measured(case, [TRIED[scheme]], step, 0)[0] for step in (0.1, 0.03, 0.01)]
+    assert not any(row.reason for row in rows)
+    assert order_of(rows) == pytest.approx(1.0, abs=0.15)
+    smooth = [measured(PUBLISHED, [TRIED[scheme]], step, 0)[0] for step in (0.03, 0.01)]
+    assert order_of(smooth) == pytest.approx(1.0 if scheme == "backward-euler" else 2.0, abs=0.25)
+
+
+def test_the_steps_that_a_jump_needs() -> None:
+    case = stiffest_drop(legal_scene(JUMPING))
+    assert case is not None
+    found = needed(case, ["velocity-verlet"])
+    assert [(one.goal, one.omega_dt) for one in found] == [(0.01, 0.03), (0.001, 0.003)]
+    assert [one.evaluations for one in found] == pytest.approx([209.44, 2094.4], rel=1e-4)
+    assert found[0].order == pytest.approx(1.0, abs=0.1)
+
+
+def test_the_published_case_needs_three_hundredths() -> None:
+    found = needed(PUBLISHED, ["velocity-verlet", "backward-euler"], (1e-2,))
+    assert [one.omega_dt for one in found] == [0.03, None]
+    assert found[1].evaluations is None
+
+
+def test_the_stiffest_contact_of_a_deck() -> None:
+    case = stiffest_drop(sample_scene())
+    assert case is not None
+    assert (case.name, case.line) == ("drop-curve", 30)
+    stiff = stiffest_drop(legal_scene(SAMPLE_TEXT.replace("STIFFNESS=50.0E3", "STIFFNESS=500.0E3")))
+    assert stiff is not None
+    assert (stiff.name, stiff.line) == ("drop-linear", 27)
+    assert stiff.omega == pytest.approx((5e5 / 169.5) ** 0.5, rel=1e-3)
+    assert (
+        stiffest_drop(legal_scene("$MODEL\n*NODE\n 1, 0.0, 0.0, 0.0\n 2, 0.0, 1.0, 0.0\n*ELEMENT\n 1, 1, 2\n")) is None
+    )
+
+
+def test_cases_have_the_lines_of_their_laws() -> None:
+    lines = {case.name: case.line for case in all_cases(contacts_of(sample_scene()), [])}
+    assert lines == {"drop-reference": None, "drop-curve": 30, "drop-linear": 27, "pull": 42, "drag": 23}
+    text = SAMPLE_TEXT.replace("*SEABED SUCTION\n SET=Clay\n COHESION=5.0E3\n", "")
+    text = text.replace(" FRICTION=0.35, 0.60, 0.003, 0.150\n", "")
+    lines = {case.name: case.line for case in all_cases(contacts_of(legal_scene(text)), [])}
+    assert lines == {"drop-reference": None, "drop-curve": 29, "drop-linear": 26, "pull": None, "drag": None}
+
+
+def test_the_advice_takes_the_smallest_step_of_the_deck_and_the_least_work() -> None:
+    first, second = (replace(PUBLISHED, name=name, line=line) for name, line in (("a", 7), ("b", 8)))
+    ladders = {
+        ("published", "rk4"): [made(0.01, 0.5)],
+        ("a", "rk4"): [made(0.1, 1e-2), made(0.3, 0.1)],
+        ("b", "rk4"): [made(0.1, 5e-4), made(0.3, 8e-3)],
+        ("a", "newmark"): [made(0.1, 1e-4, scheme="newmark"), made(0.3, 2e-3, scheme="newmark")],
+        ("b", "newmark"): [made(0.1, 2e-4, scheme="newmark"), made(0.3, 3e-3, scheme="newmark")],
+    }
+    found = advised(ladders, [PUBLISHED, first, second])
+    assert [(row.goal, row.scheme, row.dt, row.case, row.line) for row in found] == [
+        (0.01, "Newmark", pytest.approx(0.03), "a", 7),
+        (0.01, "RK4", pytest.approx(0.01), "a", 7),
+        (0.001, "Newmark", pytest.approx(0.01), "a", 7),
+        (0.001, "RK4", None, "a", 7),
+    ]
+    assert [row.error for row in found] == [3e-3, 1e-2, 2e-4, None]
+    assert advised(ladders, [PUBLISHED]) == []
+
+
+def test_run_times_are_medians_of_runs_in_turns(monkeypatch: pytest.MonkeyPatch) -> None:
+    seconds = iter(range(100))
+    order_: list[str] = []
+    plain = integration.row
+
+    def timed(case: integration.Case, scheme: Scheme, omega_dt: float) -> StepRow:
+        order_.append(scheme.name)
+        return plain(case, scheme, omega_dt)._replace(seconds=float(next(seconds)))
+
+    monkeypatch.setattr(integration, "row", timed)
+    rk4, newmark = measured(PUBLISHED, [TRIED["rk4"], TRIED["newmark"]], 0.3, 100)
+    assert order_ == ["rk4", "newmark"] * 5
+    assert (rk4.quick, rk4.seconds, rk4.slow, rk4.repeats) == (2.0, 4.0, 6.0, 5)
+    assert (newmark.quick, newmark.seconds, newmark.slow) == (3.0, 5.0, 7.0)
+    assert measured(PUBLISHED, [TRIED["rk4"]], 0.3, 10)[0].repeats == 1
+
+
+def test_a_ladder_ends_where_the_smallest_goal_is_met() -> None:
+    rows = ladder_rows(PUBLISHED, {name: TRIED[name] for name in ("rk4", "velocity-verlet")}, full=False)
+    steps = {name: [row.omega_dt for row in rows if row.scheme == name] for name in ("rk4", "velocity-verlet")}
+    assert steps["rk4"][0] == 0.01
+    assert steps["velocity-verlet"][0] == 0.003
+    assert steps["rk4"] == sorted(steps["rk4"])
+    verlet = next(row for row in rows if row.scheme == "velocity-verlet")
+    assert verlet.work == pytest.approx(2094.395, rel=1e-6)
+    assert verlet.evaluations == pytest.approx(1.0 / verlet.dt)
