@@ -165,7 +165,8 @@ def test_features_have_their_lines() -> None:
     assert [row[2:] for row in rows] == [(10, True), (3, False), (7, True)]
 
 
-def test_imports_are_distinguished() -> None:
+def test_imports_are_distinguished(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(timing, "REPEATS", 1)
     found = {one.name: one for one in variants(everything(9, 1), PIPE)}
     chosen = [found[name] for name in ("curve", "linear law", "curve, unloading")]
     omissions: list[Omission] = []
@@ -242,6 +243,12 @@ def test_full_report_has_the_largest_scenes_too() -> None:
 def test_a_deck_without_curves_is_studied_with_the_usual_one() -> None:
     found = report(SAMPLE_TEXT.replace("STIFFNESS=Soft Clay", "STIFFNESS=50.0E3"))
     assert found.notes[-1].startswith("The deck's elements have no curve")
+
+
+def test_a_deck_without_elements_has_nothing_to_time() -> None:
+    outcome = run("study", "pruning", SAMPLES / "lines-deck.keyxm", "-q")
+    assert outcome.code == 1
+    assert "lines-deck.keyxm: the deck has no elements of its own, so there is nothing to time" in outcome.err
 
 
 @pytest.mark.usefixtures("hasty", "without_interpreters")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from mudline.contact.input import ContactInput
 from mudline.scene.model import Scene
 from mudline.study import sample_scene
 from mudline.study.pruning import calls, cost
@@ -10,20 +11,23 @@ from mudline.study.pruning.growth import study_growth
 from mudline.study.pruning.imports import study_imports
 from mudline.study.pruning.page import page
 from mudline.study.pruning.scenes import Pipe, pipe_of, variants
-from mudline.study.report import Omission, Section, StudyOptions, paragraphs
+from mudline.study.report import Omission, Section, StudyError, StudyOptions, paragraphs
 from mudline.study.running import Part, Study
 
 _NOTES = """
-Times are those of the processor, the best of repeated runs, so that other programs hardly count; per node and step of a
-series of three steps (laid, lifted in waves, dragged aside), whose results are thrown away. Apart from the scene as it
-is, which lies where the deck has it, all nodes are embedded in the seabed, so that every element touches it: the worst
-case.
+Times are those of the processor, so that other programs hardly count: medians and quartiles of five repeats, in which
+what is compared takes turns. Scenes: per node and step of a series of three steps (laid, lifted in waves, dragged
+aside), whose results are thrown away. Apart from the scene as it is, which lies where the deck has it, all nodes are
+embedded in the seabed, so that every element touches it at the first step.
 
-The scene as it is: the deck's elements, repeated up to the number of nodes, with its own seabed and laws. The others:
+The scene as it is: the deck, whole and as often as it takes, with its own order of nodes, seabed and laws. The others:
 a straight line with the curve that most of the deck's elements have, and the median of its diameters and lengths;
 stages are switched on with typical values, on every element or node.
 
-Memory: the most that one evaluation of one step had at a time, beyond the input, its result included.
+Memory: the most that one evaluation of one step had at a time, beyond the input, its result included; of calls, the
+most of the whole call.
+
+Plain numpy: a function by hand for elements on one curve and a flat seabed, with the same results bit by bit.
 
 Imports: each scene in a fresh interpreter that has loaded numpy; the time is for loading, preparing and evaluating
 eleven nodes.
@@ -33,25 +37,31 @@ constant number of elements. Points, curves, planes: one evaluation of one step,
 """
 
 
-def _pipe(scene: Scene) -> Pipe:
-    """What the forced laws are made for; raises DeckError where the scene cannot be evaluated."""
-    return pipe_of(scene.contact_input(), next(iter(sample_scene().curves.values())))
+def _given(scene: Scene) -> tuple[ContactInput, Pipe]:
+    """The deck's own input, and what the forced laws are made for.
+
+    Raises DeckError where the scene cannot be evaluated, and StudyError where it has no elements.
+    """
+    inputs = scene.contact_input()
+    if not len(inputs.element_ids):
+        raise StudyError("the deck has no elements of its own, so there is nothing to time: give one with *ELEMENT")
+    return inputs, pipe_of(inputs, next(iter(sample_scene().curves.values())))
 
 
 def _calls(scene: Scene, options: StudyOptions) -> Section:
-    return calls.study_calls(scene.contact_input(), _pipe(scene), options)
+    return calls.study_calls(*_given(scene), options)
 
 
 def _imports(scene: Scene, options: StudyOptions) -> Section:
-    return study_imports(variants(scene.contact_input(), _pipe(scene)), options)
+    return study_imports(variants(*_given(scene)), options)
 
 
 def _growth(scene: Scene, options: StudyOptions) -> Section:
-    return study_growth(_pipe(scene), options)
+    return study_growth(_given(scene)[1], options)
 
 
 def _stages(scene: Scene, options: StudyOptions) -> Section:
-    inputs, pipe = scene.contact_input(), _pipe(scene)
+    inputs, pipe = _given(scene)
     found = cost.study_cost(variants(inputs, pipe), pipe, cost.study_curve(pipe, options), options)
     notes = paragraphs(_NOTES)
     if not inputs.has("curve"):

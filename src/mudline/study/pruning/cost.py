@@ -140,8 +140,8 @@ _SHOWN = {
     EVERYTHING: ("#d55e00", "v"),
 }
 """Colours and markers of the scenes in the picture."""
-_APART = 1.3
-"""The least ratio of the heights of two names beside each other."""
+_APART = 0.045
+"""Of the height of a picture: between two names beside each other, at least."""
 
 
 def _draw_nodes(rows: Sequence[CostRow], figure: Figure) -> None:
@@ -169,9 +169,10 @@ def _draw_nodes(rows: Sequence[CostRow], figure: Figure) -> None:
 
 def _name(axes: Axes, heights: Mapping[str, float], x: float) -> None:
     """The names of lines at their ends, from below, as far from each other as it takes to read them."""
-    below = 0.0
+    low, high = axes.get_ylim()
+    below, apart = 0.0, (high / low) ** _APART
     for name, height in sorted(heights.items(), key=lambda pair: pair[1]):
-        below = max(height, _APART * below)
+        below = max(height, apart * below)
         color = _SHOWN[name][0]
         axes.annotate(name, (x, below), (8, 0), textcoords="offset points", color=color, va="center", fontsize="small")
 

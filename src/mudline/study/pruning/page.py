@@ -141,15 +141,17 @@ def _level(tables: Tables) -> str:
     steps = [rows[-1].number(_MEDIAN) / rows[-2].number(_MEDIAN) for rows in by_scene if len(rows) > 1]
     fall = [rows[0].number(_MEDIAN) / rows[-1].number(_MEDIAN) for rows in by_scene if len(rows) > 1]
     return (
-        f"A node of {_nodes(first)} costs {span(fall)} times what one of {_nodes(last)} costs; from {_nodes(before)} "
-        f"to {_nodes(last)} nodes it changes by a factor of {span(steps)}."
+        f"With {_nodes(first)} nodes, each of them costs {span(fall)} times what it costs with {_nodes(last)}; from "
+        f"{_nodes(before)} to {_nodes(last)} nodes its cost changes by a factor of {span(steps)}."
     )
 
 
 def _touching(tables: Tables) -> str:
-    """The least share of elements in contact in the scenes that are made for the study."""
+    """How many elements are in contact in the scenes that are made for the study."""
     made = [row.number("in contact [%]") for row in tables.rows("stages") if row.text("scene") != AS_IT_IS]
-    return percent(0.01 * min(made), 3)
+    if min(made) == 100.0:
+        return "all elements touch the seabed at the first step, which is the worst case"
+    return f"at least {percent(0.01 * min(made), 3)} of the elements touch the seabed at the first step"
 
 
 def _order(tables: Tables) -> str:

@@ -34,8 +34,9 @@ class PlainResult(NamedTuple):
     present: BoolArray
 
     def equals(self, result: ContactResult) -> bool:
-        """Whether all numbers are those of the evaluator, bit by bit but for the sign of zero."""
-        return all(np.array_equal(mine, getattr(result, name)) for name, mine in self._asdict().items())
+        """Whether all numbers are those of the evaluator, bit by bit."""
+        pairs = [(mine, np.asarray(getattr(result, name))) for name, mine in self._asdict().items()]
+        return all(mine.shape == other.shape and mine.tobytes() == other.tobytes() for mine, other in pairs)
 
 
 class Plain(NamedTuple):
