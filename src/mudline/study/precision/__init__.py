@@ -6,24 +6,26 @@ from mudline.scene.model import Scene
 from mudline.study.precision.contacts import all_cases, contacts_of
 from mudline.study.precision.curves import study_backbones, study_curves
 from mudline.study.precision.goals import study_goals
-from mudline.study.precision.integration import study_motions
+from mudline.study.precision.integration import REPEATS, RUNS, study_motions
 from mudline.study.precision.motion_pictures import motion_pictures
 from mudline.study.precision.page import advice, page
 from mudline.study.precision.smoothing import study_smoothing
 from mudline.study.report import Omission, Section, StudyOptions, paragraphs
 from mudline.study.running import Part, Study
+from mudline.study.schemes import BRACKETED
 
-_NOTES = """
+_NOTES = f"""
 Errors of curves: the largest of 1500 random ratios and the points themselves, against exact rational arithmetic on the
 same points, over the largest force. Times: best of repeated evaluations of 100 000 random ratios.
 
-Errors of motions: the largest of 64 runs that reach the seabed at different phases of a step. They are stepped side by
-side: a force evaluation is one of one run, Newton's iterations included; a run time is that of all 64. Run times are
-medians of five runs, in which all schemes take turns; runs of more than 250 steps (2500 with --full) are timed once.
+Errors of motions: the largest of {RUNS} runs that reach the seabed at different phases of a step. They are stepped
+side by side: a force evaluation is one of one run, Newton's iterations included; a run time is the processor time of
+all of them. Run times are medians of {REPEATS} runs, in which all schemes take turns; long runs are timed once.
 
 Newton's method is kept in a bracket, so that a solver that alternates does not look like a scheme that fails. It has
 converged where |residual| < 1e-8 in the unit of force, or is no more than 16 times the round-off of its largest term;
-where the force jumps and no position balances, the step ends at the jump. A step has failed after 100 iterations.
+where the force jumps and no position balances, the step ends at the jump. A step has failed after {BRACKETED.most}
+iterations.
 """
 
 

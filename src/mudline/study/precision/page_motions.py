@@ -1,4 +1,4 @@
-"""What the page of the precision study says of the motions: steps, orders, failures, work."""
+"""What the page of the precision study says about the motions: steps, orders, failures, work."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def bullets(sentences: Iterable[str]) -> str:
 
 
 def motion_fields(tables: Tables) -> dict[str, str]:
-    """The fields of the page that tell of the motions."""
+    """Return the fields of the page about the motions."""
     cases = tables.rows("cases")
     names = [case.text("case") for case in cases]
     has_pull = any(not name.startswith("drop") for name in names)
