@@ -27,6 +27,7 @@ COMMANDS = {
     "validate": "Validate decks.",
     "format": "Rewrite decks in canonical layout, or check that they are.",
     "convert": "Convert a deck between keyword text, JSON and YAML.",
+    "set": "Change one value in many decks.",
     "expand": "Write the decks that *VARIATION and *COMBINATIONS describe.",
     "diff": "Compare two decks semantically.",
     "migrate": "Rewrite the legacy seabed keywords as the new family.",
