@@ -20,7 +20,7 @@ pytestmark = [
     pytest.mark.skipif(os.name != "posix", reason="the settings are lines for a POSIX shell"),
 ]
 
-LINES = re.findall(r"^git .*$", (ROOT / "docs/diff.md").read_text(encoding="utf-8"), re.MULTILINE)
+LINES: list[str] = re.findall(r"^git .*$", (ROOT / "docs/diff.md").read_text(encoding="utf-8"), re.MULTILINE)
 
 
 class Repository:

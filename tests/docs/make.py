@@ -10,7 +10,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from mudline.linting.registry import rules
-from tests.docs.config_schema import CONFIG_SCHEMA, config_schema
+from tests.docs.commands import output
 from tests.docs.form_table import pages_with_tables
 from tests.docs.keyword_index import keyword_index
 from tests.docs.keyword_page import keyword_pages
@@ -22,6 +22,8 @@ from tests.faults import report
 from tests.faults.rates import run
 
 ROOT = Path(__file__).parents[2]
+
+CONFIG_SCHEMA = "docs/schemas/config.json"
 
 BY_HAND = frozenset({"DOC001", "DOC002", "DAT001", "EXP001", "MIG001", "RUN001", "RUN002", "RUN003", "RUN004"})
 """Codes that are no rules; their pages are written by hand."""
@@ -78,7 +80,7 @@ def write() -> None:
         file.write_text(text, encoding="utf-8", newline="\n")
     schema = ROOT / CONFIG_SCHEMA
     schema.parent.mkdir(parents=True, exist_ok=True)
-    schema.write_text(config_schema(), encoding="utf-8", newline="\n")
+    schema.write_text(output("mudline schema config"), encoding="utf-8", newline="\n")
     write_faults()
     for path in made_files() - wanted.keys():
         (ROOT / path).unlink()
