@@ -37,7 +37,7 @@ COMMANDS = {
     "plot": "Draw the results in a file that evaluate wrote.",
     "study": "Measure precision, stability and cost on a deck.",
     "rules": "List the rules, or explain one.",
-    "schema": "Print the JSON Schema of a deck in JSON or YAML, or of the configuration.",
+    "schema": "Print the JSON Schema of decks, or of the configuration.",
     "config": "Show the configuration of a deck.",
     "help": "Show the help of a command.",
 }
