@@ -8,7 +8,7 @@ import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from contextvars import ContextVar
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import BinaryIO
 
 _CREATE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0) | getattr(os, "O_NOFOLLOW", 0)
@@ -44,6 +44,11 @@ def look(path: Path) -> Path:
     if paths is not None:
         paths[os.path.abspath(path)] = None  # noqa: PTH100 - links stay what they are called
     return path
+
+
+def suffix_of(path: str | os.PathLike[str]) -> str:
+    """The suffix of a file, which names its format: in lower case, without the dot."""
+    return PurePath(path).suffix.lower().removeprefix(".")
 
 
 def write_atomically(path: Path, data: bytes | Iterable[bytes | memoryview], *, synced: bool = True) -> None:
