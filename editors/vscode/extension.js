@@ -5,10 +5,14 @@ const vscode = require("vscode");
 const { LanguageClient } = require("vscode-languageclient/node");
 
 const ID = "mudline";
+const FILES = "**/{mudline.toml,pyproject.toml,*.keyx,*.keyxm,*.keyxi,*.das}";
 const INSTALL = "Install it with `pip install \"mudline[lsp]\"`, or set `mudline.command` to its path.";
 
 /** The client that runs now; undefined while none does. */
 let client;
+
+/** Reports files that other programs change; made once. */
+let watcher;
 
 /** Starts and stops follow each other: each waits for the one before. */
 let queue = Promise.resolve();
@@ -17,9 +21,7 @@ function makeClient() {
   const [command, ...args] = vscode.workspace.getConfiguration(ID).get("command") ?? ["mudline", "lsp"];
   const options = {
     documentSelector: [{ scheme: "file", language: ID }, { scheme: "untitled", language: ID }],
-    synchronize: {
-      fileEvents: vscode.workspace.createFileSystemWatcher("**/{mudline.toml,pyproject.toml,*.keyx,*.keyxm,*.keyxi,*.das}"),
-    },
+    synchronize: { fileEvents: watcher },
   };
   return new LanguageClient(ID, "mudline", { command, args, options: { env: process.env } }, options);
 }
@@ -52,7 +54,9 @@ function restart() {
 }
 
 function activate(context) {
+  watcher = vscode.workspace.createFileSystemWatcher(FILES);
   context.subscriptions.push(
+    watcher,
     vscode.commands.registerCommand("mudline.restart", restart),
     vscode.workspace.onDidGrantWorkspaceTrust(restart),
     vscode.workspace.onDidChangeConfiguration((event) => {

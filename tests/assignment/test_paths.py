@@ -143,7 +143,7 @@ def test_the_field_that_may_hold_the_value_is_meant() -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("TIEM.step=1", r"there is no keyword \*TIEM: did you mean TIME\?"),
+        ("TIEM.step=1", r"\*TIEM is not a known keyword: did you mean TIME\?"),
         ("LINES.length=1", "passed through unchanged"),
         ("WAVE.height=1", "passed through unchanged"),
         ("OCEAN.dept=1", r"\*OCEAN has no field 'dept': did you mean depth\?"),

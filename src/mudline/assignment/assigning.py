@@ -55,7 +55,7 @@ def assigned(deck: Deck, assignment: Assignment, target: Target, units: str | No
     if not any(field.fits(operand) for field in target.fields):
         if next(values_of(deck, target), None) is None:
             return None
-        expected = " or ".join(_kinds(target))
+        expected = " or ".join(dict.fromkeys(_kinds(target)))
         raise AssignmentError(f"{target.path} cannot be {assignment.value!r}: expected {expected}")
     found = _the_one(deck, target)
     if found is None:
@@ -120,7 +120,8 @@ def _kinds(target: Target) -> Iterator[str]:
     """What the fields of a target can hold, in words."""
     for field in target.fields:
         if field.slot.choices:
-            yield f"one of {', '.join(field.slot.choices)}"
+            several = "one of " if len(field.slot.choices) > 1 else ""
+            yield several + ", ".join(field.slot.choices)
         if field.slot.kind:
             yield field.slot.kind.value
 

@@ -172,7 +172,7 @@ class _Builder(Transformer[Token, Any]):
         return Assignment(parts[0], parts[1][1:].strip())
 
     def comparison(self, parts: list[Any]) -> Comparison:
-        """A comparison; of texts there is no order."""
+        """A comparison; texts have no order."""
         path, written, value = parts
         operand = Operand.of(value)
         operator = _SAME.get(written, str(written))

@@ -161,7 +161,7 @@ def _in_html(text: str) -> str:
 
 
 def _reference(found: re.Match[str]) -> str:
-    """A character of ASCII that is no letter as a reference to it."""
+    """A character other than a letter or a digit as a reference to it."""
     char = found[0]
     return f"&#{ord(char)};" if char.isascii() else escape(char)
 
