@@ -13,7 +13,7 @@ CORE := $(addprefix tests/,syntax expression keywords curves contact scene compa
 ARGS ?=
 
 .DEFAULT_GOAL := help
-.PHONY: help install demo test test-fast test-lowest lint format typecheck docs tutorials pictures studies dynamics bench build clean
+.PHONY: help install demo test test-fast test-lowest lint format typecheck docs tutorials pictures studies dynamics bench extension build clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-10s %s\n", $$1, $$2 }' Makefile
@@ -107,9 +107,14 @@ dynamics: $(VENV)/.developer ## time integration of a line on the seabed, and ot
 bench: $(VENV)/.developer ## measure speed beside other programs, and write docs/benchmarks.md (25 minutes)
 	$(BIN)/python -m tests.benchmarks $(ARGS)
 
+extension: ## the extension for VS Code, in editors/vscode (needs npm)
+	npm install --silent --prefix editors/vscode
+	npm run --silent --prefix editors/vscode package
+
 build: $(VENV)/.developer ## the source archive and the wheel, in dist/
 	$(BIN)/python -m hatchling build
 
 clean: ## remove everything that can be made again
+	rm -rf editors/vscode/node_modules editors/vscode/dist editors/vscode/LICENSE.txt editors/vscode/*.vsix
 	rm -rf $(VENV) $(LOWEST) .bench $(OUT) dist build htmlcov .coverage .coverage.* .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
 	find src tests -type d -name __pycache__ -prune -exec rm -rf {} +

@@ -41,6 +41,7 @@ JSON = {
     "diff": (
         "diff samples/parametric.keyxm samples/variations.keyxm",
         "diff samples/variations.keyxm samples/variations.keyxm",
+        "diff samples docs/examples",
     ),
     "expand": ("expand samples/variations.keyxm --dry-run", "expand -q samples/parametric.keyxm -o study"),
     "rules": ("rules",),

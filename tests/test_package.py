@@ -61,7 +61,7 @@ def test_wheel_holds_every_module(wheel_names: set[str]) -> None:
 
 def test_wheel_holds_the_grammar_and_the_marker_of_types(wheel_names: set[str]) -> None:
     assert {f"mudline/grammar/{name}" for name in GRAMMAR} <= wheel_names
-    assert "mudline/py.typed" in wheel_names
+    assert {"mudline/py.typed", "mudline/highlighting/words.json"} <= wheel_names
 
 
 def test_wheel_holds_the_pages_of_rules(wheel_names: set[str]) -> None:

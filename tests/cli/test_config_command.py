@@ -18,6 +18,14 @@ def test_it_shows_values_and_their_origins(tmp_path: Path) -> None:
     assert "ignore = []  # default" in run("config", str(tmp_path), "--isolated").out
 
 
+def test_it_shows_which_file_set_a_value(tmp_path: Path) -> None:
+    (tmp_path / "mudline.toml").write_text('extend = "base.toml"\n', encoding="utf-8")
+    (tmp_path / "base.toml").write_text('\nfail-on = "error"\n', encoding="utf-8")
+    lines = run("config", str(tmp_path)).out.splitlines()
+    assert f'extend = "base.toml"  # {tmp_path.as_posix()}/mudline.toml:1' in lines
+    assert f'fail-on = "error"  # {tmp_path.as_posix()}/base.toml:2' in lines
+
+
 def test_a_wrong_configuration_is_wrong_usage(tmp_path: Path) -> None:
     (tmp_path / "mudline.toml").write_text("ignore = 3\n", encoding="utf-8")
     outcome = run("config", str(tmp_path))

@@ -71,6 +71,15 @@ def test_severity_of_a_configuration_counts(place: Place, linted: Linted) -> Non
     assert len(linted) == 2
 
 
+def test_a_base_of_a_configuration_counts(place: Place, linted: Linted) -> None:
+    place("extend = 'base.toml'\n", "mudline.toml")
+    place("fail-on = 'error'\n", "base.toml")
+    assert run("lint", place(UNSORTED)).code == 0
+    place("severity = { CRV002 = 'error' }\n", "base.toml")
+    assert run("lint", "deck.keyxm").code == 1
+    assert len(linted) == 2
+
+
 def test_changed_content_is_linted_again_though_size_and_time_stay(place: Place, linted: Linted) -> None:
     run("lint", place(CLEAN))
     assert run("lint", place(CLEAN.replace("10.0\n", "1x.0\n"))).code == 1

@@ -13,7 +13,7 @@ import pytest
 
 from mudline.cli import lint_watch
 from mudline.cli.lint_watch import Watched
-from tests.builders.decks import BAD_NUMBER, CLEAN
+from tests.builders.decks import BAD_NUMBER, CLEAN, UNSORTED
 from tests.cli.conftest import Place
 from tests.cli.runner import Outcome, run
 
@@ -86,6 +86,17 @@ def test_wrong_configuration_is_told_and_waited_out(folder: Path, place: Place) 
     assert outcome.code == 130
     assert outcome.err.count("mudline.toml") == 1
     assert "waiting" not in outcome.err
+
+
+def test_base_of_a_configuration(folder: Path, place: Place) -> None:
+    place(UNSORTED)
+    place("extend = 'base.toml'\n", "mudline.toml")
+    place("", "base.toml")
+    outcome = watch(folder, [("base.toml", "severity = { CRV002 = 'error' }\n")], "deck.keyxm", "--fail-on", "error")
+    assert [line for line in outcome.out.splitlines() if line.startswith("Found")] == [
+        "Found 1 info in 1 file.",
+        "Found 1 error in 1 file.",
+    ]
 
 
 def test_deck_beside_the_one_watched(folder: Path, place: Place) -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from mudline.linting.registry import rules
-from tests.docs.config_schema import CONFIG_SCHEMA, config_schema
+from tests.docs.commands import output
 from tests.docs.form_table import pages_with_tables
 from tests.docs.keyword_index import keyword_index
 from tests.docs.keyword_page import keyword_pages
@@ -18,10 +18,14 @@ from tests.docs.law_page import law_page
 from tests.docs.layer_picture import layer_picture
 from tests.docs.refresh import copy_of_files, refreshed
 from tests.docs.rule_pages import rule_index, rule_page
+from tests.editors.textmate import GRAMMAR, grammar_text
+from tests.editors.words import WORDS, words_text
 from tests.faults import report
 from tests.faults.rates import run
 
 ROOT = Path(__file__).parents[2]
+
+CONFIG_SCHEMA = "docs/schemas/config.json"
 
 BY_HAND = frozenset({"DOC001", "DOC002", "DAT001", "EXP001", "MIG001", "RUN001", "RUN002", "RUN003", "RUN004"})
 """Codes that are no rules; their pages are written by hand."""
@@ -70,15 +74,16 @@ def _refresh(page: Path) -> None:
 
 
 def write() -> None:
-    """Write the pages and the schema of the configuration, and remove the pages that nothing makes any more."""
+    """Write the pages and what editors use, and remove the pages that nothing makes any more."""
     wanted = pages()
     for path, text in wanted.items():
         file = ROOT / path
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(text, encoding="utf-8", newline="\n")
-    schema = ROOT / CONFIG_SCHEMA
-    schema.parent.mkdir(parents=True, exist_ok=True)
-    schema.write_text(config_schema(), encoding="utf-8", newline="\n")
+    made = {CONFIG_SCHEMA: output("mudline schema config"), WORDS: words_text(), GRAMMAR: grammar_text()}
+    for path, text in made.items():
+        (ROOT / path).parent.mkdir(parents=True, exist_ok=True)
+        (ROOT / path).write_text(text, encoding="utf-8", newline="\n")
     write_faults()
     for path in made_files() - wanted.keys():
         (ROOT / path).unlink()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 import tomllib
 from pathlib import Path
@@ -10,22 +9,26 @@ from pathlib import Path
 import pytest
 
 from mudline.linting.configuration import KEYS, ConfigurationError, read_configuration
+from mudline.linting.configuration_schema import MEANINGS, configuration_schema
 from tests.docs.blocks import Page
-from tests.docs.config_schema import CONFIG_SCHEMA, MEANINGS, config_schema
-from tests.docs.make import ROOT
+from tests.docs.commands import output
+from tests.docs.make import CONFIG_SCHEMA, ROOT
 
 Draft7Validator = pytest.importorskip("jsonschema").Draft7Validator
-SCHEMA = json.loads(config_schema())
+SCHEMA = configuration_schema()
 PAGE = Page.read(ROOT / "docs" / "configuration.md")
 
 GOOD = (
     "",
     *(block.text for block in PAGE.blocks if block.language == "toml"),
+    'extend = "base.toml"\n',
     'select = ["SYN", "ref001", "unsorted-points"]\ninclude = ["*.txt"]\ndialect = "flexcom"\n',
     '[severity]\nLEG = "off"\n"unsorted-points" = "error"\n',
 )
 BAD = (
     "selct = []",
+    'extend = ["base.toml"]',
+    'extend = " "',
     'select = "SYN"',
     "ignore = [1]",
     'exclude = [" "]',
@@ -39,7 +42,7 @@ BAD = (
 
 def test_it_is_fresh() -> None:
     Draft7Validator.check_schema(SCHEMA)
-    assert (ROOT / CONFIG_SCHEMA).read_text(encoding="utf-8") == config_schema(), "run make docs"
+    assert (ROOT / CONFIG_SCHEMA).read_text(encoding="utf-8") == output("mudline schema config"), "run make docs"
 
 
 def test_every_key_is_described_here_and_on_the_page() -> None:
@@ -51,6 +54,7 @@ def test_every_key_is_described_here_and_on_the_page() -> None:
 def test_both_take_what_is_right(tmp_path: Path, text: str) -> None:
     path = tmp_path / "mudline.toml"
     path.write_text(text, encoding="utf-8")
+    (tmp_path / "base.toml").touch()
     found = read_configuration(path)
     assert found is not None
     assert [error.message for error in Draft7Validator(SCHEMA).iter_errors(tomllib.loads(text))] == []

@@ -13,11 +13,11 @@ import click
 from mudline.cli import DONE, options
 from mudline.cli.configured import Configured
 from mudline.cli.streams import emit
-from mudline.linting.configuration import KEYS, TABLES, Configuration
+from mudline.linting.configuration import EXTEND, KEYS, TABLES, Configuration
 from mudline.linting.output import visible
 from mudline.linting.registry import code_fault
 
-_DEFAULTS = {"fail-on": "warning", "dialect": "mudline"}
+_DEFAULTS = {EXTEND: "", "fail-on": "warning", "dialect": "mudline"}
 
 
 @click.command("config")
@@ -43,7 +43,8 @@ def command(*, path: str, config: str | None, isolated: bool, output_format: str
 def _rows(found: Configuration) -> Iterator[tuple[str, Any, str]]:
     """Key, value and origin of every key."""
     for key in KEYS:
-        if key in found.values and found.path is not None:
-            yield key, found.values[key], f"{found.path.as_posix()}:{found.lines[key]}"
+        if key in found.values:
+            path, line = found.origins[key]
+            yield key, found.values[key], f"{path.as_posix()}:{line}"
         else:
             yield key, _DEFAULTS.get(key, {} if key in TABLES else []), "default"

@@ -152,9 +152,12 @@ def collect(
     return _collect(paths, stdin_name, taken, gitignore=gitignore)
 
 
-def collect_any_form(paths: Sequence[str], stdin_name: str, *, gitignore: bool) -> Inputs:
-    """As `collect`, for decks in any form: also JSON and YAML files whose beginning names the format of decks."""
-    return _collect(paths, stdin_name, _is_deck_in_any_form, gitignore=gitignore)
+def collect_any_form(paths: Sequence[str], stdin_name: str, *, gitignore: bool, may_be_empty: bool = False) -> Inputs:
+    """As `collect`, for decks in any form: also JSON and YAML files whose beginning names the format of decks.
+
+    A directory without a deck is a fault unless it `may_be_empty`.
+    """
+    return _collect(paths, stdin_name, _is_deck_in_any_form, gitignore=gitignore, may_be_empty=may_be_empty)
 
 
 def _is_deck_in_any_form(path: str) -> bool:
@@ -173,11 +176,13 @@ def _is_deck_in_any_form(path: str) -> bool:
         return True
 
 
-def _collect(paths: Sequence[str], stdin_name: str, taken: Wanted, *, gitignore: bool) -> Inputs:
+def _collect(
+    paths: Sequence[str], stdin_name: str, taken: Wanted, *, gitignore: bool, may_be_empty: bool = False
+) -> Inputs:
     found = Inputs()
     for given in paths:
         if os.path.isdir(given):  # noqa: PTH112 - Path raises for a name that is too long or may not be looked at
-            _directory(Search(given, gitignore), found, taken)
+            _directory(Search(given, gitignore), found, taken, may_be_empty=may_be_empty)
         else:
             found.files.parts.append([_single(given, stdin_name)])
     if len(paths) > 1:
@@ -193,7 +198,7 @@ def _slashed(path: str) -> str:
     return path.replace(os.sep, "/")
 
 
-def _directory(search: Search, found: Inputs, taken: Wanted) -> None:
+def _directory(search: Search, found: Inputs, taken: Wanted, *, may_be_empty: bool) -> None:
     given = search.given
     start = "" if given == "." else _slashed(given).rstrip("/") + "/"
     batches = [
@@ -203,7 +208,7 @@ def _directory(search: Search, found: Inputs, taken: Wanted) -> None:
     ]
     for error in search.unreadable:
         found.fail(f"{_slashed(str(error.filename))}: {reason(error)}")
-    if not batches and not search.unreadable:
+    if not (batches or search.unreadable or may_be_empty):
         hidden = "; --no-gitignore takes what a .gitignore hides" if search.hidden else ""
         found.fail(f"{given}: no deck in this directory (looked for {', '.join(sorted(SUFFIXES))}{hidden})")
     found.files.parts += batches

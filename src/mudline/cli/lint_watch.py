@@ -16,6 +16,7 @@ from mudline.cli.inputs import STDIN, is_deck
 from mudline.cli.search import GITIGNORE
 from mudline.cli.streams import notify
 from mudline.cli.view import View
+from mudline.linting.configuration import base_paths
 from mudline.linting.output import TEXT
 
 WAIT = 0.3
@@ -47,7 +48,7 @@ def refuse(writing: Mapping[str, bool], paths: Sequence[str], form: str) -> None
 
 @dataclass(frozen=True)
 class Watched:
-    """The files and folders given, other decks beside them, and configurations that may apply to them.
+    """The files and folders given, other decks beside them, and configurations that may apply, with what they extend.
 
     `others` are a configuration and a baseline that were named.
     """
@@ -67,6 +68,9 @@ class Watched:
                     _look(str(place / name), found)
         for file in (file for path in self.paths for file in _files(path)):
             _look(file, found)
+        for path in [path for path in found if os.path.basename(path) in _CONFIGURATIONS or path in self.others]:  # noqa: PTH119 - as above
+            for base in base_paths(Path(path)):
+                _look(str(base), found)
         return found
 
 

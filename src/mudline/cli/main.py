@@ -27,6 +27,7 @@ COMMANDS = {
     "validate": "Validate decks.",
     "format": "Rewrite decks in canonical layout, or check that they are.",
     "convert": "Convert a deck between keyword text, JSON and YAML.",
+    "set": "Change one value in many decks.",
     "expand": "Write the decks that *VARIATION and *COMBINATIONS describe.",
     "diff": "Compare two decks semantically.",
     "migrate": "Rewrite the legacy seabed keywords as the new family.",
@@ -36,7 +37,7 @@ COMMANDS = {
     "plot": "Draw the results in a file that evaluate wrote.",
     "study": "Measure precision, stability and cost on a deck.",
     "rules": "List the rules, or explain one.",
-    "schema": "Print the JSON Schema of a deck in JSON or YAML.",
+    "schema": "Print the JSON Schema of decks, or of the configuration.",
     "config": "Show the configuration of a deck.",
     "help": "Show the help of a command.",
 }

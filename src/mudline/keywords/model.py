@@ -43,7 +43,8 @@ _MOST_KEYS = 100
 class FieldInfo:
     """What a field means. Units in F (force), L, M, T, deg; "-" is dimensionless. `inferred` names our deduction.
 
-    `names` says what a text in the field is the name of: that it exists is then checked.
+    `names` says what a text in the field is the name of: that it exists is then checked. `also` is another name by
+    which `mudline set` finds it.
     """
 
     meaning: str
@@ -54,6 +55,7 @@ class FieldInfo:
     at_most: float | None = None
     inferred: str = ""
     names: Names | None = None
+    also: str = ""
 
 
 @dataclass(frozen=True, slots=True)

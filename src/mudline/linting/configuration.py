@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
+from functools import reduce
 from pathlib import Path
 from typing import Any
 
@@ -15,9 +17,11 @@ Values = dict[str, Any]
 LISTS = ("select", "ignore", "extend-select", "include", "exclude", "fixable", "unfixable")
 WORDS = {"fail-on": ("error", "warning", "info"), "dialect": ("mudline", "flexcom")}
 TABLES = ("per-file-ignores", "severity")
-KEYS = (*LISTS, *WORDS, *TABLES)
-_OF_CODES = ("select", "ignore", "extend-select", "fixable", "unfixable")
-_SEVERITIES = ("error", "warning", "info", "off")
+EXTEND = "extend"
+KEYS = (EXTEND, *LISTS, *WORDS, *TABLES)
+_ADDED = "extend-select"
+OF_CODES = ("select", "ignore", "extend-select", "fixable", "unfixable")
+SEVERITIES = ("error", "warning", "info", "off")
 
 
 CodeFault = Callable[[str], str]
@@ -30,12 +34,29 @@ class ConfigurationError(ValueError):
 
 @dataclass(frozen=True)
 class Configuration:
-    """The values that a file sets, checked, and its content; none without a file."""
+    """The values that a file sets, checked, with those of the files that it extends; none without a file.
+
+    `origins` has the file and the line of each key, `content` the contents of all files: findings depend on them.
+    """
 
     path: Path | None = None
     values: Values = field(default_factory=dict)
-    lines: dict[str, int] = field(default_factory=dict)
+    origins: dict[str, tuple[Path, int]] = field(default_factory=dict)
     content: bytes = b""
+
+    def over(self, base: Configuration) -> Configuration:
+        """This configuration with what a base sets besides.
+
+        A key replaces that of the base; tables are joined entry by entry, and `extend-select` adds to that of the base.
+        """
+        values = base.values | self.values
+        for key in TABLES:
+            if key in base.values and key in self.values:
+                values[key] = base.values[key] | self.values[key]
+        if _ADDED in base.values and _ADDED in self.values:
+            values[_ADDED] = [*base.values[_ADDED], *self.values[_ADDED]]
+        content = b"%d %b%b" % (len(self.content), self.content, base.content)
+        return Configuration(self.path, values, base.origins | self.origins, content)
 
     def words(self, key: str) -> list[str]:
         """A list, empty if it is not set."""
@@ -51,9 +72,55 @@ def read_configuration(
 ) -> Configuration | None:
     """The configuration in a file; None for a pyproject.toml without `[tool.mudline]` that is not `demanded`.
 
-    Words for rules are checked by `code_fault` (`mudline.linting.registry.code_fault`), and taken as they are without.
-    Raises OSError and ConfigurationError.
+    What it extends is read too. Words for rules are checked by `code_fault` (`mudline.linting.registry.code_fault`),
+    and taken as they are without. Raises OSError and ConfigurationError.
     """
+    found = _read_one(path, demanded=demanded, code_fault=code_fault)
+    if found is None or EXTEND not in found.values:
+        return found
+    chain, at, whole = [path], found, [found]
+    while EXTEND in at.values:
+        base, line = _base_of(chain[-1], at.values[EXTEND]), at.origins[EXTEND][1]
+        place = f"{chain[-1].as_posix()}:{line}: {EXTEND}"
+        known = [os.path.realpath(one) for one in chain]
+        if (real := os.path.realpath(base)) in known:
+            names = " -> ".join(one.as_posix() for one in (*chain[known.index(real) :], base))
+            raise ConfigurationError(f"{place} leads back to itself: {names}")
+        try:
+            read = _read_one(base, demanded=True, code_fault=code_fault)
+        except OSError as error:
+            why = (error.strerror or str(error)).lower()
+            raise ConfigurationError(f"{place}: {base.as_posix()} cannot be read: {why}") from error
+        at = read or Configuration(base)
+        chain.append(base)
+        whole.append(at)
+    return reduce(lambda above, own: own.over(above), reversed(whole))
+
+
+def base_paths(path: Path) -> Iterator[Path]:
+    """The files that a configuration extends, as far as they can be followed; faults are for those who read it."""
+    known = {os.path.realpath(path)}
+    while True:
+        try:
+            found = _read_one(path, demanded=False, code_fault=None)
+        except (OSError, ConfigurationError):
+            return
+        if found is None or EXTEND not in found.values:
+            return
+        path = _base_of(path, found.values[EXTEND])
+        yield path
+        if (real := os.path.realpath(path)) in known:
+            return
+        known.add(real)
+
+
+def _base_of(path: Path, given: str) -> Path:
+    """The file that `extend` names, from the folder of the file in which it stands."""
+    return Path(os.path.normpath(path.parent / given))
+
+
+def _read_one(path: Path, *, demanded: bool, code_fault: CodeFault | None) -> Configuration | None:
+    """As `read_configuration`, of the file alone."""
     content = path.read_bytes()
     import tomllib  # noqa: PLC0415 - most commands find no file
 
@@ -92,23 +159,27 @@ class _Reading:
             raise self.error("tool", "tool.mudline must be a table")
         for key, value in values.items():
             self.check(key, value)
-        return Configuration(self.path, values, {key: self.line(key) or 1 for key in values}, self.content)
+        origins = {key: (self.path, self.line(key) or 1) for key in values}
+        return Configuration(self.path, values, origins, self.content)
 
     def check(self, key: str, value: object) -> None:
         if key not in KEYS:
             raise self.error(key, f"there is no key {key!r}{_hint(key, KEYS)}")
-        if key in WORDS:
+        if key == EXTEND:
+            if not isinstance(value, str) or not value.strip():
+                raise self.error(key, f'{key} must be the path of a file, such as "../base.toml", not {value!r}')
+        elif key in WORDS:
             self.one_of(key, value, WORDS[key])
         elif key == "severity":
             for code, severity in self.pairs(key, value):
                 self.codes(key, [code])
-                self.one_of(code, severity, _SEVERITIES)
+                self.one_of(code, severity, SEVERITIES)
         elif key == "per-file-ignores":
             for glob, codes in self.pairs(key, value):
                 self.codes(glob, self.texts(glob, codes))
         else:
             texts = self.texts(key, value)
-            if key in _OF_CODES:
+            if key in OF_CODES:
                 self.codes(key, texts)
 
     def one_of(self, key: str, value: object, choices: tuple[str, ...]) -> None:

@@ -25,7 +25,9 @@ class TimeSpan(Block):
     step: Annotated[Literal["FIXED"], setting("STEP", "how time advances", inferred=_SEEN)]
     start: Annotated[Real, about("start of the load case", unit="T", inferred=_SEEN)]
     end: Annotated[Real, about("its end", unit="T", inferred=_SEEN)]
-    increment: Annotated[Real | None, about("time step", unit="T", inferred="the third value is the step")] = None
+    increment: Annotated[
+        Real | None, about("time step", unit="T", above=0, inferred="the third value is the step", also="step")
+    ] = None
     ramp: Annotated[Real | None, about("time over which loads grow", unit="T", inferred=_SEEN)] = None
 
     def other_form(self, faults: Collection[Code]) -> bool:

@@ -81,7 +81,7 @@ def _faults(part: Part) -> Iterator[tuple[tuple[str | int, ...], str]]:
         if value is None:
             continue
         if isinstance(value, float | int):
-            if fault := _fault(value, slot):
+            if fault := range_fault(value, slot):
                 yield (slot.json,), fault
         elif isinstance(value, Part):
             yield from (((slot.json, *path), fault) for path, fault in _faults(value))
@@ -100,11 +100,11 @@ def _table_faults(table: Table, slot: FieldSpec) -> Iterator[tuple[tuple[int, in
         if not _ranged(column):
             continue
         for row, value in enumerate(table.column(index).tolist()):
-            if fault := _fault(value, column):
+            if fault := range_fault(value, column):
                 yield (row, index), fault
 
 
-def _fault(value: float, slot: FieldSpec) -> str:
+def range_fault(value: float, slot: FieldSpec) -> str:
     """What is wrong with a number, or nothing; NaN stands for one that could not be read."""
     low, above, most = slot.about.at_least, slot.about.above, slot.about.at_most
     if low is not None and value < low:

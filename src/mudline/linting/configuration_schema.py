@@ -1,16 +1,14 @@
-"""docs/schemas/config.json: the keys of a mudline.toml, for editors, from the table of the configuration."""
+"""The JSON Schema of a mudline.toml for editors, from the keys of the configuration and the codes of the rules."""
 
 from __future__ import annotations
 
-import json
 from typing import Any
 
-from mudline.linting.configuration import _OF_CODES, _SEVERITIES, KEYS, LISTS, WORDS
+from mudline.linting.configuration import EXTEND, KEYS, LISTS, OF_CODES, SEVERITIES, WORDS
 from mudline.linting.registry import origin, rules
 
-CONFIG_SCHEMA = "docs/schemas/config.json"
-
 MEANINGS = {
+    "extend": "A file with the same keys, from the folder of this one, whose values hold where this one sets none.",
     "select": "Only these rules run: codes, beginnings of codes, or slugs.",
     "ignore": "Rules that are left out.",
     "extend-select": "Rules that run too.",
@@ -26,10 +24,10 @@ MEANINGS = {
 """What each key means."""
 
 
-def config_schema() -> str:
-    """The whole file."""
+def configuration_schema() -> dict[str, Any]:
+    """The schema, in draft 7, which editors know best; codes of plugins are taken, but not listed."""
     properties = {key: {"description": MEANINGS[key], **_values(key)} for key in KEYS}
-    schema = {
+    return {
         "$schema": "http://json-schema.org/draft-07/schema#",
         "title": "mudline.toml, or [tool.mudline] of a pyproject.toml",
         "type": "object",
@@ -37,17 +35,22 @@ def config_schema() -> str:
         "additionalProperties": False,
         "definitions": {"rule": _rule()},
     }
-    return json.dumps(schema, indent=1, ensure_ascii=False) + "\n"
 
 
 def _values(key: str) -> dict[str, Any]:
+    if key == EXTEND:
+        return _path()
     if key in WORDS:
         return {"enum": list(WORDS[key])}
     if key in LISTS:
-        return _list(_code() if key in _OF_CODES else {"type": "string", "pattern": "\\S"})
-    values = {"enum": list(_SEVERITIES)} if key == "severity" else _list(_code())
+        return _list(_code() if key in OF_CODES else _path())
+    values = {"enum": list(SEVERITIES)} if key == "severity" else _list(_code())
     names = {"propertyNames": _code()} if key == "severity" else {}
     return {"type": "object", **names, "additionalProperties": values}
+
+
+def _path() -> dict[str, Any]:
+    return {"type": "string", "pattern": "\\S"}
 
 
 def _list(item: dict[str, Any]) -> dict[str, Any]:

@@ -1,0 +1,222 @@
+"""One value of a deck set: the edit of its text, or why the deck is left unchanged."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import islice
+from typing import cast
+
+from mudline.assignment.fields import MOST_LISTED, Target, Value, blocks_of, cell, values_of
+from mudline.assignment.layout import replacement_in_layout
+from mudline.assignment.paths import Assignment, Operand
+from mudline.deck.model import Deck
+from mudline.deck.reading import TextOrigin, read_source
+from mudline.diagnostics import Diagnostic, Problem, Severity
+from mudline.formatting.document import same_meaning
+from mudline.keywords.model import Part, record_schema
+from mudline.keywords.table import Table
+from mudline.keywords.values import Equation, Kind
+from mudline.scene.checks.fields import range_fault
+from mudline.scene.model import resolve
+from mudline.short_repr import cut
+from mudline.syntax.edits import TextEdit, edited_bytes
+from mudline.syntax.source import Source
+
+
+class AssignmentError(Exception):
+    """Why a deck is left unchanged; `line` is where, None for the deck as a whole."""
+
+    def __init__(self, message: str, line: int | None = None, diagnostics: Sequence[Diagnostic] = ()) -> None:
+        self.line = line
+        self.diagnostics = diagnostics
+        super().__init__(message)
+
+
+@dataclass(frozen=True, slots=True)
+class Assigned:
+    """The edits that set a value, none where it has it already; its line, and how it was and is written."""
+
+    edits: tuple[TextEdit, ...]
+    line: int
+    before: str
+    after: str
+
+
+def assigned(deck: Deck, assignment: Assignment, target: Target, units: str | None = None) -> Assigned | None:
+    """Set the value of a deck that was read from keyword text; None where the deck has no such value.
+
+    `units` are those with which the deck was read. Raises AssignmentError for a value that is given by an equation, is
+    left out in the deck, or is not the only one at the path, and for a deck that would be faulty, or another one but
+    for this value.
+    """
+    operand = Operand.of(assignment.value)
+    if not any(field.fits(operand) for field in target.fields):
+        if next(values_of(deck, target), None) is None:
+            return None
+        expected = " or ".join(dict.fromkeys(_kinds(target)))
+        raise AssignmentError(f"{target.path} cannot be {assignment.value!r}: expected {expected}")
+    found = _the_one(deck, target)
+    if found is None:
+        return None
+    origin = cast("TextOrigin", deck.origin)
+    span = origin.span(found.where)
+    line = _line(deck, found)
+    place = found.where._replace(path=found.where.path[:-2]) if isinstance(found.owner, Table) else found.where
+    if span is None or not deck.written(place):
+        raise AssignmentError(f"{target.path} is not written in the deck", line)
+    if isinstance(found.value, Equation):
+        raise AssignmentError(
+            f"{target.path} is given by an equation, {cut(str(found.value), 60)}: change its parameters instead", line
+        )
+    wanted = _checked(found, operand, assignment, line)
+    written = origin.source.text[slice(*span)]
+    if _same(found.value, wanted):
+        return Assigned((), line, written, written)
+    edits = tuple(replacement_in_layout(origin.source, span, assignment.value))
+    content = _edited(origin.source, edits, line)
+    after = read_source(Source.from_bytes(content, deck.file), units=units)
+    after.folder = deck.folder
+    _require_no_worse(deck, after, line)
+    _require_only_this(deck, after, found, wanted, assignment, line)
+    return Assigned(edits, line, written, assignment.value)
+
+
+def _the_one(deck: Deck, target: Target) -> Value | None:
+    """The value at a path; None where the deck has no such record. Raises AssignmentError for several of them."""
+    all_found = list(islice(values_of(deck, target), MOST_LISTED * 100))
+    given = [one for one in all_found if one.value is not None]
+    if len(given) > 1:
+        lines = [str(_line(deck, one)) for one in given[: MOST_LISTED + 1]]
+        listed = ", ".join(lines[:MOST_LISTED]) + (", ..." if len(lines) > MOST_LISTED else "")
+        raise AssignmentError(
+            f"{target.path} is ambiguous: the deck has several such values, in lines {listed}; choose one by the name "
+            "of its set, as in KEYWORD[set=NAME].field, or by its number, as in KEYWORD[2].field"
+        )
+    if not given and all_found:
+        raise AssignmentError(
+            f"{target.path} is left out here, and only a value that is there is changed", _line(deck, all_found[0])
+        )
+    if not given and (faults := _read_faults(deck, target.path.keyword)):
+        raise AssignmentError(f"*{target.path.keyword} could not be read as a whole", None, deck.diagnose(faults))
+    return given[0] if given else None
+
+
+def _read_faults(deck: Deck, keyword: str) -> list[Problem]:
+    """What could not be read of the blocks of a keyword, among whose lines may be the value that is not found."""
+    read = cast("TextOrigin", deck.origin).read
+    found = (read.get((where.section, where.block)) for where, _ in blocks_of(deck, keyword))
+    return [problem for block in found if block for problem in block.problems if problem.weight is Severity.ERROR]
+
+
+def _line(deck: Deck, found: Value) -> int:
+    origin = cast("TextOrigin", deck.origin)
+    span = origin.span(found.where)
+    return origin.source.position(span.start)[0] if span else 1
+
+
+def _kinds(target: Target) -> Iterator[str]:
+    """What the fields of a target can hold, in words."""
+    for field in target.fields:
+        if field.slot.choices:
+            several = "one of " if len(field.slot.choices) > 1 else ""
+            yield several + ", ".join(field.slot.choices)
+        if field.slot.kind:
+            yield field.slot.kind.value
+
+
+def _checked(found: Value, operand: Operand, assignment: Assignment, line: int) -> float | str:
+    """The value that is wanted, as a deck holds it; raises AssignmentError for one that the field cannot have."""
+    slot = found.field.slot
+    if operand.number is None or (slot.kind is Kind.NAME and not slot.choices):
+        return operand.text
+    if slot.kind in (Kind.WHOLE, Kind.IDENT) and not operand.number.is_integer():
+        raise AssignmentError(f"{assignment.path} cannot be {assignment.value!r}: expected a whole number", line)
+    if fault := range_fault(operand.number, slot):
+        raise AssignmentError(fault, line)
+    return operand.number
+
+
+def _same(one: object, other: object) -> bool:
+    if isinstance(one, str) and isinstance(other, str):
+        return one.casefold() == other.casefold()
+    return one == other
+
+
+def _edited(source: Source, edits: Sequence[TextEdit], line: int) -> bytes:
+    try:
+        return edited_bytes(source, edits)
+    except UnicodeEncodeError as error:
+        raise AssignmentError(
+            f"the file's encoding, {source.encoding}, lacks a character of the value", line
+        ) from error
+
+
+def _require_no_worse(before: Deck, after: Deck, line: int) -> None:
+    """Raise AssignmentError for a deck with errors that it did not have before."""
+    old, new = (
+        [problem for problem in resolve(deck).findings if problem.weight is Severity.ERROR] for deck in (before, after)
+    )
+    more = Counter(one.code.code for one in new) - Counter(one.code.code for one in old)
+    if more:
+        known = {one.message for one in old}
+        added = [one for one in new if one.code.code in more and one.message not in known] or new
+        raise AssignmentError("the deck would have a new error", line, after.diagnose(added))
+
+
+def _require_only_this(
+    before: Deck, after: Deck, found: Value, wanted: float | str, assignment: Assignment, line: int
+) -> None:
+    """Raise AssignmentError unless the decks differ in the one value, which is the wanted one; `before` is used up."""
+    if before.units != after.units:
+        raise AssignmentError(
+            f"the units of the deck, {before.units}, would be taken for {after.units}: give them by --units", line
+        )
+    new = _value_at(after, found)
+    if _same(new, wanted):
+        if isinstance(found.owner, Table):
+            row, column = cast("tuple[int, int]", found.where.path[-2:])
+            _set_cell(found.owner, row, column, after, found)
+        else:
+            setattr(found.owner, found.field.slot.name, new)
+        if same_meaning(before, after):
+            return
+    raise AssignmentError(f"{assignment.value!r} would change more than {assignment.path}", line)
+
+
+def _set_cell(table: Table, row: int, column: int, after: Deck, found: Value) -> None:
+    other = _owner(after, found)
+    if isinstance(other, Table) and other.values.shape == table.values.shape:
+        table.values[row, column] = other.values[row, column]
+        table.words.pop((row, column), None)
+        if (row, column) in other.words:
+            table.words[row, column] = other.words[row, column]
+
+
+def _value_at(deck: Deck, found: Value) -> object:
+    owner = _owner(deck, found)
+    if isinstance(owner, Table):
+        row, column = cast("tuple[int, int]", found.where.path[-2:])
+        return cell(owner, row, column) if row < len(owner) else None
+    return getattr(owner, found.field.slot.name, None)
+
+
+def _owner(deck: Deck, found: Value) -> object:
+    """The record or table of a deck where that of the other deck is; None where there is none."""
+    try:
+        part: object = deck.sections[found.where.section].blocks[found.where.block]
+    except IndexError:
+        return None
+    for step in found.where.path[: -2 if isinstance(found.owner, Table) else -1]:
+        part = _inner(part, step)
+    return part
+
+
+def _inner(part: object, step: str | int) -> object:
+    if isinstance(step, int):
+        return part[step] if isinstance(part, list) and step < len(part) else None
+    if not isinstance(part, Part):
+        return None
+    name = next((slot.name for slot in record_schema(type(part)).slots if slot.json == step), "")
+    return getattr(part, name, None)

@@ -1,0 +1,184 @@
+"""`mudline set`."""
+
+from __future__ import annotations
+
+import os
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from hashlib import blake2b
+
+import click
+
+from mudline.assignment.assigning import Assigned, AssignmentError, assigned
+from mudline.assignment.conditions import ConditionError, DeckCondition
+from mudline.assignment.fields import Target, target_of
+from mudline.assignment.paths import Assignment, Operand, PathError, parse_assignment, parse_condition
+from mudline.cli import DONE, FOUND, options
+from mudline.cli.changes import print_changes
+from mudline.cli.inputs import Input, Inputs, collect
+from mudline.cli.streams import emit, emit_deck, notify, notify_diagnostics
+from mudline.cli.view import View
+from mudline.deck.forms import KEYWORD, form_of
+from mudline.deck.loading import load_bytes
+from mudline.short_repr import counted
+from mudline.syntax.edits import TextEdit, edited_bytes
+from mudline.syntax.source import Source
+
+_CHANGED, _SAME, _WITHOUT, _UNMET, _REFUSED = "changed", "the same already", "without it", "not selected", "refused"
+
+
+@click.command("set")
+@click.argument("assignment", metavar="KEYWORD.FIELD=VALUE")
+@options.paths
+@click.option(
+    "--where",
+    "condition",
+    metavar="CONDITION",
+    help="Only decks for which this holds, such as 'OCEAN.depth > 100 and UNITS.units == METRIC'.",
+)
+@click.option("--check", is_flag=True, help="Write nothing; name the files that would change, and exit with 1 if any.")
+@click.option("--diff", is_flag=True, help="Write nothing; print what would change, and exit with 1 if anything.")
+@options.every_file
+@options.stdin_name
+@options.units
+@options.common
+def command(
+    *,
+    assignment: str,
+    paths: tuple[str, ...],
+    condition: str | None,
+    check: bool,
+    diff: bool,
+    every_file: bool,
+    stdin_name: str,
+    units: str | None,
+    view: View,
+) -> int:
+    """Change one value in many decks, in place; comments, columns and all other values stay as they are written.
+
+    The field is given as in TIME.step=0.05, that of one record as in SEABED PROPERTIES[set=TDZ].stiffness=50000. PATHS
+    are decks, directories, or - for standard input, whose deck is printed. Where the value of a deck is given by an
+    equation, is not the only one, or is refused by the checks, no deck is changed, and the exit code is 1.
+    """
+    try:
+        change = parse_assignment(assignment)
+        target = target_of(change.path, Operand.of(change.value))
+        where = None if condition is None else DeckCondition.of(parse_condition(condition))
+    except PathError as error:
+        raise click.UsageError(str(error)) from error
+    run = _Run(change, target, where, units, view, collect(paths, stdin_name, gitignore=not every_file))
+    run.plan(check=check, diff=diff)
+    if not (check or diff):
+        run.write()
+    if not view.quiet:
+        run.notify_counts("would be " if check or diff else "")
+    nowhere = run.counts[_WITHOUT] and not (run.counts[_CHANGED] or run.counts[_SAME] or run.counts[_REFUSED])
+    if nowhere:
+        notify(f"no deck has {change.path}")
+    found = run.counts[_CHANGED] and (check or diff)
+    return max(run.inputs.code, FOUND if run.counts[_REFUSED] or nowhere or found else DONE)
+
+
+@dataclass(frozen=True, slots=True)
+class _Planned:
+    """A file that is to change, a digest of what it held, and the edits."""
+
+    file: Input
+    digest: bytes
+    edits: tuple[TextEdit, ...]
+
+
+@dataclass(slots=True)
+class _Run:
+    """A run: first each deck is looked at, then, if none was refused, the files are written."""
+
+    assignment: Assignment
+    target: Target
+    condition: DeckCondition | None
+    units: str | None
+    view: View
+    inputs: Inputs
+    planned: list[_Planned] = field(default_factory=list)
+    printed: list[bytes] = field(default_factory=list)
+    counts: Counter[str] = field(default_factory=Counter)
+
+    def plan(self, *, check: bool, diff: bool) -> None:
+        """Find out what changes in each deck, and print it where that is asked for."""
+        for file, data in self.inputs.contents():
+            outcome, found = self._outcome(file, data)
+            self.counts[outcome] += 1
+            if file.path is None and not (check or diff):
+                self.printed.append(_edited(file, data, found.edits if found else ()))
+            if found is None:
+                continue
+            if check:
+                emit([f"would change: {file.name}:{found.line}: {found.before} -> {found.after}\n"])
+            if diff:
+                print_changes(data, _edited(file, data, found.edits), file.name, self.view)
+            if file.path is not None:
+                self.planned.append(_Planned(file, _digest(data), found.edits))
+
+    def _outcome(self, file: Input, data: bytes) -> tuple[str, Assigned | None]:
+        try:
+            found = self._assigned(file, data)
+        except (AssignmentError, ConditionError) as error:
+            line = getattr(error, "line", None)
+            notify(f"{file.name}{f':{line}' if line else ''}: {error}")
+            notify_diagnostics(getattr(error, "diagnostics", ()))
+            return _REFUSED, None
+        if isinstance(found, str):
+            return found, None
+        if not found.edits:
+            return _SAME, None
+        if self.view.verbose:
+            notify(f"{file.name}:{found.line}: {found.before} -> {found.after}")
+        return _CHANGED, found
+
+    def _assigned(self, file: Input, data: bytes) -> Assigned | str:
+        """The changed deck, or which decks without a change it belongs to. Raises what a deck is refused for."""
+        if form_of(file.name) != KEYWORD:
+            raise AssignmentError("only decks in keyword text are changed: convert it first")
+        deck = load_bytes(data, file.name, units=self.units, folder=file.folder)
+        if self.condition is not None and not self.condition.holds(deck):
+            return _UNMET
+        found = assigned(deck, self.assignment, self.target, self.units)
+        return _WITHOUT if found is None else found
+
+    def write(self) -> None:
+        """Write the files, each in one step, unless a deck was refused or a file cannot be written."""
+        locked = [one.file for one in self.planned if not os.access(one.file.path or "", os.W_OK)]
+        for file in locked:
+            self.inputs.fail(f"{file.name}: cannot be written: permission denied")
+        if self.counts[_REFUSED] or locked or self.inputs.code:
+            self._write_none()
+            return
+        for content in self.printed:
+            emit_deck(content)
+        for one in self.planned:
+            data = self.inputs.content(one.file)  # read again: the contents of many would fill the memory
+            if data is None:
+                continue
+            if _digest(data) != one.digest:
+                self.inputs.fail(f"{one.file.name}: it has changed during the run: left unchanged, run it again")
+            else:
+                self.inputs.replaced(one.file, _edited(one.file, data, one.edits))
+
+    def _write_none(self) -> None:
+        if self.counts[_CHANGED]:
+            notify(f"nothing was written: {counted(self.counts[_CHANGED], 'deck')} would have changed")
+        self.counts.pop(_CHANGED, None)
+
+    def notify_counts(self, would: str) -> None:
+        """Print how many decks were changed, and how many were not, by the reason."""
+        words = {_CHANGED: f"{would}changed", _SAME: _SAME, _WITHOUT: _WITHOUT, _UNMET: _UNMET, _REFUSED: _REFUSED}
+        if texts := [f"{self.counts[one]} {word}" for one, word in words.items() if self.counts[one]]:
+            click.echo(f"{counted(self.counts.total(), 'deck')}: {', '.join(texts)}", err=True)
+
+
+def _digest(data: bytes) -> bytes:
+    return blake2b(data, digest_size=16).digest()
+
+
+def _edited(file: Input, data: bytes, edits: Sequence[TextEdit]) -> bytes:
+    return edited_bytes(Source.from_bytes(data, file.name), edits) if edits else data

@@ -1,0 +1,142 @@
+"""`mudline set`."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from tests.builders.decks import BAD_NUMBER, CLEAN
+from tests.cli.conftest import Place
+from tests.cli.runner import run
+
+DEEP = CLEAN.replace(" 100.0,", " 150.5,")
+EQUATION = CLEAN.replace(" 100.0,", " =[90+10],")
+NO_OCEAN = "$MODEL\n*UNITS\n UNITS=METRIC\n"
+
+
+@pytest.fixture
+def decks(place: Place) -> None:
+    place(CLEAN, "in/a.keyxm")
+    place(DEEP, "in/b.keyxm")
+    place(NO_OCEAN, "in/c.keyxm")
+
+
+def text(name: str) -> str:
+    return Path(name).read_text(encoding="utf-8")
+
+
+@pytest.mark.usefixtures("decks")
+def test_many_decks() -> None:
+    ran = run("set", "OCEAN.depth=200.0", "in")
+    assert (ran.code, ran.out, ran.err) == (0, "", "3 decks: 2 changed, 1 without it\n")
+    assert text("in/a.keyxm") == CLEAN.replace(" 100.0,", " 200.0,")
+    assert text("in/b.keyxm") == CLEAN.replace(" 100.0,", " 200.0,")
+    assert text("in/c.keyxm") == NO_OCEAN
+    assert run("set", "-q", "OCEAN.depth=200.0", "in").err == ""
+
+
+@pytest.mark.usefixtures("decks")
+def test_a_condition_selects_decks() -> None:
+    ran = run("set", "-v", "OCEAN.depth=200.0", "in", "--where", "OCEAN.depth > 120")
+    assert ran.code == 0
+    assert ran.err == "mudline: in/b.keyxm:3: 150.5 -> 200.0\n3 decks: 1 changed, 2 not selected\n"
+    assert text("in/a.keyxm") == CLEAN
+    assert run("set", "OCEAN.depth=200.0", "in", "--where", "OCEAN.depth > 1200").code == 0
+
+
+@pytest.mark.usefixtures("decks")
+def test_check_writes_nothing() -> None:
+    ran = run("set", "OCEAN.depth=150.50", "in", "--check")
+    assert (ran.code, ran.out) == (1, "would change: in/a.keyxm:3: 100.0 -> 150.50\n")
+    assert ran.err == "3 decks: 1 would be changed, 1 the same already, 1 without it\n"
+    assert text("in/a.keyxm") == CLEAN
+    assert run("set", "OCEAN.depth=150.5", "in/b.keyxm", "--check").code == 0
+
+
+@pytest.mark.usefixtures("decks")
+def test_diff_writes_nothing() -> None:
+    ran = run("set", "OCEAN.depth=99", "in/a.keyxm", "--diff")
+    assert ran.code == 1
+    assert ran.out.startswith("--- in/a.keyxm\n+++ in/a.keyxm\n@@ -1,6 +1,6 @@\n")
+    assert "\n- 100.0, 1025.0, 9.81\n+ 99, 1025.0, 9.81\n" in ran.out
+    assert text("in/a.keyxm") == CLEAN
+
+
+@pytest.mark.usefixtures("decks")
+@pytest.mark.parametrize(("bad", "why"), [(EQUATION, "is given by an equation"), (CLEAN * 2, "is ambiguous")])
+def test_one_refused_deck_keeps_all_from_being_written(place: Place, bad: str, why: str) -> None:
+    place(bad, "in/z.keyxm")
+    ran = run("set", "OCEAN.depth=200.0", "in")
+    assert (ran.code, ran.out) == (1, "")
+    assert ran.err.startswith("mudline: in/z.keyxm")
+    assert why in ran.err
+    assert "nothing was written: 2 decks would have changed" in ran.err
+    assert (text("in/a.keyxm"), text("in/b.keyxm"), text("in/z.keyxm")) == (CLEAN, DEEP, bad)
+
+
+def test_a_new_error_is_shown(place: Place) -> None:
+    ran = run("set", "GEOMETRIC SETS.Do=0.4", place())
+    assert ran.code == 1
+    assert "mudline: deck.keyxm:17: the deck would have a new error\ndeck.keyxm:17:" in ran.err
+    assert "error: GEO001" in ran.err
+
+
+def test_faults_elsewhere_in_a_deck_do_not_matter(place: Place) -> None:
+    assert run("set", "OCEAN.depth=200.0", place(BAD_NUMBER)).code == 0
+    assert text("deck.keyxm") == BAD_NUMBER.replace(" 100.0,", " 200.0,")
+
+
+def test_no_deck_has_the_value(place: Place) -> None:
+    ran = run("set", "TIME.step=1", place())
+    assert (ran.code, ran.err) == (1, "1 deck: 1 without it\nmudline: no deck has TIME.step\n")
+
+
+def test_standard_input_is_printed() -> None:
+    ran = run("set", "OCEAN.depth=5", "-", stdin=CLEAN.encode())
+    assert (ran.code, ran.out) == (0, CLEAN.replace(" 100.0,", " 5,"))
+    ran = run("set", "TIME.step=5", "-", "--where", "OCEAN.depth < 1", stdin=CLEAN.encode())
+    assert (ran.code, ran.out) == (0, CLEAN)
+
+
+@pytest.mark.usefixtures("decks")
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("OCEAN.depth", "in"),
+        ("OCEAN.dept=1", "in"),
+        ("OCEAN.depth=1", "in", "--where", "OCEAN.depth"),
+        ("OCEAN.depth=1", "in", "--where", "OCEAN.dept>1"),
+        ("OCEAN.depth=1",),
+        ("OCEAN.depth=1", "missing"),
+    ],
+)
+def test_wrong_usage(words: tuple[str, ...]) -> None:
+    ran = run("set", *words)
+    assert (ran.code, ran.out) == (2, "")
+    assert text("in/a.keyxm") == CLEAN
+
+
+@pytest.mark.usefixtures("decks")
+def test_a_path_that_cannot_be_read_keeps_all_from_being_written() -> None:
+    assert run("set", "OCEAN.depth=1", "in", "missing.keyxm").code == 2
+    assert text("in/a.keyxm") == CLEAN
+
+
+@pytest.mark.usefixtures("decks")
+@pytest.mark.skipif(os.name != "posix" or os.geteuid() == 0, reason="this user may write everywhere")
+def test_a_file_that_may_not_be_written_keeps_all_from_being_written() -> None:
+    Path("in/b.keyxm").chmod(0o444)
+    ran = run("set", "OCEAN.depth=1", "in")
+    assert ran.code == 2
+    assert text("in/a.keyxm") == CLEAN
+
+
+@pytest.mark.usefixtures("decks")
+def test_json_is_refused(place: Place) -> None:
+    place('{"format": "mudline-deck/1"}', "deck.json")
+    ran = run("set", "OCEAN.depth=1", "deck.json", "in/a.keyxm")
+    assert ran.code == 1
+    assert "deck.json: only decks in keyword text are changed" in ran.err
+    assert text("in/a.keyxm") == CLEAN
