@@ -38,6 +38,7 @@ COMMANDS = {
     "rules": "List the rules, or explain one.",
     "schema": "Print the JSON Schema of a deck in JSON or YAML.",
     "config": "Show the configuration of a deck.",
+    "lsp": "Serve an editor: findings, fixes, help and names as you type.",
     "help": "Show the help of a command.",
 }
 
