@@ -43,7 +43,7 @@ _MOST_KEYS = 100
 class FieldInfo:
     """What a field means. Units in F (force), L, M, T, deg; "-" is dimensionless. `inferred` names our deduction.
 
-    `names` says what a text in the field is the name of: that it exists is then checked.
+    `names` says what the field is the name or number of, `defines` of what it gives a new thing its own.
     """
 
     meaning: str
@@ -54,6 +54,7 @@ class FieldInfo:
     at_most: float | None = None
     inferred: str = ""
     names: Names | None = None
+    defines: Names | None = None
 
 
 @dataclass(frozen=True, slots=True)

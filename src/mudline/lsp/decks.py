@@ -12,9 +12,12 @@ from pathlib import Path
 
 from mudline.deck.forms import KEYWORD, form_of
 from mudline.deck.model import Deck
+from mudline.deck.parameters import NoValueError, Parameters
 from mudline.deck.reading import TextOrigin
-from mudline.diagnostics import DeckError, Diagnostic
+from mudline.diagnostics import DeckError, Diagnostic, Where
 from mudline.files import Unsaved, recording_looks, with_unsaved
+from mudline.keywords.text import shown
+from mudline.keywords.values import Equation
 from mudline.linting.configuration import Configuration, ConfigurationError, Search
 from mudline.linting.engine import LintSettings, lint_context, read_deck
 from mudline.linting.fixing import with_severities
@@ -22,8 +25,15 @@ from mudline.linting.registry import UnknownRule, code_fault
 from mudline.linting.rule import LintContext
 from mudline.linting.settings import Given, hidden_codes, merged_settings, place
 from mudline.lsp.documents import Document
+from mudline.lsp.names import Occurrence, occurrences
 from mudline.patterns import matches
 from mudline.scene.model import Scene
+
+
+def value_text(value: float | str) -> str:
+    """A number with ten digits at most, or a text in quotes."""
+    return shown(value) if isinstance(value, str) else f"{value:.10g}"
+
 
 _MARK = "mudline-deck/"
 """What a JSON or YAML text has in it that is a deck."""
@@ -56,6 +66,26 @@ class Analysis:
     def scene(self) -> Scene | None:
         """The scene, as far as it can be resolved."""
         return self.context.scene if self.context else None
+
+    @cached_property
+    def names(self) -> list[Occurrence]:
+        """Every place where a set, a curve or a parameter is named."""
+        return occurrences(self.deck) if self.deck else []
+
+    @cached_property
+    def parameters(self) -> Parameters | None:
+        """The parameters, evaluated."""
+        return Parameters(self.deck) if self.deck else None
+
+    def evaluated(self, equation: Equation) -> str:
+        """The value of an equation in words, or why it has none."""
+        if self.parameters is None:
+            return ""
+        try:
+            value = self.parameters.evaluate(equation, Where())
+        except NoValueError as reason:
+            return f"no value: {reason}" if reason.problem else "no value: a parameter in it has none"
+        return value_text(value)
 
     @property
     def units(self) -> str:
@@ -114,6 +144,10 @@ class Decks:
         if found is None or found.revision != document.revision:
             found = self._analyses[uri] = self._made(document)
         return found
+
+    def at(self, path: Path) -> Document | None:
+        """The open document of a file."""
+        return next((each for each in self.documents.values() if each.path == path), None)
 
     def reading(self) -> AbstractContextManager[None]:
         """A block in which the texts of open decks hold before the files on the disk."""

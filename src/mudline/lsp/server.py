@@ -11,7 +11,7 @@ from pygls.lsp.server import LanguageServer
 from mudline import __version__
 from mudline.lsp import findings
 from mudline.lsp.decks import CONFIGURATIONS, Analysis, Decks
-from mudline.lsp.documents import LARGEST, Document, file_of
+from mudline.lsp.documents import LARGEST, Document, address_of, file_of
 from mudline.lsp.protocol import DeckProtocol
 
 DELAY = 0.1
@@ -19,6 +19,9 @@ DELAY = 0.1
 _LONGEST_DELAY = 3.0
 _PAUSE = 2.0
 """How many times as long as its last check a pause in typing has to be."""
+
+
+_DECK_FILES = ("*.keyx", "*.keyxm", "*.keyxi", "*.das", "*.fcsbd", "*.txt")
 
 
 class DeckServer(LanguageServer):
@@ -38,6 +41,12 @@ class DeckServer(LanguageServer):
         self.decks = Decks(encoding.value if isinstance(encoding, types.PositionEncodingKind) else encoding)
         given = [folder.uri for folder in params.workspace_folders or ()] or [params.root_uri or ""]
         self.folders = [path for uri in given if (path := file_of(uri)) is not None]
+
+    def change_folders(self, change: types.WorkspaceFoldersChangeEvent) -> None:
+        """Take note of folders that join or leave the workspace."""
+        gone = {file_of(folder.uri) for folder in change.removed}
+        new = [path for folder in change.added if (path := file_of(folder.uri)) is not None]
+        self.folders = [path for path in self.folders if path not in gone] + new
 
     def opened(self, item: types.TextDocumentItem) -> None:
         """Take up a document and check it at once."""
@@ -112,6 +121,43 @@ class DeckServer(LanguageServer):
         document = self.client_capabilities.text_document
         support = document.code_action.resolve_support if document and document.code_action else None
         return support is not None and "edit" in support.properties
+
+    @property
+    def takes_snippets(self) -> bool:
+        """Whether the editor takes texts with places to fill in."""
+        document = self.client_capabilities.text_document
+        item = document.completion.completion_item if document and document.completion else None
+        return bool(item and item.snippet_support)
+
+    @property
+    def shows_trees(self) -> bool:
+        """Whether the editor shows an outline as a tree."""
+        document = self.client_capabilities.text_document
+        support = document.document_symbol if document else None
+        return bool(support and support.hierarchical_document_symbol_support)
+
+    def in_workspace(self, path: Path | None) -> bool:
+        """Whether a file lies in a folder of the workspace."""
+        return path is not None and any(path.is_relative_to(folder) for folder in self.folders)
+
+    def watch_files(self) -> None:
+        """Ask the editor to report changes of decks, of files that they name, and of configurations."""
+        workspace = self.client_capabilities.workspace
+        watching = workspace.did_change_watched_files if workspace else None
+        if watching and watching.dynamic_registration:
+            watchers = [types.FileSystemWatcher(f"**/{pattern}") for pattern in (*_DECK_FILES, *CONFIGURATIONS)]
+            options = types.DidChangeWatchedFilesRegistrationOptions(watchers)
+            method = types.WORKSPACE_DID_CHANGE_WATCHED_FILES
+            registration = types.Registration("mudline.watch", method, options)
+            self.client_register_capability(types.RegistrationParams([registration]))
+
+    def show_picture(self, picture: Path | None, text: str) -> None:
+        """Show the picture of a curve in the editor, or else the curve as text."""
+        window = self.client_capabilities.window
+        if picture is not None and window and window.show_document and window.show_document.support:
+            self.window_show_document(types.ShowDocumentParams(address_of(picture), external=True))
+        else:
+            self._show(text if picture is None else f"{text}\n{picture.as_posix()}")
 
     # --------------------------------------------------------------------------------------------------- checks
 

@@ -11,7 +11,7 @@ from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 from mudline.codes.references import REF015
-from mudline.deck.loading import load_bytes
+from mudline.deck.loading import load_bytes, load_path
 from mudline.deck.model import Base, BaseProblem, Deck
 from mudline.deck.parameters import Parameters, evaluated
 from mudline.diagnostics import DeckError, Problem, Where
@@ -182,8 +182,8 @@ def _kept_bytes() -> int:
 
 def _read_base(path: Path, edited: Unsaved | None) -> Base:
     try:
-        data = edited.content() if edited else path.read_bytes()
-        deck = load_bytes(data, path.as_posix(), folder=path.parent)
+        content = edited and edited.content()
+        deck = load_path(path) if content is None else load_bytes(content, path.as_posix(), folder=path.parent)
     except DeckError as error:
         raise BaseError(f"{error.diagnostics[0]}") from error
     if not deck.sections:
