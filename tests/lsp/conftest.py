@@ -20,7 +20,9 @@ CAPABILITIES = types.ClientCapabilities(
     general=types.GeneralClientCapabilities(position_encodings=[types.PositionEncodingKind.Utf16]),
     text_document=types.TextDocumentClientCapabilities(
         completion=types.CompletionClientCapabilities(
-            completion_item=types.ClientCompletionItemOptions(snippet_support=True)
+            completion_item=types.ClientCompletionItemOptions(
+                snippet_support=True, documentation_format=[types.MarkupKind.Markdown]
+            )
         ),
         document_symbol=types.DocumentSymbolClientCapabilities(hierarchical_document_symbol_support=True),
         code_action=types.CodeActionClientCapabilities(
@@ -30,7 +32,7 @@ CAPABILITIES = types.ClientCapabilities(
 )
 
 
-@pytest_lsp.fixture(config=ClientServerConfig(server_command=SERVER), scope="session")
+@pytest_lsp.fixture(config=ClientServerConfig(server_command=SERVER), scope="session")  # type: ignore[untyped-decorator]
 async def client(lsp_client: LanguageClient, tmp_path_factory: pytest.TempPathFactory) -> AsyncIterator[None]:
     """One server for all tests: each has documents of its own."""
     folder = types.WorkspaceFolder(tmp_path_factory.getbasetemp().as_uri(), "tests")

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 from lsprotocol import types
 
-from mudline.linting.engine import lint_bytes
+from mudline.linting.engine import Fixing, LintSettings, lint_bytes
+from mudline.linting.fixing import lint_one
 from mudline.linting.registry import select
-from tests.builders.decks import BAD_NUMBER, CLEAN
+from tests.builders.decks import BAD_NUMBER, CLEAN, UNSORTED
 from tests.lsp.editor import Editor, applied, codes, document, position
 from tests.samples import SAMPLES
 
 pytestmark = pytest.mark.asyncio(loop_scope="session")
 
+WHOLE = types.Range(types.Position(0, 0), types.Position(10**6, 0))
+LONG = [*range(1, 3)] * 11
 BASE = "$MODEL\n*NODE\n 1, 0.0, 0.0\n 2, 0.0, 10.0\n*ELEMENT\n 1, 1, 2\n*ELEMENT SETS\n SET=Riser\n 1\n"
 NEXT = "$MODEL\n*SEABED PROPERTIES\n TYPE=ELASTIC\n SET=Riser\n STIFFNESS=5000.0\n$LOAD CASE\n*RESTART\n LAST=base\n"
 
@@ -135,17 +136,30 @@ async def test_a_finding_has_its_fix(editor: Editor) -> None:
     assert isinstance(action, types.CodeAction)
     assert action.title == "SYN009: write *OCEAN (may change what the deck means)"
     assert not action.is_preferred
-    assert action.edit and action.edit.changes
+    assert action.edit is not None
+    assert action.edit.changes is not None
     assert applied(text, list(action.edit.changes[uri])) == CLEAN + "*OCEAN\n"
 
 
 async def test_all_safe_fixes_are_made_at_once(editor: Editor) -> None:
-    text = CLEAN + "$LOAD CASE  \n*time\n 0,0,10\n"
-    path = Path(__file__).parents[1] / "corpus"
-    assert path.is_dir()
-    text = (SAMPLES / "broken.keyxm").read_text(encoding="utf-8")
-    uri = await editor.open(text, "broken.keyxm")
-    whole = types.Range(types.Position(0, 0), types.Position(10**6, 0))
-    only = [types.CodeActionKind.SourceFixAll]
-    params = types.CodeActionParams(document(uri), whole, types.CodeActionContext([], only=only))
-    print(await editor.client.text_document_code_action_async(params))
+    text = UNSORTED.replace(" 1, 2\n*GEO", f" {', '.join(map(str, LONG))}\n*GEO")
+    uri = await editor.open(text)
+    only: list[types.CodeActionKind | str] = [types.CodeActionKind.SourceFixAll]
+    params = types.CodeActionParams(document(uri), WHOLE, types.CodeActionContext([], only=only))
+    (action,) = await editor.client.text_document_code_action_async(params) or []
+    assert isinstance(action, types.CodeAction)
+    assert action.edit is None
+    resolved = await editor.client.code_action_resolve_async(action)
+    settings = LintSettings(select(), fixing=Fixing.SAFE)
+    fixed = lint_one("deck.keyxm", text.encode(), settings, editor.folder).changed
+    assert fixed is not None
+    assert resolved.edit is not None
+    assert resolved.edit.changes is not None
+    assert applied(text, list(resolved.edit.changes[uri])).encode() == fixed
+
+
+async def test_findings_that_are_not_to_be_fixed_have_no_fix(editor: Editor) -> None:
+    (editor.folder / "mudline.toml").write_text('unfixable = ["SYN009"]\n', encoding="utf-8")
+    uri = await editor.open(CLEAN + "*OCAEN\n")
+    params = types.CodeActionParams(document(uri), WHOLE, types.CodeActionContext([]))
+    assert not await editor.client.text_document_code_action_async(params)

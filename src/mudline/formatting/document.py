@@ -51,21 +51,6 @@ def formatted(data: bytes, name: str) -> bytes:
     return _checked(deck, after, read_source(Source.from_bytes(after, name)))
 
 
-def formatting_edits(source: Source, within: Span | None = None) -> list[TextEdit]:
-    """The changes that bring a keyword text, or the part of it that lies `within` a span, into canonical form.
-
-    Raises DeckError and FormatError as `formatted` does.
-    """
-    deck = read_source(source).require()
-    edits = _Layout(cast("TextOrigin", deck.origin)).edits()
-    if within is not None:
-        edits = [edit for edit in edits if within.start <= edit.span.start and edit.span.end <= within.end]
-    if edits:
-        after = source.to_bytes(apply_edits(source.text, edits))
-        _checked(deck, after, read_source(Source.from_bytes(after, source.name)))
-    return edits
-
-
 def _document(data: bytes, name: str, form: str) -> bytes:
     deck = load_bytes(data, name).require()
     after = dump(deck, form).encode()

@@ -24,6 +24,10 @@ LARGEST = 64_000_000
 _LINE_END = re.compile(r"\r\n?|\n")
 _SURROGATE = re.compile("[\ud800-\udfff]")
 _BOM = "\ufeff"
+_SHORT = 20_000
+"""Characters of a text whose lines are found without arrays."""
+_CHUNK = 1 << 20
+_LF, _CR = b"\n\r"
 _REVISIONS = count(1)
 _MOST_COMPARED = 4000
 """Lines that are compared with each other; where more differ, they are replaced as one."""
@@ -36,7 +40,16 @@ def _valid(text: str) -> str:
 
 def _ends(text: str) -> NDArray[np.int64]:
     """The offset behind each line end."""
-    return np.fromiter((found.end() for found in _LINE_END.finditer(text)), np.int64)
+    if len(text) < _SHORT:
+        return np.fromiter((found.end() for found in _LINE_END.finditer(text)), np.int64)
+    found: list[NDArray[np.int64]] = []
+    for at in range(0, len(text), _CHUNK):
+        letters = np.frombuffer(text[at : at + _CHUNK + 1].encode("latin-1", "replace"), np.uint8)
+        ends = letters == _LF
+        carriage = letters == _CR
+        carriage[:-1] &= ~ends[1:]
+        found.append(np.flatnonzero((ends | carriage)[: min(_CHUNK, len(text) - at)]) + (at + 1))
+    return np.concatenate(found)
 
 
 def units_of(text: str, encoding: str) -> int:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tempfile
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 from lsprotocol import types
 from pygls.exceptions import JsonRpcException
@@ -17,6 +17,13 @@ from mudline.lsp.server import DeckServer
 
 _REQUEST_FAILED = -32803
 """The protocol's code for a request that was understood and cannot be fulfilled."""
+
+
+class AtPosition(Protocol):
+    """The parameters of a request about a place."""
+
+    text_document: types.TextDocumentIdentifier
+    position: types.Position
 
 
 def register(server: DeckServer) -> None:
@@ -77,7 +84,10 @@ def _help(server: DeckServer) -> None:
     @server.feature(types.TEXT_DOCUMENT_HOVER)
     async def hovered(params: types.HoverParams) -> types.Hover | None:
         found = await server.analysis(params.text_document.uri)
-        return hover.hover(found, found.document.offset(params.position)) if found else None
+        help_ = hover.hover(found, found.document.offset(params.position)) if found else None
+        if help_ is not None and isinstance(help_.contents, types.MarkupContent):
+            help_.contents = hover.as_shown(help_.contents, server.help_formats)
+        return help_
 
     options = types.CompletionOptions(trigger_characters=completion.TRIGGERS, resolve_provider=True)
 
@@ -89,14 +99,23 @@ def _help(server: DeckServer) -> None:
             offset = found.document.offset(params.position)
             listed = server.in_workspace(found.document.path)
             items = completion.completions(found, offset, snippets=server.takes_snippets, lists_files=listed)
+        for item in items:
+            _plain_help(server, item)
         return types.CompletionList(is_incomplete=False, items=items)
 
     @server.feature(types.COMPLETION_ITEM_RESOLVE)
     def resolved(item: types.CompletionItem) -> types.CompletionItem:
-        return completion.resolved(item)
+        return _plain_help(server, completion.resolved(item))
 
 
-async def _navigator(server: DeckServer, params: types.TextDocumentPositionParams) -> tuple[Navigator, int] | None:
+def _plain_help(server: DeckServer, item: types.CompletionItem) -> types.CompletionItem:
+    """An item whose help has a format that the editor shows."""
+    if isinstance(item.documentation, types.MarkupContent):
+        item.documentation = hover.as_shown(item.documentation, server.item_help_formats)
+    return item
+
+
+async def _navigator(server: DeckServer, params: AtPosition) -> tuple[Navigator, int] | None:
     """What answers about a place, and the offset of that."""
     found = await server.analysis(params.text_document.uri)
     if found is None or found.origin is None:

@@ -111,8 +111,11 @@ def draw_curve(scene: Scene, index: int, folder: Path) -> Path | None:
     entry = scene.laws.curves[index]
     if entry.curve is None:
         return None
-    points = np.column_stack([entry.curve.ratios, entry.curve.forces]).tolist()
+    ratios, forces = entry.curve.ratios, entry.curve.forces
+    ends = zip(ratios[:-1].tolist(), ratios[1:].tolist(), (np.diff(forces) / np.diff(ratios)).tolist(), strict=True)
+    segments = [{"from": first, "to": last, "slope": slope} for first, last, slope in ends]
+    row = {"name": entry.name, "points": np.column_stack([ratios, forces]).tolist(), "segments": segments, "at": []}
     handle, name = tempfile.mkstemp(".svg", dir=folder)
     with open(handle, "wb") as stream:  # noqa: PTH123 - it is open already
-        draw_curves([{"name": entry.name, "points": points, "at": []}], scene.units, "svg", stream)
+        draw_curves([row], scene.units, "svg", stream)
     return Path(name)

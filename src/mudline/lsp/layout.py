@@ -12,13 +12,16 @@ from mudline.deck.forms import KEYWORD, form_of
 from mudline.deck.model import Opaque
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import DeckError, Span
-from mudline.formatting.document import FormatError, formatted, formatting_edits
+from mudline.formatting.document import FormatError, formatted, same_meaning
 from mudline.keywords.model import Block, FieldSpec, Part, record_schema
 from mudline.keywords.reader import ReadBlock
 from mudline.keywords.values import Kind as FieldKind
+from mudline.keywords.values import Names
+from mudline.linting.engine import read_deck
 from mudline.lsp.decks import Analysis
+from mudline.lsp.documents import differences
+from mudline.syntax.edits import TextEdit, apply_edits
 from mudline.syntax.fields import trimmed
-from mudline.syntax.source import Source
 from mudline.syntax.tree import Kind, Leaf, RawBlock
 
 _MOST_RECORDS = 1000
@@ -102,7 +105,9 @@ def _name(record: Part) -> str:
 
 
 def _is_name(slot: FieldSpec) -> bool:
-    return slot.kind is FieldKind.NAME and not slot.many and (slot.order == 0 or slot.key in ("SET", "NAME", "CURVE"))
+    about = slot.about
+    named = about.defines is not None or about.names is Names.SET or slot.key == "NAME"
+    return named and slot.kind is FieldKind.NAME and not slot.many
 
 
 def flat(uri: str, symbols: list[types.DocumentSymbol], container: str = "") -> Iterator[types.SymbolInformation]:
@@ -167,18 +172,29 @@ def formatting(analysis: Analysis, range_: types.Range | None = None) -> list[ty
     document = analysis.document
     if analysis.deck is None:
         return []
+    data = document.as_file()
     try:
-        if form_of(document.name) != KEYWORD:
-            return document.differences(formatted(document.as_file(), document.name)) if range_ is None else []
-        source = Source.from_bytes(document.as_file(), document.name)
-        within = None
-        if range_ is not None:
-            last = document.line_at(document.offset(range_.end))
-            stop = int(document.starts[last + 1]) if last + 1 < len(document.starts) else len(document.text)
-            within = Span(int(document.starts[document.line_at(document.offset(range_.start))]), stop)
-        return document.edits(formatting_edits(source, within))
+        after = formatted(data, document.name)
     except DeckError as error:
         first = error.diagnostics[0]
         raise LayoutError(f"not formatted: correct the error in line {first.line} first ({first.code})") from error
     except FormatError as error:
         raise LayoutError(f"not formatted: {error}") from error
+    edits = list(differences(document.text, after.decode("utf-8-sig")))
+    if range_ is not None:
+        edits = _within(analysis, edits, range_)
+    return document.edits(edits)
+
+
+def _within(analysis: Analysis, edits: list[TextEdit], range_: types.Range) -> list[TextEdit]:
+    """The changes of the lines of a range; none where these alone would change what the deck means."""
+    document = analysis.document
+    first, last = (document.line_at(document.offset(place)) for place in (range_.start, range_.end))
+    start = int(document.starts[first])
+    stop = int(document.starts[last + 1]) if last + 1 < len(document.starts) else len(document.text)
+    chosen = [edit for edit in edits if start <= edit.span.start and edit.span.end <= stop]
+    if chosen and form_of(document.name) == KEYWORD and analysis.deck is not None:
+        text = apply_edits(document.text, chosen)
+        if not same_meaning(analysis.deck, read_deck(text.encode(), document.name)):
+            return []
+    return chosen

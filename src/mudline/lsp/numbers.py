@@ -93,7 +93,8 @@ def _cells(slot: FieldSpec, table: Table, kind: Names, number: int) -> Iterator[
 def _holds(row: ListRow, number: int) -> bool:
     """Whether a range holds a number: `start, end [, increment]`, or `master, count [, increment]`."""
     start = getattr(row, "start", getattr(row, "master", None))
-    step = getattr(row, "increment", 1) or 1
+    of_five = getattr(row, "third", None) if getattr(row, "fifth", None) is not None else None  # of *BOUNDARY
+    step = getattr(row, "increment", of_five) or 1
     end = getattr(row, "end", None)
     if not isinstance(start, int) or not isinstance(step, int):
         return False

@@ -130,6 +130,20 @@ class DeckServer(LanguageServer):
         return bool(item and item.snippet_support)
 
     @property
+    def help_formats(self) -> list[types.MarkupKind]:
+        """The formats of help that the editor shows; Markdown where it does not say."""
+        document = self.client_capabilities.text_document
+        given = document.hover.content_format if document and document.hover else None
+        return [types.MarkupKind.Markdown] if given is None else list(given)
+
+    @property
+    def item_help_formats(self) -> list[types.MarkupKind]:
+        """The formats of help on items of a completion that the editor shows."""
+        document = self.client_capabilities.text_document
+        item = document.completion.completion_item if document and document.completion else None
+        return list(item.documentation_format or ()) if item else []
+
+    @property
     def shows_trees(self) -> bool:
         """Whether the editor shows an outline as a tree."""
         document = self.client_capabilities.text_document
