@@ -1,6 +1,5 @@
 from __future__ import annotations
 
-import sys
 from collections.abc import AsyncIterator
 from pathlib import Path
 
@@ -12,9 +11,8 @@ pytest_lsp = pytest.importorskip("pytest_lsp", reason="pytest-lsp is not install
 from lsprotocol import types  # noqa: E402 - what may be missing is asked for first
 from pytest_lsp import ClientServerConfig, LanguageClient  # noqa: E402
 
+from tests.lsp.command import server_command  # noqa: E402
 from tests.lsp.editor import Editor  # noqa: E402
-
-SERVER = [sys.executable, "-m", "mudline", "lsp"]
 
 CAPABILITIES = types.ClientCapabilities(
     general=types.GeneralClientCapabilities(position_encodings=[types.PositionEncodingKind.Utf16]),
@@ -32,7 +30,7 @@ CAPABILITIES = types.ClientCapabilities(
 )
 
 
-@pytest_lsp.fixture(config=ClientServerConfig(server_command=SERVER), scope="session")  # type: ignore[untyped-decorator]
+@pytest_lsp.fixture(config=ClientServerConfig(server_command=server_command()), scope="session")  # type: ignore[untyped-decorator]
 async def client(lsp_client: LanguageClient, tmp_path_factory: pytest.TempPathFactory) -> AsyncIterator[None]:
     """One server for all tests: each has documents of its own."""
     folder = types.WorkspaceFolder(tmp_path_factory.getbasetemp().as_uri(), "tests")

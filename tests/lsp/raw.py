@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import json
 import subprocess
-import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from typing import IO, Any, cast
 
+from tests.lsp.command import server_command
 from tests.processes import TIMEOUT
 
 Message = dict[str, Any]
+
+
+_PATIENCE = 10.0
+"""Seconds in which a server whose input is closed should end."""
 
 
 class RawClient:
@@ -89,12 +93,15 @@ class RawClient:
 
 @contextmanager
 def raw_client() -> Iterator[RawClient]:
-    words = [sys.executable, "-m", "mudline", "lsp"]
-    process = subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    process = subprocess.Popen(server_command(), stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     try:
         yield RawClient(process)
     finally:
-        process.kill()
+        cast("IO[bytes]", process.stdin).close()
+        try:
+            process.wait(_PATIENCE)
+        except subprocess.TimeoutExpired:
+            process.kill()
         process.wait(TIMEOUT)
         for stream in (process.stdin, process.stdout, process.stderr):
             with suppress(BrokenPipeError):

@@ -13,6 +13,8 @@ from tests.lsp.raw import RawClient, raw_client
 
 AT: dict[str, Any] = {"textDocument": {"uri": "untitled:deck"}, "position": {"line": 3, "character": 1}}
 HUGE = 2**31 - 1
+RANGE = {**AT, "range": {"start": AT["position"], "end": {"line": HUGE, "character": HUGE}}}
+OPTIONS = {"tabSize": 1, "insertSpaces": True}
 REQUESTS: dict[str, dict[str, Any]] = {
     "textDocument/hover": AT,
     "textDocument/completion": AT,
@@ -25,22 +27,17 @@ REQUESTS: dict[str, dict[str, Any]] = {
     "textDocument/foldingRange": AT,
     "textDocument/codeLens": AT,
     "textDocument/semanticTokens/full": AT,
-    **{
-        f"textDocument/{name}": {
-            **AT,
-            "range": {"start": AT["position"], "end": {"line": HUGE, "character": HUGE}},
-            **more,
-        }
-        for name, more in {
-            "codeAction": {"context": {"diagnostics": []}},
-            "rangeFormatting": {"options": {"tabSize": 1, "insertSpaces": True}},
-            "semanticTokens/range": {},
-            "inlayHint": {},
-        }.items()
-    },
-    "textDocument/formatting": {**AT, "options": {"tabSize": 1, "insertSpaces": True}},
+    "textDocument/formatting": {**AT, "options": OPTIONS},
+    "textDocument/codeAction": {**RANGE, "context": {"diagnostics": []}},
+    "textDocument/rangeFormatting": {**RANGE, "options": OPTIONS},
+    "textDocument/semanticTokens/range": RANGE,
+    "textDocument/inlayHint": RANGE,
 }
 INTERNAL = -32603
+LIMITS = (
+    "deck has 1 million characters: it is checked when typing pauses, and rows of long tables get no colours and no "
+    "hints"
+)
 
 
 @pytest.fixture(scope="module")
@@ -210,12 +207,7 @@ def test_a_long_table_stays_usable_and_its_limits_are_said_once() -> None:
         client.open("untitled:deck", text)
         client.findings("untitled:deck")
         said = [each for each in client.notifications if each["method"] == "window/showMessage"]
-        assert [each["params"]["message"] for each in said] == [
-            (
-                "deck has 1 million characters: it is checked when typing pauses, and rows of long tables get no colours "
-                "and no hints"
-            )
-        ]
+        assert [each["params"]["message"] for each in said] == [LIMITS]
         for version in range(2, 12):
             place = {"line": 60_005, "character": 1}
             change = {"range": {"start": place, "end": place}, "text": "2, "}

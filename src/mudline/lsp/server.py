@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from pathlib import Path
+from typing import Any
 
 from lsprotocol import types
 from pygls.lsp.server import LanguageServer
@@ -40,6 +41,7 @@ class DeckServer(LanguageServer):
         """Take note of what was agreed and of the folders of the workspace."""
         self.decks = Decks(encoding.value if isinstance(encoding, types.PositionEncodingKind) else encoding)
         given = [folder.uri for folder in params.workspace_folders or ()] or [params.root_uri or ""]
+        asyncio.get_running_loop().set_exception_handler(self._unexpected)
         self.folders = [path for uri in given if (path := file_of(uri)) is not None]
 
     def change_folders(self, change: types.WorkspaceFoldersChangeEvent) -> None:
@@ -215,6 +217,13 @@ class DeckServer(LanguageServer):
             self._waiting.setdefault(uri, []).append(waiting)
             await waiting
         return self.decks.analysis(uri)
+
+    def _unexpected(self, _: object, context: dict[str, Any]) -> None:
+        """Report a fault of the server itself, which goes on."""
+        error = context.get("exception")
+        detail = f"{type(error).__name__}: {error}" if error else context.get("message", "")
+        message = f"{str(detail)[:500]}: please report this fault of mudline"
+        self.window_log_message(types.LogMessageParams(types.MessageType.Error, message))
 
     def report_server_error(self, error: Exception, source: type[Exception]) -> None:
         """Note what could not be handled in the editor's log; requests were answered with it already."""
