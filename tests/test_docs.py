@@ -13,7 +13,7 @@ import pytest
 
 from mudline.cli.main import COMMANDS, mudline
 from mudline.codes import all_codes
-from mudline.expression import FORMS, FUNCTIONS
+from mudline.expression.evaluation import FORMS, FUNCTIONS
 from mudline.linting.registry import RUN002, rules
 from tests.docs.blocks import Page, agree
 from tests.docs.commands import output, run

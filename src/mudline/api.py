@@ -66,7 +66,7 @@ def read(path: str | os.PathLike[str], *, units: str | None = None) -> Deck:
         OSError: the file cannot be read.
         DeckError: its content cannot be read; `.diagnostics` has the places.
         ValueError: `path` is the text of a deck.
-        TypeError: `path` is no path.
+        TypeError: `path` is not a path.
     """
     return _public(load_path(_path(path), units=units))
 
@@ -108,7 +108,7 @@ def from_json(text: str | bytes) -> Deck:
     """Return the deck of a JSON text, as `Deck.to_json` writes it.
 
     Raises:
-        DeckError: the text is no JSON, has a key twice, or breaks the schema.
+        DeckError: the text is not JSON, has a key twice, or breaks the schema.
     """
     return _from_text(text, "json")
 
@@ -140,7 +140,7 @@ def lint(
     Raises:
         OSError: the file cannot be read.
         ValueError: a word names no rule, or `path` is the text of a deck.
-        TypeError: `path` is no path.
+        TypeError: `path` is not a path.
     """
     file = _path(path, "save it to a file")
     return lint_bytes(file.read_bytes(), file.as_posix(), _chosen(select, ignore), units=units, folder=file.parent)
@@ -159,7 +159,7 @@ def _public(deck: model.Deck) -> Deck:
 
 
 def _path(given: object, advice: str = "use mudline.{}(text)") -> Path:
-    """The path that is given; raises ValueError for the text of a deck, TypeError for what is no path."""
+    """The path that is given; raises ValueError for the text of a deck, TypeError for what is not a path."""
     name = os.fspath(given) if isinstance(given, os.PathLike) else given
     text = bytes(name).decode("utf-8-sig", "replace") if isinstance(name, bytes | bytearray) else name
     function = _function_for(text.lstrip("\ufeff")) if isinstance(text, str) else None

@@ -60,7 +60,7 @@ class Where(NamedTuple):
 
 
 class Blocks(StrEnum):
-    """Whether a finding keeps a deck from being evaluated. What a configuration makes of its severity is no matter."""
+    """Whether a finding keeps a deck from being evaluated, whatever severity a configuration gives it."""
 
     NEVER = "never"
     WITH_TENSION = "with tension keep"

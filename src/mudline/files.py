@@ -8,7 +8,7 @@ import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from contextvars import ContextVar
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import BinaryIO, NamedTuple
 
 _CREATE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0) | getattr(os, "O_NOFOLLOW", 0)
@@ -70,6 +70,11 @@ def unsaved(path: Path) -> Unsaved | None:
     """Return the text that an editor has of a file, which holds before that on the disk; None where it has none."""
     files = _UNSAVED.get()
     return files.get(os.path.abspath(path)) if files else None  # noqa: PTH100 - as in `look`
+
+
+def suffix_of(path: str | os.PathLike[str]) -> str:
+    """The suffix of a file, which names its format: in lower case, without the dot."""
+    return PurePath(path).suffix.lower().removeprefix(".")
 
 
 def write_atomically(path: Path, data: bytes | Iterable[bytes | memoryview], *, synced: bool = True) -> None:

@@ -25,7 +25,7 @@ _POSIX = {
 
 
 class _MalformedError(Exception):
-    """A pattern that fits nothing, as it is no pattern."""
+    """A pattern that fits nothing, as it is not a pattern."""
 
 
 @dataclass(frozen=True, slots=True)

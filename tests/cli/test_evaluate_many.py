@@ -130,7 +130,7 @@ def test_decks_after_expand() -> None:
 
 
 def test_only_the_first_of_many_rows_are_listed(place: Place, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mudline.cli.cases_text.MOST_ROWS", 2)
+    monkeypatch.setattr("mudline.cli.cases.MOST_ROWS", 2)
     for name in "abc":
         place(CLEAN, f"decks/{name}.keyxm")
     assert "1 more deck: -v shows all\n" in run("evaluate", "decks").out

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from mudline import cache_folder
-from mudline.cli import lint_jobs
+from mudline.cli import lint_run
 from mudline.diagnostics import Diagnostic, Severity
 from mudline.linting import cache
 from mudline.linting.cache import packed, unpacked
@@ -37,7 +37,7 @@ def linted(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Linted:
 
     monkeypatch.setenv(cache_folder.PLACE, str(folder / "cache"))
     monkeypatch.setattr(cache, "_COARSE", 0.0)  # files of a test are as young as its runs
-    monkeypatch.setattr(lint_jobs, "lint_one", lint)
+    monkeypatch.setattr(lint_run, "lint_one", lint)
     return names
 
 

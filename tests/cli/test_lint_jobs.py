@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from mudline.cli import lint_jobs, processes
+from mudline.cli import lint_run, processes
 from mudline.cli.inputs import Input
 from mudline.linting.engine import LintSettings
 from mudline.linting.fixing import FileReport
@@ -26,7 +26,7 @@ from tests.processes import TIMEOUT
 def eager(monkeypatch: pytest.MonkeyPatch) -> None:
     """Processes are used behind the first file, whatever there is to do."""
     monkeypatch.setattr(processes, "PAYS", dict.fromkeys(processes.PAYS, 0.0))
-    monkeypatch.setattr(lint_jobs, "TRIED", 0.0)
+    monkeypatch.setattr(lint_run, "TRIED", 0.0)
 
 
 @pytest.fixture
@@ -54,9 +54,9 @@ import sys
 from mudline.__main__ import main
 
 sys.argv[0] = "mudline"
-from mudline.cli import lint_jobs, processes
+from mudline.cli import lint_run, processes
 
-processes.PAYS, lint_jobs.TRIED = dict.fromkeys(processes.PAYS, 0.0), 0.0
+processes.PAYS, lint_run.TRIED = dict.fromkeys(processes.PAYS, 0.0), 0.0
 start_method, used = processes.start_method, []
 processes.start_method = lambda: used.append(start_method()) or used[-1]
 code = main(sys.argv[1:])
@@ -100,7 +100,7 @@ def test_known_decks_do_not_count_as_work_that_was_done(
         path = folder / decks / f"{name}.keyxm"
         path.write_text(path.read_text(encoding="utf-8") + "C\n", encoding="utf-8")
     estimates: list[float] = []
-    monkeypatch.setattr(lint_jobs, "pays", lambda estimate, _: estimates.append(estimate))
+    monkeypatch.setattr(lint_run, "pays", lambda estimate, _: estimates.append(estimate))
     assert run("lint", decks).code == first.code
     assert len(estimates) == 3
     assert estimates[0] > 0.0
@@ -113,7 +113,7 @@ def end(orders: Sequence[object]) -> list[FileReport]:
 
 @pytest.mark.usefixtures("eager")
 def test_process_that_dies_is_told(decks: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(lint_jobs, "lint_orders", end)
+    monkeypatch.setattr(lint_run, "lint_orders", end)
     outcome = run("lint", decks, "--jobs", "2", "--no-cache", "-q")
     assert outcome.code == 2
     assert "a process that linted decks has ended early" in outcome.err
@@ -134,22 +134,22 @@ def test_run_that_ends_early_ends_its_processes(decks: str, monkeypatch: pytest.
 
 @pytest.mark.usefixtures("eager")
 def test_fixing_stays_in_one_process(decks: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(lint_jobs, "pool", None)
+    monkeypatch.setattr(lint_run, "pool", None)
     assert "20 fixed" in run("lint", decks, "--fix", "--jobs", "2").out
 
 
 def test_small_runs_stay_in_one_process(decks: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(lint_jobs, "pool", None)
+    monkeypatch.setattr(lint_run, "pool", None)
     monkeypatch.setattr(processes, "PAYS", dict.fromkeys(processes.PAYS, float("inf")))
     assert run("lint", decks, "--jobs", "2", "--no-cache").code == 1
 
 
 def test_workers_do_what_is_done_here(place: Place) -> None:
     name = place(BAD_NUMBER)
-    one = lint_jobs.Task(Input(name, name), BAD_NUMBER.encode(), LintSettings(rules()))
-    order, codes = lint_jobs._order(one, {})
+    one = lint_run.Task(Input(name, name), BAD_NUMBER.encode(), LintSettings(rules()))
+    order, codes = lint_run._order(one, {})
     assert order.settings.rules == ()
-    assert lint_jobs.lint_orders([(order, codes)]) == [one.lint()]
+    assert lint_run.lint_orders([(order, codes)]) == [one.lint()]
 
 
 def test_number_of_processes() -> None:

@@ -4,17 +4,14 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import numba
 import numpy as np
 import pytest
 
 from mudline.contact import ContactModel, ContactResult, ContactState
 from mudline.contact import plan as choices
-from mudline.contact.compiled import driver as compiled_driver
 from mudline.contact.compiled.functions import edition
 from mudline.contact.laws import NormalLaw, law_named
 from mudline.contact.plan import Backend, BackendChoice
@@ -123,21 +120,6 @@ def test_numpy_alone_does_not_load_numba() -> None:
         print("numba" in sys.modules)"""
     run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=TIMEOUT, check=True)
     assert run.stdout.strip() == "False"
-
-
-def test_a_place_without_a_cache_compiles_anyway(monkeypatch: pytest.MonkeyPatch) -> None:
-    options: list[bool] = []
-
-    def njit(*, cache: bool = False, **_: object) -> Callable[[object], object]:
-        options.append(cache)
-        if cache:
-            raise RuntimeError("cannot cache function: no locator available")
-        return lambda function: (function, "compiled")
-
-    monkeypatch.setattr(numba, "njit", njit)
-    found: object = compiled_driver._compiled(abs)
-    assert options == [True, False]
-    assert found == (abs, "compiled")
 
 
 def test_the_edition_changes_with_the_laws() -> None:

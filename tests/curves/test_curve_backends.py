@@ -12,8 +12,7 @@ import pytest
 from hypothesis import given, reject, settings
 from hypothesis import strategies as st
 
-from mudline.curves import CurveError, ForceCurve, QueryError, compiled
-from mudline.curves.curve import Backend, Law, NumpyLaw, _loads, law_for
+from mudline.curves import Backend, CurveError, ForceCurve, Law, NumpyLaw, QueryError, _loads, compiled, law_for
 from mudline.curves.points import FloatArray
 from mudline.curves.search import BLOCK, BucketTable, Workspace
 from tests.curves.plain import POINTS, near, plain_values, steps
@@ -145,16 +144,19 @@ def test_the_loops_mean_the_same_before_they_are_compiled() -> None:
 
 def test_a_place_without_a_cache_compiles_anyway(monkeypatch: pytest.MonkeyPatch) -> None:
     options: list[bool] = []
+    more: list[object] = []
 
-    def njit(*, cache: bool = False, **_: object) -> Callable[[object], object]:
+    def njit(*, cache: bool = False, **others: object) -> Callable[[object], object]:
         options.append(cache)
+        more.append(others.get("no_cfunc_wrapper"))
         if cache:
             raise RuntimeError("cannot cache function: no locator available")
         return lambda function: (function, "made")
 
     monkeypatch.setattr(numba, "njit", njit)
-    found: object = compiled._compiled(abs)
+    found: object = compiled.compiled(abs, no_cfunc_wrapper=True)
     assert options == [True, False]
+    assert more == [True, True]
     assert found == (abs, "made")
 
 

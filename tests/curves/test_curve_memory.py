@@ -8,8 +8,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from mudline.curves import ForceCurve
-from mudline.curves.curve import Backend
+from mudline.curves import Backend, ForceCurve
 from mudline.curves.points import FloatArray
 from tests.curves.plain import steps
 

@@ -98,7 +98,7 @@ LISTS: list[tuple[str, Document]] = [
 def test_a_list_of_faults_is_not_looked_at_to_its_end(path: str, block: Document) -> None:
     found = refused(made(section(block)))
     assert 32 < len(found) < 100
-    assert found[-1].message.startswith(f"sections[0].blocks[0].{path}[{64 if 'sets' in path else 32}]: not looked at")
+    assert found[-1].message.startswith(f"sections[0].blocks[0].{path}[{64 if 'sets' in path else 32}]: not checked")
 
 
 def test_a_list_of_numbers_longer_than_a_part_is_read() -> None:
@@ -252,7 +252,7 @@ def test_what_keyword_text_cannot_say_is_refused(path: str, block: Document) -> 
         dump(deck, "keyword")
     (found,) = caught.value.diagnostics
     assert found.message.startswith(f"sections[0].blocks[0].{path}")
-    assert "cannot be said in keyword text" in found.message
+    assert "cannot be written as keyword text" in found.message
 
 
 def remark(text: str) -> list[Comment]:
@@ -279,7 +279,7 @@ def test_decks_made_by_a_program_are_tried_too(path: str, deck: Deck) -> None:
         dump(deck, "keyword")
     message = caught.value.diagnostics[0].message
     assert message.startswith(path)
-    assert "cannot be said in keyword text" in message
+    assert "cannot be written as keyword text" in message
 
 
 ONE_SHAPE: list[tuple[Document, list[str]]] = [

@@ -142,7 +142,7 @@ def test_what_keyword_text_cannot_say_is_refused(made: Values, data: st.DataObje
     except DeckError as error:
         (found,) = error.diagnostics
         assert found.code == "DOC002"
-        assert "cannot be said in keyword text" in found.message
+        assert "cannot be written as keyword text" in found.message
         return
     again = load_bytes(text.encode(), "a.keyxm")
     assert values(again) == values(deck)

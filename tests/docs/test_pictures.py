@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from mudline.contact.laws.suction import SuctionState
-from mudline.results.plots.over_time import Path as Cycle
+from mudline.results.plots.figure import Cycle
 from tests.docs.full_cycle import NOTES, cycle, draw
 from tests.docs.pictures import IMAGES, ROOT, write
 

@@ -9,9 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mudline.expression import DEEPEST, Expression, ExpressionError, evaluate, parse
 from mudline.expression.descent import LEVELS, descend, read_plain
-from mudline.expression.parsing import by_grammar, plain_equations, tokens, tree
+from mudline.expression.evaluation import evaluate
+from mudline.expression.nodes import Expression, ExpressionError
+from mudline.expression.parsing import DEEPEST, by_grammar, parse, plain_equations, tokens, tree
 
 MARKS = st.sampled_from([*'+-*/^(),=<>"#[ \t', "**", "==", "!=", "<>", "<=", ">=", '""'])
 WORDS = st.sampled_from(["and", "or", "not", "AND", "Or", "NOT", "and_1", "nothing", "x", "x y not", "Water Depth"])

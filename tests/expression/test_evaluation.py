@@ -8,14 +8,9 @@ from collections.abc import Callable
 
 import pytest
 
-from mudline.expression import (
-    EvaluationError,
-    ExpressionError,
-    UndefinedName,
-    UnknownFunction,
-    evaluate,
-    parse,
-)
+from mudline.expression.evaluation import evaluate
+from mudline.expression.nodes import EvaluationError, ExpressionError, UndefinedName, UnknownFunction
+from mudline.expression.parsing import parse
 
 PARAMETERS: dict[str, float | str] = {
     "x": 3.0,

@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mudline.expression import FORMS, FUNCTIONS, evaluate, parse
+from mudline.expression.evaluation import FORMS, FUNCTIONS, evaluate
+from mudline.expression.parsing import parse
 
 # Function -> calls and their values; whole numbers and closed forms, so that nothing is taken from the function itself.
 WORKED: dict[str, list[tuple[str, float]]] = {

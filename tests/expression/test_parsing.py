@@ -7,7 +7,8 @@ import sys
 
 import pytest
 
-from mudline.expression import DEEPEST, LONGEST, Expression, ExpressionError, NameSpan, parse
+from mudline.expression.nodes import Expression, ExpressionError, NameSpan
+from mudline.expression.parsing import DEEPEST, LONGEST, parse
 from tests.processes import TIMEOUT
 
 

@@ -10,7 +10,9 @@ from collections.abc import Callable
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mudline.expression import EvaluationError, evaluate, parse
+from mudline.expression.evaluation import evaluate
+from mudline.expression.nodes import EvaluationError
+from mudline.expression.parsing import parse
 
 PARAMETERS = {"x": 2.5, "y": -3.0, "zero": 0.0, "big": 1e200}
 

@@ -7,7 +7,9 @@ import math
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from mudline.expression import FORMS, FUNCTIONS, ExpressionError, evaluate, parse
+from mudline.expression.evaluation import FORMS, FUNCTIONS, evaluate
+from mudline.expression.nodes import ExpressionError
+from mudline.expression.parsing import parse
 
 PARAMETERS: dict[str, float | str] = {"a": 2.0, "b c": -1e300, "t": "text"}
 

@@ -364,7 +364,7 @@ def misspelt_choice(draft: Draft) -> None:
 
 @kind("SYN005")
 def unknown_option(draft: Draft) -> None:
-    """OPTION=STEEL, which is no option of a section."""
+    """OPTION=STEEL, which is not an option of a section."""
     draft.write(draft.setting("*GEOMETRIC SETS", "OPTION"), "OPTION=STEEL")
 
 

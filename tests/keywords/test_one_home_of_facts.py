@@ -29,7 +29,7 @@ EXCEPTIONS = {
     "comparison/comparing.py": "asks for the labels in the blocks of nodes and of elements",
     "linting/rules/geometry.py": "keywords that name sets whose sections are given elsewhere",
     "linting/line_corrections.py": "the keywords of points that a graphical interface shows as tables",
-    "linting/value_corrections.py": "the density of the water and the type of the seabed, which it corrects in memory",
+    "linting/corrections.py": "the density of the water and the type of the seabed, which it corrects in memory",
     "migration/migrating.py": "the blocks whose laws a migrated surface would meet",
     "migration/refusals.py": "names what a seabed or a deck before has instead",
     "migration/rewriting.py": "writes these blocks",

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from mudline.linting.baseline import Baseline, BaselineError, read_baseline
 from mudline.linting.engine import lint_bytes
 from mudline.linting.registry import select
+from mudline.linting.suppression import Baseline, BaselineError, read_baseline
 from tests.linting.findings import CLAY, CURVES, curve
 
 DECK = f"{CURVES}{CLAY}{curve('Sand', (0.0, 0.0), (0.5, 4000.0))}"

@@ -6,7 +6,9 @@ import os
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import cache, partial
 from pathlib import Path
 
 import pytest
@@ -83,24 +85,39 @@ def site(tmp_path: Path) -> Site:
 @pytest.fixture
 def lint_here(site: Site, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., Outcome]]:
     """Runs the command in this process, with the rules that there are with the plugins of the site."""
+    with _here(site, monkeypatch) as here:
+        yield partial(here, "lint")
 
-    def lint(*arguments: str) -> Outcome:
+
+@pytest.fixture
+def example_here(example: Site, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., Outcome]]:
+    """Runs a command in this process, with the rules that there are with the example package."""
+    with _here(example, monkeypatch) as here:
+        yield here
+
+
+@contextmanager
+def _here(site: Site, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., Outcome]]:
+    @cache
+    def loaded() -> tuple[tuple[Rule, ...], tuple[str, ...]]:
         faults = registry.load(RULES)
-        found = tuple(RULES[code] for code in sorted(RULES))
-        monkeypatch.setattr(registry, "_collected", lambda: (found, faults))
-        (site.folder / "deck.keyxm").write_text(NO_FRICTION)
-        return run("lint", *arguments)
+        return tuple(RULES[code] for code in sorted(RULES)), faults
+
+    def command(name: str, *arguments: str, deck: str = NO_FRICTION) -> Outcome:
+        monkeypatch.setattr(registry, "_collected", loaded)
+        (site.folder / "deck.keyxm").write_text(deck)
+        return run(name, *arguments)
 
     rules()
     own, modules = dict(RULES), set(sys.modules)
     monkeypatch.setattr(registry, "_ORIGINS", {})
     monkeypatch.syspath_prepend(str(site.folder))
     monkeypatch.chdir(site.folder)
-    yield lint
+    yield command
     RULES.clear()
     RULES.update(own)
     for name in sys.modules.keys() - modules:
-        if name.startswith("corp_"):
+        if name.startswith(("corp_", "acme_mudline")):
             del sys.modules[name]
 
 
@@ -121,11 +138,11 @@ def test_the_example_finds_what_it_is_for(example: Site) -> None:
     assert example.run("lint", "deck.keyxm", deck=FRICTION).returncode == 0
 
 
-def test_the_example_is_chosen_left_out_and_suppressed_as_any_rule(example: Site) -> None:
-    assert example.run("lint", "--select", "ACM", "deck.keyxm").returncode == 1
-    assert example.run("lint", "--ignore", "friction-not-given", "deck.keyxm").returncode == 0
+def test_the_example_is_chosen_left_out_and_suppressed_as_any_rule(example_here: Callable[..., Outcome]) -> None:
+    assert example_here("lint", "--select", "ACM", "deck.keyxm").code == 1
+    assert example_here("lint", "--ignore", "friction-not-given", "deck.keyxm").code == 0
     hidden = NO_FRICTION.replace(" SET=ALL", "C mudline: ignore ACM001\n SET=ALL")
-    assert example.run("lint", "deck.keyxm", deck=hidden).returncode == 0
+    assert example_here("lint", "deck.keyxm", deck=hidden).code == 0
 
 
 def test_the_docstring_of_the_example_holds(example: Site, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -140,10 +157,10 @@ def test_the_docstring_of_the_example_holds(example: Site, monkeypatch: pytest.M
     assert done.stdout == "[True] []\n"
 
 
-def test_rules_tells_the_package_of_a_rule(example: Site) -> None:
-    assert "A rule of acme-mudline 1.0.0." in example.run("rules", "ACM001").stdout
-    assert "[acme-mudline 1.0.0]" in " ".join(example.run("rules").stdout.split())
-    assert '"origin": "acme-mudline 1.0.0"' in example.run("rules", "ACM001", "--output-format", "json").stdout
+def test_rules_names_the_package_of_a_rule(example_here: Callable[..., Outcome]) -> None:
+    assert "A rule of acme-mudline 1.0.0." in example_here("rules", "ACM001").out
+    assert "[acme-mudline 1.0.0]" in " ".join(example_here("rules").out.split())
+    assert '"origin": "acme-mudline 1.0.0"' in example_here("rules", "ACM001", "--output-format", "json").out
     assert origin("CRV001") == "mudline"
 
 

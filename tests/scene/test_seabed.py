@@ -1,4 +1,4 @@
-"""The shape of the bed: what the deck says, and what its files hold."""
+"""The shape of the seabed: what the deck says, and what its files hold."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 
 import mudline
 from mudline.diagnostics import DeckError, Span
-from mudline.syntax import arrow_rows
+from mudline.syntax import number_rows
 from mudline.syntax.rows import read_number, read_rows, read_rows_slow
 
 pytest.importorskip("pyarrow.csv", reason="pyarrow is not installed")
@@ -48,13 +48,13 @@ PLAIN = st.one_of(
 @pytest.fixture(autouse=True)
 def always(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """Pyarrow is tried with any text that is not read by itself."""
-    monkeypatch.setattr(arrow_rows, "_PAYS", 0)
+    monkeypatch.setattr(number_rows, "_PAYS", 0)
     with patch("mudline.syntax.rows._SHORT", 0):
         yield
 
 
 def arrow() -> ModuleType:
-    found = arrow_rows.arrow_csv(10**9)
+    found = number_rows.arrow_csv(10**9)
     assert found is not None
     return found
 
@@ -62,10 +62,10 @@ def arrow() -> ModuleType:
 def holds_the_slow_rows(text: str, columns: int) -> None:
     span = Span(0, len(text))
     slow = read_rows_slow(text, span, columns)
-    for piece in (1, 40, arrow_rows.PIECE):
-        with patch.object(arrow_rows, "PIECE", piece), patch("mudline.syntax.rows._PIECE", max(piece // 2, 1)):
+    for piece in (1, 40, number_rows.ARROW_PIECE):
+        with patch.object(number_rows, "ARROW_PIECE", piece), patch("mudline.syntax.rows._PIECE", max(piece // 2, 1)):
             assert read_rows(text, span, columns).same(slow)
-    values = arrow_rows.read(arrow(), text, columns)
+    values = number_rows.read_with_arrow(arrow(), text, columns)
     if values is not None:
         assert not slow.words
         assert (slow.lengths == values.shape[1]).all()
@@ -97,7 +97,7 @@ def test_plain_numbers_are_read_by_pyarrow(rows: list[tuple[str, str, str]], end
     text = end.join(", ".join(row) for row in rows)
     expected = [[read_number(field) for field in row] for row in rows]
     if all(None not in row for row in expected):
-        values = arrow_rows.read(arrow(), text, 3)
+        values = number_rows.read_with_arrow(arrow(), text, 3)
         assert values is not None
         assert values.tobytes() == np.array(expected, np.float64).tobytes()
 
@@ -111,8 +111,8 @@ def test_any_text(text: str) -> None:
 
 
 def test_a_return_within_a_line_ends_none() -> None:
-    assert arrow_rows.read(arrow(), "1,2\r3,4\n5,6", 2) is None
-    assert arrow_rows.read(arrow(), "1,2\r\n3,4\r", 2) is not None
+    assert number_rows.read_with_arrow(arrow(), "1,2\r3,4\n5,6", 2) is None
+    assert number_rows.read_with_arrow(arrow(), "1,2\r\n3,4\r", 2) is not None
 
 
 @pytest.mark.parametrize(
@@ -121,7 +121,7 @@ def test_a_return_within_a_line_ends_none() -> None:
 def test_long_numbers_are_refused_wherever_they_stand(digits: str) -> None:
     assert read_number(digits) is None
     for before in range(40):
-        assert arrow_rows.read(arrow(), f"{'1' * (before + 1)},2\n{digits},4\n" + "5,6\n" * 30, 2) is None
+        assert number_rows.read_with_arrow(arrow(), f"{'1' * (before + 1)},2\n{digits},4\n" + "5,6\n" * 30, 2) is None
 
 
 def test_a_piece_that_is_refused_leaves_the_others(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -135,9 +135,9 @@ def test_a_piece_that_is_refused_leaves_the_others(monkeypatch: pytest.MonkeyPat
         read.append(values is not None)
         return values
 
-    original = arrow_rows.read
-    monkeypatch.setattr(arrow_rows, "PIECE", 10_000)
-    monkeypatch.setattr(arrow_rows, "read", noted)
+    original = number_rows.read_with_arrow
+    monkeypatch.setattr(number_rows, "ARROW_PIECE", 10_000)
+    monkeypatch.setattr(number_rows, "read_with_arrow", noted)
     assert read_rows(text, Span(0, len(text)), 2).same(read_rows_slow(text, Span(0, len(text)), 2))
     assert read.count(False) == 1
     assert read.count(True) > 5
@@ -154,7 +154,7 @@ def test_faults_and_their_places_are_the_same() -> None:
     text = "\n".join(["$MODEL", "*SEABED STIFFNESS", " CURVE=clay", *rows, ""])
     found = []
     for least in (0, 10**9):
-        with patch.object(arrow_rows, "_PAYS", least), pytest.raises(DeckError) as caught:
+        with patch.object(number_rows, "_PAYS", least), pytest.raises(DeckError) as caught:
             mudline.from_keyword(text)
         found.append([(one.code, one.line, one.column, one.message) for one in caught.value.diagnostics])
     assert found[0] == found[1]
@@ -164,7 +164,7 @@ def test_faults_and_their_places_are_the_same() -> None:
 def test_a_short_text_does_not_import_pyarrow() -> None:
     code = """
 import sys
-from mudline.syntax.arrow_rows import arrow_csv
+from mudline.syntax.number_rows import arrow_csv
 assert arrow_csv(9_999_999) is None and "pyarrow" not in sys.modules
 assert arrow_csv(10_000_000) and arrow_csv(300_000) and not arrow_csv(200_000)
 """
@@ -173,6 +173,6 @@ assert arrow_csv(10_000_000) and arrow_csv(300_000) and not arrow_csv(200_000)
 
 def test_without_pyarrow() -> None:
     with patch.dict("sys.modules", {"pyarrow": None, "pyarrow.csv": None}):
-        assert arrow_rows.arrow_csv(10**9) is None
+        assert number_rows.arrow_csv(10**9) is None
         text = "1, 2\n" * 1000
         assert read_rows(text, Span(0, len(text)), 2).values.shape == (1000, 2)

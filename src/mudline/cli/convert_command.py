@@ -74,7 +74,7 @@ def _curves(deck: GivenDeck) -> Deck | None:
     if find_spec("openpyxl") is None:
         notify_missing(".xlsx", "openpyxl", "excel")
         return None
-    from mudline.scene.curve_sheets import read_curve_sheets  # noqa: PLC0415 - only workbooks need it
+    from mudline.scene.workbook import read_curve_sheets  # noqa: PLC0415 - only workbooks need it
 
     data, name = deck.content()
     found = read_curve_sheets(data, name, deck.units)

@@ -15,6 +15,7 @@ from mudline.cli.streams import emit, emit_json, notify, notify_missing, writing
 from mudline.cli.view import View
 from mudline.curves import ForceCurve
 from mudline.deck.parameters import folded
+from mudline.files import suffix_of
 from mudline.linting.output import visible
 from mudline.quantities import UnitNames, csv_lines, finite, headed, shown, unit_names
 from mudline.results.summary import CURVE_SIDES, followers
@@ -63,7 +64,7 @@ def command(
         raise click.UsageError(options.CSV_ONLY)
     if output_format == "csv" and ratios and weight is not None:
         raise click.UsageError("CSV holds one table: give --at or --weight, not both")
-    form = "" if picture is None else Path(picture).suffix.lower().removeprefix(".")
+    form = "" if picture is None else suffix_of(picture)
     if picture and form not in {"png", "svg"}:
         raise click.UsageError(f"{picture}: a plot is a .png or a .svg")
     scene = resolve(deck.load()).require()

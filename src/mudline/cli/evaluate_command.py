@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from pathlib import Path
 from typing import cast
 
 import click
@@ -15,8 +14,9 @@ from mudline.cli.evaluate_inputs import EvaluateInputs, read_headings
 from mudline.cli.evaluate_one import Outputs, evaluate_one, show_plan
 from mudline.cli.inputs import STDIN, GivenDeck, collect, refuses_bad_decks
 from mudline.cli.pictures import Pictures
-from mudline.cli.result_files import has_library, is_installed, suffix
+from mudline.cli.result_files import has_library, is_installed
 from mudline.cli.view import View
+from mudline.files import suffix_of
 from mudline.results.evaluation import Tension
 from mudline.results.forms import form_names
 from mudline.results.panels import ANIMATIONS, PICTURES
@@ -142,7 +142,7 @@ def command(
         return evaluate_many(collect(decks, gitignore=not every_file), many, view)
     if form is not None:
         raise click.UsageError("--form is for several decks: the suffix of -o gives the form of the results of one")
-    if spreadsheet and "csv" not in (output_format, suffix(Path(output or ""))):
+    if spreadsheet and "csv" not in (output_format, suffix_of(output or "")):
         raise click.UsageError(options.CSV_ONLY)
     wanted = Pictures.asked_for(picture, animate, panels, plot_elements, option="--plot")
     outputs = Outputs(output, wanted, against, table, output_format, spreadsheet, fail_on)

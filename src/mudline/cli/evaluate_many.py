@@ -24,8 +24,8 @@ from mudline.cli.cases import (
     evaluate_case,
     failed,
     named_cases,
+    print_cases,
 )
-from mudline.cli.cases_text import print_cases
 from mudline.cli.evaluate_inputs import EvaluateInputs
 from mudline.cli.inputs import Input, Inputs
 from mudline.cli.known_results import Kept, KnownResults

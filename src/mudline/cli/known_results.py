@@ -11,6 +11,7 @@ import os
 import time
 from collections.abc import Iterable
 from contextlib import suppress
+from functools import cache
 from hashlib import blake2b
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -39,7 +40,7 @@ class KnownResults:
         self._folder, self._path = folder, folder / LIST
         self._entries = _read(self._path)
         self._began = time.time()
-        self._states: dict[str, str] = {}
+        self._state = cache(state)  # many decks may read the same file
         start = blake2b(digest_size=KEY)
         for part in (program(), options):
             start.update(part.encode("utf-8", "surrogateescape"))
@@ -98,12 +99,6 @@ class KnownResults:
         if there or self._path.exists():
             content = {"format": _FORMAT, "digest": _digest(there), "results": there}
             write_atomically(self._path, json.dumps(content, indent=0, sort_keys=True).encode(), synced=False)
-
-    def _state(self, path: str) -> str:
-        """The state of a file that many decks may read, looked at once."""
-        if path not in self._states:
-            self._states[path] = state(path)
-        return self._states[path]
 
     def _relative(self, path: str) -> str:
         """A path from the folder, so that both can be moved; as it is from another drive."""

@@ -13,6 +13,7 @@ import click
 from mudline.cli.options import Command
 from mudline.cli.streams import notify, notify_missing, writing
 from mudline.cli.view import View
+from mudline.files import suffix_of
 from mudline.linting.output import visible
 from mudline.results.panels import ANIMATIONS, MOST_FRAMES, PANELS, PICTURES, panel_names, require
 from mudline.results.plot_data import PlotData
@@ -60,7 +61,7 @@ class Pictures:
     ) -> Pictures:
         """Return what options ask for; raises click.UsageError. `option` is the one that asks for a picture."""
         for path, forms, what in ((picture, PICTURES, "a plot"), (animation, ANIMATIONS, "an animation")):
-            if path is not None and _suffix(Path(path)) not in forms:
+            if path is not None and suffix_of(path) not in forms:
                 *others, last = (f".{form}" for form in forms)
                 raise click.UsageError(f"{path}: {what} is a {', '.join(others)} or {last}")
         for given, name in ((panels, "--panels"), (elements, "--plot-elements")):
@@ -86,7 +87,7 @@ class Pictures:
         try:
             import_module(_PLOTS)
         except ImportError:
-            notify_missing(f".{_suffix(first)}", "matplotlib", "plot")
+            notify_missing(f".{suffix_of(first)}", "matplotlib", "plot")
             return False
         return True
 
@@ -113,21 +114,17 @@ class Pictures:
         plots = import_module(_PLOTS)
         if self.picture is not None:
             with writing(self.picture) as stream:
-                plots.draw_evaluation(data, _suffix(self.picture), stream, visible, doubt, self.panels)
+                plots.draw_evaluation(data, suffix_of(self.picture), stream, visible, doubt, self.panels)
             _notify(self.picture, "plot", view)
         if self.animation is not None:
             with writing(self.animation) as stream:
-                plots.draw_animation(data, _suffix(self.animation), stream, visible)
+                plots.draw_animation(data, suffix_of(self.animation), stream, visible)
             _notify(self.animation, "animation", view)
 
 
 def _notify(path: Path, what: str, view: View) -> None:
     if not view.quiet:
         notify(f"{what} -> {path.as_posix()}")
-
-
-def _suffix(path: Path) -> str:
-    return path.suffix.lower().removeprefix(".")
 
 
 def _numbers(text: str | None) -> tuple[int, ...]:

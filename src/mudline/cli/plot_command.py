@@ -12,6 +12,7 @@ from mudline.cli.pictures import Pictures
 from mudline.cli.streams import notify, reason
 from mudline.cli.view import View
 from mudline.diagnostics import DeckError
+from mudline.files import suffix_of
 from mudline.results.panels import ANIMATIONS, PICTURES
 from mudline.results.plot_data import PlotData
 
@@ -30,7 +31,7 @@ from mudline.results.plot_data import PlotData
 @refuses_bad_decks
 def command(*, result: str, output: str, panels: str | None, plot_elements: str | None, view: View) -> int:
     """Draw a result file that evaluate wrote, without its deck (needs the extra mudline[plot])."""
-    moving = Path(output).suffix.lower().removeprefix(".") in ANIMATIONS
+    moving = suffix_of(output) in ANIMATIONS
     still, animation = (None, output) if moving else (output, None)
     wanted = Pictures.asked_for(still, animation, panels, plot_elements, option="-o with a picture")
     if not wanted.has_library():

@@ -12,6 +12,7 @@ import click
 from mudline.cli.streams import notify_missing, writing
 from mudline.cli.view import View, tracked
 from mudline.contact.columns import ElementTable
+from mudline.files import suffix_of
 from mudline.results.against import Comparison
 from mudline.results.evaluation import Evaluation
 from mudline.results.forms import Output, Sink, form_module, form_names, table_path
@@ -26,16 +27,11 @@ def form_of_file(path: str | None) -> str:
     """The form of a file of results by its suffix, "" without a file; raises click.UsageError."""
     if path is None:
         return ""
-    form = suffix(Path(path))
+    form = suffix_of(path)
     if form not in (known := form_names()):
         forms = ", ".join(f".{name}" for name in known[:-1])
         raise click.UsageError(f"{path}: results are written as {forms} or .{known[-1]}")
     return form
-
-
-def suffix(path: Path) -> str:
-    """The suffix of a file, without its dot."""
-    return path.suffix.lower().removeprefix(".")
 
 
 def is_installed(form: str) -> bool:
@@ -63,7 +59,7 @@ def result_files(
 
     Files with a digest of their content, by which a lost one is found, need not be `synced`.
     """
-    form = form_module(suffix(path))
+    form = form_module(suffix_of(path))
     with ExitStack() as stack:
         streams = [stack.enter_context(writing(one, synced=synced)) for one in (path, *beside(path).values())]
         output = Output(evaluation, elements, streams, path.parent, partial(tracked, view=view), as_text)
@@ -72,7 +68,7 @@ def result_files(
 
 def beside(path: Path) -> dict[str, Path]:
     """The files of the other tables beside that of the elements, by the names of the tables."""
-    form = form_module(suffix(path))
+    form = form_module(suffix_of(path))
     return {table: table_path(path, table) for table in form.BESIDE}
 
 

@@ -46,7 +46,7 @@ class View:
 
 
 def wants_bar(view: View) -> bool:
-    """Whether a bar may be drawn: not in CI, not where standard error is no terminal that can erase."""
+    """Whether a bar may be drawn: not in CI, not where standard error is not a terminal that can erase."""
     dumb = os.environ.get("TERM", "").lower() in {"dumb", "unknown"}
     return sys.stderr.isatty() and not (view.quiet or dumb or os.environ.get("CI"))
 

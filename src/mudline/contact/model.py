@@ -325,7 +325,7 @@ def _as_mask(present: ArrayLike | None, nodes: int) -> BoolArray:
     """Return which nodes have a position; None means all of them.
 
     Raises:
-        ValueError: `present` is no array (nodes,) of booleans.
+        ValueError: `present` is not an array (nodes,) of booleans.
     """
     if present is None:
         return np.ones(nodes, np.bool_)

@@ -1,12 +1,344 @@
-"""Force-embedment curves.
+"""Force-embedment curves: piecewise linear, with the end segments continued to infinity.
 
 curve = ForceCurve([(0.3, 4500.0), (0.0, 0.0), (0.1, 2000.0)])
 force, slope = curve.evaluate(0.2)
+
+The embedment ratio r is penetration / external diameter (dimensionless), the force f is per unit length, in whatever
+units the deck uses. With the points sorted by ratio and s_i = (F_(i+1) - F_i) / (r_(i+1) - r_i):
+
+* r_i <= r < r_(i+1):  f = F_i + s_i (r - r_i), slope s_i (at a point that of the segment to its right);
+* r < r_0:             the same with i = 0;
+* r >= r_n, the last:  f = F_n + s_(n-1) (r - r_n).
+
+The force is exact at every point and nothing is clamped.
+
+Blocks of ratios are evaluated by numpy or by compiled loops. Loading numba takes about a second, so the compiled loops
+are loaded by the first query that is large enough to make more of them likely; once they are loaded, they also serve
+smaller ones.
 """
 
 from __future__ import annotations
 
-from mudline.curves.curve import ForceCurve
-from mudline.curves.points import CurveError, QueryError
+import sys
+from functools import cache
+from importlib import import_module
+from typing import Literal, NoReturn, Protocol, cast
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mudline.curves.points import (
+    CurveError,
+    FloatArray,
+    IndexArray,
+    QueryError,
+    checked_points,
+    difference_quotient,
+    read_only,
+    real_numbers,
+)
+from mudline.curves.search import BLOCK, Knots, Search, Workspace, blocks, search_for, workspace
+from mudline.short_repr import counted, cut
 
 __all__ = ["CurveError", "ForceCurve", "QueryError"]
+
+Backend = Literal["auto", "numpy", "fast"]
+
+_COMPILED = "mudline.curves.compiled"
+
+_WORTH_LOADING = 2**22
+_WORTH_CALLING = 2**12
+
+
+class ForceCurve:
+    """A force-embedment curve: force per unit length over embedment ratio. Immutable.
+
+    Attributes:
+        name: what the curve is called, or None.
+        ratios: (n,) embedment ratios, strictly ascending, read-only.
+        forces: (n,) forces per unit length at the ratios, read-only.
+        slopes: (n - 1,) d force / d ratio of each segment, read-only.
+    """
+
+    __slots__ = ("_knots", "forces", "name", "ratios", "slopes")
+
+    name: str | None
+    ratios: FloatArray
+    forces: FloatArray
+    slopes: FloatArray
+    _knots: Knots
+
+    def __init__(self, points: ArrayLike, name: str | None = None) -> None:
+        """Sort and check `points`: pairs (ratio, force) in any order; a repeated pair counts once.
+
+        Raises:
+            CurveError: the points do not make a curve; its `code` and `index` say why and which.
+            ValueError: `points` are not pairs of real numbers.
+        """
+        ratios, forces, slopes = (read_only(array) for array in checked_points(points))
+        fields = {
+            "name": name,
+            "ratios": ratios,
+            "forces": forces,
+            "slopes": slopes,
+            "_knots": Knots(ratios, forces, slopes),
+        }
+        for field, value in fields.items():
+            object.__setattr__(self, field, value)
+
+    def evaluate(
+        self,
+        ratios: ArrayLike,
+        *,
+        out: tuple[FloatArray, FloatArray] | None = None,
+        backend: Backend = "auto",
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return force and slope (d force / d ratio) at `ratios`, each of their shape.
+
+        `out=(force, slope)` receives the values in place: float64 arrays of the shape of `ratios`, which may be the
+        memory of `ratios` itself; after an error their content is undefined.
+
+        `backend` is "numpy", "fast" (compiled loops; the same results bit for bit) or "auto": "fast" for large queries
+        if the extra `mudline[fast]` is installed.
+
+        Raises:
+            ImportError: `backend="fast"` without the extra.
+            QueryError: a ratio is NaN or infinite, or the force there overflows.
+            ValueError: `ratios` are not real numbers, or `out` does not fit.
+        """
+        query = real_numbers(ratios, "ratios")
+        force, slope = (np.empty(query.shape), np.empty(query.shape)) if out is None else _checked_out(out, query.shape)
+        # Where results overwrite the ratios, these are still needed to report what is wrong.
+        replaced = out is not None and any(np.may_share_memory(query, array) for array in out)
+        done = 0
+        with workspace() as work, np.errstate(all="ignore"), blocks(query, force, slope) as pieces:
+            law = law_for(self._knots, query.size, work, backend)
+            for block, block_force, block_slope in pieces:
+                ratio = block
+                if replaced:
+                    ratio = work.kept[: len(block)]
+                    ratio[...] = block
+                if not law.fill(ratio, block_force, block_slope):
+                    bad = _recompute_overflowed(self._knots, ratio, block_force)
+                    if bad.size:
+                        _refuse(ratio, int(bad[0]), done)
+                done += len(ratio)
+        return force, slope
+
+    def fill(self, ratios: FloatArray, force: FloatArray, slope: FloatArray) -> None:
+        """Write force and slope at `ratios` (k,), for callers that check the force themselves.
+
+        Where a ratio is not finite or the force overflows, the force is not finite. All three arrays are float64 and
+        each in one piece of memory.
+        """
+        with workspace() as work:
+            law = NumpyLaw(self._knots, search_for(self._knots, len(ratios), work), work)
+            for start in range(0, len(ratios), BLOCK):
+                piece = slice(start, start + BLOCK)
+                if not law.fill(ratios[piece], force[piece], slope[piece]):
+                    _recompute_overflowed(self._knots, ratios[piece], force[piece])
+
+    def segment(self, ratios: ArrayLike) -> IndexArray:
+        """Return which segment applies at `ratios`, from 0: the first also below, the last also beyond the points.
+
+        Raises:
+            QueryError: a ratio is NaN or infinite.
+        """
+        query = real_numbers(ratios, "ratios")
+        found = np.empty(query.shape, np.intp)
+        done = 0
+        with workspace() as work, np.errstate(all="ignore"), blocks(query, found) as pieces:
+            search = search_for(self._knots, query.size, work)
+            for ratio, block_found in pieces:
+                _refuse_infinite(ratio, done)
+                np.minimum(search.passed(ratio), len(self.slopes) - 1, out=block_found)
+                done += len(ratio)
+        return found
+
+    def extrapolated(self, ratios: ArrayLike) -> NDArray[np.int8]:
+        """Return -1 where `ratios` lie below the first point, 1 beyond the last, 0 between them and at them.
+
+        Raises:
+            QueryError: a ratio is NaN or infinite.
+        """
+        query = real_numbers(ratios, "ratios")
+        found = np.empty(query.shape, np.int8)
+        done = 0
+        with np.errstate(all="ignore"), blocks(query, found) as pieces:
+            for ratio, block_found in pieces:
+                _refuse_infinite(ratio, done)
+                np.subtract(ratio > self.ratios[-1], ratio < self.ratios[0], out=block_found, dtype=np.int8)
+                done += len(ratio)
+        return found
+
+    def ratios_at_force(self, force: float) -> tuple[float, ...]:
+        """Return every ratio at which the curve, its continued ends included, has this force, ascending.
+
+        A flat stretch at this force is given by the points it joins. A ratio too large for a float64 is left out.
+        With the submerged weight per unit length as `force` these are the static embedments.
+
+        Raises:
+            ValueError: `force` is NaN or infinite.
+        """
+        if not np.isfinite(force):
+            raise ValueError(f"no ratio has the force {force}")
+        reached = self.ratios[self.forces == force]
+        found = {*reached.tolist(), *self._inside(force).tolist(), *self._beyond_ends(force)}
+        return tuple(sorted(found))
+
+    def _inside(self, force: float) -> FloatArray:
+        """The ratios of this force between points, each computed from the point that is nearer in force."""
+        low, high = self.forces[:-1], self.forces[1:]
+        segment = np.flatnonzero(((low < force) & (force < high)) | ((high < force) & (force < low)))
+        middle = 0.5 * low[segment] + 0.5 * high[segment]
+        near = segment + ((force > middle) == (high[segment] > low[segment]))
+        offset = difference_quotient(np.float64(force), self.forces[near], self.slopes[segment])
+        ratio: FloatArray = np.clip(self.ratios[near] + offset, self.ratios[segment], self.ratios[segment + 1])
+        return ratio
+
+    def _beyond_ends(self, force: float) -> list[float]:
+        """The ratios of this force below the first and beyond the last point."""
+        found = []
+        for end, outward in ((0, -1.0), (-1, 1.0)):
+            rise = outward * self.slopes[end]
+            if (rise > 0.0 and force > self.forces[end]) or (rise < 0.0 and force < self.forces[end]):
+                offset = difference_quotient(np.float64(force), self.forces[end], self.slopes[end])
+                with np.errstate(over="ignore"):
+                    ratio = self.ratios[end] + offset
+                if np.isfinite(ratio):
+                    found.append(float(ratio))
+        return found
+
+    def __setattr__(self, name: str, value: object) -> NoReturn:
+        raise AttributeError(f"a ForceCurve does not change: cannot set {name}")
+
+    def __delattr__(self, name: str) -> NoReturn:
+        raise AttributeError(f"a ForceCurve does not change: cannot delete {name}")
+
+    def __reduce__(self) -> tuple[type[ForceCurve], tuple[FloatArray, str | None]]:
+        return type(self), (np.column_stack((self.ratios, self.forces)), self.name)
+
+    def __eq__(self, other: object) -> bool:
+        """Same name and same points."""
+        if not isinstance(other, ForceCurve):
+            return NotImplemented
+        same_points = np.array_equal(self.ratios, other.ratios) and np.array_equal(self.forces, other.forces)
+        return self.name == other.name and same_points
+
+    def __hash__(self) -> int:
+        return hash((self.name, self.ratios.tobytes(), self.forces.tobytes()))
+
+    def __repr__(self) -> str:
+        count = len(self.ratios)
+        ends = [(float(self.ratios[end]), float(self.forces[end])) for end in (0, -1)]
+        shown = f"<{count} points from {ends[0]} to {ends[1]}>"
+        if count <= 8:
+            pairs = repr(list(zip(self.ratios.tolist(), self.forces.tolist(), strict=True)))
+            shown = pairs if len(pairs) <= 120 else shown
+        return f"ForceCurve({shown}, name={self.name if self.name is None else cut(self.name, 60)!r})"
+
+    def _repr_html_(self) -> str:
+        """The points with the slopes behind them, for notebooks."""
+        from mudline.html_repr import MOST_ROWS, html_page, html_table  # noqa: PLC0415 - only notebooks ask for it
+
+        columns = (array[:MOST_ROWS].tolist() for array in (self.ratios, self.forces, np.append(self.slopes, np.nan)))
+        table = html_table(("ratio", "force", "slope"), zip(*columns, strict=True), len(self.ratios))
+        return html_page("ForceCurve", f"{self.name or ''} {counted(len(self.ratios), 'point')}".strip(), table)
+
+
+def _checked_out(out: tuple[FloatArray, FloatArray], shape: tuple[int, ...]) -> tuple[FloatArray, FloatArray]:
+    for array in out:
+        if array.shape != shape or array.dtype != np.float64:
+            raise ValueError(f"out must be float64 of shape {shape}, not {array.dtype} of shape {array.shape}")
+    return out
+
+
+class Law(Protocol):
+    """A way to evaluate a curve.
+
+    All ways do the same operations in the same order and round after each, so that they agree bit for bit.
+    """
+
+    def fill(self, ratio: FloatArray, force: FloatArray, slope: FloatArray) -> bool:
+        """Write force and slope at each ratio; return whether every force is finite."""
+        ...
+
+
+class NumpyLaw:
+    """Evaluates with numpy alone."""
+
+    def __init__(self, knots: Knots, search: Search, work: Workspace) -> None:
+        self._knots = knots
+        self._search = search
+        self._work = work
+
+    def fill(self, ratio: FloatArray, force: FloatArray, slope: FloatArray) -> bool:
+        """See `Law`."""
+        knots, work, size = self._knots, self._work, len(ratio)
+        point = self._search.passed(ratio)
+        offset = work.real[:size]
+        np.take(knots.ratios, point, out=offset, mode="clip")
+        np.subtract(ratio, offset, out=offset)
+        np.take(knots.tails, point, out=slope, mode="clip")
+        np.multiply(offset, slope, out=offset)
+        np.take(knots.forces, point, out=force, mode="clip")
+        np.add(force, offset, out=force)
+        return bool(np.isfinite(force, out=work.flag[:size]).all())
+
+
+def law_for(knots: Knots, total: int, work: Workspace, backend: Backend = "auto") -> Law:
+    """Return the way to evaluate a query of `total` ratios.
+
+    Raises:
+        ImportError: `backend` is "fast", but the extra `mudline[fast]` is not installed.
+        ValueError: `backend` is unknown.
+    """
+    if backend not in ("auto", "numpy", "fast"):
+        raise ValueError(f"backend must be auto, numpy or fast, not {backend!r}")
+    if backend == "fast" or (backend == "auto" and _pays(total)):
+        return cast("Law", import_module(_COMPILED).compiled_law(knots))
+    return NumpyLaw(knots, search_for(knots, total, work), work)
+
+
+def _pays(total: int) -> bool:
+    return total >= _WORTH_CALLING and (_COMPILED in sys.modules or (total >= _WORTH_LOADING and _loads()))
+
+
+@cache
+def _loads() -> bool:
+    try:
+        import_module(_COMPILED)
+    except ImportError:
+        return False
+    return True
+
+
+def _recompute_overflowed(knots: Knots, ratio: FloatArray, force: FloatArray) -> IndexArray:
+    """Compute again the forces that are not finite; return where they still are not.
+
+    Only an intermediate value may have overflowed: added in two halves the force may well be finite.
+    """
+    where = np.flatnonzero(~np.isfinite(force))
+    at = np.minimum(np.searchsorted(knots.inner, ratio[where], side="right"), len(knots.inner))
+    half = knots.tails[at] * (0.5 * ratio[where] - 0.5 * knots.ratios[at])
+    force[where] = knots.forces[at] + half + half
+    found: IndexArray = where[~np.isfinite(force[where])]
+    return found
+
+
+def _refuse_infinite(ratio: FloatArray, start: int) -> None:
+    """Check that ratios are finite, for queries that compute no force.
+
+    Raises:
+        QueryError: a ratio is NaN or infinite; `start` is the index of the first ratio in the query.
+    """
+    finite = np.isfinite(ratio)
+    if not finite.all():
+        _refuse(ratio, int(np.argmin(finite)), start)
+
+
+def _refuse(ratio: FloatArray, index: int, start: int) -> NoReturn:
+    """Raise the QueryError of a ratio; `start` is the index of the first ratio in the query."""
+    value = float(ratio[index])
+    why = "the force there overflows" if np.isfinite(value) else "it is not finite"
+    raise QueryError(start + index, value, f"no force at ratio {value!r} (index {start + index}): {why}")

@@ -7,7 +7,7 @@ chunks that stay in the first-level cache, one plain loop per step, which is wha
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Final, TypeVar, cast
+from typing import Any, Final, TypeVar, cast
 
 import numba
 import numpy as np
@@ -27,14 +27,14 @@ Curve = tuple[FloatArray, FloatArray, FloatArray]
 Function = TypeVar("Function", bound=Callable[..., object])
 
 
-def _compiled(function: Function) -> Function:
-    """Compile at the first call, or load what an earlier process left in the cache."""
+def compiled(function: Function, **options: bool) -> Function:
+    """Compile at the first call, or load what an earlier process left in the cache; `options` are more of numba's."""
+    always: Any = {"error_model": "numpy", "nogil": True, **options}
     try:
-        compiled = numba.njit(cache=True, error_model="numpy", nogil=True)(function)
-    except RuntimeError:
-        # There is no place where numba may write.
-        compiled = numba.njit(error_model="numpy", nogil=True)(function)
-    return cast("Function", compiled)
+        made = numba.njit(cache=True, **always)(function)
+    except RuntimeError:  # there is no place where numba may write
+        made = numba.njit(**always)(function)
+    return cast("Function", made)
 
 
 def _passed(knots: FloatArray, value: float) -> int:
@@ -95,9 +95,9 @@ def _fill_bucketing(curve: Curve, table: BucketTable, ratio: FloatArray, force: 
     return finite
 
 
-passed = _compiled(_passed)
-fill_counting = _compiled(_fill_counting)
-fill_bucketing = _compiled(_fill_bucketing)
+passed = compiled(_passed)
+fill_counting = compiled(_fill_counting)
+fill_bucketing = compiled(_fill_bucketing)
 
 
 class CompiledLaw:

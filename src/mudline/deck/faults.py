@@ -21,7 +21,7 @@ _LONGEST = 200
 
 
 def refusal(file: str, message: str, place: Range = START) -> DeckError:
-    """Why a text is no document at all."""
+    """Why a text is not a document at all."""
     return DeckError([Diagnostic(file, DOC001.code, DOC001.slug, DOC001.severity, message, *place)])
 
 

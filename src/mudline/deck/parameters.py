@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple, NewType, cast
 
 from pydantic import BaseModel
 
-from mudline import expression as equations
 from mudline.codes.fields import SYN002, SYN006, SYN017
 from mudline.codes.references import REF013, REF014
 from mudline.deck.model import Deck
@@ -25,7 +24,7 @@ from mudline.spelling import Effort
 from mudline.syntax.rows import read_number
 
 if TYPE_CHECKING:
-    from mudline.expression import Expression, ExpressionError
+    from mudline.expression.nodes import Expression, ExpressionError
     from mudline.keywords.library.parameters import Parameter
 
 
@@ -218,30 +217,36 @@ class Parameters:
             self.problems.append(problem)
 
     def _parse(self, equation: Equation, where: Where) -> Expression:
+        from mudline.expression.nodes import ExpressionError  # noqa: PLC0415 - most decks have no equation
+        from mudline.expression.parsing import parse  # noqa: PLC0415 - as above
+
         try:
-            return equations.parse(equation.expression)
-        except equations.ExpressionError as error:
+            return parse(equation.expression)
+        except ExpressionError as error:
             raise NoValueError(_problem(SYN017, equation, error, where)) from error
 
     def _known(self, name: str) -> Value:
         return self.values[folded(name)]
 
     def _value(self, expression: Expression, where: Where) -> Value:
+        from mudline.expression.evaluation import evaluate  # noqa: PLC0415 - most decks have no equation
+        from mudline.expression.nodes import ExpressionError, UndefinedName, UnknownFunction  # noqa: PLC0415 - as above
+
         try:
-            return equations.evaluate(expression, self._known)
-        except equations.UndefinedName as error:
+            return evaluate(expression, self._known)
+        except UndefinedName as error:
             word = expression.text[error.start : error.end]
             known = (definition.name for definition in self.definitions.values())
             near = suggestion(word, known, self._effort)
             message = f"parameter {word} is not defined{near}: define it in *PARAMETERS"
             raise NoValueError(Problem(REF013, message, None, None, where)) from error
-        except equations.UnknownFunction as error:
+        except UnknownFunction as error:
             problem = _problem(SYN017, _equation(expression), error, where)
             message = f"{problem.message}; the equation is not evaluated"
             convert = expression.text[error.start : error.end].strip().casefold() == _CONVERT
             severity = Severity.INFO if convert else Severity.WARNING
             raise NoValueError(Problem(SYN017, message, None, severity, where)) from error
-        except equations.ExpressionError as error:
+        except ExpressionError as error:
             raise NoValueError(_problem(SYN017, _equation(expression), error, where)) from error
 
 

@@ -15,7 +15,7 @@ SUCTION_STIFFNESS = (
     "the unit, which the manual does not give: that of the linear stiffness, a force per unit length for each length "
     "that the pipe rises"
 )
-_PER_LENGTH = "the force is per unit length, as is the linear stiffness that the curve stands in for"
+_PER_LENGTH = "the force is per unit length, as is the linear stiffness that the curve replaces"
 NO_SET = (
     "lines before any SET= are read as those of SET=ALL, since the manual's default set of a force-embedment curve is "
     "every element on the seabed"

@@ -1,4 +1,4 @@
-"""What the keywords of the legacy seabed surfaces share: friction, and a slope or a profile of the bed."""
+"""What the keywords of the legacy seabed surfaces share: friction, and a slope or a profile of the seabed."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class ProfilePoint(Row):
     """A point of an inline profile."""
 
     y: Annotated[Real, about("horizontal coordinate Y", unit="L")]
-    elevation: Annotated[Real, about("elevation of the bed there", unit="L")]
+    elevation: Annotated[Real, about("elevation of the seabed there", unit="L")]
 
 
 class FrictionCoefficients(Row):
@@ -56,7 +56,7 @@ class Surface(Block):
     properties: Annotated[Row, about("properties of the surface")]
     slope: Annotated[
         Real | None,
-        about("slope of the bed about the origin", unit="deg", default="flat", inferred=_SLOPE),
+        about("slope of the seabed about the origin", unit="deg", default="flat", inferred=_SLOPE),
     ] = None
     profile: Annotated[
         Table | None,

@@ -1,4 +1,4 @@
-"""Tables of rows as arrays, with the few fields that are no numbers beside them; tables and lists of documents."""
+"""Tables of rows as arrays, with the few fields that are not numbers beside them; tables and lists of documents."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class Column(NamedTuple):
         if word == "":
             return f"{self.label} is missing: expected {self.kind.value}" if self.required else ""
         if self.kind is Kind.IDENT:
-            return "" if Label.match(word) else f"{word!r} is no {self.label}: expected {self.kind.value}"
+            return "" if Label.match(word) else f"{word!r} is not allowed for {self.label}: expected {self.kind.value}"
         return "" if Equation.match(word) else f"{word!r} is not a number: expected {self.kind.value} for {self.label}"
 
 
@@ -199,7 +199,7 @@ def _cells(rows: list[list[object]], lengths: NDArray[np.intp], width: int, colu
             if isinstance(cell, int | float) and not isinstance(cell, bool):
                 values[row, column] = _finite(cell, row, column)
             elif cell is not None and (not isinstance(cell, str) or not cell):
-                raise _misfit(f"{cell!r} cannot stand here: expected {columns[column].kind.value}", row, column)
+                raise _misfit(f"{cell!r} is not allowed here: expected {columns[column].kind.value}", row, column)
             elif fault := columns[column].fault(cell or ""):
                 raise _misfit(fault, row, column)
             else:
@@ -331,7 +331,7 @@ _ROWS_AT_ONCE = 1 << 14
 _ENTRIES_AT_ONCE = 32
 """Entries checked at once; lists are nested three deep at most."""
 
-_UNCHECKED = PydanticCustomError("unchecked", "not looked at, nor what follows: mend the entries before first")
+_UNCHECKED = PydanticCustomError("unchecked", "not checked, nor what follows: correct the entries before it first")
 
 
 def checked_by_parts(schema: CoreSchema) -> CoreSchema:

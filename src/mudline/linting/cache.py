@@ -12,9 +12,10 @@ import os
 import stat
 import sys
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
+from functools import cache
 from hashlib import blake2b
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -244,7 +245,8 @@ class Cache:
     new: bytearray = field(default_factory=bytearray)
     _program: str = field(default_factory=program)
     _starts: dict[Path | None, bytes] = field(default_factory=dict)
-    _states: dict[str, str] = field(default_factory=dict)
+    _state: Callable[[str], str] = field(default_factory=lambda: cache(state))
+    """The state of a path, looked at once in a run: many decks continue the same one."""
     _began: float = field(default_factory=time.time)
 
     def key(self, name: str, data: bytes, configuration: Configuration) -> str:
@@ -283,12 +285,6 @@ class Cache:
         """Write what was added, if anything was."""
         if self.new:
             write_entries(self.path, self.known, self.new)
-
-    def _state(self, path: str) -> str:
-        """A state, looked at once in a run: many decks continue the same one."""
-        if path not in self._states:
-            self._states[path] = state(path)
-        return self._states[path]
 
 
 def opened(given: str) -> Cache | None:

@@ -18,10 +18,9 @@ from mudline.codes.references import REF007
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import MORE, Problem, Severity, Span
 from mudline.diagnostics import Blocks as Blocking
-from mudline.linting.corrections import Blocks, Correction, line_at, missing_sections, misspelt
+from mudline.linting.corrections import Blocks, Correction, line_at, missing_sections, misspelt, value_corrections
 from mudline.linting.line_corrections import line_corrections
 from mudline.linting.rule import LintContext
-from mudline.linting.value_corrections import value_corrections
 from mudline.short_repr import counted
 from mudline.syntax.edits import OverlapError, TextEdit, edited_bytes, with_line_ends
 

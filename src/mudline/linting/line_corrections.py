@@ -283,7 +283,7 @@ def _undefined(problems: Sequence[Problem], code: str) -> list[str]:
 
 
 def _rows(blocks: Blocks, problems: Sequence[Problem]) -> Iterator[Correction]:
-    """Numbers and rows with a slip of the pen: what they were to be, as far as that can be seen."""
+    """Numbers and rows with a typing error: what they were to be, as far as that can be seen."""
     text = blocks.text
     missing = [*_undefined(problems, "REF005"), *_undefined(problems, "REF006")]
     for problem in problems:

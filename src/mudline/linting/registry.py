@@ -251,7 +251,7 @@ def _documentation(name: str) -> str | None:
 
     try:
         given = metadata(name).get_all("Project-URL") or []
-    except (PackageNotFoundError, ValueError):  # a plugin that is no installed package has no name
+    except (PackageNotFoundError, ValueError):  # a plugin that is not an installed package has no name
         return None
     addresses = {label.strip().lower(): url.strip() for label, _, url in (text.partition(",") for text in given)}
     found = next((addresses[label] for label in ("documentation", "homepage") if label in addresses), "")

@@ -125,6 +125,13 @@ class LintContext:
         return self.noticed.get(code.code, ())
 
 
+def entries_of_sets(blocks: Iterable[tuple[Where, Any]]) -> Iterator[tuple[Where, Any]]:
+    """Every entry below a SET= of some blocks, with its place."""
+    for where, block in blocks:
+        for index, entry in enumerate(block.sets):
+            yield where.inside("sets", index), entry
+
+
 def _by_keyword(deck: Deck) -> dict[tuple[str, str], list[tuple[Where, Any]]]:
     """What `Deck.blocks` gives for every section and keyword."""
     found: dict[tuple[str, str], list[tuple[Where, Any]]] = {}

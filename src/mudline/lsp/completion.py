@@ -9,8 +9,8 @@ from typing import TypeVar
 
 from lsprotocol import types
 
-from mudline import expression as equations
 from mudline.diagnostics import Span
+from mudline.expression.evaluation import FORMS, FUNCTIONS
 from mudline.keywords import catalogue
 from mudline.keywords.model import Block, FieldSpec, ListRow, Setting, record_schema
 from mudline.keywords.reader import all_keys
@@ -164,7 +164,7 @@ def _in_equation(cursor: _Cursor, start: int) -> Iterator[types.CompletionItem]:
     for key, definition in parameters.definitions.items() if parameters else ():
         value = value_text(parameters.values[key]) if parameters and key in parameters.values else "no value"
         yield cursor.item(definition.name, types.CompletionItemKind.Variable, definition.name, start, f"= {value}")
-    for name, form in {**equations.FUNCTIONS, **equations.FORMS}.items():
+    for name, form in {**FUNCTIONS, **FORMS}.items():
         yield cursor.item(name, types.CompletionItemKind.Function, f"{name}(", start, form.meaning)
 
 

@@ -7,11 +7,13 @@ from collections.abc import Iterator
 from functools import cache
 from typing import NamedTuple, cast
 
-from mudline import expression as equations
 from mudline.deck.model import Deck, Opaque
 from mudline.deck.parameters import folded, list_items
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Span, Where
+from mudline.expression.evaluation import CONSTANTS
+from mudline.expression.nodes import ExpressionError
+from mudline.expression.parsing import parse
 from mudline.keywords.model import Block, Part, record_schema
 from mudline.keywords.places import Path
 from mudline.keywords.values import Equation, Names
@@ -178,11 +180,11 @@ def _in_equations(origin: TextOrigin) -> Iterator[Occurrence]:
     text = origin.source.unified
     for start, end in equation_spans(origin):
         try:
-            read = equations.parse(text[start + 2 : end - 1])
-        except equations.ExpressionError:
+            read = parse(text[start + 2 : end - 1])
+        except ExpressionError:
             continue
         for name, first, last in read.name_spans:
-            if folded(name) not in equations.CONSTANTS:
+            if folded(name) not in CONSTANTS:
                 span = Span(start + 2 + first, start + 2 + last)
                 yield Occurrence(thing(Names.PARAMETER, name), name, span, defines=False)
 

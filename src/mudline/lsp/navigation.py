@@ -7,8 +7,10 @@ from pathlib import Path
 
 from lsprotocol import types
 
-from mudline import expression as equations
 from mudline.diagnostics import Span
+from mudline.expression.evaluation import CONSTANTS
+from mudline.expression.nodes import ExpressionError
+from mudline.expression.parsing import parse
 from mudline.keywords.text import shown
 from mudline.keywords.values import Names
 from mudline.linting.engine import read_deck
@@ -147,10 +149,10 @@ class Navigator:
 def _is_parameter(name: str) -> bool:
     """Whether an equation reads a text as the name of a parameter."""
     try:
-        read = equations.parse(name)
-    except equations.ExpressionError:
+        read = parse(name)
+    except ExpressionError:
         return False
-    return read.names == (name,) and name.casefold() not in equations.CONSTANTS
+    return read.names == (name,) and name.casefold() not in CONSTANTS
 
 
 def _location(document: Document, span: Span) -> types.Location:

@@ -52,7 +52,7 @@ class Evaluation:
     velocities: NDArray[np.floating] | None = None
     lengths_from_positions: int = 0
     own_positions: bool = False
-    """Whether the positions are the deck's own coordinates, which are no solved shape."""
+    """Whether the positions are the deck's own coordinates, which are not a solved shape."""
 
     def __repr__(self) -> str:
         elements, nodes = counted(len(self.elements), "element"), counted(len(self.nodes), "node")

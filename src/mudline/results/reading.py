@@ -15,6 +15,7 @@ from mudline.contact.columns import CUT, Values
 from mudline.contact.input import ContactInput, ElementError
 from mudline.contact.lines import lines_in_part
 from mudline.contact.result import ContactResult
+from mudline.files import suffix_of
 from mudline.quantities import SLIDING, STATES, Names
 from mudline.results.forms import form_module, form_names
 from mudline.results.stored import TABLES, Key, Stored, StoredTable
@@ -45,7 +46,7 @@ def read_result(path: str | os.PathLike[str]) -> ContactResult:
         ValueError: results have no form of this suffix.
     """
     file = Path(path)
-    form = file.suffix.lower().removeprefix(".")
+    form = suffix_of(file)
     if form not in form_names():
         known = ", ".join(f".{name}" for name in form_names())
         raise ValueError(f"{file.as_posix()}: results are in files {known}, not {file.suffix or 'without a suffix'}")

@@ -28,7 +28,7 @@ from mudline.scene.vertical_axis import height_along_z
 from mudline.short_repr import counted, cut
 
 BALANCED = (1.0 / 3.0, 3.0)
-"""Total reaction over submerged weight of the deck's own positions, beyond which they are no equilibrium by far."""
+"""Total reaction over submerged weight of the deck's own positions, beyond which they are far from equilibrium."""
 
 _MORE_WEIGHT = ("COATINGS", "INTERNAL FLUID", "DRILLING MUD", "MASS", "POINT BUOY")
 """Keywords that are not read, and make the weight another one than that of the sections."""
@@ -269,7 +269,7 @@ class ContactWatch:
         return f"; {hint}: X is up here, the height is the first coordinate" if hint else ""
 
     def _unbalanced(self) -> Iterator[ContactWarning]:
-        """The deck's own positions where they are no equilibrium by far."""
+        """The deck's own positions where they are far from equilibrium."""
         balance = self.balance
         if balance is None or not self._is_unbalanced(balance):
             return

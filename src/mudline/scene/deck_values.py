@@ -9,11 +9,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mudline.deck.model import Deck, Opaque
-from mudline.deck.parameters import folded
+from mudline.deck.parameters import Parameters, folded
 from mudline.diagnostics import Span, Where
 from mudline.files import look
 from mudline.keywords import catalogue
-from mudline.keywords.model import Block, Part, Row, record_schema
+from mudline.keywords.model import Block, Part, Row, may_name, names_given, record_schema
 from mudline.keywords.values import LINE_SETS, Names
 from mudline.syntax.fields import read_line
 from mudline.syntax.rows import read_number
@@ -73,6 +73,28 @@ def find_file(folder: Path | None, written: str) -> Path | None:
         return path if path.is_file() else None
     except OSError:
         return None
+
+
+def missing_files(deck: Deck) -> Iterator[tuple[Where, Path, str]]:
+    """Every FILE= of a deck itself that names no file: its place, the folder searched, the name as filled.
+
+    Nothing for a deck that came from no path, as it is not known where its files could be.
+    """
+    if deck.folder is None:
+        return
+    files = [
+        (Where(i, j, path), name)
+        for i, section in enumerate(deck.own_sections)
+        for j, block in enumerate(section.blocks)
+        if type(block) is not Opaque and may_name(type(block), Names.FILE)
+        for path, name in names_given(block, Names.FILE)
+        if name
+    ]
+    parameters = Parameters(deck) if files else None
+    for where, written in files:
+        name = file_name(parameters.filled(written) if parameters else written)
+        if "%" not in name and find_file(deck.folder, name) is None:
+            yield where, deck.folder, name
 
 
 _COMMENT = re.compile(r"[Cc](?:[ \t]|[-*=#_.~+]{2}|$)|C[A-Za-z]")
@@ -205,5 +227,5 @@ def _groups(line: str) -> Iterator[tuple[str, list[str]]]:
 
 
 def data_lines(lines: Iterable[str]) -> Iterator[str]:
-    """The lines that are no comments. One with C and a letter in column 1 is one: no key that counts here begins so."""
+    """The lines that are not comments. One with C and a letter in column 1 is one: no key of interest begins so."""
     return (line for line in lines if not _COMMENT.match(line))

@@ -198,7 +198,7 @@ def check_label(context: Context, code: Code, label: str, where: Where) -> None:
 
 
 def _is_slip(name: str, near: str) -> bool:
-    """Whether one of two names that are spelt nearly alike is a slip of the pen: {End 2} is none of {End 1}."""
+    """Whether one of two names that are spelt nearly alike is a typing error: {End 2} is none of {End 1}."""
     return _MARKS.findall(name) == _MARKS.findall(near)
 
 

@@ -75,7 +75,7 @@ class SeabedShape:
     __repr__ = short_repr
 
     def same(self, other: SeabedShape) -> bool:
-        """Whether both are the same bed, number by number; files of points that are not known must be the same file."""
+        """Whether both are the same seabed, number by number; files of unknown points must be the same file."""
         return (
             (self.kind, self.slope, self.direction, self.interpolation, self.planes, self.missing)
             == (other.kind, other.slope, other.direction, other.interpolation, other.planes, other.missing)

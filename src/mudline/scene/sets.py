@@ -263,7 +263,7 @@ class _Reader:
             self.context.report_missing(REF005, message, where, "ELEMENT")
 
     def _range(self, given: ElementRange, where: Where) -> tuple[Indices, bool]:
-        """Elements of a range, without building it: it may be as long as a slip of the pen makes it."""
+        """Elements of a range, without building it: it may be as long as a typing error makes it."""
         place = where.inside("generate")
         numbers = self.context.generator(given, place)
         if numbers is None:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mudline.diagnostics import Span
-from mudline.syntax import arrow_rows
+from mudline.syntax import number_rows
 from mudline.syntax.fields import Field, split
 from mudline.syntax.number_rows import LONGEST_BLANK_SEPARATED, LONGEST_NUMBER, NumberRows
 
@@ -116,10 +116,10 @@ def _plain(values: NDArray[np.float64]) -> Rows:
 
 def _parts(text: str, span: Span, columns: int) -> Iterator[tuple[int, Rows]]:
     """The rows of one piece of a text after the other, and how many characters each piece has."""
-    arrow = arrow_rows.arrow_csv(span.end - span.start)
+    arrow = number_rows.arrow_csv(span.end - span.start)
     refused = 0
-    for start, end in _pieces(text, span, arrow_rows.PIECE if arrow else _PIECE):
-        values = arrow_rows.read(arrow, text[start:end], columns) if arrow else None
+    for start, end in _pieces(text, span, number_rows.ARROW_PIECE if arrow else _PIECE):
+        values = number_rows.read_with_arrow(arrow, text[start:end], columns) if arrow else None
         if values is not None:
             refused -= 1
             yield end - start, _plain(values)
@@ -227,7 +227,7 @@ def _pieces(text: str, span: Span, size: int = _PIECE) -> Iterator[Span]:
 
 
 def line_spans(text: str, span: Span) -> Iterator[Span]:
-    """The lines of a run without their ends; blank ones are no rows."""
+    """The lines of a run without their ends; blank ones are not rows."""
     start = span.start
     while start < span.end:
         stop = text.find("\n", start, span.end)

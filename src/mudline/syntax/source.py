@@ -14,7 +14,7 @@ from mudline.short_repr import short_repr
 
 _BOM = b"\xef\xbb\xbf"
 CONTROLS = "".join(map(chr, (*range(9), 11, 12, *range(14, 32), 127, 0xFEFF)))
-"""Characters that nobody sees and that are no blanks; in front of a `*` or `$` they are read over."""
+"""Characters that nobody sees and that are not blanks; in front of a `*` or `$` they are read over."""
 _CONTROL = re.compile(f"[{re.escape(CONTROLS)}]")
 _NO_CONTROLS = bytes(byte for byte in range(256) if chr(byte) not in CONTROLS)
 _BEFORE_HEAD = re.compile(rf"[ \t{re.escape(CONTROLS)}]++(?=[*$])")
@@ -28,7 +28,7 @@ _CALLED = {
 }
 _LONE_CR = re.compile(r"\r(?!\n)")
 _FOREIGN_DATA = re.compile(r"(?m)^(?!C(?:[^A-Za-z\r\n]|$)).*[^\x00-\x7f]")
-"""A letter beyond ASCII in a line that is no comment."""
+"""A letter beyond ASCII in a line that is not a comment."""
 _NOT_UTF8 = "{} is not UTF-8; the file is read as {}: save it as UTF-8"
 BINARY = "the file looks like binary data"
 """How the refusal of such a file begins."""
@@ -46,7 +46,7 @@ _FEW = 8
 class Source:
     """A file's text without byte-order mark; `to_bytes` gives back the bytes that were read.
 
-    `readable` is False for content that is no text of a deck (UTF-16, binary data): it is kept, but not parsed.
+    `readable` is False for content that is not the text of a deck (UTF-16, binary data): it is kept, but not parsed.
     `clean` says that the text holds none of the control characters that are read over; where it does not, it may.
     """
 

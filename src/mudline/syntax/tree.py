@@ -137,7 +137,7 @@ def mark_of(line: str) -> str:
 
 
 def parse(source: Source) -> SyntaxTree:
-    """The tree of a source. Never fails: content that is no text becomes one leaf before any section."""
+    """The tree of a source. Never fails: content that is not text becomes one leaf before any section."""
     if not source.readable:
         leaf = Leaf(Kind.TEXT, Span(0, len(source.text)))
         return SyntaxTree(source, RawSection(None, "", [leaf] if source.text else []), ())

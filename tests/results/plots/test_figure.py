@@ -20,8 +20,7 @@ from mudline.contact.touchdown import line_summaries
 from mudline.results.panels import PANELS, PanelError, usual
 from mudline.results.plot_data import PlotData
 from mudline.results.plots import figure_of
-from mudline.results.plots.over_time import Path as Cycle
-from mudline.results.plots.over_time import draw_path, traces
+from mudline.results.plots.figure import Cycle, draw_path, traces
 from mudline.results.plots.stretch import Stretch
 from mudline.results.plots.style import PlainFormatter, thinned, widened
 from mudline.scene.positions import read_positions

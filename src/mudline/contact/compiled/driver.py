@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from inspect import isfunction
-from typing import Any, NamedTuple, TypeVar, cast
+from typing import Any, NamedTuple, TypeVar
 
 import numba
 import numpy as np
@@ -39,6 +39,7 @@ from mudline.contact.laws import curve, friction, linear, suction, trench, unloa
 from mudline.contact.result import ContactResult
 from mudline.contact.seabed import FlatSeabed, Seabed
 from mudline.contact.tables import Batch, ContactState, NormalRows, Tables
+from mudline.curves.compiled import compiled
 
 _BATCH = 2**20
 """Nodes times steps at a time, at most."""
@@ -76,19 +77,10 @@ for _module in (functions, vectors, curve, friction, linear, suction, trench, un
             callable_in_loops(_function)
 
 
-def _compiled(loop: Loop) -> Loop:
-    options: Any = {"error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}
-    try:
-        made = numba.njit(cache=True, **options)(loop)
-    except RuntimeError:  # there is no place where numba may write
-        made = numba.njit(**options)(loop)
-    return cast("Loop", made)
-
-
 @cache
 def _loop(make: Callable[..., Loop], *options: Any) -> Loop:
     """The compiled loop for options, each made once."""
-    return _compiled(make(*options))
+    return compiled(make(*options), no_cfunc_wrapper=True)
 
 
 _Task = tuple[bool, int, int]

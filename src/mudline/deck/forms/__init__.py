@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from functools import cache
-from pathlib import PurePath
 from pkgutil import iter_modules
+
+from mudline.files import suffix_of
 
 KEYWORD = "keyword"
 
@@ -20,7 +21,7 @@ def form_of(name: str) -> str:
     end = name.rpartition(".")[2].lower()
     if end != "yml" and end not in form_names():  # asked for each of many decks
         return KEYWORD
-    suffix = PurePath(name).suffix.lower().removeprefix(".")
+    suffix = suffix_of(name)
     if suffix == "yml":
         return "yaml"
     return suffix if suffix in form_names() else KEYWORD

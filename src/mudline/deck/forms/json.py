@@ -121,13 +121,13 @@ def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     values: dict[str, Any] = {}
     for key, value in pairs:
         if key in values:
-            raise _UnfitError(f"the key {key!r} stands twice in one object")
+            raise _UnfitError(f"the key {key!r} is given twice in one object")
         values[key] = value
     return values
 
 
 def _no_constant(name: str) -> None:
-    raise _UnfitError(f"{name} is no JSON number: a deck holds finite numbers only")
+    raise _UnfitError(f"{name} is not a JSON number: a deck holds finite numbers only")
 
 
 _BLANKS = " \t\r\n"

@@ -38,17 +38,17 @@ def _require_survival(deck: Deck) -> None:
     again = read_source(Source.from_bytes(text.encode(errors="replace"), deck.source), units=deck.units)
     if change := first_difference(light, again):
         where, reason = change
-        message = f"{path_text(document_path(where))} cannot be said in keyword text: {reason}"
+        message = f"{path_text(document_path(where))} cannot be written as keyword text: {reason}"
         raise DeckError(deck.diagnose([Problem(DOC002, message, where=where)]))
     if text != (other := _text(again)):
         lines = zip(text.split("\n"), other.split("\n"), strict=False)
         one, two = next(pair for pair in lines if pair[0] != pair[1])
-        message = f"the line {shown(one)} cannot be said in keyword text: {shown(two)} would be read there"
+        message = f"the line {shown(one)} cannot be written as keyword text: {shown(two)} would be read there"
         raise DeckError(deck.diagnose([Problem(DOC002, message)]))
     if (errors := again.errors()) and not deck.errors():
         line = again.diagnose(errors[:1])[0].line
         written = text.split("\n")[line - 1]
-        message = f"the line {shown(written)} cannot be said in keyword text: {errors[0].message}"
+        message = f"the line {shown(written)} cannot be written as keyword text: {errors[0].message}"
         raise DeckError(deck.diagnose([Problem(DOC002, message)]))
 
 

@@ -193,7 +193,7 @@ class _Reader:
             if not isinstance(key, str):
                 raise self._error(key_node, f"a key must be a text, found {key!r}")
             if key in values:
-                raise self._error(key_node, f"the key {key!r} stands twice in one mapping")
+                raise self._error(key_node, f"the key {key!r} is given twice in one mapping")
             values[key] = self.value(value_node)
         return values
 
@@ -255,6 +255,6 @@ def locator(text: str, root: yaml.Node | None) -> Locate:
 
 
 def _row_lines(block: yaml.ScalarNode) -> list[int]:
-    """The lines of the rows of a table that is a block of text; blank lines are no rows."""
+    """The lines of the rows of a table that is a block of text; blank lines are not rows."""
     first = block.start_mark.line + 2
     return [first + number for number, line in enumerate(block.value.split("\n")) if line.strip()]

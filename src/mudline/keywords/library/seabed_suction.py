@@ -28,7 +28,7 @@ class CutOff(Row):
     """Values of CUTOFF=: corners of the trapezoid as fractions of the uplift at breakout."""
 
     first: Annotated[Real, about("end of the rise", unit="-", default="0.2")]
-    second: Annotated[Real, about("begin of the fall", unit="-", default="0.8")]
+    second: Annotated[Real, about("start of the fall", unit="-", default="0.8")]
 
 
 class CyclicLoading(Row):

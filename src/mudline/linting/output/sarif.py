@@ -20,7 +20,7 @@ SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sar
 LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
 _BASE = "ROOT"
 
-_NO_RULE = "This is no rule and cannot be left out; the message says why the file could not be used or checked."
+_NO_RULE = "This is not a rule and cannot be ignored; the message says why the file could not be used or checked."
 
 
 def write(diagnostics: Iterable[Diagnostic], run: LintRun) -> Iterator[str]:

@@ -10,14 +10,13 @@ import numpy as np
 from mudline.contact.input import LawKind
 from mudline.deck.model import Opaque
 from mudline.deck.parameters import folded
-from mudline.diagnostics import Code, Problem, Severity, Where
+from mudline.diagnostics import Code, Problem, Severity
 from mudline.keywords.text import shown
-from mudline.linting.rule import LintContext, limited, rule
+from mudline.linting.rule import LintContext, entries_of_sets, limited, rule
 from mudline.scene.sections import Section, format_of
 from mudline.scene.sets import set_key
 
 if TYPE_CHECKING:
-    from mudline.keywords.library.geometric_sets import GeometricSet, GeometricSets
     from mudline.scene.model import Scene
 
 GEO002 = Code("GEO002", "number-and-curve", Severity.WARNING)
@@ -38,13 +37,6 @@ _CURVES = {
 _NAMES = {"eiyy": "EIyy", "eizz": "EIzz", "gj": "GJ", "ea": "EA", "e": "E"}
 
 
-def section_entries(blocks: Iterable[tuple[Where, GeometricSets]]) -> Iterator[tuple[Where, GeometricSet]]:
-    """Every entry of some blocks of *GEOMETRIC SETS with its place."""
-    for where, block in blocks:
-        for index, entry in enumerate(block.sets):
-            yield where.inside("sets", index), entry
-
-
 @rule(GEO002)
 @limited
 def number_and_curve(context: LintContext) -> Iterator[Problem]:
@@ -63,7 +55,7 @@ def number_and_curve(context: LintContext) -> Iterator[Problem]:
 
     Finds: 5:2
     """
-    for where, entry in section_entries(context.written("GEOMETRIC SETS")):
+    for where, entry in entries_of_sets(context.written("GEOMETRIC SETS")):
         if entry.mooring is not None:
             continue  # its format has no field for a curve, and EA must be given
         for curve, (key, numbers) in _CURVES.items():

@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, cast
 
 from mudline.deck.parameters import folded, list_items
 from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Code, Problem, Repair, Severity, Span, Where
 from mudline.keywords.text import shown
-from mudline.linting.rule import LintContext, limited, rule
+from mudline.linting.rule import LintContext, entries_of_sets, limited, rule
 from mudline.linting.rules.style_lines import line_around
 from mudline.scene.sets import ALL
 from mudline.syntax.edits import TextEdit, with_line_ends
 
 if TYPE_CHECKING:
-    from mudline.keywords.library.element_sets import ElementSet, ElementSets, SetList
+    from mudline.keywords.library.element_sets import SetList
     from mudline.keywords.library.parameters import Parameter
 
 REF011 = Code("REF011", "long-name", Severity.WARNING)
@@ -52,18 +52,11 @@ def long_name(context: LintContext) -> Iterator[Problem]:
 
     Finds: 8:6
     """
-    for where, entry in _sets(context.blocks("ELEMENT SETS")):
+    for where, entry in entries_of_sets(context.blocks("ELEMENT SETS")):
         length = len(cast("str | None", entry.name) or "")
         if length > LONGEST_NAME:
             message = f"a set name of {length} characters: it must not be longer than {LONGEST_NAME}"
             yield Problem(REF011, message, where=where.inside("name"))
-
-
-def _sets(blocks: Iterable[tuple[Where, ElementSets]]) -> Iterator[tuple[Where, ElementSet]]:
-    """Every entry of some blocks of *ELEMENT SETS with its place."""
-    for where, block in blocks:
-        for index, entry in enumerate(block.sets):
-            yield where.inside("sets", index), entry
 
 
 @rule(REF012)
@@ -91,7 +84,7 @@ def long_list(context: LintContext) -> Iterator[Problem]:
 
     Finds: 11:73
     """
-    for where, entry in _sets(context.written("ELEMENT SETS")):
+    for where, entry in entries_of_sets(context.written("ELEMENT SETS")):
         for number, member in enumerate(entry.members):
             count = len(cast("SetList", member).elements) if member.rule == "set_list" else 0
             if count > LONGEST_LIST:
@@ -151,7 +144,7 @@ def repeated_set(context: LintContext) -> Iterator[Problem]:
     Finds: 14:6
     """
     known: set[str] = set()
-    for where, entry in _sets(context.written("ELEMENT SETS")):
+    for where, entry in entries_of_sets(context.written("ELEMENT SETS")):
         name = cast("str | None", entry.name)
         if name is None or (key := folded(name)) == ALL:
             continue

@@ -259,20 +259,20 @@ def short_mobilisation(context: LintContext) -> Iterator[Problem]:
     Finds: 17:21
     """
     scene = context.scene
-    bed = scene.resistance
-    if not any(length > 0.0 for values in bed.values for length in values.mobilisation):
+    resistance = scene.resistance
+    if not any(length > 0.0 for values in resistance.values for length in values.mobilisation):
         return
-    lengths, friction = bed.column("mobilisation"), bed.column("friction")
-    friction[bed.column("lateral") > 0.0, 1] = 0.0  # a lateral spring replaces it
+    lengths, friction = resistance.column("mobilisation"), resistance.column("friction")
+    friction[resistance.column("lateral") > 0.0, 1] = 0.0  # a lateral spring replaces it
     if replacing := scene.extensions.get("SEABED FRICTION"):
         friction[replacing.of_element >= 0] = 0.0
     for side, name in enumerate(("longitudinal_mobilisation", "transverse_mobilisation")):
         length = lengths[:, side]
         short = (length > 0.0) & (friction[:, side] > 0.0) & (length < _SHORTEST * scene.diameter)
-        for index in sorted(set(bed.of_element[short].tolist())):
-            where = bed.places[index]
+        for index in sorted(set(resistance.of_element[short].tolist())):
+            where = resistance.places[index]
             path = (name,) if where.path[0] == "properties" else ("friction", name)
-            value = bed.values[index].mobilisation[side]
+            value = resistance.values[index].mobilisation[side]
             message = f"mobilisation length {value!r} is under 1e-4 diameters of the pipe: give a longer one"
             yield Problem(SBD019, message, where=where.inside(*path))
 
@@ -367,10 +367,10 @@ def friction_replaced(context: LintContext, entry: Given) -> bool:
     names = _names(friction)
     if ALL in names:
         return True
-    bed = context.scene.resistance
+    resistance = context.scene.resistance
     followers = np.zeros(0, dtype=np.intp)
-    if entry.where in bed.places:
-        followers = np.flatnonzero(bed.of_element == bed.places.index(entry.where))
+    if entry.where in resistance.places:
+        followers = np.flatnonzero(resistance.of_element == resistance.places.index(entry.where))
     if followers.size:
         return bool((friction.of_element[followers] >= 0).all())
     return not entry.legacy and folded(str(entry.part.set_name)) in names

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from mudline.codes.fields import SYN015
 from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity, Where
 from mudline.keywords.model import Part
-from mudline.linting.rule import LintContext, limited, rule
-from mudline.linting.rules.geometry import section_entries
+from mudline.linting.rule import LintContext, entries_of_sets, limited, rule
 from mudline.scene.deck_values import FOOT, POUND, number
 from mudline.scene.deck_values import LENGTH_UNIT as METRES
 from mudline.scene.model import Scene
@@ -142,7 +141,7 @@ def readable_sections(context: LintContext) -> list[tuple[Where, GeometricSet]]:
     Several rules need them, and ask `context.once`.
     """
     text = context.text
-    found = list(section_entries(context.blocks("GEOMETRIC SETS")))
+    found = list(entries_of_sets(context.blocks("GEOMETRIC SETS")))
     commas = {text.place(problem).line for problem in context.problems_of(SYN015)} if text else set()
     if not commas or not text:
         return found

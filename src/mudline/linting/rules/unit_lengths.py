@@ -217,14 +217,14 @@ def suspicious_length(context: LintContext) -> Iterator[Problem]:
 def _mobilisation(context: LintContext) -> Iterator[Problem]:
     """Mobilisation lengths against the widest pipe that they hold for, but for those that SBD013 reports."""
     scene = context.scene
-    bed = scene.resistance
-    if not any(length > 0.0 for values in bed.values for length in values.mobilisation):
+    resistance = scene.resistance
+    if not any(length > 0.0 for values in resistance.values for length in values.mobilisation):
         return
-    widest = np.full(len(bed.places) + 1, np.nan)
+    widest = np.full(len(resistance.places) + 1, np.nan)
     friction = scene.extensions.get("SEABED FRICTION")
-    used = np.ones(len(bed.of_element), dtype=np.bool_) if friction is None else friction.of_element < 0
-    np.fmax.at(widest, bed.of_element[used], scene.diameter[used])
-    places = {where: index for index, where in enumerate(bed.places)}
+    used = np.ones(len(resistance.of_element), dtype=np.bool_) if friction is None else friction.of_element < 0
+    np.fmax.at(widest, resistance.of_element[used], scene.diameter[used])
+    places = {where: index for index, where in enumerate(resistance.places)}
     usual = 1.05 * LARGEST_MOBILISATION.get(scene.units, 0.0)
     for entry in given(context):
         diameter = float(widest[places[entry.where]]) if entry.where in places else math.nan

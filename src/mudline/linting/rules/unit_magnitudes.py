@@ -13,15 +13,13 @@ from mudline.contact.input import LawKind
 from mudline.deck.reading import GRAVITIES
 from mudline.diagnostics import MOST_REPORTED, Code, Problem, Severity, Where
 from mudline.keywords.text import shown
-from mudline.linting.rule import LintContext, limited, rule
+from mudline.linting.rule import LintContext, entries_of_sets, limited, rule
 from mudline.linting.rules.curve_shape import swapped
 from mudline.linting.rules.seabed_friction import given, surfaces_of
 from mudline.scene.model import Scene
 
 if TYPE_CHECKING:
     from mudline.keywords.library.ocean import Ocean
-    from mudline.keywords.library.seabed_friction import SeabedFriction
-    from mudline.keywords.library.seabed_properties import SeabedProperties
 
 UNT001 = Code("UNT001", "gravity-mismatch", Severity.WARNING)
 UNT002 = Code("UNT002", "suspicious-magnitude", Severity.WARNING)
@@ -201,11 +199,8 @@ def _coefficients(context: LintContext) -> Iterator[tuple[Where, object, tuple[s
     both = ("longitudinal", "transverse")
     for where, surface in context.once(surfaces_of):
         yield where.inside("properties"), surface.properties, both
-    for where, block in context.blocks("SEABED PROPERTIES"):
-        for index, entry in enumerate(cast("SeabedProperties", block).sets):
-            if entry.friction is not None:
-                yield where.inside("sets", index, "friction"), entry.friction, both
-    for where, block in context.blocks("SEABED FRICTION"):
-        for index, set_ in enumerate(cast("SeabedFriction", block).sets):
-            place = where.inside("sets", index, "coefficients")
-            yield place, getattr(set_, "coefficients", None), ("first", "second")
+    for where, entry in entries_of_sets(context.blocks("SEABED PROPERTIES")):
+        if entry.friction is not None:
+            yield where.inside("friction"), entry.friction, both
+    for where, entry in entries_of_sets(context.blocks("SEABED FRICTION")):
+        yield where.inside("coefficients"), getattr(entry, "coefficients", None), ("first", "second")

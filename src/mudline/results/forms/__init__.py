@@ -24,8 +24,8 @@ from pydantic_core import to_json
 from mudline.contact import Plan
 from mudline.contact.columns import Column, Table, Values
 from mudline.contact.result import Part
-from mudline.diagnostics import DeckError
 from mudline.results.evaluation import Evaluation
+from mudline.results.stored import StoredTable
 from mudline.scene.csv_file import data_error
 
 _BLOCK = 16384
@@ -34,6 +34,7 @@ _PIECE = 1000
 """Rows written at a time."""
 
 T = TypeVar("T")
+Units = TypeVar("Units", str, str | None)
 Row = tuple[str, ...]
 More = Mapping[str, object]
 """What is known only after the last step, by its key in JSON."""
@@ -106,9 +107,22 @@ def table_path(path: Path, table: str) -> Path:
     return path.with_name(f"{path.stem}-{table}{path.suffix}")
 
 
-def lacks_nodes(path: Path, beside: Path) -> DeckError:
-    """Return the error about a file of elements without that of the nodes."""
-    return data_error(path.as_posix(), f"the nodes are missing: expected them in {beside.name} beside it")
+def tables_of(
+    path: Path, read: Callable[[Path, str], tuple[StoredTable, Units]]
+) -> tuple[StoredTable, StoredTable, Units]:
+    """Return the tables of elements and of nodes, read from the file of the elements and that beside it; their units.
+
+    `read` returns a table and its units, None where it has no row. Raises DeckError where the file of the nodes is
+    missing.
+    """
+    elements, units = read(path, "elements")
+    beside = table_path(path, "nodes")
+    try:
+        nodes, units_beside = read(beside, "nodes")
+    except FileNotFoundError as error:
+        why = f"the nodes are missing: expected them in {beside.name} beside it"
+        raise data_error(path.as_posix(), why) from error
+    return elements, nodes, units or units_beside
 
 
 def form_module(name: str) -> ModuleType:

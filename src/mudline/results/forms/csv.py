@@ -24,9 +24,8 @@ from mudline.results.forms import (
     Together,
     Write,
     batched,
-    lacks_nodes,
     step_rows,
-    table_path,
+    tables_of,
     text_into,
 )
 from mudline.results.stored import Coder, Stacked, Stored, StoredTable, Texts, checked_units, flat_kinds, require_names
@@ -53,13 +52,8 @@ def opened(output: Output) -> AbstractContextManager[Sink]:
 
 def read(path: Path) -> Stored:
     """What the file of the elements and that of the nodes beside it hold. Raises OSError, DeckError."""
-    elements, units = _read_table(path, "elements")
-    beside = table_path(path, "nodes")
-    try:
-        nodes, units_beside = _read_table(beside, "nodes")
-    except FileNotFoundError as error:
-        raise lacks_nodes(path, beside) from error
-    return Stored(checked_units(path.as_posix(), units or units_beside), elements, nodes)
+    elements, nodes, units = tables_of(path, _read_table)
+    return Stored(checked_units(path.as_posix(), units), elements, nodes)
 
 
 def _read_table(path: Path, table: str) -> tuple[StoredTable, str | None]:

@@ -17,7 +17,7 @@ from mudline.contact.frames import FORMAT_KEY, UNITS_KEY, arrow_of
 from mudline.contact.result import Part
 from mudline.quantities import Kind
 from mudline.results.evaluation import Evaluation
-from mudline.results.forms import More, Output, Sink, Together, lacks_nodes, table_path
+from mudline.results.forms import More, Output, Sink, Together, tables_of
 from mudline.results.stored import (
     Stacked,
     Stored,
@@ -87,12 +87,7 @@ class ParquetFile:
 
 def read(path: Path) -> Stored:
     """What the file of the elements and that of the nodes beside it hold. Raises OSError, DeckError."""
-    elements, units = _read_table(path, "elements")
-    beside = table_path(path, "nodes")
-    try:
-        nodes, _ = _read_table(beside, "nodes")
-    except FileNotFoundError as error:
-        raise lacks_nodes(path, beside) from error
+    elements, nodes, units = tables_of(path, _read_table)
     return Stored(units, elements, nodes)
 
 

@@ -1,19 +1,25 @@
-"""Panels over the arc length of the lines: forces, embedment and stiffness of a step, and envelopes of all steps."""
+"""Panels over arc length: the line on the seabed; forces, embedment and stiffness of a step; envelopes of all steps."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from mudline.quantities import ELEMENTS, SLIDING, labelled, unit_names
+from mudline.contact.result import Part
+from mudline.contact.touchdown import Touchdown
+from mudline.quantities import ELEMENTS, NODES, SLIDING, labelled, unit_names
 from mudline.results.plot_data import Chosen, Envelope, PlotData
 from mudline.results.plots.stretch import Stretch
 from mudline.results.plots.style import (
+    LIGHT,
+    MOST,
     SEABED,
     STATE_STYLES,
+    Style,
     above,
     is_number,
     legend_above,
@@ -199,3 +205,149 @@ def _step_note(axes: Axes, data: PlotData, chosen: Chosen) -> None:
     if data.steps > 1:
         text = f"at {when(data, chosen.step)}"
         axes.text(1.0, 1.02, text, transform=axes.transAxes, ha="right", va="bottom", fontsize="small")
+
+
+# ----------------------------------------------------------------------------------------------- the line on the seabed
+
+_HIGHEST = (25.0, 5.0)
+"""How high above the seabed a line is drawn, as a multiple of the deepest embedment and of the largest diameter."""
+_LABELLED_POINTS = 3
+"""Touchdown points whose arc length is written beside them, if there are no more."""
+
+
+def line(axes: Axes, data: PlotData, stretch: Stretch) -> None:
+    """Draw the lines on the seabed, thick where they touch it, with their touchdown points."""
+    chosen = data.drawn
+    heights, seabed = chosen.heights, chosen.seabed
+    for place, number in enumerate(stretch.lines):
+        nodes, arcs = stretch.nodes(number)
+        drawn = thinned(chosen.result.gap[nodes])
+        axes.plot(arcs[drawn], seabed[nodes[drawn]], color=SEABED, linewidth=1.2, linestyle="-", zorder=1)
+        style = stretch.style(place)
+        axes.plot(
+            arcs[drawn], heights[nodes[drawn]], color=style.color, linestyle=style.linestyle, linewidth=1.1, zorder=3
+        )
+        _thick(axes, data, heights, number, stretch, style)
+    _crop(axes, data, chosen, stretch)
+    _touchdown_points(axes, data, chosen, stretch)
+    if len(stretch.lines) == 1:
+        _soil(axes, chosen, stretch)
+    axes.set_ylabel(NODES["x"].axis(data.given.units))
+    handles: list[Artist] = [*_line_handles(stretch)]
+    handles += [
+        Line2D([], [], color=stretch.style(0).color, linewidth=3.5, label="in contact"),
+        Line2D([], [], color=SEABED, linewidth=1.2, label="seabed"),
+    ]
+    handles += axes.get_legend_handles_labels()[0]
+    legend_above(axes, handles)
+
+
+def _crop(axes: Axes, data: PlotData, chosen: Chosen, stretch: Stretch) -> None:
+    """Leave out what hangs so high that nothing would be seen of how the line lies on the seabed."""
+    nodes = np.concatenate([stretch.nodes(number)[0] for number in stretch.lines])
+    near = nodes[chosen.result.gap[nodes] <= highest(data)]
+    if not near.size:
+        return
+    drawn = np.concatenate([chosen.heights[near], chosen.seabed[near]])
+    low, high = float(np.nanmin(drawn)), float(np.nanmax(drawn))
+    if len(near) < len(nodes) and is_number(low) and is_number(high) and high > low:
+        axes.set_ylim(low - 0.05 * (high - low), high)
+
+
+def highest(data: PlotData) -> float:
+    """How high above the seabed a line is drawn, if something touches the seabed."""
+    sizes = (np.nan_to_num(data.depth.most), np.nan_to_num(data.given.diameter))
+    return max(times * float(values.max(initial=0.0)) for times, values in zip(_HIGHEST, sizes, strict=True))
+
+
+def _thick(axes: Axes, data: PlotData, heights: Floats, number: int, stretch: Stretch, style: Style) -> None:
+    """Draw the elements of a line that touch the seabed over it."""
+    lines = data.given.lines
+    shown = np.zeros(len(data.given.element_ids), np.bool_)
+    shown[stretch.elements(number)] = True
+    shown &= data.drawn.result.contact
+    here = np.flatnonzero(shown[lines.elements[number]])
+    if not here.size:
+        return
+    arcs, along = lines.node_arcs(number, data.given.length), heights[lines.nodes[number]]
+    here = here[thinned(np.nan_to_num(along[here]), MOST)]
+    none = np.full(len(here), np.nan)
+    x, y = (np.column_stack([values[here], values[here + 1], none]).ravel() for values in (arcs, along))
+    axes.plot(x, y, color=style.color, linewidth=3.5, solid_capstyle="butt", zorder=2)
+
+
+def _touchdown_points(axes: Axes, data: PlotData, chosen: Chosen, stretch: Stretch) -> None:
+    """Mark where the lines come down on the seabed or leave it."""
+    series = chosen.result.as_series()
+    finder, part = Touchdown(data.given), Part(chosen.step, series)
+    wanted = [one for one in finder.series(part) if one.number in stretch.lines]
+    points = [point for summary in finder.summaries(part, wanted) for point in summary.touchdown]
+    low, high = stretch.limits
+    points = [point for point in points if low <= point.arc_length <= high]
+    if not points:
+        return
+    x, y = [point.arc_length for point in points], [point.x for point in points]
+    size = 8.0 if len(points) <= 12 else 5.0
+    axes.plot(
+        x,
+        y,
+        linestyle="none",
+        marker="v",
+        markersize=size,
+        color="black",
+        markerfacecolor="white",
+        zorder=5,
+        label="touchdown point",
+    )
+    if len(points) > _LABELLED_POINTS:
+        return
+    unit = unit_names(data.given.units).length
+    for point in points:
+        right = point.arc_length < 0.5 * (low + high)
+        axes.annotate(
+            f"TDP {point.arc_length:.5g} {unit}".rstrip(),
+            (point.arc_length, point.x),
+            (8.0 if right else -8.0, 9.0),
+            textcoords="offset points",
+            ha="left" if right else "right",
+            fontsize="small",
+            bbox={"boxstyle": "square,pad=0.15", "facecolor": "white", "edgecolor": "none", "alpha": 0.8},
+            zorder=6,
+        )
+
+
+def _soil(axes: Axes, chosen: Chosen, stretch: Stretch) -> None:
+    """Fill what lies below the seabed."""
+    nodes, arcs = stretch.nodes(stretch.lines[0])
+    drawn = thinned(chosen.result.gap[nodes])
+    level = chosen.seabed[nodes[drawn]]
+    if not np.isfinite(level).any():
+        return
+    lowest, highest = axes.get_ylim()
+    least = float(np.nanmin(level))
+    bottom = min(lowest, least - 0.12 * (highest - least))
+    if not (is_number(bottom) and is_number(highest)):
+        return
+    axes.fill_between(arcs[drawn], level, bottom, color=LIGHT, linewidth=0.0, zorder=0)
+    axes.set_ylim(bottom, highest + 0.04 * (highest - bottom))
+
+
+def _line_handles(stretch: Stretch) -> list[Line2D]:
+    """What a legend has of the lines: nothing for a single one."""
+    handles = []
+    for place, number in enumerate(stretch.lines if len(stretch.lines) > 1 else ()):
+        style = stretch.style(place)
+        handles.append(
+            Line2D(
+                [],
+                [],
+                color=style.color,
+                linestyle=style.linestyle,
+                marker=style.marker,
+                markersize=4,
+                label=stretch.name(number),
+            )
+        )
+    if stretch.left_out:
+        handles.append(Line2D([], [], linestyle="none", label=f"and {stretch.left_out} more lines"))
+    return handles

@@ -19,7 +19,7 @@ from PIL import Image
 
 from mudline.quantities import ELEMENTS, NODES
 from mudline.results.plot_data import Frame, PlotData
-from mudline.results.plots.profile import highest
+from mudline.results.plots.along_line import highest
 from mudline.results.plots.stretch import Stretch
 from mudline.results.plots.style import SEABED, SETTINGS, Spelled, above, finish, is_number, when
 from mudline.scene.numbering import Floats, Indices

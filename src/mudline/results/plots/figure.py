@@ -1,4 +1,4 @@
-"""The figure of results: which panels stand where, how high they are, what they share, and the title."""
+"""The figure of results: which panels stand where, how high they are, what they share, the title; panels over time."""
 
 from __future__ import annotations
 
@@ -8,24 +8,41 @@ from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
 import matplotlib as mpl
+import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.gridspec import GridSpec
+from matplotlib.ticker import MaxNLocator
+from numpy.typing import NDArray
 
 from mudline.contact import ContactResult
-from mudline.files import replacement
+from mudline.files import replacement, suffix_of
+from mudline.quantities import STATES, STEPS, headed, labelled, unit_names
 from mudline.results import panels as known
 from mudline.results.panels import PANELS, PICTURES
-from mudline.results.plot_data import TRACED, PlotData
-from mudline.results.plots import along_line, over_time, profile
+from mudline.results.plot_data import TRACED, Band, PlotData
+from mudline.results.plots import along_line
 from mudline.results.plots.curves import on_curves
 from mudline.results.plots.stretch import Stretch
-from mudline.results.plots.style import SETTINGS, Spelled, finish, when, write
+from mudline.results.plots.style import (
+    COLORS,
+    SETTINGS,
+    STATE_STYLES,
+    Spelled,
+    Style,
+    above,
+    finish,
+    time_label,
+    when,
+    widen,
+    write,
+)
+from mudline.scene.numbering import Floats, Indices, Mask
 
 _WIDTH = 8.0
 _WIDTH_OF_TWO = 14.0
 _UNEVEN = 1.0
-"""How much higher, inch, the right column may be for panels along the line that stand in it."""
+"""How much higher, inch, the right column may be for panels along the line in it."""
 _STRETCHED = 1.5
 """How much higher a panel may become so that both columns are equally high; beyond it, the rest stays empty."""
 
@@ -125,7 +142,7 @@ def _fill(figure: Figure, cells: _Cells, panels: Sequence[tuple[str, _Shown]], s
 def _shown(name: str, data: PlotData, stretch: Stretch, spelled: Spelled) -> _Shown:
     """How high a panel is, and what draws it."""
     return {
-        "line": _Shown([2.9], lambda axes: profile.line(axes[0], data, stretch)),
+        "line": _Shown([2.9], lambda axes: along_line.line(axes[0], data, stretch)),
         "force": _Shown([1.9], lambda axes: along_line.force(axes[0], data, stretch)),
         "suction": _Shown([1.9], lambda axes: along_line.suction(axes[0], data, stretch)),
         "friction": _Shown([1.9], lambda axes: along_line.friction(axes[0], data, stretch)),
@@ -134,14 +151,14 @@ def _shown(name: str, data: PlotData, stretch: Stretch, spelled: Spelled) -> _Sh
         "envelope": _Shown([1.9, 1.7], lambda axes: along_line.envelope(axes, data, stretch)),
         "curves": _Shown([3.4], lambda axes: on_curves(axes[0], data, spelled)),
         "loop": _Shown([3.0] * len(data.looped), lambda axes: _loops(axes, data)),
-        "touchdown": _Shown([1.5, 1.2], lambda axes: over_time.touchdown(axes, data, stretch)),
-        "traces": _Shown([1.2] * len(TRACED), lambda axes: over_time.traces(axes, data)),
+        "touchdown": _Shown([1.5, 1.2], lambda axes: touchdown(axes, data, stretch)),
+        "traces": _Shown([1.2] * len(TRACED), lambda axes: traces(axes, data)),
     }[name]
 
 
 def _loops(rows: Sequence[Axes], data: PlotData) -> None:
     for place, axes in enumerate(rows):
-        over_time.loop(axes, data, place)
+        loop(axes, data, place)
 
 
 def _title(data: PlotData, names: Sequence[str], spelled: Spelled) -> str:
@@ -164,7 +181,7 @@ def plot_result(
     elements: Sequence[int] = (),
 ) -> Figure:
     """Return the figure of a result, and write it to a file if a path is given; see `ContactResult.plot`."""
-    form = "" if path is None else Path(path).suffix.lower().removeprefix(".")
+    form = "" if path is None else suffix_of(path)
     if path is not None and form not in PICTURES:
         raise ValueError(f"{path}: a plot is a .{', .'.join(PICTURES[:-1])} or .{PICTURES[-1]}")
     data = PlotData.of_result(result, elements)
@@ -174,3 +191,167 @@ def plot_result(
             with replacement(Path(path)) as stream:
                 write(lambda: figure, form, stream)
     return figure
+
+
+# ----------------------------------------------------------------------------------------------------- panels over time
+
+
+def touchdown(rows: Sequence[Axes], data: PlotData, stretch: Stretch) -> None:
+    """Draw the arc length of the first and the last touchdown point of each line, and below the length in contact."""
+    points, contact = rows
+    several = len(stretch.lines) > 1
+    for place, number in enumerate(stretch.lines):
+        style = stretch.style(place)
+        name = stretch.name(number) if several else "touchdown point"
+        first, last = (data.touchdown[number, end] for end in ("first", "last"))
+        two = not np.array_equal(first.most, last.most, equal_nan=True)
+        band(points, data, first, style, name if several or not two else "first touchdown point")
+        if two:
+            other = Style(style.color if several else COLORS[1], ":" if several else "--", style.marker)
+            band(points, data, last, other, None if several else "last touchdown point")
+        band(contact, data, data.touchdown[number, "contact_length"], style, None)
+    length = unit_names(data.given.units).length
+    points.set_ylabel(labelled("arc length of\ntouchdown", length).replace(" [", "\n["))
+    contact.set_ylabel(headed("length in\ncontact", length))
+    if not any(np.isfinite(data.touchdown[number, "first"].most).any() for number in stretch.lines):
+        points.text(0.5, 0.5, "no touchdown point", transform=points.transAxes, ha="center", va="center")
+    else:
+        above(points, 2)
+    time_axis(rows, data)
+
+
+def traces(rows: Sequence[Axes], data: PlotData) -> None:
+    """Draw total reaction, largest force, elements in contact and deepest embedment, each on its axes."""
+    for axes, name in zip(rows, TRACED, strict=True):
+        band(axes, data, data.traces[name], Style(COLORS[0], "-", "o"), None)
+        axes.set_ylabel(headed(STEPS[name].label, STEPS[name].unit_name(data.given.units)))
+        if name == "touching":
+            axes.yaxis.set_major_locator(MaxNLocator(nbins=3, integer=True, steps=[1, 2, 5, 10]))
+    time_axis(rows, data)
+
+
+def band(axes: Axes, data: PlotData, values: Band, style: Style, label: str | None) -> None:
+    """Draw a figure over time; where steps are too many, the band between its least and largest values."""
+    times = data.bin_times
+    if np.array_equal(values.least, values.most, equal_nan=True):
+        mark = style.marker if len(times) <= 25 else ""
+        axes.plot(
+            times,
+            values.most,
+            color=style.color,
+            linestyle=style.linestyle,
+            linewidth=1.2,
+            marker=mark,
+            markersize=3.5,
+            label=label,
+        )
+    else:
+        axes.fill_between(times, values.least, values.most, color=style.color, linewidth=0.6, label=label)
+    widen(axes, np.concatenate([values.least, values.most]))
+
+
+def time_axis(rows: Sequence[Axes], data: PlotData) -> None:
+    """Set the horizontal axis of panels over time."""
+    times = data.bin_times
+    last = float(data.steps - 1) if data.times is None else float(data.times[-1])
+    beside = 0.01 * (last - float(times[0])) or 0.5
+    for axes in rows:
+        axes.set_xlim(float(times[0]) - beside, last + beside)
+        axes.set_xlabel(time_label(data))
+
+
+# ----------------------------------------------------------------------------------------------- force over penetration
+
+_ARROWS = 12
+"""Arrow heads on a path."""
+_STOP = STATES.index("hold")
+"""A pipe that hangs still is a point of its path, and marked as one."""
+_GOING = (("moving down", Style(COLORS[0], "-", "")), ("moving up", Style(COLORS[1], "--", "")))
+
+
+class Cycle(NamedTuple):
+    """An element over the steps: penetration, force per unit length, and state of suction, None without."""
+
+    penetration: Floats
+    force: Floats
+    state: NDArray[np.int8] | None
+
+
+def loop(axes: Axes, data: PlotData, place: int) -> None:
+    """Draw the path of one of the chosen elements."""
+    found = data.loop
+    states = None if found.state is None else found.state[:, place]
+    if states is not None and (states < 0).all():
+        states = None
+    draw_path(axes, Cycle(found.penetration[:, place], found.force[:, place], states))
+    names = unit_names(data.given.units)
+    number = int(data.given.element_ids[data.looped[place]])
+    axes.set_xlabel(labelled(f"penetration of element {number}", names.length))
+    axes.set_ylabel(labelled("seabed reaction\nper unit length", names.line_force).replace(" [", "\n["))
+    above(axes, 5)
+    finish(axes)
+
+
+def draw_path(axes: Axes, path: Cycle) -> None:
+    """Draw a path with arrow heads: by state where there are states, else by whether the pipe moves down or up."""
+    groups: list[tuple[str, Style, Mask]] = []
+    if path.state is not None:
+        for index, (name, style) in enumerate(STATE_STYLES.items()):
+            groups.append((name, style if index == _STOP else style._replace(marker=""), path.state == index))
+    else:
+        down = np.diff(path.penetration, prepend=path.penetration[0]) >= 0.0
+        groups = [(name, style, way) for (name, style), way in zip(_GOING, (down, ~down), strict=True)]
+    arrows = _arrow_steps(path)
+    for name, style, mine in groups:
+        here = np.flatnonzero(mine)
+        if here.size:
+            _ways(axes, path, here, style, name)
+            for at in arrows[mine[arrows]].tolist():
+                start, end = ((path.penetration[k], path.force[k]) for k in (at - 1, at))
+                shape = {"arrowstyle": "-|>", "color": style.color, "mutation_scale": 13.0, "shrinkA": 0, "shrinkB": 0}
+                axes.annotate("", end, start, arrowprops=shape, zorder=4)
+    limits = axes.axis()
+    axes.axhline(0.0, color="0.4", linewidth=0.8, zorder=1)
+    axes.axvline(0.0, color="0.4", linewidth=0.8, linestyle=":", zorder=1)
+    axes.axis(limits)  # the path fills the panel, wherever 0 is
+
+
+def _ways(axes: Axes, path: Cycle, here: Indices, style: Style, name: str) -> None:
+    """Draw the way to each of some steps, from the step before; a stop is a point."""
+    back = np.maximum(here - 1, 0)
+    gap = np.full(len(here), np.nan)
+    x, y = (np.column_stack([values[back], values[here], gap]) for values in (path.penetration, path.force))
+    joined = np.append(here[1:] == here[:-1] + 1, False)
+    kept = np.column_stack([np.append(True, ~joined[:-1]), np.ones(len(here), bool), ~joined]).ravel()
+    axes.plot(
+        x.ravel()[kept],
+        y.ravel()[kept],
+        color=style.color,
+        linestyle=style.linestyle,
+        linewidth=1.8,
+        marker=style.marker,
+        markersize=5,
+        markevery=[-2] if style.marker else None,
+        label=name,
+        zorder=3 if style.marker else 2,
+    )
+
+
+def _arrow_steps(path: Cycle) -> Indices:
+    """Steps at even distances on the path, as it is seen: each direction is a part of its span."""
+    with np.errstate(all="ignore"):
+        moves = [
+            np.diff(np.nan_to_num(values)) / (float(np.nanmax(values) - np.nanmin(values)) or 1.0)
+            for values in (path.penetration, path.force)
+            if np.isfinite(values).any()
+        ]
+    if not moves:
+        return np.zeros(0, np.intp)
+    far = np.append(0.0, np.cumsum(np.nan_to_num(np.hypot.reduce(moves) if len(moves) > 1 else moves[0])))
+    places = (np.arange(_ARROWS) + 0.5) / _ARROWS * far[-1]
+    steps = np.unique(np.searchsorted(far, places))
+    steps = steps[(steps > 0) & (steps < len(far))]
+    moved = np.diff(far)[steps - 1] > 0.0
+    known = np.isfinite(path.force[steps]) & np.isfinite(path.force[steps - 1])
+    found: Indices = steps[moved & known]
+    return found

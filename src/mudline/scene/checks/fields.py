@@ -9,16 +9,14 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 
 from mudline.codes.references import REF015
-from mudline.deck.model import Deck, Opaque
-from mudline.deck.parameters import Parameters
+from mudline.deck.model import Opaque
 from mudline.diagnostics import MOST_REPORTED, Blocks, Code, Problem, Severity, Where
 from mudline.keywords.catalogue import ZERO_LENGTH
-from mudline.keywords.model import FieldSpec, ListRow, Part, Rows, may_name, names_given, record_schema
+from mudline.keywords.model import FieldSpec, ListRow, Part, Rows, record_schema
 from mudline.keywords.table import Table
 from mudline.keywords.text import shown
-from mudline.keywords.values import Names
 from mudline.scene.checks import check
-from mudline.scene.deck_values import file_name, find_file
+from mudline.scene.deck_values import missing_files
 from mudline.scene.sections import format_of
 
 if TYPE_CHECKING:
@@ -134,29 +132,11 @@ def missing_file(scene: ResolvedDeck) -> Iterator[Problem]:
 
     Without the file of its profile the seabed is not known.
     """
-    deck = scene.context.written
-    if deck.folder is None:
-        return
-    files = list(_files(deck))
-    parameters = Parameters(deck) if files else None
-    for where, written in files:
-        name = parameters.filled(written) if parameters else written
-        name = file_name(name)
-        if "%" not in name and find_file(deck.folder, name) is None:
-            folder = deck.folder.as_posix()
-            message = (
-                f"the file {shown(name)} is not there (looked in {folder}): correct the name, or put the file there"
-            )
-            profile = bool(scene.seabed.missing) and where == scene.seabed.where.inside("file")
-            yield Problem(REF015, message, where=where, blocks=Blocks.ALWAYS if profile else Blocks.NEVER)
-
-
-def _files(deck: Deck) -> Iterator[tuple[Where, str]]:
-    """Every field of a keyword with a model that names a file."""
-    for i, section in enumerate(deck.own_sections):
-        for j, block in enumerate(section.blocks):
-            if type(block) is not Opaque and may_name(type(block), Names.FILE):
-                yield from ((Where(i, j, path), name) for path, name in names_given(block, Names.FILE) if name)
+    for where, folder, name in missing_files(scene.context.written):
+        looked = f"looked in {folder.as_posix()}"
+        message = f"the file {shown(name)} is not there ({looked}): correct the name, or put the file there"
+        profile = bool(scene.seabed.missing) and where == scene.seabed.where.inside("file")
+        yield Problem(REF015, message, where=where, blocks=Blocks.ALWAYS if profile else Blocks.NEVER)
 
 
 GEO001 = Code("GEO001", "inner-exceeds-outer", Severity.ERROR)

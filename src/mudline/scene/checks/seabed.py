@@ -12,8 +12,7 @@ from mudline.deck.parameters import folded
 from mudline.diagnostics import Blocks, Code, Problem, Severity
 from mudline.keywords.text import shown
 from mudline.scene.checks import check
-from mudline.scene.checks.fields import missing_file
-from mudline.scene.deck_values import file_name, number, surfaces
+from mudline.scene.deck_values import file_name, missing_files, number, surfaces
 from mudline.scene.seabed import COMPILED, SeabedKind
 from mudline.syntax.source import BINARY
 
@@ -125,7 +124,7 @@ def unreadable_profile(scene: ResolvedDeck) -> Iterator[Problem]:
     Finds: 4:2
     """
     seabed = scene.seabed
-    missing = {problem.where for problem in missing_file(scene)} if seabed.unreadable else set()
+    missing = {where for where, _, _ in missing_files(scene.context.written)} if seabed.unreadable else set()
     for where, message in seabed.unreadable:
         if where in missing:
             continue
