@@ -1,45 +1,10 @@
+"""A server and an editor for all tests; without the libraries, the modules of this folder are skipped by name."""
+
 from __future__ import annotations
 
-from collections.abc import AsyncIterator
-from pathlib import Path
+from importlib.util import find_spec
 
-import pytest
+if find_spec("pygls") is not None and find_spec("pytest_lsp") is not None:
+    from tests.lsp.fixtures import client, editor
 
-pytest.importorskip("pygls", reason="pygls is not installed")
-pytest_lsp = pytest.importorskip("pytest_lsp", reason="pytest-lsp is not installed")
-
-from lsprotocol import types  # noqa: E402 - what may be missing is asked for first
-from pytest_lsp import ClientServerConfig, LanguageClient  # noqa: E402
-
-from tests.lsp.command import server_command  # noqa: E402
-from tests.lsp.editor import Editor  # noqa: E402
-
-CAPABILITIES = types.ClientCapabilities(
-    general=types.GeneralClientCapabilities(position_encodings=[types.PositionEncodingKind.Utf16]),
-    text_document=types.TextDocumentClientCapabilities(
-        completion=types.CompletionClientCapabilities(
-            completion_item=types.ClientCompletionItemOptions(
-                snippet_support=True, documentation_format=[types.MarkupKind.Markdown]
-            )
-        ),
-        document_symbol=types.DocumentSymbolClientCapabilities(hierarchical_document_symbol_support=True),
-        code_action=types.CodeActionClientCapabilities(
-            resolve_support=types.ClientCodeActionResolveOptions(properties=["edit"])
-        ),
-    ),
-)
-
-
-@pytest_lsp.fixture(config=ClientServerConfig(server_command=server_command()), scope="session")  # type: ignore[untyped-decorator]
-async def client(lsp_client: LanguageClient, tmp_path_factory: pytest.TempPathFactory) -> AsyncIterator[None]:
-    """One server for all tests: each has documents of its own."""
-    folder = types.WorkspaceFolder(tmp_path_factory.getbasetemp().as_uri(), "tests")
-    params = types.InitializeParams(capabilities=CAPABILITIES, workspace_folders=[folder])
-    await lsp_client.initialize_session(params)
-    yield
-    await lsp_client.shutdown_session()
-
-
-@pytest.fixture
-def editor(client: LanguageClient, tmp_path: Path) -> Editor:
-    return Editor(client, tmp_path)
+    __all__ = ["client", "editor"]

@@ -8,8 +8,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from typing import IO, Any, cast
 
+import pytest
+
 from tests.lsp.command import server_command
 from tests.processes import TIMEOUT
+
+pytest.importorskip("pygls", reason="pygls is not installed")
 
 Message = dict[str, Any]
 

@@ -86,6 +86,14 @@ def test_many_different_lines_are_replaced_as_one() -> None:
     assert len(list(differences(old, old.replace("17\n", "18\n")))) == sum("17\n" in f"{n}\n" for n in range(5000))
 
 
+def test_very_many_edits_are_joined() -> None:
+    text = "".join(f"{n}\n" for n in range(3000))
+    new = "".join(f"{n}.0\n" if n % 1000 else f"{n}\n" for n in range(3000))
+    (first, *rest) = document(text).differences(new.encode())
+    assert (first.range.start, first.range.end) == (types.Position(1, 0), types.Position(1000, 0))
+    assert len(rest) == 2
+
+
 def test_halves_of_pairs_are_replaced() -> None:
     made = document("a\ud83d")
     made.change(types.Range(types.Position(0, 1), types.Position(0, 1)), "\ude0b")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
@@ -57,8 +58,13 @@ def _dependents(decks: Decks, path: Path) -> Iterator[Linked]:
         other = decks.analysis(uri)
         if other is not None and other.deck is not None and other.document.path != path:
             with decks.reading():
-                if path in decks_before(other.deck):
+                if _continues(other.deck, path):
                     yield Linked(other.document, other.deck)
+
+
+def _continues(deck: Deck, path: Path) -> bool:
+    """Whether a deck continues that of a file."""
+    return any(os.path.abspath(before) == os.path.abspath(path) for before in decks_before(deck))  # noqa: PTH100 - links stay
 
 
 def _beside(decks: Decks, path: Path) -> Iterator[Linked]:
@@ -74,5 +80,5 @@ def _beside(decks: Decks, path: Path) -> Iterator[Linked]:
             continue
         if _RESTART in data.upper():
             deck = read_deck(data, other.as_posix(), folder=other.parent)
-            if isinstance(deck.origin, TextOrigin) and path in decks_before(deck):
+            if isinstance(deck.origin, TextOrigin) and _continues(deck, path):
                 yield Linked(_unopened(other, deck.origin), deck)

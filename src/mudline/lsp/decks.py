@@ -147,7 +147,9 @@ class Decks:
 
     def at(self, path: Path) -> Document | None:
         """The open document of a file."""
-        return next((each for each in self.documents.values() if each.path == path), None)
+        name = os.path.abspath(path)  # noqa: PTH100 - LAST= may lead through other folders
+        opened = (each for each in self.documents.values() if each.path is not None)
+        return next((each for each in opened if os.path.abspath(str(each.path)) == name), None)  # noqa: PTH100 - as above
 
     def reading(self) -> AbstractContextManager[None]:
         """A block in which the texts of open decks hold before the files on the disk."""

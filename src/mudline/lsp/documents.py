@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import os
 import re
 from collections.abc import Iterator, Sequence
 from itertools import count, pairwise
@@ -29,6 +30,7 @@ _SHORT = 20_000
 _CHUNK = 1 << 20
 _LF, _CR = b"\n\r"
 _REVISIONS = count(1)
+_MOST_EDITS = 1000
 _MOST_COMPARED = 4000
 """Lines that are compared with each other; where more differ, they are replaced as one."""
 
@@ -183,8 +185,9 @@ class Document:
     # ----------------------------------------------------------------------------------------------------- edits
 
     def edits(self, edits: Sequence[TextEdit]) -> list[types.TextEdit]:
-        """Changes of the text as the editor makes them."""
-        return [types.TextEdit(self.range(edit.span), edit.text) for edit in edits]
+        """Changes of the text as the editor makes them; of very many, neighbours are one."""
+        chosen = edits if len(edits) <= _MOST_EDITS else _joined(edits)
+        return [types.TextEdit(self.range(edit.span), edit.text) for edit in chosen]
 
     def differences(self, content: bytes) -> list[types.TextEdit]:
         """What makes the text that of a file's content, line by line."""
@@ -218,6 +221,17 @@ def differences(old: str, new: str) -> Iterator[TextEdit]:
                 yield TextEdit(Span(offsets[i], offsets[k]), "".join(other[j:m]))
 
 
+def _joined(edits: Sequence[TextEdit]) -> list[TextEdit]:
+    """Changes in which those that touch each other are one."""
+    runs: list[list[TextEdit]] = []
+    for edit in sorted(edits, key=lambda edit: edit.span):
+        if runs and runs[-1][-1].span.end == edit.span.start:
+            runs[-1].append(edit)
+        else:
+            runs.append([edit])
+    return [TextEdit(Span(run[0].span.start, run[-1].span.end), "".join(edit.text for edit in run)) for run in runs]
+
+
 def _lines(text: str) -> list[str]:
     """The lines of a text with their ends; `str.splitlines` knows more line ends than decks have."""
     edges = [0, *(found.end() for found in _LINE_END.finditer(text))]
@@ -241,7 +255,8 @@ def file_of(uri: str) -> Path | None:
 
 def address_of(path: Path) -> str:
     """The address of a file."""
-    return from_fs_path(str(path.absolute())) or path.absolute().as_uri()
+    whole = os.path.abspath(path)  # noqa: PTH100 - links stay what they are called
+    return from_fs_path(whole) or Path(whole).as_uri()
 
 
 def _name_of(uri: str, language: str) -> str:
