@@ -80,6 +80,8 @@ async def test_a_file_is_its_own_definition(editor: Editor) -> None:
     uri = await editor.open(NEXT, "next.keyxm")
     (found,) = await definition(editor, uri, position(NEXT, "LAST=base", "LAST="))
     assert found.uri == editor.uri("base.keyxm")
+    (named,) = await references(editor, uri, position(NEXT, "LAST=base", "LAST="))
+    assert (named.uri, shown(NEXT, [named])) == (uri, ["7:base"])
 
 
 @pytest.mark.parametrize("opened", [True, False])

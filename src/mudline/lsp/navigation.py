@@ -7,6 +7,8 @@ from pathlib import Path
 
 from lsprotocol import types
 
+from mudline.deck.model import Deck
+from mudline.deck.reading import TextOrigin
 from mudline.diagnostics import Span
 from mudline.expression.evaluation import CONSTANTS
 from mudline.expression.nodes import ExpressionError
@@ -21,6 +23,7 @@ from mudline.lsp.documents import Document, address_of
 from mudline.lsp.names import WORDS, Occurrence, Thing, occurrences
 from mudline.lsp.sites import Site, site
 from mudline.scene.deck_values import find_file
+from mudline.scene.references import given_names
 from mudline.scene.restart import find_deck
 from mudline.scene.sets import ALL
 from mudline.syntax.edits import TextEdit, apply_edits
@@ -49,7 +52,7 @@ class Navigator:
         if named is not None:
             return [_location(each.document, one.span) for each, one in self._named(named.thing) if one.defines]
         found = site(self.analysis, offset)
-        if found is not None and (file := self._file(found)):
+        if found is not None and (file := self._file(found.slot.about.names, self.analysis.deck, found.value)):
             return [types.Location(address_of(file), types.Range(types.Position(0, 0), types.Position(0, 0)))]
         return [_location(document, use.span) for document, use in self._numbered(found) if use.defines]
 
@@ -59,7 +62,10 @@ class Navigator:
         if named is not None:
             found = self._named(named.thing)
             return [_location(each.document, one.span) for each, one in found if declaration or not one.defines]
-        uses = self._numbered(site(self.analysis, offset))
+        value = site(self.analysis, offset)
+        if value is not None and (file := self._file(value.slot.about.names, self.analysis.deck, value.value)):
+            return list(self._named_file(file))
+        uses = self._numbered(value)
         return [_location(document, use.span) for document, use in uses if declaration or not use.defines]
 
     def highlights(self, offset: int) -> list[types.DocumentHighlight]:
@@ -90,13 +96,22 @@ class Navigator:
                 for use in numbers.uses(linked.deck, kind, int(found.value)):
                     yield linked.document, use
 
-    def _file(self, found: Site) -> Path | None:
-        deck, kind = self.analysis.deck, found.slot.about.names
-        if deck is None or not isinstance(found.value, str):
+    def _named_file(self, file: Path) -> Iterator[types.Location]:
+        """Every place in the decks of the chain that names a file."""
+        for document, deck in self._linked():
+            for kind in (Names.DECK, Names.FILE):
+                for _, where, name in given_names(deck, kind):
+                    span = deck.origin.span(where) if isinstance(deck.origin, TextOrigin) else None
+                    if span is not None and self._file(kind, deck, name) == file:
+                        yield _location(document, span)
+
+    def _file(self, kind: Names | None, deck: Deck | None, name: object) -> Path | None:
+        """The file that a name of a kind in a deck stands for, if it is there."""
+        if deck is None or not isinstance(name, str):
             return None
         if kind is Names.DECK:
-            return find_deck(deck, found.value)
-        return find_file(deck.folder, found.value) if kind is Names.FILE else None
+            return find_deck(deck, name)
+        return find_file(deck.folder, name) if kind is Names.FILE else None
 
     # ------------------------------------------------------------------------------------------------------ new names
 
