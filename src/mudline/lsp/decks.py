@@ -37,7 +37,6 @@ def value_text(value: float | str) -> str:
 
 _MARK = "mudline-deck/"
 """What a JSON or YAML text has in it that is a deck."""
-CONFIGURATIONS = ("mudline.toml", "pyproject.toml")
 
 
 @dataclass

@@ -11,7 +11,7 @@ from pygls.lsp.server import LanguageServer
 
 from mudline import __version__
 from mudline.lsp import findings
-from mudline.lsp.decks import CONFIGURATIONS, Analysis, Decks
+from mudline.lsp.decks import Analysis, Decks
 from mudline.lsp.documents import LARGEST, Document, address_of, file_of
 from mudline.lsp.protocol import DeckProtocol
 
@@ -22,7 +22,9 @@ _PAUSE = 2.0
 """How many times as long as its last check a pause in typing has to be."""
 
 
-_DECK_FILES = ("*.keyx", "*.keyxm", "*.keyxi", "*.das", "*.fcsbd", "*.txt")
+CONFIGURATION = ".toml"
+"""The suffix of configurations, and of what they extend."""
+_WATCHED = ("*.keyx", "*.keyxm", "*.keyxi", "*.das", "*.fcsbd", "*.txt", f"*{CONFIGURATION}")
 
 
 class DeckServer(LanguageServer):
@@ -88,7 +90,7 @@ class DeckServer(LanguageServer):
     def files_changed(self, changes: list[types.FileEvent]) -> None:
         """Check again what depends on files that were changed by others."""
         paths = [path for change in changes if (path := file_of(change.uri)) is not None]
-        if any(path.name in CONFIGURATIONS for path in paths):
+        if any(path.suffix == CONFIGURATION for path in paths):
             self.decks.forget_configurations()
             for uri in self.decks.documents:
                 self._schedule(uri, DELAY)
@@ -161,7 +163,7 @@ class DeckServer(LanguageServer):
         workspace = self.client_capabilities.workspace
         watching = workspace.did_change_watched_files if workspace else None
         if watching and watching.dynamic_registration:
-            watchers = [types.FileSystemWatcher(f"**/{pattern}") for pattern in (*_DECK_FILES, *CONFIGURATIONS)]
+            watchers = [types.FileSystemWatcher(f"**/{pattern}") for pattern in _WATCHED]
             options = types.DidChangeWatchedFilesRegistrationOptions(watchers)
             method = types.WORKSPACE_DID_CHANGE_WATCHED_FILES
             registration = types.Registration("mudline.watch", method, options)
