@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import asyncio
+import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TypeVar
 
@@ -46,33 +47,34 @@ class Editor:
 
     client: LanguageClient
     folder: Path
+    opened: set[str] = field(default_factory=set)
 
     def uri(self, name: str) -> str:
         return (self.folder / name).as_uri()
 
-    async def shown(self, uri: str, act: Callable[[], object], version: int | None = None) -> list[types.Diagnostic]:
-        """The findings that are shown for a document, or for a version of it, after an action."""
-        waiting = asyncio.ensure_future(self._published(uri, version))
-        await asyncio.sleep(0)
+    async def shown(self, uri: str, act: Callable[[], object]) -> list[types.Diagnostic]:
+        """The findings that are shown for a document after an action."""
+        self.client.diagnostics.pop(uri, None)
         act()
-        return await asyncio.wait_for(waiting, SECONDS)
+        end = time.monotonic() + SECONDS
+        while uri not in self.client.diagnostics:
+            assert time.monotonic() < end, f"nothing is shown for {uri}"
+            await asyncio.sleep(0.005)
+        return list(self.client.diagnostics[uri])
 
-    async def _published(self, uri: str, version: int | None) -> list[types.Diagnostic]:
-        while True:
-            given = await self.client.wait_for_notification(types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS)
-            assert isinstance(given, types.PublishDiagnosticsParams)
-            if given.uri == uri and version in (None, given.version):
-                return list(given.diagnostics)
-
-    async def open(self, text: str, name: str = "deck.keyxm", version: int = 1, *, saved: bool = True) -> str:
+    async def open(self, text: str, name: str = "deck.keyxm", version: int = 1) -> str:
         """Open a deck, which is in a file too, and wait until it is checked; returns its address."""
         uri = self.uri(name)
-        if saved:
-            (self.folder / name).write_text(text, encoding="utf-8", newline="")
+        (self.folder / name).write_text(text, encoding="utf-8", newline="")
         await self.shown(uri, lambda: self.send_open(uri, text, version))
         return uri
 
+    def close_all(self) -> None:
+        for uri in self.opened:
+            self.client.text_document_did_close(types.DidCloseTextDocumentParams(document(uri)))
+
     def send_open(self, uri: str, text: str, version: int = 1, language: str = "mudline") -> None:
+        self.opened.add(uri)
         item = types.TextDocumentItem(uri, language, version, text)
         self.client.text_document_did_open(types.DidOpenTextDocumentParams(item))
 
@@ -90,7 +92,7 @@ class Editor:
         self, uri: str, version: int, *changes: tuple[types.Position, types.Position, str] | str
     ) -> list[types.Diagnostic]:
         """Change a deck and wait until that version is checked."""
-        return await self.shown(uri, lambda: self.send_change(uri, version, *changes), version)
+        return await self.shown(uri, lambda: self.send_change(uri, version, *changes))
 
 
 def codes(found: list[types.Diagnostic]) -> list[str]:

@@ -6,6 +6,7 @@ from collections.abc import AsyncIterator
 from pathlib import Path
 
 import pytest
+import pytest_asyncio
 import pytest_lsp
 from lsprotocol import types
 from pytest_lsp import ClientServerConfig, LanguageClient
@@ -39,6 +40,8 @@ async def client(lsp_client: LanguageClient, tmp_path_factory: pytest.TempPathFa
     await lsp_client.shutdown_session()
 
 
-@pytest.fixture
-def editor(client: LanguageClient, tmp_path: Path) -> Editor:
-    return Editor(client, tmp_path)
+@pytest_asyncio.fixture(loop_scope="session")
+async def editor(client: LanguageClient, tmp_path: Path) -> AsyncIterator[Editor]:
+    made = Editor(client, tmp_path)
+    yield made
+    made.close_all()
